@@ -97,6 +97,9 @@ bool CallChecker::address_call(Expression& call, const Type*& type) {
       return true;
     }
     out.intrinsic = Resolved::Intrinsic::Address;
+    if (found != nullptr) {
+      expressions_.note_address(of);
+    }
     context_.pou->points_to_own = context_.pou->points_to_own || (found != nullptr && ends_with_call(of));
     type = found == nullptr
                ? nullptr

@@ -112,6 +112,7 @@ class ExpressionChecker {
   void note_write(const ast::Expression& expression);
   // An instance that is called, or passed by reference.
   void note_call(const ast::Expression& expression);
+  void note_address(const ast::Expression& expression);
   void warn_about_exactness(const Place& at, const Type& type, const ast::Expression& a, const ast::Expression& b);
   static ast::Expression& make_truth(ast::Expression& expression);
   bool writable(const ast::Expression& expression);

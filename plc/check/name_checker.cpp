@@ -41,6 +41,7 @@ const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) 
   const Pou* from = context_.pou == nullptr || !expression.of_this ? context_.pou : context_.pou->self();
   if (Variable* variable = from != nullptr ? from->find(capitals) : nullptr) {
     variable->used = true;
+    variable->aliased = variable->aliased || variable->owner != context_.pou;
     if (!can_see(*variable, expression.at)) {
       return nullptr;
     }
@@ -290,6 +291,7 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
     Variable* found = block.pou->find(upper(expression.name));
     if (found != nullptr) {
       found->used = true;  // if only from outside
+      found->aliased = true;
     }
     if (found != nullptr && (found->section == ast::Section::Input || found->section == ast::Section::Output)) {
       resolved(expression).is_output = found->section == ast::Section::Output;

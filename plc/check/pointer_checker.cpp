@@ -99,6 +99,7 @@ bool ExpressionChecker::bind(Expression& expression, const Type& to) {
     return false;
   }
   context_.pou->points_to_own = context_.pou->points_to_own || ends_with_call(expression);
+  note_address(expression);
   const Place at = expression.at;
   std::vector<ast::Argument> arguments;
   arguments.push_back(make::argument("", std::move(expression)));

@@ -61,6 +61,8 @@ struct Variable {
   bool written = false;
   bool called = false;      // an instance, or passed as VAR_IN_OUT
   bool in_methods = false;  // a VAR_IN_OUT of a function block that its methods use
+  bool aliased =
+      false;  // also reached otherwise than by its name in its own POU: by address, from methods, from outside
   const Pou* owner = nullptr;
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <utility>
 
 #include "plc/check/expression_checker.h"
@@ -44,6 +45,24 @@ std::string path_of(const Expression& expression, bool& fixed) {
   std::string path = path_of(expression.operands[0], fixed);
   fixed = fixed && expression.kind == Expression::Kind::Member;
   return fixed ? path + "." + expression.name : path;
+}
+
+// The variables of the instances in a value of the type.
+void mark_aliased(const Type& type, std::set<const Pou*>& marked) {
+  if (type.element != nullptr && type.kind == Type::Kind::Array) {
+    mark_aliased(*type.element, marked);
+  }
+  for (const Pou* pou = type.kind == Type::Kind::Block ? type.pou : nullptr; pou != nullptr; pou = pou->base) {
+    if (!marked.insert(pou).second) {
+      return;
+    }
+    for (const auto& [name, variable] : pou->names) {
+      variable->aliased = true;
+      if (variable->type != nullptr) {
+        mark_aliased(*variable->type, marked);
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -140,7 +159,27 @@ const Expression* ExpressionChecker::through_pointer(const Expression& expressio
 void ExpressionChecker::note_call(const Expression& expression) {
   const Resolved* root = root_of(expression).resolved.get();
   if (context_.pou != nullptr && root != nullptr && root->variable != nullptr) {
-    context_.pou->find(upper(root->variable->name))->called = true;
+    Variable& variable = *context_.pou->find(upper(root->variable->name));
+    variable.called = true;
+    variable.aliased = true;
+  }
+}
+
+// A pointer can be moved everywhere in the variable it leads into.
+void ExpressionChecker::note_address(const Expression& expression) {
+  if (through_pointer(expression) != nullptr) {
+    return;
+  }
+  const Expression& root = root_of(expression);
+  if (root.type != nullptr) {
+    std::set<const Pou*> marked;
+    mark_aliased(*root.type, marked);
+  }
+  const Global* global = root.resolved->global;
+  if (global != nullptr && global->type->kind == Type::Kind::Struct) {
+    for (const Field& field : global->type->fields) {
+      context_.pou->globals[global].writes.insert("." + field.member());
+    }
   }
 }
 

@@ -18,32 +18,27 @@ bool writes(const ast::Expression& target, const Variable& variable) noexcept {
   return names(target, variable) || (target.kind == ast::Expression::Kind::Bit && names(target.operands[0], variable));
 }
 
-// Whether a call in it has the variable as an output or passes it by reference.
+// Whether it has a value when its POU is called again.
+bool is_kept(const Variable& variable) noexcept {
+  const Pou& owner = *variable.owner;
+  return owner.is_callable() ? variable.declared->is_static || variable.declared->of_instance
+                             : variable.section != ast::Section::Temp;
+}
+
+// Whether a call in it has the variable as an output, or may lead to this body again.
 bool gives_away(const ast::Expression& expression, const Variable& variable) {
-  const bool address = expression.resolved && expression.resolved->intrinsic == Resolved::Intrinsic::Address;
-  if (address && writes(*expression.arguments[0].value, variable)) {
-    return true;
-  }
-  // What is called may call a method of the same instance.
   const bool calls = expression.kind == ast::Expression::Kind::Call && expression.resolved &&
                      (expression.resolved->pou != nullptr || expression.resolved->by_super);
-  if (calls && variable.owner != nullptr && variable.owner->is_object) {
+  const Pou* self = variable.owner->self();
+  if (calls && self != nullptr && self->is_object && is_kept(variable)) {
     return true;
   }
-  for (const ast::Argument& one : expression.arguments) {
-    if (one.value && ((one.output && writes(*one.value, variable)) || gives_away(*one.value, variable))) {
-      return true;
-    }
-  }
-  if (expression.resolved) {
-    for (const Resolved::Actual& one : expression.resolved->actuals) {
-      const bool by_reference = one.parameter != nullptr && one.parameter->section == ast::Section::InOut;
-      if (by_reference && one.argument != nullptr && one.argument->value && writes(*one.argument->value, variable)) {
-        return true;
-      }
-    }
-  }
-  return std::any_of(expression.operands.begin(), expression.operands.end(),
+  return std::any_of(expression.arguments.begin(), expression.arguments.end(),
+                     [&](const ast::Argument& one) {
+                       return one.value &&
+                              ((one.output && writes(*one.value, variable)) || gives_away(*one.value, variable));
+                     }) ||
+         std::any_of(expression.operands.begin(), expression.operands.end(),
                      [&](const ast::Expression& one) { return gives_away(one, variable); });
 }
 

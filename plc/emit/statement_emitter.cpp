@@ -329,7 +329,7 @@ void StatementEmitter::for_statement(const Statement& one) {
   const std::int64_t step = !one.by ? 1 : known != nullptr ? as_int64(*known).value_or(0) : 0;
   const bool narrow = bits_of(one.target->type->elementary) < 64;
   const bool plain = resolved.meaning == Resolved::Meaning::Variable && !one.target->type->range &&
-                     resolved.variable->section != ast::Section::InOut;
+                     resolved.variable->section != ast::Section::InOut && !resolved.variable->aliased;
   if (probes_.debug == nullptr && step != 0 && narrow && plain && only_reads(one.body, *resolved.variable)) {
     counted_loop(one, step);
   } else {

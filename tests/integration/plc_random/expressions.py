@@ -71,6 +71,7 @@ class Maker:
         found = []
         for variable in self.scope.places(writable):
             self.walk(self.scope.read(variable), wanted, constant_index, found, 0)
+        found += [one.place() for one in self.scope.pointers if wanted(one.type)]
         if not writable:
             for variable in self.scope.instances():
                 found += [one for one in variable.instance.readable(self.scope.read(variable)) if wanted(one.type)]
@@ -99,10 +100,11 @@ class Maker:
         if loops and choice < 0.8:
             loop = self.rng.choice(loops)
             return self.scope.read(next(one for one in self.scope.variables if one.name == loop))
-        plain = [one for one in self.scope.places(False) if one.type.kind == "int" and one.type.bits < 64]
+        plain = [self.scope.read(one) for one in self.scope.places(False)] + [one.place() for one in self.scope.pointers]
+        plain = [one for one in plain if one.type.kind == "int" and one.type.bits < 64]
         if not plain:
             return fixed
-        variable = self.scope.read(self.rng.choice(plain))
+        variable = self.rng.choice(plain)
         if choice > 0.97 and not variable.text.startswith("k"):
             return variable  # a fault, most likely; of a constant it would be refused
         run = variable.run
@@ -115,6 +117,9 @@ class Maker:
         if changed and self.rng.random() < 0.6:
             return self.rng.choice(changed)
         found = self.paths(fits)
+        led_to = [one.place() for one in self.scope.pointers if fits(one.type)]
+        if led_to and self.rng.random() < 0.3:
+            return self.rng.choice(led_to)
         return self.rng.choice(found) if found else None
 
     def common_here(self, types):

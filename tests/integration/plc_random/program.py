@@ -175,14 +175,15 @@ class Program:
             if result.kind not in ("array", "struct") and result is not STRING and result.kind != "string":
                 break
         function = Function(f"{self.prefix}_F{i}", parameters, result)
-        variables = [parts.Variable(one.name, one.type, lent=one.section == "VAR_IN_OUT") for one in parameters]
+        variables = [parts.Variable(one.name, one.type) for one in parameters]
         variables.append(parts.Variable(function.name, result))
         if not pure and rng.random() < 0.7:
             function.globals = self.globals
             variables += self.global_variables()
         scope = self.scope_of(variables, bool(function.globals))
-        writer = Writer(rng, scope)
+        writer = Writer(rng, scope, pointers=True)
         body = writer.outermost(rng.randint(1, 5))
+        parameters += [one.parameter() for one in scope.pointers]
         scope.variables = variables
         value = writer.make.into(result)
         last = tree.Stmt([f"{function.name} := {value.text};"], lambda f: f.values.__setitem__(function.name, value.run(f)))
@@ -202,13 +203,15 @@ class Program:
         parameters += self.parameters("VAR", "v", 3, 1) + self.parameters("VAR_TEMP", "t", 1)
         blocks = self.instances(rng.randint(0, 2))
         block = UserBlock(f"{self.prefix}_B{i}", parameters + blocks)
-        variables = [parts.Variable(one.name, one.type, edge=bool(one.edge), writable=not one.edge, lent=one.section == "VAR_IN_OUT")
+        variables = [parts.Variable(one.name, one.type, edge=bool(one.edge), writable=not one.edge)
                      for one in parameters]
         variables += [parts.Variable(one.name, None, instance=one.type) for one in blocks]
         if rng.random() < 0.4:
             block.globals = self.globals
             variables += self.global_variables()
-        body = Writer(rng, self.scope_of(variables, bool(block.globals))).outermost(rng.randint(2, 7))
+        scope = self.scope_of(variables, bool(block.globals))
+        body = Writer(rng, scope, pointers=True).outermost(rng.randint(2, 7))
+        block.parameters += [one.parameter() for one in scope.pointers]
         block.run_body = sequence(body)
         block.lines = text_of(body)
         if self.starts and rng.random() < 0.6:
@@ -294,11 +297,14 @@ class Program:
         seen = self.sight_of_globals()
         variables += self.global_variables()
         self.chart = None
+        self.pointers = []
         if rng.random() < 0.2:
             self.chart = Chart(rng, self.scope_of(variables, True), variables)
             self.body, self.lines = self.chart.run, self.chart.text()
             return
-        body = seen + Writer(rng, self.scope_of(variables, True)).outermost(rng.randint(6, 18))
+        scope = self.scope_of(variables, True)
+        body = seen + Writer(rng, scope, pointers=True).outermost(rng.randint(6, 18))
+        self.pointers = [one.parameter() for one in scope.pointers]
         self.body = sequence(body)
         self.lines = text_of(body)
 
@@ -320,7 +326,7 @@ class Program:
             out += ["TYPE", *indent(self.type_lines), "END_TYPE"]
         for one in (*self.functions, *self.blocks):
             out += one.text()
-        shown = [*self.variables, *self.constants, *self.globals]
+        shown = [*self.variables, *self.constants, *self.globals, *self.pointers]
         out += [f"PROGRAM {self.prefix}", *declared(shown), *self.block_lines(), *indent(self.lines), "END_PROGRAM", ""]
         return [line.replace("VAR_BLOCK", "VAR") for line in out]
 
@@ -330,7 +336,7 @@ class Program:
     def scans(self):
         """After each scan: (fault or None, the values)."""
         self.reset_globals()
-        values = {one.name: one.first() for one in (*self.variables, *self.constants)}
+        values = {one.name: one.first() for one in (*self.variables, *self.constants, *self.pointers)}
         values |= {one.name: one.new() for one in self.blocks_used}
         values |= self.chart.first_values() if self.chart else {}
         for now in TIMES:
@@ -344,6 +350,13 @@ class Program:
             yield fault, {one.name: clone(values[one.name]) for one in self.variables} | self.outputs(values)
             if fault is not None:
                 return
+
+    def ends(self):
+        """Whether all loops do: through a pointer their variables may be set back again and again."""
+        try:
+            return [None for _ in self.scans()] != []
+        except tree.Endless:
+            return False
 
     def outputs(self, values):
         return {f"{one.name}.{name}": clone(values[one.name].values[name])

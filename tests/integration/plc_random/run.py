@@ -36,8 +36,14 @@ def differences(program, scans):
     return []
 
 
+def programs_of(seeds):
+    return [one for one in (Program(seed, number) for number, seed in enumerate(seeds)) if one.ends()]
+
+
 def check_batch(build, folder, seeds, optimize):
-    programs = [Program(seed, number) for number, seed in enumerate(seeds)]
+    programs = programs_of(seeds)
+    if not programs:
+        return []
     try:
         found = results(compile_batch(build, folder, programs, optimize), folder)
     except Failed as error:
@@ -51,7 +57,7 @@ def check_batch(build, folder, seeds, optimize):
 
 def check_counts(build, folder, seeds, optimize):
     """Lines that ran more or less often than they did in the interpreter. What a fault ends is left out."""
-    programs = [Program(seed, number) for number, seed in enumerate(seeds)]
+    programs = programs_of(seeds)
     results(compile_batch(build, folder, programs, optimize, coverage=True), folder)
     counted = counted_lines(build, folder)
     bad, compared, line = [], 0, 0

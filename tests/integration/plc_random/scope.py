@@ -14,7 +14,6 @@ class Variable:
     edge: bool = False  # an input of which only the edge counts
     instance: object = None  # Block
     store: dict = None  # a global: where the values of all globals are
-    lent: bool = False  # VAR_IN_OUT: it may be a global, or another one of these
 
 
 class Scope:
@@ -22,6 +21,7 @@ class Scope:
         self.variables = variables
         self.functions = list(functions)
         self.changing = []  # order.Changer
+        self.pointers = []  # aliases.Pointer
         self.locked = set()  # variables of the FORs around
         self.ranges = {}  # variable of a FOR: its values
 
@@ -33,10 +33,6 @@ class Scope:
             left += [one.element] if one.kind == "array" else [of for _, of in one.fields]
             found.add(one.plain)
         return found
-
-    def own(self, writable):
-        """Those that nothing else can change meanwhile."""
-        return [one for one in self.places(writable) if one.store is None and not one.lent]
 
     def changers(self):
         """What is called in expressions and changes more than its result: functions, methods of instances."""

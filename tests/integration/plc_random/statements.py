@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Random statements. Every loop ends by itself after a few rounds."""
 
+import aliases
 import functions as do
 import literals
 import tree
 from expressions import Maker
 from kinds import BITS, BOOL, INT, INTS, PART_LETTERS, clone, wrap
 from order import Witness
-from tree import Continue, Exit, Jump, Return, Stmt, indent, sequence, text_of
+from tree import Continue, Exit, Jump, Return, Rounds, Stmt, indent, sequence, text_of
 from units import root
 
 
@@ -21,11 +22,12 @@ def store(target, run):
 
 
 class Writer:
-    def __init__(self, rng, scope, returns=True):
+    def __init__(self, rng, scope, returns=True, pointers=False):
         self.rng = rng
         self.scope = scope
         self.make = Maker(rng, scope)
         self.returns = returns
+        self.pointers = pointers
         self.loops = 0
         self.labels = 0
 
@@ -39,6 +41,7 @@ class Writer:
 
     def outermost(self, count):
         """A body; jumps go forward in it."""
+        bound = aliases.make_pointers(self.rng, self.scope) if self.pointers else []
         out = self.body(count)
         if self.rng.random() < 0.15 and len(out) > 3:
             self.labels += 1
@@ -53,12 +56,14 @@ class Writer:
 
             out.insert(to, Stmt([f"{label}:"], lambda f: None, label))
             out.insert(at, Stmt([f"IF {condition.text} THEN JMP {label}; END_IF;"], jump))
-        return out
+        return bound + out
 
     def statement(self, depth):
         rng = self.rng
         self.make.begin()
         options = [self.assign] * 10 + [self.call] * 3 + [self.set_bit, self.set_part, self.set_or_reset, self.chain]
+        if self.scope.pointers:
+            options += [lambda _depth: aliases.rebind(self.rng, self.scope)]
         if self.scope.changing:
             options += [lambda _depth: Witness(self).statement()] * 3
         if depth > 0:
@@ -241,10 +246,11 @@ class Writer:
 
     def for_loop(self, depth):
         rng = self.rng
-        found = [one for one in self.scope.own(True) if one.type.kind == "int"]
+        found = [one for one in self.scope.places(True) if one.type.kind == "int"]
         if not found:
             return None
-        variable = rng.choice(found)
+        reached = [one for one in found if any(one.name in pointer.targets for pointer in self.scope.pointers)]
+        variable = rng.choice(reached if reached and rng.random() < 0.6 else found)
         type_ = variable.type
         least, greatest = (type_.least(), type_.greatest()) if type_.low is None else (type_.low, type_.high)
         step = rng.choice((1, 1, 1, 2, 3, -1, -2) if type_.signed else (1, 1, 2, 3))
@@ -283,7 +289,7 @@ class Writer:
     def guarded_loop(self, depth):
         """WHILE or REPEAT with a counter of its own that ends it."""
         rng = self.rng
-        found = [one for one in self.scope.own(True) if one.type.plain is INT and one.type.low is None]
+        found = [one for one in self.scope.places(True) if one.type.plain is INT and one.type.low is None]
         if not found:
             return None
         counter = rng.choice(found)
@@ -301,8 +307,10 @@ class Writer:
 
         def rounds(f):
             set_to(f, 0)
+            left = Rounds()
             while repeat or (read.run(f) < most and condition.run(f)):
-                set_to(f, read.run(f) + 1)
+                left.take()
+                set_to(f, wrap(INT, read.run(f) + 1))
                 try:
                     inner(f)
                 except Continue:
@@ -362,8 +370,10 @@ def counted(variable, first, last, step, body, ends):
         start, end = first.run(f), last.run(f)
         container, key = variable.slot(f)
         container[key] = start
+        left = Rounds()
         try:
             while container[key] <= end if step > 0 else container[key] >= end:
+                left.take()
                 try:
                     body(f)
                 except Continue:

@@ -29,6 +29,22 @@ class Jump(Exception):
     pass
 
 
+class Endless(Exception):
+    """What is reached by another name than that of the loop's variable keeps the loop from ending."""
+
+
+class Rounds:
+    """Of one loop."""
+
+    def __init__(self):
+        self.left = 200
+
+    def take(self):
+        self.left -= 1
+        if self.left < 0:
+            raise Endless
+
+
 class Frame:
     def __init__(self, values, now, refs=None, edges=None):
         self.values = values  # by name
