@@ -82,7 +82,8 @@ void ExpressionChecker::complain_of_range(const Place& at, const Type& type, con
 }
 
 bool ExpressionChecker::bind(Expression& expression, const Type& to) {
-  if (is_null(expression)) {
+  const bool named = expression.kind == Expression::Kind::Name && context_.pou->find("NULL") != nullptr;  // a variable
+  if (is_null(expression) && !named) {
     return value(expression, nullptr) != nullptr;
   }
   const Type* type = reference(expression);

@@ -8,6 +8,7 @@ from tree import Expr, Stmt
 from units import Parameter
 
 KINDS = ("REF_TO", "POINTER TO", "REFERENCE TO")
+EXPORTED = ("POINTER TO",)  # those that PLCopen XML has
 SCALARS = ("bool", "bits", "int", "real", "time", "date", "enum")
 
 
@@ -43,7 +44,7 @@ def targets(scope, type_=None):
             if not one.edge and one.type.kind in SCALARS and type_ in (None, one.type)]
 
 
-def make_pointers(rng, scope):
+def make_pointers(rng, scope, kinds):
     """For some bodies: pointers in the scope, most of them to whole numbers, and the statements that set them."""
     found = targets(scope)
     if not found or rng.random() < 0.4:
@@ -51,7 +52,7 @@ def make_pointers(rng, scope):
     numbers = [one for one in found if one.type.kind == "int"]
     for i in range(rng.randint(1, 3)):
         target = rng.choice(numbers if numbers and rng.random() < 0.8 else found)
-        scope.pointers.append(Pointer(f"pt{i}", rng.choice(KINDS), target.type))
+        scope.pointers.append(Pointer(f"pt{i}", rng.choice(kinds), target.type))
     return [one.bound(rng.choice(targets(scope, one.type))) for one in scope.pointers]
 
 

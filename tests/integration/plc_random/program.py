@@ -3,6 +3,7 @@
 
 import random
 
+import aliases
 import library_blocks
 import literals
 import scope as parts
@@ -37,6 +38,7 @@ class Program:
         self.number = number
         self.prefix = f"P{number}"
         self.starts = (seed - 1) // 100 % 2 == 1  # FB_Init, which PLCopen XML does not have
+        self.pointer_kinds = aliases.KINDS if self.starts else aliases.EXPORTED
         self.palette = self.rng.sample(ELEMENTARY, 5) + [INT, BOOL]  # so that variables have types in common
         self.type_lines = []
         self.types = []
@@ -181,7 +183,7 @@ class Program:
             function.globals = self.globals
             variables += self.global_variables()
         scope = self.scope_of(variables, bool(function.globals))
-        writer = Writer(rng, scope, pointers=True)
+        writer = Writer(rng, scope, pointers=self.pointer_kinds)
         body = writer.outermost(rng.randint(1, 5))
         parameters += [one.parameter() for one in scope.pointers]
         scope.variables = variables
@@ -210,7 +212,7 @@ class Program:
             block.globals = self.globals
             variables += self.global_variables()
         scope = self.scope_of(variables, bool(block.globals))
-        body = Writer(rng, scope, pointers=True).outermost(rng.randint(2, 7))
+        body = Writer(rng, scope, pointers=self.pointer_kinds).outermost(rng.randint(2, 7))
         block.parameters += [one.parameter() for one in scope.pointers]
         block.run_body = sequence(body)
         block.lines = text_of(body)
@@ -303,7 +305,7 @@ class Program:
             self.body, self.lines = self.chart.run, self.chart.text()
             return
         scope = self.scope_of(variables, True)
-        body = seen + Writer(rng, scope, pointers=True).outermost(rng.randint(6, 18))
+        body = seen + Writer(rng, scope, pointers=self.pointer_kinds).outermost(rng.randint(6, 18))
         self.pointers = [one.parameter() for one in scope.pointers]
         self.body = sequence(body)
         self.lines = text_of(body)

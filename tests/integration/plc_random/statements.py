@@ -22,7 +22,7 @@ def store(target, run):
 
 
 class Writer:
-    def __init__(self, rng, scope, returns=True, pointers=False):
+    def __init__(self, rng, scope, returns=True, pointers=()):
         self.rng = rng
         self.scope = scope
         self.make = Maker(rng, scope)
@@ -41,7 +41,7 @@ class Writer:
 
     def outermost(self, count):
         """A body; jumps go forward in it."""
-        bound = aliases.make_pointers(self.rng, self.scope) if self.pointers else []
+        bound = aliases.make_pointers(self.rng, self.scope, self.pointers) if self.pointers else []
         out = self.body(count)
         if self.rng.random() < 0.15 and len(out) > 3:
             self.labels += 1
