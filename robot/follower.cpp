@@ -73,7 +73,7 @@ void Follower::stop() noexcept {
 }
 
 void Follower::stop_hard(double hardness) noexcept {
-  if (mode_ == Mode::HardStop) {
+  if (mode_ == Mode::HardStop && hardness <= brake_.hardness()) {
     return;
   }
   mode_ = Mode::HardStop;

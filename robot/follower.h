@@ -68,7 +68,8 @@ class Follower final : private PathAhead {
   void set_hold(bool hold) noexcept;
   // Comes to rest on the path and forgets the rest of it, as softly as it moves.
   void stop() noexcept;
-  // The same as hard as the joints can at this place. `hardness` multiplies their accelerations.
+  // The same as hard as the joints can at this place. `hardness` multiplies their accelerations; of several, the
+  // greatest counts.
   void stop_hard(double hardness) noexcept;
 
   // One period on. Errors: Unreachable, JointLimit, Singular, Speed: the path cannot be followed at this place;

@@ -34,6 +34,7 @@ Group::Group(GroupParts parts)
       ahead_(places_, parts_.tool),
       desk_(places_, parts_.joints, parts_.tool, parts_.settings),
       loader_(parts_.settings, parts_.urdf),
+      brake_(parts_.joints),
       clear_(places_.clearance(), false),
       to_rest_(places_.clearance(), false),
       shelf_(std::make_unique<Shelf>(places_, parts_.tool)) {
@@ -123,50 +124,6 @@ void Group::watch(const Inputs& in) noexcept {
   }
 }
 
-// Everything stops: along the path if there is one and it can still be followed, else each axis by itself.
-void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
-  set_job_aside();
-  job_.fail({code, axis}, code == ErrorCode::Contact ? contact_text_ : to_string(code),
-            std::max(follower_.source(), 0));
-  finish_service(code, axis);
-  error_ = code;
-  error_axis_ = axis;
-  drop_motions(code);
-  forget_plans();
-  enabling_ = false;
-  state_ = GroupState::Stopping;
-  to_error_ = true;
-  release_stop();
-  hardness_ = hardness;
-  const bool cut = code == ErrorCode::Emergency && parts_.settings.emergency_category == StopCategory::Category0;
-  for (AxisControl& a : axes()) {
-    a.power(a.wants_power() && !cut);
-  }
-  const bool on_it = !follower_.idle() && !tracking_.on() && on_path_;
-  if (on_it && (code == ErrorCode::Emergency || code == ErrorCode::Contact) && !cut) {
-    follower_.stop_hard(hardness);
-    for (AxisControl& a : axes()) {
-      if (!a.in_group()) {
-        a.fail(code, hardness);
-      }
-    }
-  } else {
-    leave_path(code, hardness);
-  }
-}
-
-// The gates know speed and acceleration of the axes as their drives do, so they can brake whatever went wrong before.
-void Group::leave_path(ErrorCode code, double hardness) noexcept {
-  drop_ride(code);
-  follower_.reset(commanded());
-  on_path_ = false;
-  braking_ = true;
-  hardness_ = hardness;
-  for (AxisControl& a : axes()) {
-    a.fail(code, hardness);
-  }
-}
-
 // In words; of a collision, what of the arm and where.
 void Group::describe(Fault fault, char (&to)[kWhy]) const noexcept {
   if (fault.pair < 0) {
@@ -210,16 +167,6 @@ void Group::motion_failed(Fault fault, int source, std::uint32_t ticket) noexcep
   }
 }
 
-// Rest on the path, then ErrorStop.
-void Group::stop_for(Fault fault) noexcept {
-  error_ = fault.code;
-  error_axis_ = fault.axis;
-  forget_plans();
-  follower_.stop();
-  state_ = GroupState::Stopping;
-  to_error_ = true;
-}
-
 void Group::run_state(Signals& signals) noexcept {
   job_.end_pulses(period_, signals);
   run_reload(signals);
@@ -227,16 +174,13 @@ void Group::run_state(Signals& signals) noexcept {
   move_axes();
   switch (state_) {
     case GroupState::Disabled:
+      go_on_resetting();
       run_enabling();
       break;
     case GroupState::Standby:
     case GroupState::ErrorStop:
       follower_.reset(commanded());
-      if (active_ && service_ == Service::GroupReset) {
-        if (const ErrorCode code = reset(); code != ErrorCode::Ok) {
-          finish_service(code);
-        }
-      }
+      go_on_resetting();
       break;
     case GroupState::Homing:
       run_homing();
@@ -320,11 +264,14 @@ void Group::follow_path() noexcept {
   Joints q = follower_.joints();
   fault = fault.ok() ? ride(q) : fault;
   if (!fault.ok()) {
-    trip(fault.code, fault.axis, 1);
+    fall_off(fault.code, fault.axis);
     return;
   }
   const Joints speed = (q - last_command_) / period_;
   for (int i = 0; i < count(); ++i) {
+    if (to_error_ && !axes_[at(i)].in_group()) {
+      continue;  // its drive has no power, so that it is where it is
+    }
     axes_[at(i)].follow({q[i], speed[i], (speed[i] - last_speed_[i]) / period_});
   }
 }
@@ -357,41 +304,6 @@ void Group::run_motion(Signals& signals) noexcept {
     come_to_standby();
     finish_service(error_);
   }
-}
-
-void Group::run_stopping() noexcept {
-  if (on_path_) {
-    follow_path();
-  }
-  const bool rest = std::all_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.at_rest(); });
-  if (on_path_ ? !follower_.idle() || tracking_.on() : !rest) {
-    return;
-  }
-  if (to_error_) {
-    state_ = GroupState::ErrorStop;
-    for (AxisControl& a : axes()) {
-      a.rest();
-      a.fail(error_, 1);
-    }
-    quick_stop_ = error_ == ErrorCode::Emergency;
-  } else if (to_disabled_) {
-    state_ = GroupState::Disabled;
-    come_to_standby();
-    state_ = GroupState::Disabled;
-    for (AxisControl& a : axes()) {
-      a.power(false);
-    }
-    finish_service(ErrorCode::Ok);
-  } else if (stop_ != CommandTable::kNone && table_.execute(stop_)) {
-    table_.holds(stop_);
-    return;
-  } else {
-    come_to_standby();
-    finish_service(ErrorCode::Ok);
-  }
-  release_stop();
-  to_error_ = to_disabled_ = false;
-  on_path_ = true;
 }
 
 }  // namespace indurop::robot

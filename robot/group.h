@@ -14,6 +14,7 @@
 #include "robot/dead_man.h"
 #include "robot/follower.h"
 #include "robot/job_runner.h"
+#include "robot/joint_brake.h"
 #include "robot/planning_desk.h"
 #include "robot/program_loader.h"
 #include "robot/read_ahead.h"
@@ -49,11 +50,11 @@ class Group final : public Controller, private MotionPort {
  private:
   // Services (group_services.cpp).
   void serve(const ServiceRequest& request, bool edit) noexcept;
+  [[nodiscard]] bool comes_to_rest() const noexcept;
   void begin_service(Service service, const ServiceRequest& request) noexcept;
   ErrorCode begin(Service service, const ServiceRequest& request) noexcept;
   ErrorCode enable() noexcept;
   ErrorCode disable() noexcept;
-  ErrorCode reset() noexcept;
   ErrorCode home() noexcept;
   ErrorCode move(Service service, const ServiceRequest& request) noexcept;
   [[nodiscard]] ErrorCode may_move() const noexcept;
@@ -169,8 +170,17 @@ class Group final : public Controller, private MotionPort {
   void set_pace(const Inputs& in) noexcept;  // group_commands.cpp
   void watch(const Inputs& in) noexcept;
   [[nodiscard]] int axis_behind() const noexcept;
+  // Stops and reset (group_stops.cpp).
   void trip(ErrorCode code, int axis, double hardness) noexcept;
-  void leave_path(ErrorCode code, double hardness) noexcept;
+  void fall_off(ErrorCode code, int axis) noexcept;
+  void leave_path(ErrorCode code) noexcept;
+  void begin_braking(bool in_step) noexcept;
+  void brake_axes() noexcept;
+  void run_stopping() noexcept;
+  void stop_for(Fault fault) noexcept;
+  bool clear_faults() noexcept;
+  ErrorCode reset() noexcept;
+  void go_on_resetting() noexcept;
   void pass_gates() noexcept;  // group_gates.cpp
   [[nodiscard]] bool leaves_workspace() const noexcept;
   [[nodiscard]] bool rests_inside(const Vec3& start) const noexcept;
@@ -183,12 +193,10 @@ class Group final : public Controller, private MotionPort {
   void run_enabling() noexcept;
   void run_homing() noexcept;
   void run_motion(Signals& signals) noexcept;
-  void run_stopping() noexcept;
   void begin_next(bool more) noexcept;  // group_plans.cpp
   void take_plan() noexcept;            // group_plans.cpp
   void forget_plans() noexcept;
   void follow_path() noexcept;
-  void stop_for(Fault fault) noexcept;
   static constexpr int kWhy = 120;
   void describe(Fault fault, char (&to)[kWhy]) const noexcept;
   void motion_failed(Fault fault, int source, std::uint32_t ticket) noexcept;
@@ -261,9 +269,11 @@ class Group final : public Controller, private MotionPort {
   int error_axis_ = 0;
   bool to_error_ = false;     // what ends Stopping is ErrorStop
   bool to_disabled_ = false;  // or Disabled
-  bool on_path_ = true;       // the stop goes along the path; else each axis stops by itself
+  bool on_path_ = true;       // the stop goes along the path; else without it
   bool braking_ = false;      // the gates bring the axes to rest
-  double hardness_ = 1;       // of the stop in progress
+  bool in_step_ = false;      // all axes together, as `brake_` says
+  JointBrake brake_;
+  double hardness_ = 1;  // of the stop in progress
   bool enabling_ = false;
   bool letting_go_ = false;  // drives of what was before: first they have to
   bool quick_stop_ = false;
@@ -335,6 +345,7 @@ class Group final : public Controller, private MotionPort {
   bool product_lost_ = false;  // it was to move, and nobody knows where it is
   bool ride_held_ = false;     // somebody holds all motions
   bool paused_ = false;        // likewise, also what does not ride
+  bool pace_wrong_ = false;    // an override or factor is no number
   double ride_pace_ = 1;       // part of full speed that is left beside the ride
   double ride_speed_ = 0;      // m/s of the tip or of the arm's end, by the ride
 

@@ -178,11 +178,16 @@ void Group::end_interrupt(ErrorCode code) noexcept {
   }
 }
 
-// Hold and override, of the path and of axes that move by themselves.
+// Hold and override, of the path and of axes that move by themselves. More than all of the speed is all of it; what is
+// no number holds, and pace_wrong_ says so.
 void Group::set_pace(const Inputs& in) noexcept {
-  const bool sane = in.speed_override >= 0 && in.speed_override <= 100;
-  const double part = sane ? in.speed_override / 100 : 0;
-  const auto factor = [](double given) { return given >= 0 && given <= 1 ? given : 0; };
+  pace_wrong_ = false;
+  const auto factor = [this](double given) {
+    const bool known = given >= 0 && std::isfinite(given);
+    pace_wrong_ = pace_wrong_ || !known;
+    return known ? std::min(given, 1.0) : 0;
+  };
+  const double part = factor(in.speed_override / 100);
   follower_.set_override(part * factor(in.factors.group) * ride_pace_);
   follower_.set_tip_limit(std::max(0.1 * tip_limit(), tip_limit() - ride_speed_));
   paused_ = in.hold || interrupted_ || part * factor(in.factors.group) < Follower::kStill;

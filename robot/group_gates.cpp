@@ -66,26 +66,24 @@ void Group::pass_gates() noexcept {
     const AxisControl& a = axes_[at(i)];
     const bool by_itself = a.brakes() || a.led_by_drive();
     const ErrorCode code = by_itself ? ErrorCode::Ok : gates_[at(i)].check(a.commanded().position, hardness_);
-    if (code != ErrorCode::Ok && to_error_) {
-      leave_path(error_, hardness_);  // the first error is what the user has to know
-    } else if (code != ErrorCode::Ok) {
-      trip(code, i + 1, 1);
+    if (code != ErrorCode::Ok) {
+      fall_off(code, i + 1);
     }
   }
   if (!braking_ && leaves_workspace()) {
-    trip(ErrorCode::Workspace, 0, 1);
+    fall_off(ErrorCode::Workspace, 0);
   }
   if (!braking_ && tip_too_fast()) {
-    trip(ErrorCode::Speed, 0, 1);
+    fall_off(ErrorCode::Speed, 0);
   }
   if (!braking_) {
     look_ahead();
   }
-  for (int i = 0; i < count(); ++i) {
-    if (braking_) {
-      gates_[at(i)].brake(hardness_);
-      axes_[at(i)].put(gates_[at(i)].state());
-    } else if (axes_[at(i)].led_by_drive()) {
+  if (braking_) {
+    brake_axes();
+  }
+  for (int i = 0; i < count() && !braking_; ++i) {
+    if (axes_[at(i)].led_by_drive()) {
       gates_[at(i)].follow(axes_[at(i)].commanded().position, axes_[at(i)].commanded().velocity);
     } else if (axes_[at(i)].brakes()) {
       gates_[at(i)].brake(1);

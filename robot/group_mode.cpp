@@ -51,9 +51,8 @@ void Group::rest_for(ErrorCode code) noexcept {
     if (code == ErrorCode::Enabling && tracking_.on()) {
       drop_ride(code);
       follower_.reset(commanded());
-      on_path_ = false;
-      braking_ = true;
       hardness_ = parts_.settings.emergency_factor;
+      begin_braking(true);
     } else if (code == ErrorCode::Enabling) {
       hardness_ = parts_.settings.emergency_factor;
       follower_.stop_hard(hardness_);
@@ -93,8 +92,7 @@ double Group::axes_pace() const noexcept {
 
 // What the last gate asks, of the set points that are to go out.
 bool Group::tip_too_fast() const noexcept {
-  if (mode_ != OperatingMode::Manual || !powered() || state_ == GroupState::Homing ||
-      std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.placed_anew(); })) {
+  if (mode_ != OperatingMode::Manual || !powered() || state_ == GroupState::Homing) {
     return false;
   }
   Joints last = Joints::Zero();
@@ -104,7 +102,7 @@ bool Group::tip_too_fast() const noexcept {
   TipSpeed tip(places_.arm());
   tip.begin(last);
   tip.note(commanded());
-  return tip.farthest() > kReducedSpeed * period_;
+  return tip.moved() > kReducedSpeed * period_;
 }
 
 ErrorCode Group::axis_permit() const noexcept {

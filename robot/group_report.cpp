@@ -22,6 +22,9 @@ void Group::report(Outputs& out) noexcept {
   out.tool = static_cast<std::uint32_t>(tool_);
   out.tool_name = parts_.book.tools[static_cast<std::size_t>(tool_)].name.c_str();
   out.job = job_.report(follower_.source());
+  if (pace_wrong_) {
+    out.job.message = "ROBOT_OVERRIDE or MC_FACTORS is below 0 or no number, so the robot holds: correct it";
+  }
   out.job.can_resume = aside_ && state_ != GroupState::Moving;
   for (std::size_t i = 0; i < kJoints; ++i) {
     out.axes[i] = axes_[i].report();

@@ -45,12 +45,21 @@ void Group::serve(const ServiceRequest& request, bool edit) noexcept {
       desk_.holds_forgotten()) {
     return;  // a plan of the tool before is still looked at
   }
+  if (asked == Service::JobResume && comes_to_rest()) {
+    return;  // it goes on once it stands
+  }
   acknowledged_ = request.number;
   by_edit_ = !numbered;
   if (active_ && ticket_ != CommandTable::kNone) {
     finish_service(ErrorCode::Aborted);
   }
   begin_service(asked > Service::JobBack && asked != Service::JobReload ? static_cast<Service>(-1) : asked, request);
+}
+
+// A job was stopped, and nothing else speaks against going on with it.
+bool Group::comes_to_rest() const noexcept {
+  return state_ == GroupState::Stopping && aside_ && !to_error_ && !to_disabled_ && stop_ == CommandTable::kNone &&
+         permit_ == ErrorCode::Ok;
 }
 
 void Group::begin_service(Service service, const ServiceRequest& request) noexcept {
@@ -170,57 +179,6 @@ ErrorCode Group::disable() noexcept {
   }
   for (AxisControl& a : axes()) {
     a.power(false);
-  }
-  finish_service(ErrorCode::Ok);
-  return ErrorCode::Ok;
-}
-
-// Called again every period until the robot stands still and the drives have left their faults.
-ErrorCode Group::reset() noexcept {
-  if (to_error_) {
-    // PLCopen: only what stands still is reset.
-    return emergency_ ? ErrorCode::Emergency : ErrorCode::Ok;
-  }
-  if (state_ != GroupState::ErrorStop) {
-    finish_service(ErrorCode::Ok);
-    return ErrorCode::Ok;
-  }
-  if (emergency_) {
-    return ErrorCode::Emergency;
-  }
-  constexpr double kTime = 4;  // s
-  waited_ += period_;
-  for (int i = 0; i < count(); ++i) {
-    AxisControl& a = axes_[static_cast<std::size_t>(i)];
-    if (a.drive().faulty()) {
-      a.reset();
-      if (waited_ > kTime) {
-        finish_service(ErrorCode::Drive, i + 1);
-      }
-      return ErrorCode::Ok;
-    }
-  }
-  // An axis that is still on its way to its set point would trip again.
-  if (const int behind = axis_behind(); behind >= 0) {
-    if (waited_ > kTime) {
-      finish_service(ErrorCode::Following, behind + 1);
-    }
-    return ErrorCode::Ok;
-  }
-  // A drive that is stopped in an emergency is about to lose its power, whatever it says now.
-  const bool has_power = error_ != ErrorCode::Emergency && all_enabled();
-  quick_stop_ = false;
-  contact_.release();
-  for (AxisControl& a : axes()) {
-    a.reset();
-  }
-  state_ = GroupState::Disabled;
-  if (has_power) {
-    come_to_standby();
-  } else {
-    for (AxisControl& a : axes()) {
-      a.power(false);
-    }
   }
   finish_service(ErrorCode::Ok);
   return ErrorCode::Ok;

@@ -17,6 +17,7 @@ constexpr double kDropped = 0.3;  // of a period's jerk: the speed that is left 
 }  // namespace
 
 void PathBrake::begin(double hardness) noexcept {
+  hardness_ = hardness;
   acceleration_ = kWithin * hardness * most_.acceleration;
   jerk_ = kWithin * hardness * hardness * most_.jerk;
   length_ = gone_ = changed_ = 0;

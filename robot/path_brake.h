@@ -54,6 +54,8 @@ class PathBrake {
 
   // `hardness` multiplies the accelerations, its square the jerks. Real-time safe, as all here.
   void begin(double hardness) noexcept;
+  // As it began last.
+  [[nodiscard]] double hardness() const noexcept { return hardness_; }
   // How far to go in this period, and the joint angles there. 0 and the last set point: at rest. Where the joints
   // cannot keep their limits whatever it does, it breaks them least.
   Reach next(const PathAhead& path, const PathHistory& past, double period, double& distance, Joints& q) noexcept;
@@ -93,6 +95,7 @@ class PathBrake {
   [[nodiscard]] Motion after(double distance, const PathHistory& past, double period) const noexcept;
 
   JointLimits most_;
+  double hardness_ = 1;
   const PathAhead* exact_ = nullptr;  // in next(), where it is exact; else polynomials do
   Joints acceleration_ = Joints::Zero();
   Joints jerk_ = Joints::Zero();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast the tool's tip and the arm's end are: the speed of both counts where people are near (ISO 10218-1, reduced
-// speed: 250 mm/s).
+// speed: 250 mm/s). Axes may move against each other, so that the tip is slow only while all of them work: near a
+// stretched elbow it is much faster if one of them stops. A speed that is planned counts that, too.
 
 #pragma once
 
@@ -18,16 +19,31 @@ class TipSpeed {
 
   // Begins at these joint angles. Real-time safe, as all here.
   void begin(const Joints& q) noexcept {
+    q_ = q;
     at_ = where(q);
-    farthest_ = 0;
+    moved_ = farthest_ = 0;
   }
   // The next ones on the way.
   void note(const Joints& q) noexcept {
     const Place next = where(q);
-    farthest_ = std::max({farthest_, (next.tip - at_.tip).norm(), (next.end - at_.end).norm()});
+    const Vec3 tip = next.tip - at_.tip;
+    const Vec3 end = next.end - at_.end;
+    moved_ = std::max({moved_, tip.norm(), end.norm()});
+    farthest_ = std::max(farthest_, moved_);
+    const Jacobian rates = arm_->jacobian(q_ + (q - q_) / 2);
+    const Vec3 lever = (next.end - next.tip + at_.end - at_.tip) / 2;
+    for (int i = 0; i < arm_->count(); ++i) {
+      const Twist part = (q[i] - q_[i]) * rates.col(i);
+      const Vec3 of_tip = part.head<3>();
+      const Vec3 of_end = of_tip + part.tail<3>().cross(lever);
+      farthest_ = std::max({farthest_, of_tip.norm(), of_end.norm(), (tip - of_tip).norm(), (end - of_end).norm()});
+    }
+    q_ = q;
     at_ = next;
   }
-  // m that the faster of both has gone at most, from one to the next.
+  // m that the faster of both goes at most, from one to the next.
+  [[nodiscard]] double moved() const noexcept { return moved_; }
+  // The same, also if one axis stood on the way, whichever it is, or all others did.
   [[nodiscard]] double farthest() const noexcept { return farthest_; }
 
  private:
@@ -40,7 +56,9 @@ class TipSpeed {
   }
 
   const Arm* arm_;
+  Joints q_ = Joints::Zero();
   Place at_;
+  double moved_ = 0;
   double farthest_ = 0;
 };
 

@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whatever fails in manual mode, and whenever: neither the tool's tip nor the arm's end gets faster than 250 mm/s, and
+// no axis breaks a limit. orocos-kdl says where they are, of set points and of places that drives have come to.
+#include "drive_faults.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "limit_judge.h"
+#include "random_job.h"
+
+namespace indurop::robot {
+namespace {
+
+constexpr double kTooFast = 250.2;  // mm/s; drives count in steps
+
+// What an axis does whose drive has no power: it stands at once, goes on as fast as it was, or something in between.
+enum class Coasting { Stands, GoesOn, SlowsDown };
+enum class Failure { Drive, Power, Following, Switch, Emergency, Belt, Nothing };
+enum class Motion { Line, Job, Jog, Axes, Blocks, Belt };
+
+struct Tally {
+  double set_points = 0, places = 0;  // mm/s
+  int moved = 0, failed = 0, stopped_by_gate = 0;
+  double longest = 0;  // s from the failure to rest
+};
+
+// Drives count from where the arm begins.
+Settings fine_counts(const ArmSpec& spec, double period_ms) {
+  Settings settings;
+  settings.zero.clear();
+  for (std::size_t i = 0; i < spec.parts.size(); ++i) {
+    settings.zero.push_back(spec.parts[i].slides ? 1000 * spec.start[i] : degrees(spec.start[i]));
+  }
+  settings.counts_per_turn = {4e7};
+  settings.counts_per_mm = {1e5};
+  settings.plan_in_tick = true;
+  settings.period = std::chrono::nanoseconds(static_cast<std::int64_t>(period_ms * 1e6));
+  return settings;
+}
+
+std::string joints_text(const ArmSpec& spec, const std::vector<double>& q) {
+  std::string text = "JOINT";
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    text += fmt::format(" {}", q[i] * (spec.parts[i].slides ? 1000 : 180 / kPi));
+  }
+  return text;
+}
+
+class Run : public CommandCell {
+ public:
+  Run(const ArmSpec& spec, unsigned seed, double period_ms, const std::string& text, bool long_tool)
+      : CommandCell(period_ms, fine_counts(spec, period_ms), spec.urdf(), text),
+        random(seed),
+        job(text),
+        spec_(spec),
+        period_(period_ms / 1000),
+        places_(spec, long_tool ? KDL::Frame(KDL::Rotation::RPY(radians(20), 0, 0), KDL::Vector(0, 0.1, 0.3))
+                                : KDL::Frame::Identity()),
+        judge_(period_, spec.urdf()) {
+    cell.in.mode.mode = OperatingMode::Manual;
+    cell.in.mode.enabled = true;
+  }
+  double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+  int one_of(int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); }
+
+  // One period of robot and drives.
+  void step() {
+    time += period_;
+    if (belt_told) {
+      cell.in.belts[0] = {1000 * belt_speed * time, cell.in.belts[0].beat + 1};
+    }
+    const auto before = cell.in.drives;
+    cell.step();
+    fail_drives(before);
+    look();
+  }
+  template <class Condition>
+  bool until(const Condition& condition, double most) {
+    for (const double end = time + most; time < end && broken.empty();) {
+      if (condition()) {
+        return true;
+      }
+      step();
+    }
+    return false;
+  }
+  // The drive of that axis, from 0.
+  void fail(Failure failure, std::size_t axis, Coasting coasting) {
+    failed_ = failure;
+    axis_ = axis;
+    coasting_ = coasting;
+    const double now = cell.in.drives[axis].position;
+    speed_ = now - last_position_[axis];
+    stuck_at_ = cell.in.drives[axis].position;
+    coasted_ = now;
+    if (failure == Failure::Drive || failure == Failure::Power) {
+      cell.in.drives[axis].status = failure == Failure::Drive ? Cell::kFault : Cell::kSwitchOnDisabled;
+    }
+  }
+  [[nodiscard]] bool coasts() const { return std::abs(speed_) > 0.5; }
+  [[nodiscard]] bool stands() const {
+    return std::all_of(cell.out.speed.begin(), cell.out.speed.end(), [](double v) { return std::abs(v) < 1e-9; });
+  }
+  // Of what the drives have been told.
+  [[nodiscard]] double speed() const { return speed_of_set_points_; }
+
+  std::mt19937 random;
+  const std::string job;
+  double time = 0;
+  double belt_speed = 0;  // m/s
+  bool belt_told = false;
+  double hardness = 1;
+  Tally tally;
+  std::string broken;
+
+ private:
+  void fail_drives(const std::array<DriveIn, kJoints>& before) {
+    for (std::size_t i = 0; i < kJoints; ++i) {
+      last_position_[i] = before[i].position;
+    }
+    DriveIn& drive = cell.in.drives[axis_];
+    if (failed_ == Failure::Following) {
+      drive.position = stuck_at_;
+    }
+    if (failed_ != Failure::Drive && failed_ != Failure::Power) {
+      return;
+    }
+    drive.status = failed_ == Failure::Drive ? Cell::kFault : Cell::kSwitchOnDisabled;
+    speed_ *= coasting_ == Coasting::Stands ? 0 : coasting_ == Coasting::SlowsDown ? std::exp(-15 * period_) : 1;
+    speed_ *= since_ > 0.4 ? std::exp(-30 * period_) : 1;
+    since_ += period_;
+    coasted_ += speed_;
+    drive.position = static_cast<std::int32_t>(std::lround(coasted_));
+  }
+
+  void look() {
+    const std::string limits = judge_.look(cell, hardness);
+    const KdlPlaces::Place wanted = places_.at(cell.out.command);
+    AxisNumbers there;
+    for (std::size_t i = 0; i < spec_.parts.size(); ++i) {
+      const double zero = spec_.start[i] * (spec_.parts[i].slides ? 1000 : 180 / kPi);
+      there[i] = zero + cell.in.drives[i].position * (spec_.parts[i].slides ? 1e-5 : 360 / 4e7);
+    }
+    const KdlPlaces::Place place = places_.at(there);
+    const double wanted_speed = first_ ? 0 : 1000 * KdlPlaces::apart(wanted, wanted_) / period_;
+    const double speed = first_ ? 0 : 1000 * KdlPlaces::apart(place, place_) / period_;
+    first_ = false;
+    wanted_ = wanted;
+    place_ = place;
+    speed_of_set_points_ = wanted_speed;
+    tally.set_points = std::max(tally.set_points, wanted_speed);
+    tally.places = std::max(tally.places, speed);
+    // An axis that does not follow gives itself away by that only.
+    const bool too_fast = wanted_speed > kTooFast || (speed > kTooFast && failed_ != Failure::Following);
+    if (!limits.empty() || too_fast) {
+      broken = fmt::format("{}set points {:.1f} mm/s, places {:.1f} mm/s, at {:.3f} s, {} s after it failed", limits,
+                           wanted_speed, speed, time, since_);
+    }
+  }
+
+  ArmSpec spec_;
+  double period_;
+  KdlPlaces places_;
+  Judge judge_;
+  Failure failed_ = Failure::Nothing;
+  std::size_t axis_ = 0;
+  Coasting coasting_ = Coasting::Stands;
+  double speed_ = 0, coasted_ = 0;  // counts for each period, counts
+  double since_ = 0;
+  std::int32_t stuck_at_ = 0;
+  std::array<double, kJoints> last_position_{};
+  bool first_ = true;
+  KdlPlaces::Place wanted_, place_;
+  double speed_of_set_points_ = 0;
+};
+
+// Lines from near a stretched elbow, or anything.
+std::string job_of(const ArmSpec& spec, Motion motion, std::mt19937& random) {
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const Arm arm = arm_from_urdf("arm.urdf", spec.urdf()).value().arm;
+  if (motion == Motion::Job) {
+    return random_job(arm, random).text;
+  }
+  std::vector<double> start = spec.start;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const ArmSpec::Part& p = spec.parts[i];
+    const bool elbow = static_cast<int>(i) == spec.elbow;
+    const double off = p.slides ? in(-0.05, 0.05) : elbow ? std::copysign(in(0.02, 0.4), in(-1, 1)) : in(-0.5, 0.5);
+    start[i] = std::clamp(start[i] + off, p.lower + 0.02, p.upper - 0.02);
+  }
+  Joints q = Joints::Zero();
+  std::copy(start.begin(), start.end(), q.data());
+  std::string text = fmt::format("POINT P1 = {}\n", joints_text(spec, start));
+  for (int i = 2; i <= 4; ++i) {
+    Joints near = q;
+    for (std::size_t k = 0; k < spec.parts.size(); ++k) {
+      const ArmSpec::Part& p = spec.parts[k];
+      near[static_cast<int>(k)] =
+          std::clamp(near[static_cast<int>(k)] + (p.slides ? 0.05 : 0.6) * in(-1, 1), p.lower + 0.02, p.upper - 0.02);
+    }
+    Pose next = arm.forward(near);
+    if (arm.turns_six() && in(0, 1) < 0.7) {
+      next.orientation = arm.forward(q).orientation;
+    }
+    const Vec3 rpy = to_rpy(next.orientation) * (180 / kPi);
+    text += fmt::format("POINT P{} = POSE {} {} {} RPY {} {} {}\n", i, 1000 * next.position[0], 1000 * next.position[1],
+                        1000 * next.position[2], rpy[0], rpy[1], rpy[2]);
+  }
+  return text;
+}
+
+// Something that moves; false: it could not be begun.
+bool begin(Run& run, const ArmSpec& spec, Motion motion) {
+  Cell& cell = run.cell;
+  const auto serve = [&](Service service) {
+    cell.ask(service);
+    return run.until([&] { return cell.out.done == cell.in.service.number; }, 60) && cell.out.error == ErrorCode::Ok;
+  };
+  if (!serve(Service::GroupEnable)) {
+    return false;
+  }
+  if (motion == Motion::Job) {
+    cell.in.service.job = 1;
+    cell.ask(Service::JobStart);
+    return true;
+  }
+  cell.in.service.point = 1;
+  if (!serve(Service::MoveJoints)) {
+    return false;
+  }
+  switch (motion) {
+    case Motion::Line:
+      for (std::uint32_t point = 2; point <= 4; ++point) {
+        cell.in.service.point = point;
+        cell.in.service.level = 0;
+        cell.ask(Service::MoveLine);
+        if (run.until([&] { return run.speed() > 10 || cell.out.done == cell.in.service.number; }, 3) &&
+            run.speed() > 10) {
+          return true;
+        }
+      }
+      return false;
+    case Motion::Jog:
+      cell.in.jog.enabled = true;
+      cell.in.jog.frame = static_cast<JogFrame>(run.one_of(3));
+      cell.in.jog.speed[static_cast<std::size_t>(run.one_of(static_cast<int>(spec.parts.size())))] =
+          run.one_of(2) == 0 ? 100 : -100;
+      return true;
+    case Motion::Axes:
+      for (std::size_t i = 0; i < spec.parts.size(); ++i) {
+        if (run.one_of(2) == 0) {
+          cell.ask_axis(i, run.one_of(2) == 0 ? AxisService::MoveVelocity : AxisService::MoveRelative, run.in(-60, 60),
+                        run.in(10, 200));
+        }
+      }
+      return true;
+    case Motion::Blocks: {
+      std::array<double, 8> to{};
+      for (int times = 0; times < 3; ++times) {
+        for (std::size_t i = 0; i < spec.parts.size(); ++i) {
+          to[i] = cell.out.command[i] + (spec.parts[i].slides ? 20 : 40) * run.in(-1, 1);
+        }
+        run.give(Service::DirectAbsolute, to, 100, run.one_of(2) == 0 ? BufferMode::Buffered : BufferMode::BlendingHigh,
+                 CoordSystem::Axes, 100);
+      }
+      return true;
+    }
+    default: {
+      run.belt_told = true;
+      run.belt_speed = run.in(-0.15, 0.15);
+      run.until([] { return false; }, 0.6);
+      std::array<double, 8> from{};
+      std::copy(cell.out.machine.position.begin(), cell.out.machine.position.end(), from.begin());
+      Command& track = run.command(run.give(Service::TrackBelt, from));
+      track.option = 1;
+      run.step();
+      const auto go = run.give(Service::LinearAbsolute, {run.in(-50, 50), run.in(-50, 50), run.in(-50, 50)},
+                               run.in(20, 250), BufferMode::Aborting, CoordSystem::Product);
+      return run.until([&] { return run.speed() > 10 || run.ended(go); }, 3) && run.speed() > 10;
+    }
+  }
+}
+
+// Null: the arm cannot be at the points.
+std::unique_ptr<Run> make_run(const ArmSpec& spec, unsigned seed, Motion motion, double period_ms, bool long_tool) {
+  std::mt19937 random(seed);
+  for (int tries = 0; tries < 20; ++tries) {
+    std::string job = job_of(spec, motion, random);
+    if (long_tool) {
+      job = "TOOL long = POSE 0 100 300 RPY 20 0 0\nTOOL long\n" + job;
+    }
+    try {
+      return std::make_unique<Run>(spec, seed, period_ms, job, long_tool && motion == Motion::Job);
+    } catch (const std::runtime_error&) {
+      continue;  // a point out of reach
+    }
+  }
+  return nullptr;
+}
+
+// A motion in manual mode in which something fails.
+void fail_once(const ArmSpec& spec, unsigned seed, Tally& tally) {
+  const auto motion = static_cast<Motion>(seed % 6 == 5 && spec.parts.size() < 6 ? 0 : seed % 6);
+  const double period_ms = std::array{2.0, 4.0, 10.0}[seed / 6 % 3];
+  const std::unique_ptr<Run> one = make_run(spec, seed, motion, period_ms, seed % 5 == 0);
+  if (one == nullptr) {
+    return;
+  }
+  Run& run = *one;
+  run.tally = tally;
+  const auto name = [&] { return fmt::format("{}, seed {}, {}\n{}", spec.name, seed, run.broken, run.job); };
+  const bool begun = begin(run, spec, motion);
+  ASSERT_EQ(run.broken, "") << name();
+  if (!begun || !run.until([&] { return run.speed() > 10; }, 3)) {
+    ASSERT_EQ(run.broken, "") << name();
+    tally = run.tally;
+    return;
+  }
+  ++run.tally.moved;
+  for (const double end = run.time + run.in(0, 2); run.time < end && run.broken.empty();) {
+    if (run.in(0, 1) < 2 * period_ms / 1000) {
+      run.cell.in.speed_override = run.one_of(3) == 0 ? run.in(20, 100) : 100;
+    }
+    run.step();
+  }
+  auto failure = static_cast<Failure>(run.one_of(6));
+  failure = failure == Failure::Belt && motion != Motion::Belt ? Failure::Drive : failure;
+  const auto axis = static_cast<std::size_t>(run.one_of(static_cast<int>(spec.parts.size())));
+  run.fail(failure, axis, static_cast<Coasting>(run.one_of(3)));
+  run.cell.in.mode.enabled = failure != Failure::Switch;
+  run.cell.in.emergency = failure == Failure::Emergency;
+  run.belt_told = run.belt_told && failure != Failure::Belt;
+  run.hardness = failure == Failure::Switch || failure == Failure::Emergency ? kEmergency : 1;
+  run.tally.failed += run.speed() > 10 ? 1 : 0;
+  const double failed_at = run.time;
+  const bool second = run.one_of(4) == 0;
+  const double then = failed_at + run.in(0, 0.1);
+  run.until(
+      [&] {
+        if (second && run.time > then) {
+          run.cell.in.emergency = true;
+          run.hardness = kEmergency;
+        }
+        const GroupState state = run.cell.out.state;
+        const bool rests = state == GroupState::ErrorStop || state == GroupState::Standby;
+        return run.time > failed_at + 0.05 && rests && run.stands() && !run.coasts() && failure != Failure::Following;
+      },
+      4);
+  ASSERT_EQ(run.broken, "") << name();
+  if (failure == Failure::Drive || failure == Failure::Power) {
+    ASSERT_EQ(run.cell.out.state, GroupState::ErrorStop) << name();
+    ASSERT_TRUE(run.stands()) << name();
+  }
+  run.tally.longest = std::max(run.tally.longest, run.time - failed_at);
+  run.tally.stopped_by_gate += run.cell.out.error == ErrorCode::Speed ? 1 : 0;
+  tally = run.tally;
+}
+
+int runs() {
+  const char* wanted = std::getenv("INDUROP_ROBOT_FAULTS");
+  return wanted != nullptr ? std::atoi(wanted) : 24;
+}
+
+class Faults_of : public testing::TestWithParam<ArmSpec> {};
+
+TEST_P(Faults_of, Are_never_faster_than_250_mm_per_second) {
+  Tally tally;
+  for (int seed = 1; seed <= runs(); ++seed) {
+    ASSERT_NO_FATAL_FAILURE(fail_once(GetParam(), static_cast<unsigned>(seed), tally));
+  }
+  fmt::print(
+      "{} of {} moved, {} as something failed; set points at most {:.1f} mm/s, places {:.1f}; the last gate "
+      "stopped {}, it took {:.2f} s\n",
+      tally.moved, runs(), tally.failed, tally.set_points, tally.places, tally.stopped_by_gate, tally.longest);
+  EXPECT_GT(tally.failed, runs() / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Known, Faults_of,
+                         testing::Values(cell_spec(), irb4600_spec(), scara_spec(), xarm6_spec(), panda_spec()),
+                         [](const auto& arm) { return arm.param.name; });
+
+TEST(Faults, Of_random_arms_are_never_faster_than_250_mm_per_second) {
+  Tally tally;
+  for (int seed = 1; seed <= runs(); ++seed) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    ASSERT_NO_FATAL_FAILURE(fail_once(random_spec(random), static_cast<unsigned>(seed), tally));
+  }
+  fmt::print(
+      "{} of {} moved, {} as something failed; set points at most {:.1f} mm/s, places {:.1f}; the last gate "
+      "stopped {}\n",
+      tally.moved, runs(), tally.failed, tally.set_points, tally.places, tally.stopped_by_gate);
+  EXPECT_GT(tally.failed, runs() / 4);
+}
+
+}  // namespace
+}  // namespace indurop::robot
