@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "alarms/alarm_watch.h"
 #include "base/text.h"
 #include "rt/clock.h"
 #include "schema/schema.h"
@@ -25,7 +26,9 @@ std::map<std::string, Known> known_alarms(const std::vector<DeclaredAlarm>& decl
     all.emplace(one.name, Known{one.part, one.alarm.text, one.alarm.priority});
   }
   for (const auto& [name, record] : book.standing()) {
-    all.emplace(name, Known{name.substr(0, name.find(' ')), record.last.text, record.last.priority});
+    const bool module = name.starts_with(module_alarm(""));
+    all.emplace(name,
+                Known{module ? name : name.substr(0, name.find(' ')), record.last.text, record.last.priority});
   }
   return all;
 }

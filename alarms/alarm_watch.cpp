@@ -28,7 +28,19 @@ bool is_fresh(const vars::Store& store, const DeclaredAlarm& alarm, std::int64_t
   return detail::is_valid(confirmed, alarm.variable->maxage_ns, [now_ns] { return now_ns; });
 }
 
+// Of every module that is down.
+schema::Alarm rule_of_modules() {
+  schema::Alarm alarm;
+  alarm.priority = schema::Priority::High;
+  alarm.delay_ns = kModuleDelayNs;
+  return alarm;
+}
+
 }  // namespace
+
+std::string module_alarm(const std::string& module) {
+  return "module " + module;
+}
 
 bool AlarmCondition::look(const schema::Alarm& alarm, double value, std::int64_t now_ns, bool standing) noexcept {
   const bool met = schema::is_met(alarm, value, known_ ? met_ : standing);
@@ -68,14 +80,26 @@ bool AlarmWatch::attach() {
                              header.node_start_time.load(std::memory_order_relaxed));
 }
 
-std::string AlarmWatch::look() {
+std::string AlarmWatch::look(const std::optional<std::vector<ModuleNow>>& modules) {
   journal_.refresh();
   if (!attach()) {
     return {};
   }
+  modules_known_ = modules.has_value();
+  if (modules_known_) {
+    look_at_modules(*modules);
+  }
   if (idle() || !journal_.become_watcher()) {
     return {};
   }
+  look_at_variables();
+  if (decide(journal_.book()).empty()) {
+    return {};
+  }
+  return journal_.change([this](const AlarmBook& book) { return decide(book); });
+}
+
+void AlarmWatch::look_at_variables() {
   const std::int64_t now_ns = rt::to_ns(store_->now());
   for (std::size_t i = 0; i < alarms_.size(); ++i) {
     const DeclaredAlarm& one = alarms_[i];
@@ -89,35 +113,68 @@ std::string AlarmWatch::look() {
     standing_[i] = conditions_[i].look(one.alarm, value, now_ns, before) ? 1 : 0;
     values_[i] = standing_[i] != 0 ? schema::format_value(one.type, part) : std::string();
   }
-  if (decide(journal_.book()).empty()) {
-    return {};
+}
+
+// Only those are kept that are down, or whose alarm stands.
+void AlarmWatch::look_at_modules(const std::vector<ModuleNow>& modules) {
+  const schema::Alarm rule = rule_of_modules();
+  const std::int64_t now_ns = rt::now_ns();
+  for (const ModuleNow& one : modules) {
+    const std::string name = module_alarm(one.name);
+    const AlarmState state = journal_.book().find(name).state;
+    const bool down = !one.down.empty();
+    if (!down && state == AlarmState::Normal) {
+      modules_.erase(name);
+      continue;
+    }
+    Module& module = modules_[name];
+    module.standing = module.condition.look(rule, down ? 1 : 0, now_ns, is_active(state));
+    if (down) {
+      module.text = fmt::format("module {} {}", one.name, one.down);
+      module.value = one.why;
+    }
   }
-  return journal_.change([this](const AlarmBook& book) { return decide(book); });
 }
 
 std::vector<AlarmEntry> AlarmWatch::decide(const AlarmBook& book) const {
   std::vector<AlarmEntry> all;
   const std::int64_t wall_ns = rt::wall_ns();
-  std::set<std::string_view> declared;
-  const auto add = [&](const DeclaredAlarm& one, AlarmEvent event, const std::string& value) {
-    all.push_back({wall_ns, one.name, event, {}, one.alarm.text, one.alarm.priority, value, {}, {}, {}, 0, 0});
-  };
-  for (std::size_t i = 0; i < alarms_.size(); ++i) {
-    const DeclaredAlarm& one = alarms_[i];
-    declared.insert(one.name);
-    const auto known = book.standing().find(one.name);
-    AlarmState state = known == book.standing().end() ? AlarmState::Normal : known->second.state;
-    if (state == AlarmState::Shelved && known->second.last.until_ns <= wall_ns) {
-      add(one, AlarmEvent::Unshelved, {});
+  std::set<std::string_view> known;
+  const auto judge = [&](const std::string& name, const AlarmEntry& now, bool stands) {
+    known.insert(name);
+    const auto found = book.standing().find(name);
+    AlarmState state = found == book.standing().end() ? AlarmState::Normal : found->second.state;
+    AlarmEntry entry = now;
+    entry.wall_ns = wall_ns;
+    entry.alarm = name;
+    if (state == AlarmState::Shelved && found->second.last.until_ns <= wall_ns) {
+      entry.event = AlarmEvent::Unshelved;
+      all.push_back(entry);
       state = AlarmState::Normal;
     }
-    const AlarmEvent event = standing_[i] != 0 ? AlarmEvent::Raised : AlarmEvent::Cleared;
+    const AlarmEvent event = stands ? AlarmEvent::Raised : AlarmEvent::Cleared;
     if (state != AlarmState::Shelved && after(state, event)) {
-      add(one, event, standing_[i] != 0 ? values_[i] : std::string());
+      entry.event = event;
+      all.push_back(std::move(entry));
     }
+  };
+  for (std::size_t i = 0; i < alarms_.size(); ++i) {
+    AlarmEntry entry;
+    entry.text = alarms_[i].alarm.text;
+    entry.priority = alarms_[i].alarm.priority;
+    entry.value = values_[i];
+    judge(alarms_[i].name, entry, standing_[i] != 0);
+  }
+  for (const auto& [name, module] : modules_) {
+    AlarmEntry entry;
+    entry.text = module.text.empty() ? book.find(name).last.text : module.text;
+    entry.priority = schema::Priority::High;
+    entry.value = module.standing ? module.value : std::string();
+    judge(name, entry, module.standing);
   }
   for (const auto& [name, record] : book.standing()) {
-    if (!declared.contains(name)) {
+    const bool kept = !modules_known_ && name.starts_with(module_alarm(""));
+    if (!known.contains(name) && !kept) {
       AlarmEntry entry = record.last;
       entry.wall_ns = wall_ns;
       entry.alarm = name;

@@ -5,11 +5,15 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <cstring>
+#include <optional>
 #include <utility>
 
 #include "alarms/alarm_list.h"
 #include "alarms/alarm_orders.h"
 #include "deploy/transaction/write_words.h"
+#include "scheduler/module_health.h"
+#include "vars/run_file.h"
 #include "vars/store.h"
 
 namespace indurop::deploy {
@@ -27,6 +31,34 @@ std::vector<alarms::DeclaredAlarm> declared_in(const Result<vars::Store>& store)
   return store ? alarms::declared_alarms(*store) : std::vector<alarms::DeclaredAlarm>();
 }
 
+template <std::size_t N>
+std::string text_of(const char (&text)[N]) {
+  return {text, ::strnlen(text, N)};
+}
+
+// Nothing while the node does not run, or its run block makes no sense.
+std::optional<std::vector<alarms::ModuleNow>> modules_of(const std::string& board) {
+  using scheduler::ModuleRecord;
+  const auto file = vars::RunFile::open(board, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+  const auto* const block = file ? static_cast<const scheduler::RunBlock*>(file->data()) : nullptr;
+  const std::uint64_t offset = block != nullptr ? block->modules_offset : 0;
+  const std::uint32_t count = block != nullptr ? block->module_count : 0;
+  if (block == nullptr || block->abi != scheduler::kRunAbi || offset % alignof(ModuleRecord) != 0 ||
+      offset > file->size() || count > (file->size() - offset) / sizeof(ModuleRecord) ||
+      block->state.load(std::memory_order_relaxed) != scheduler::NodeState::Running) {
+    return std::nullopt;
+  }
+  std::vector<alarms::ModuleNow> all;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const ModuleRecord& module = block->at<ModuleRecord>(offset)[i];
+    const auto state = module.state.load(std::memory_order_acquire);
+    const char* const down = scheduler::down_text(state);
+    all.push_back({text_of(module.name), down != nullptr ? down : "",
+                   scheduler::is_down_by_fault(state) ? text_of(module.last_fault) : std::string()});
+  }
+  return all;
+}
+
 AlarmEvent event_of(Action action) {
   return action == Action::AckAlarms      ? AlarmEvent::Acknowledged
          : action == Action::ShelveAlarms ? AlarmEvent::Shelved
@@ -39,7 +71,7 @@ void BoardAlarms::step(rt::MonoTime now) {
   if (now < look_at_) {
     return;
   }
-  std::string problem = watch_.look();
+  std::string problem = watch_.look(modules_of(board_));
   look_at_ = now + (watch_.idle() ? rt::MonoTime::duration(kLookIdle) : rt::MonoTime::duration(kLook));
   if (problem != problem_ && !problem.empty()) {
     log_.error("alarms cannot be kept: {}", problem);

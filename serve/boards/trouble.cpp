@@ -7,6 +7,7 @@
 #include <array>
 
 #include "alarms/alarm_list.h"
+#include "scheduler/module_health.h"
 #include "tools/command/units.h"
 #include "tools/values/force_view.h"
 #include "tools/values/mirror_view.h"
@@ -16,20 +17,24 @@ namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
 
-void add_module(std::vector<Trouble>& all, const scheduler::ModuleRecord& module) {
+// `runs`: the node; of one that has ended only what happened before counts.
+void add_module(std::vector<Trouble>& all, const scheduler::ModuleRecord& module, bool runs) {
   const std::string name = tools::fixed_text(module.name);
   const auto kind = static_cast<scheduler::FaultKind>(module.fault_kind.load(std::memory_order_acquire));
   const auto state = module.state.load(kRelaxed);
-  if (kind != scheduler::FaultKind::None) {
-    const bool down = state == scheduler::ModuleState::Faulted;
-    all.push_back({down ? Severity::Error : Severity::Warning, name,
-                   fmt::format("module {} {}: {}", name, down ? "is out of service" : "had a fault",
-                               tools::printable(tools::fixed_text(module.last_fault))),
-                   module.fault_tick.load(kRelaxed)});
-  } else if (state == scheduler::ModuleState::Restarting) {
-    all.push_back({Severity::Warning, name, fmt::format("module {} waits for its restart", name), {}});
-  } else if (state == scheduler::ModuleState::Stopped) {
-    all.push_back({Severity::Note, name, fmt::format("module {} is stopped", name), {}});
+  const std::string fault = kind != scheduler::FaultKind::None
+                                ? tools::printable(tools::fixed_text(module.last_fault))
+                                : std::string();
+  const std::optional<std::uint64_t> tick =
+      fault.empty() ? std::nullopt : std::optional(module.fault_tick.load(kRelaxed));
+  const char* const down = runs ? scheduler::down_text(state) : nullptr;
+  if (down != nullptr) {
+    const bool by_fault = scheduler::is_down_by_fault(state) && !fault.empty();
+    const bool for_good = state == scheduler::ModuleState::Stopped || state == scheduler::ModuleState::Faulted;
+    all.push_back({for_good ? Severity::Error : Severity::Warning, name,
+                   fmt::format("module {} {}{}{}", name, down, by_fault ? ": " : "", by_fault ? fault : ""), tick});
+  } else if (!fault.empty()) {
+    all.push_back({Severity::Warning, name, fmt::format("module {} had a fault: {}", name, fault), tick});
   }
   if (const auto count = module.overruns.load(kRelaxed); count > 0) {
     all.push_back({Severity::Warning, name, fmt::format("module {} had {} overruns", name, count), {}});
@@ -55,8 +60,11 @@ void add_node(std::vector<Trouble>& all, const Board& board, const tools::RunVie
     all.push_back({Severity::Error, "", fmt::format("not connected with other boards: {}", mirror->problem), {}});
   }
   for (const auto& peer : mirror ? mirror->peers : std::vector<tools::PeerView>()) {
-    if (!peer.problem.empty()) {
-      all.push_back({Severity::Warning, "", fmt::format("board {}: {}", peer.name, peer.problem), {}});
+    if (peer.state != "alive" || !peer.problem.empty()) {
+      all.push_back({Severity::Warning, "",
+                     fmt::format("board {} is {}{}{}", peer.name, peer.state, peer.problem.empty() ? "" : ": ",
+                                 peer.problem),
+                     {}});
     }
   }
 }
@@ -74,15 +82,16 @@ std::vector<Trouble> troubles_of(const Board& board, const std::optional<tools::
   if (!board.alive()) {
     all.push_back({Severity::Error, "", fmt::format("board {} is {}", board.name(), board.state()), {}});
   }
+  if (run) {
+    const bool runs = board.alive() && run->block().state.load(kRelaxed) == scheduler::NodeState::Running;
+    add_node(all, board, *run);
+    for (std::uint32_t i = 0; i < run->module_count(); ++i) {
+      add_module(all, run->module(i), runs);
+    }
+  }
   if (alarms.active + alarms.unacknowledged > 0) {
     const bool bad = alarms.worst <= schema::Priority::High;
     all.push_back({bad ? Severity::Error : Severity::Warning, "", alarms::sentence_of(alarms), {}});
-  }
-  if (run) {
-    add_node(all, board, *run);
-    for (std::uint32_t i = 0; i < run->module_count(); ++i) {
-      add_module(all, run->module(i));
-    }
   }
   if (const auto lock = vars::lock_of(board.name()); lock.lock != vars::WriteLock::None) {
     all.push_back({Severity::Note, "", fmt::format("the write lock is {}", tools::lock_line(lock)), {}});

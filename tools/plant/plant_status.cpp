@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "alarms/alarm_state.h"
 #include "rt/clock.h"
 #include "tools/command/units.h"
 #include "tools/plant/board_table.h"
@@ -35,13 +36,38 @@ std::optional<std::vector<mirror::MirroredVariable>> variables_in(const std::str
   return variables;
 }
 
-VariablesRead ask(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster) {
+std::vector<std::uint64_t> agents_of(const BoardRoster& roster) {
   std::vector<std::uint64_t> agents;
   for (const auto& [key, entry] : roster.all()) {
     agents.push_back(key.second);
   }
+  return agents;
+}
+
+// Nodes that do not run although they should, and alarms: "board control: module Robot is stopped".
+std::vector<std::string> trouble_of(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster) {
+  const auto texts = fetch_texts(link, self, deploy::kAlarmsBlob, agents_of(roster));
+  std::vector<std::string> all;
+  for (const auto& [key, entry] : roster.all()) {
+    const deploy::BoardReport& board = entry.report;
+    if (!board.current.empty() && board.node != deploy::NodeCondition::Running) {
+      all.push_back(fmt::format("board {}: its node is {}", board.board, deploy::to_text(board.node)));
+    }
+    const auto text = texts.find(key.second);
+    const JsonValue told = text != texts.end() ? JsonValue::parse(text->second).value_or(JsonValue()) : JsonValue();
+    for (const JsonValue& one : told["alarms"].values()) {
+      const auto state = alarms::alarm_state_of(one["state"].text().value_or(""));
+      if (state && (alarms::is_active(*state) || alarms::wants_attention(*state))) {
+        all.push_back(fmt::format("board {}: {} ({})", board.board, one["text"].text().value_or(""), word_of(*state)));
+      }
+    }
+  }
+  return all;
+}
+
+VariablesRead ask(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster) {
   VariablesRead read;
-  for (const auto& [agent, text] : fetch_texts(link, self, deploy::kMirrorBlob, agents)) {
+  for (const auto& [agent, text] : fetch_texts(link, self, deploy::kMirrorBlob, agents_of(roster))) {
     if (auto variables = variables_in(text)) {
       read.emplace(agent, std::move(*variables));
     }
@@ -60,6 +86,7 @@ int PlantStatus::show(Context& context) {
     roster_.gather(*open_, kHearNs, [&] { return roster_.complete(); });
   }
   const VariablesRead read = ask(*open_, link.self, roster_);
+  const std::vector<std::string> trouble = trouble_of(*open_, link.self, roster_);
   const std::int64_t now = rt::now_ns();
   roster_.listen(*open_, now);
   const Table table = board_table(roster_, now, &read);
@@ -72,14 +99,21 @@ int PlantStatus::show(Context& context) {
   } else if (!missing.empty()) {
     context.out.error(fmt::format("not heard: {}", fmt::join(missing, ", ")));
   }
+  for (const std::string& text : trouble) {
+    context.out.error(printable(text));
+  }
   note_others(context, roster_);
   print_table(context, table,
               {{"domain", link.network.domain},
                {"not_heard", missing},
+               {"trouble", trouble},
                {"other_releases", json_of_others(roster_)},
                {"impostors", json_of_impostors(roster_)}},
               "boards");
-  return table.empty() || !missing.empty() ? kUnreachable : kOk;
+  if (table.empty() || !missing.empty()) {
+    return kUnreachable;
+  }
+  return check && !trouble.empty() ? kCheckFailed : kOk;
 }
 
 }  // namespace indurop::tools

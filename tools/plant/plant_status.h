@@ -12,6 +12,7 @@ namespace indurop::tools {
 
 struct PlantStatus {
   bool wanted = false;
+  bool check = false;  // kCheckFailed if something is wrong with a board that is heard
   deploy::LinkSettings link;
 
   // Once more each time; returns the exit code.

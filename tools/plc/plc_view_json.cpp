@@ -88,6 +88,7 @@ JsonValue picture_of(const plc::draw::Picture& picture) {
       one["x"] = half_x(2 * (symbol.x + plc::draw::symbol_begin(symbol.shape)));
       one["y"] = half_y(2 * symbol.y + 3);
       one["name"] = symbol.element->text;
+      one["coil"] = symbol.element->kind == Element::Kind::Coil;
       switches.push_back(std::move(one));
     }
   }

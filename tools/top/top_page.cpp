@@ -7,6 +7,7 @@
 
 #include "alarms/alarm_journal.h"
 #include "alarms/alarm_list.h"
+#include "alarms/alarm_watch.h"
 #include "explain/orders.h"
 #include "rt/clock.h"
 #include "tools/command/screen.h"
@@ -201,7 +202,8 @@ TopSample take_sample(const std::string& node, const RunView& run, const TopSamp
   alarms.refresh();
   sample.alarms = alarms.book().counts();
   for (const alarms::ListedAlarm& one : alarms::list_alarms({}, alarms.book(), false)) {
-    if (one.record.state != alarms::AlarmState::Shelved) {
+    const bool said = one.name.starts_with(alarms::module_alarm(""));  // with the modules
+    if (one.record.state != alarms::AlarmState::Shelved && !said) {
       sample.troubles.push_back(printable(
           fmt::format("{} alarm, {}: {}", schema::word_of(one.priority), word_of(one.record.state), one.text)));
     }

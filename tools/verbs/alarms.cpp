@@ -11,6 +11,7 @@
 #include "tools/command/interrupt.h"
 #include "tools/command/units.h"
 #include "tools/values/node_choice.h"
+#include "tools/values/node_trouble.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
@@ -107,7 +108,7 @@ int watch(Context& context, const std::string& node) {
   static_cast<void>(context.out.flush());
   std::string before;
   while (!interrupted()) {
-    if (std::string problem = watched.look(); problem != before) {
+    if (std::string problem = watched.look(modules_now(node)); problem != before) {
       before = std::move(problem);
       if (!before.empty()) {
         context.out.error(before);
@@ -182,7 +183,8 @@ Action declare(base::Options& app, Context& context) {
 
 const Verb kAlarmsVerb{
     "alarms", "A running node", "Show alarms, acknowledge and shelve them, and tell what happened",
-    "Alarms are declared in .glb files: bool open @alarm(\"the door is open\", high, 500ms). One process on the\n"
+    "Alarms are declared in .glb files: bool open @alarm(\"the door is open\", high, 500ms). A module that does not do\n"
+    "its work for two seconds is one, too: module Robot. One process on the\n"
     "node's machine looks at their conditions: its agent, indurop serve, or indurop alarms watch. What happened is "
     "kept in the\n"
     "state folder of the node, over restarts. An alarm that ended before it was acknowledged stays in the list as\n"

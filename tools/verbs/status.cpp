@@ -14,6 +14,7 @@
 #include "tools/values/force_view.h"
 #include "tools/values/mirror_view.h"
 #include "tools/values/module_table.h"
+#include "tools/values/node_trouble.h"
 #include "tools/values/run_report.h"
 #include "tools/verbs/verbs.h"
 
@@ -31,7 +32,7 @@ alarms::AlarmCounts alarms_here(const std::string& node) {
   return journal.book().counts();
 }
 
-int show_once(Context& context, const BoardRun& chosen) {
+int show_once(Context& context, const BoardRun& chosen, bool check) {
   const std::string& node = chosen.node;
   const RunView& run = chosen.run;
   const NodeReport report = report_of(node, run);
@@ -40,9 +41,13 @@ int show_once(Context& context, const BoardRun& chosen) {
   const alarms::AlarmCounts alarms = run.here() ? alarms_here(node) : alarms::AlarmCounts{};
   const auto forces = chosen.forces ? *chosen.forces : forces_here(node);
   const vars::LockNote lock = chosen.forces ? chosen.lock : vars::lock_of(node);
+  std::vector<std::string> trouble = trouble_now(run, mirror);
   if (context.format == Format::Table) {
     for (const std::string& line : header_lines(report, context.out)) {
       context.out.line(line);
+    }
+    for (const std::string& text : trouble) {
+      context.out.line(context.out.paint(Style::Bad, "  wrong     " + text));
     }
     if (!forces.empty()) {
       context.out.line(context.out.paint(Style::Warn, "  forced    " + force_line(forces)));
@@ -65,20 +70,29 @@ int show_once(Context& context, const BoardRun& chosen) {
     }
     context.out.line();
   }
+  if (alarms.active + alarms.unacknowledged > 0) {
+    trouble.push_back(alarms::sentence_of(alarms));
+  }
   JsonValue head = json_of(report);
   head["mirror"] = mirror ? json_of(*mirror) : JsonValue();
   head["forces"] = json_of(forces);
   head["lock"] = json_of(lock);
   head["alarms"] = json_of(alarms);
+  head["trouble"] = JsonValue(trouble);
   head["external"] = external ? json_of(*external) : JsonValue();
   print_table(context, module_table(run, report.alive), head, "modules");
-  return report.alive || chosen.kept ? kOk : kUnreachable;
+  if (!report.alive && !chosen.kept) {
+    return kUnreachable;
+  }
+  return check && !trouble.empty() ? kCheckFailed : kOk;
 }
 
 Action declare(base::Options& app, Context& context) {
   auto repeat = std::make_shared<Repeat>();
   auto plant = std::make_shared<PlantStatus>();
   auto board = std::make_shared<BoardChoice>();
+  auto check = std::make_shared<bool>(false);
+  app.flag("--check", *check, "Exit code 4 if something is wrong now: a module, another board, or an alarm");
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   add_repeat_options(app, *repeat);
@@ -86,14 +100,15 @@ Action declare(base::Options& app, Context& context) {
   deploy::add_link_options(app, board->link);
   add_board_options(app, *board, false);
   add_kept_option(app, *board);
-  return [repeat, plant, board](Context& c) {
+  return [repeat, plant, board, check](Context& c) {
     plant->link = board->link;
-    return repeat_rounds(c, *repeat, [&c, &plant, &board] {
+    plant->check = *check;
+    return repeat_rounds(c, *repeat, [&c, &plant, &board, &check] {
       if (plant->wanted) {
         return plant->show(c);
       }
       const auto chosen = open_run(c, *board);
-      return chosen ? show_once(c, *chosen) : report(c.out, chosen.error());
+      return chosen ? show_once(c, *chosen, *check) : report(c.out, chosen.error());
     });
   };
 }
@@ -104,12 +119,15 @@ const Verb kStatusVerb{
     "status", "A running node", "Show the state of the node and its modules",
     "EXEC is the execution time of run(), JITTER |J_n|: how far a start was from its place on the grid. A state in\n"
     "brackets is the last one of a node that has ended. On a narrow terminal some columns are left out.\n"
-    "Exit code 0 if the node runs, 6 if it does not (then the last figures are shown).\n"
+    "Exit code 0 if the node runs, 6 if it does not (then the last figures are shown). With --check it is 4 if the node\n"
+    "runs and something is wrong now (the lines 'wrong'): a module is stopped, faulted or has not started, another board\n"
+    "is not there, an alarm is active or not acknowledged. Overruns, lost ticks and faults that are over do not count.\n"
     "With --plant it shows the boards of the network instead, as their agents report: 6 if one that belongs to a\n"
-    "plant is missing. With --board it shows the node of one board.\n"
+    "plant is missing, with --check 4 if a node does not run or has alarms. With --board it shows the node of one board.\n"
     "Examples:\n"
     "  indurop status\n"
     "  indurop status -w\n"
+    "  indurop status --check || echo 'somebody has to look'\n"
     "  indurop status --plant\n"
     "  indurop status --board control\n",
     &declare};

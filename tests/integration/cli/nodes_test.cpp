@@ -107,6 +107,25 @@ TEST_F(CommandLine, A_node_that_is_just_starting_is_waited_for) {
   EXPECT_EQ(sut.code, 0) << sut.err;
 }
 
+TEST_F(CommandLine, A_module_that_is_stopped_is_something_wrong) {
+  const std::string config = std::string(PLC_EXAMPLE) + "/module.xml";
+  ASSERT_EQ(indurop({"run", config, "--detach", "--duration", "60s"}).code, 0);
+  const auto well = indurop({"status", "--check"});
+  EXPECT_EQ(well.code, 0) << well.out;
+  EXPECT_THAT(well.out, Not(HasSubstr("wrong")));
+  ASSERT_EQ(indurop({"stop", "conveyor"}).code, 0);
+  const auto wrong = indurop({"status", "--check"});
+  EXPECT_EQ(wrong.code, 4);
+  EXPECT_THAT(wrong.out, HasSubstr("wrong     module conveyor is stopped"));
+  const auto shown = indurop({"status", "-o", "json"});
+  EXPECT_EQ(shown.code, 0);
+  EXPECT_EQ(shown.json()["trouble"], (nlohmann::json{"module conveyor is stopped"}));
+  ASSERT_EQ(indurop({"start", "conveyor"}).code, 0);
+  EXPECT_EQ(indurop({"status", "--check"}).code, 0);
+  ASSERT_EQ(indurop({"stop"}).code, 0);
+  EXPECT_EQ(indurop({"status", "--check"}).code, 6);
+}
+
 TEST_F(CommandLine, Nodes_of_one_host_take_different_cores) {
   const std::string config = std::string(PLC_EXAMPLE) + "/module.xml";
   for (const char* name : {"left", "right"}) {

@@ -173,6 +173,32 @@ def test_the_command_line_and_the_server_see_the_same(setting):
     assert "nobody looks at the alarms" in press.run("alarms").stderr
 
 
+def test_a_module_that_is_stopped_is_an_alarm(setting):
+    example = setting.programs.parent / "examples" / "plc" / "module.xml"
+    setting.start(setting.programs / "indurop", "run", example, "-q", "--node", setting.node)
+    ask = [setting.programs / "indurop", "status", "--check", "--node", setting.node]
+    code = lambda: subprocess.run(ask, env=setting.environment, capture_output=True, check=False).returncode
+    wait_for(lambda: code() == 0, "the node")
+    server = setting.start_server("--write", "--token-file", setting.tokens)
+    base = f"{API}/boards/{setting.node}"
+    alarms = lambda: {one["alarm"]: one for one in server.get(f"{base}/alarms").json()["alarms"]}
+    summary = lambda: server.get(f"{API}/boards").json()["boards"][0]
+    assert not any("is stopped" in text for text in summary()["trouble"]) and alarms() == {}
+    assert server.post(f"{base}/modules/conveyor/stop", {}).status == 200
+    assert summary()["trouble"][0] == "module conveyor is stopped"
+    assert code() == 4
+    one = wait_for(lambda: alarms().get("module conveyor"), "the alarm")
+    assert (one["state"], one["priority"], one["text"]) == ("unacknowledged", "high", "module conveyor is stopped"), one
+    assert "1 alarm is active, 1 is not acknowledged" in summary()["trouble"]
+    assert server.post(f"{base}/alarms/shelve", {"alarms": ["module conveyor"], "for_ns": 1}).status == 200
+    wait_for(lambda: alarms().get("module conveyor", {}).get("count") == 2, "the alarm after it was shelved")
+    assert server.post(f"{base}/modules/conveyor/start", {}).status == 200
+    wait_for(lambda: alarms()["module conveyor"]["state"] == "returned", "the end of the alarm")
+    assert code() == 4  # nobody has acknowledged it
+    assert server.post(f"{base}/alarms/ack", {"all": True}).json()["alarms"] == ["module conveyor"]
+    wait_for(lambda: code() == 0 and alarms() == {}, "that all is well")
+
+
 def test_orders_that_make_no_sense_change_nothing(setting):
     press = Press(setting)
     press.set("press::oil", 95)

@@ -353,10 +353,58 @@ await browser.run({
     // The server's memory of it is gone: the switch stays pressed, the robot task sees no beat.
     await order("start-server");
     await until("no rest after the server was killed", async () => !(await moves()));
-    await sees(other, "when the group stands by");
+    await sees(other, "By hand");
     await order("automatic");
     await sees(other, "Automatic mode: the robot is not moved by hand.");
     await other.close();
+  },
+
+  async "A module is stopped only when that is confirmed, and is missed everywhere"() {
+    await order("start-tour");
+    const page = await browser.open("overview", { width: 1280, height: 900 });
+    await sees(page, "estop");
+    const dialog = "dialog[open]";
+    const ask = async (label) => {
+      await page.locator(`::-p-aria(${label})`).click();
+      await page.waitForSelector(dialog);
+    };
+    const state_of = async (name) => (await (await fetch(`${origin}/api/v1/boards/${node}/modules`)).json()).modules.find((one) => one.name === name).state;
+    await ask("Stop estop");
+    await sees(page, "estop is the emergency stop: it writes PLC_ROBOT::EMERGENCY_STOP");
+    await browser.judge(page, "stop-asked");
+    await press(page, "Leave it running");
+    await page.waitForFunction((open) => !document.querySelector(open), {}, dialog);
+    check(await state_of("estop") === "running", "it was stopped although nobody agreed");
+    await ask("Restart main");
+    await page.keyboard.press("Escape");
+    await page.waitForFunction((open) => !document.querySelector(open), {}, dialog);
+    for (const end = Date.now() + 60_000; ![1, 2].includes((await value_of("PLC_ROBOT::ROBOT_JOB")).eState);) {
+      check(Date.now() < end, "no job runs");
+      await new Promise((done) => setTimeout(done, 20));
+    }
+    await ask("Stop Robot");
+    await sees(page, "The robot is in mid-job: ");
+    await press(page, "Stop Robot");
+    await sees(page, `${node}: module Robot is stopped`);
+    check(await state_of("Robot") === "stopped", "it was not stopped");
+    await browser.judge(page, "module-stopped");
+    const robot = await browser.open("robot", { width: 1280, height: 900 });
+    await sees(robot, "Module Robot is stopped: the robot cannot be moved. Start it on the overview.");
+    await sees(robot, "does not run");
+    await sees_no(robot, "moving");
+    check(await robot.$$eval(".jog", (all) => all.length > 0 && all.every((one) => one.matches(":disabled"))), "a button can be pressed");
+    await browser.judge(robot, "robot-stopped");
+    await page.evaluate(() => { location.hash = "#/alarms"; });
+    await sees(page, "module Robot is stopped");
+    await sees(page, "active, not acknowledged");
+    await page.evaluate(() => { location.hash = "#/overview"; });
+    await page.locator("::-p-aria(Start Robot)").click();
+    await sees_no(page, "module Robot is stopped");
+    await sees_no(robot, "the robot cannot be moved");
+    await robot.close();
+    await page.evaluate(() => { location.hash = "#/alarms"; });
+    await press(page, "Acknowledge all");
+    await page.close();
   },
 
   async "A server and a node that go are missed, and found again"() {

@@ -18,22 +18,26 @@ await browser.run({
     await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true });
     await page.waitForFunction(() => document.querySelectorAll(".network .power").length > 0);
     await browser.judge(page, "plc-phone");
+    await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
+    await browser.judge(page, "plc-phone-dark");
+    await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "light" }]);
     await page.setViewport({ width: 1280, height: 900 });
     // From a contact to its variable, and a force.
     await page.waitForSelector("a[aria-label^='conveyor::stop,']");  // the page was loaded anew with its size
     await page.evaluate(() => document.querySelector("a[aria-label^='conveyor::stop,']").dispatchEvent(new MouseEvent("click", { bubbles: true })));
-    const field = "[aria-label='New value of conveyor::stop']";
+    const field = "[aria-label='New value of conveyor::stop']";  // beside the ladder
     await page.waitForSelector(field);
     await page.select(field, "true");
     await page.select("[aria-label='How long to force']", "3");  // until released
     await press(page, "Force");
     await sees(page, "1 value is forced");
-    await page.evaluate(() => { location.hash = "#/plc"; });
     await sees(page, "Start and stop the conveyor");
+    await page.waitForSelector("a[aria-label^='conveyor::stop,'][aria-label$='forced'] rect.forced");
     const first = () => document.querySelector("[aria-label^='Network 1: ']")?.getAttribute("aria-label") ?? "nothing is there";
     await page.waitForFunction(() => document.querySelector("[aria-label^='Network 1: ']")?.getAttribute("aria-label").includes("stop off"))
       .catch(async () => { throw new Error(`the contact is not open: ${await page.evaluate(first)}`); });
     check((await powered(page)) < before + 4, "power flows although stop is forced");
+    await browser.judge(page, "plc-forced-wide");
   },
 
   async "One of several programs is chosen, and stays chosen"() {

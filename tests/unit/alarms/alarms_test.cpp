@@ -182,6 +182,20 @@ TEST_F(Alarms, Are_acknowledged_by_name_part_or_glob) {
   EXPECT_THAT(*done, IsEmpty());
 }
 
+TEST_F(Alarms, Of_modules_are_acknowledged_by_their_whole_names) {
+  auto sut = journal();
+  EXPECT_EQ(add(sut, module_alarm("Robot"), Event::Raised), "");
+  EXPECT_EQ(add(sut, module_alarm("estop"), Event::Raised), "");
+  AlarmOrder order;
+  order.names = {"module Robot"};
+  auto done = carry_out(sut, declared(), order);
+  ASSERT_TRUE(done.ok());
+  EXPECT_THAT(*done, ElementsAre("module Robot"));
+  order.names = {"module"};
+  done = carry_out(sut, declared(), order);
+  EXPECT_FALSE(done.ok());
+}
+
 TEST_F(Alarms, A_wrong_name_changes_nothing) {
   auto sut = journal();
   EXPECT_EQ(add(sut, "press::door", Event::Raised), "");

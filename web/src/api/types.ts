@@ -39,7 +39,7 @@ export interface PlcNetwork {
   height: number;
   rail: boolean;
   wires: [number, number, number, number][];
-  switches: { x: number; y: number; name: string }[];
+  switches: { x: number; y: number; name: string; coil: boolean }[];
   values: [number, number][];
 }
 

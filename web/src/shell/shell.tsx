@@ -22,7 +22,6 @@ function Navigation({ views }: { views: View[] }) {
   const { view, query } = useStore(place);
   const board = query.get("board");
   const alarms = useBoard()?.alarms.unacknowledged ?? 0;
-  useEffect(() => document.querySelector("nav a[aria-current]")?.scrollIntoView({ block: "nearest", inline: "nearest" }), [view]);  // on phones
   return (
     <nav aria-label="Views">
       <ul>
@@ -63,7 +62,11 @@ function BoardChoice() {
   return (
     <label class="choice">Board{" "}
       <select value={board.board} onChange={(event) => change_query({ board: event.currentTarget.value })}>
-        {boards.map((one) => <option key={one.board} value={one.board}>{one.board}{one.alive ? "" : one.here ? " (gone)" : " (not heard)"}</option>)}
+        {boards.filter(({ alive, here }) => alive || !here).map((one) => <option key={one.board} value={one.board}>{one.board}{one.alive ? "" : " (not heard)"}</option>)}
+        {boards.some(({ alive, here }) => !alive && here) && (
+          <optgroup label="Ended">
+            {boards.filter(({ alive, here }) => !alive && here).map(({ board: name }) => <option key={name} value={name}>{name}</option>)}
+          </optgroup>)}
       </select>
     </label>);
 }

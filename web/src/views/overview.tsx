@@ -5,11 +5,12 @@ import { useState } from "preact/hooks";
 import { board_path, get, post, words } from "../api/http";
 import type { Board, BoardSummary, Fault, Module } from "../api/types";
 import { plant } from "../shell/plant";
-import { address } from "../ui/address";
+import { address, place } from "../ui/address";
 import { count, percent, plural, span } from "../ui/format";
 import { useAsked, useStore } from "../ui/store";
-import { Figure, Panel, Waiting } from "../ui/parts";
-import { PlantPanel, usePlant } from "./plant";
+import { Figure, Figures, Panel, Waiting } from "../ui/parts";
+import { PlantPanel, SHOWN_ID, usePlant } from "./plant";
+import { StopQuestion } from "./stopping";
 
 const EVERY_MS = 2000;
 
@@ -60,20 +61,23 @@ function Orders({ board, module, done }: { board: string; module: Module; done: 
     }
     done();
   };
+  const [asked, ask] = useState("");
   const stopped = !["running", "starting"].includes(module.state);
   return (
     <span class="orders">
-      <button type="button" onClick={() => order(stopped ? "start" : "stop")} aria-label={`${stopped ? "Start" : "Stop"} ${module.name}`}>
+      <button type="button" onClick={() => (stopped ? order("start") : ask("stop"))} aria-label={`${stopped ? "Start" : "Stop"} ${module.name}`}>
         {stopped ? "start" : "stop"}</button>
-      <button type="button" onClick={() => order("restart")} aria-label={`Restart ${module.name}`}>restart</button>
+      <button type="button" onClick={() => (stopped ? order("restart") : ask("restart"))} aria-label={`Restart ${module.name}`}>restart</button>
+      {asked && <StopQuestion board={board} module={module.name} what={asked} close={() => ask("")} agree={() => { ask(""); void order(asked); }} />}
       {said && <span class="bad" role="alert">{said}</span>}
     </span>);
 }
 
+const STATE_LOOKS: Record<string, string> = { running: "", exited: "", stopped: "bad", faulted: "bad" };
+
 function Modules({ board, modules, may_write, done }: { board: string; modules: Module[]; may_write: boolean; done: () => void }) {
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label={`Modules of ${board}`}>
-      <table class="figures">
+    <Figures label={`Modules of ${board}`}>
         <thead>
           <tr><th scope="col">Module</th><th scope="col">State</th><th scope="col">Released</th><th scope="col" class="number">Runs</th>
             <th scope="col" class="number">Skipped</th><th scope="col" class="number">Overruns</th><th scope="col" class="number">Takes (mean)</th>
@@ -83,7 +87,7 @@ function Modules({ board, modules, may_write, done }: { board: string; modules: 
           {modules.map((module) => (
             <tr key={module.name}>
               <th scope="row">{module.name}{module.last_fault && <span class="fault-text">{module.last_fault}</span>}</th>
-              <td class={module.state === "running" ? "" : "warn"}>{module.state}</td>
+              <td class={STATE_LOOKS[module.state] ?? "warn"}>{module.state}</td>
               <td>{module.period_ns ? `every ${span(module.period_ns)}` : module.operation}</td>
               <td class="number">{count(module.runs)}</td>
               <td class={`number ${module.skipped ? "warn" : ""}`}>{count(module.skipped)}</td>
@@ -94,8 +98,7 @@ function Modules({ board, modules, may_write, done }: { board: string; modules: 
               {may_write && <td><Orders board={board} module={module} done={done} /></td>}
             </tr>))}
         </tbody>
-      </table>
-    </div>);
+    </Figures>);
 }
 
 const MOST_LINES = 8;
@@ -136,7 +139,7 @@ function BoardCard({ summary }: { summary: BoardSummary }) {
           <Figure name="Overruns" value={count(summary.overruns)} bad={summary.overruns > 0} />
           <Figure name="Faults" value={count(summary.faults)} bad={summary.faults > 0} />
           <Figure name="Forced" value={count(summary.forces)} warn={summary.forces > 0} />
-          <Figure name="Deployment" value={summary.deployment || "started by hand"} />
+          <Figure name="Deployment" value={summary.deployment ? summary.deployment.slice(0, SHOWN_ID) : "started by hand"} hint={summary.deployment || undefined} />
         </dl>
         {not_exact && <p class="warn">Not real time: {not_exact}</p>}
         <Modules board={summary.board} modules={value.modules} may_write={!!status?.may_write} done={again} />
@@ -158,44 +161,54 @@ function FarCard({ summary }: { summary: BoardSummary }) {
     </details>);
 }
 
+function first_of(trouble: string[]): string {
+  return `${trouble[0] ?? "something is wrong"}${trouble.length > 1 ? `, and ${trouble.length - 1} more` : ""}.`;
+}
+
+// Boards that were running while this page was open. Of those that ended before it says nothing by itself.
+const seen = new Set<string>();
+plant.listen(() => plant.get().boards?.forEach(({ board, alive }) => alive && seen.add(board)));
+
 // One sentence for the whole plant.
-function Headline({ boards, far }: { boards: BoardSummary[]; far: string[] }) {
-  const running = boards.filter(({ alive }) => alive);
+function Headline({ running, gone, far }: { running: BoardSummary[]; gone: BoardSummary[]; far: string[] }) {
   const wrong = running.filter(({ trouble, faults, overruns }) => trouble.length > 0 || faults > 0 || overruns > 0);
-  const gone = boards.length - running.length;
   const forced = running.reduce((sum, { forces }) => sum + forces, 0);
   const parts = far.map((text) => `${text[0].toUpperCase()}${text.slice(1)}.`);
-  if (wrong.length > 0) parts.push(...wrong.map(({ board, trouble }) => `${board}: ${trouble[0] ?? "something is wrong"}.`));
+  if (wrong.length > 0) parts.push(...wrong.map(({ board, trouble }) => `${board}: ${first_of(trouble)}`));
   else if (running.length > 0) parts.push(running.length === 1 ? "The board runs, nothing is wrong." : `All ${running.length} boards that run are well.`);
   else if (far.length === 0) parts.push("No board runs.");
-  if (gone > 0 && running.length > 0) parts.push(`${plural(gone, "board does", "boards do")} not run.`);
+  if (gone.length > 0 && running.length > 0) parts.push(`${gone.map(({ board }) => board).join(", ")} ${gone.length === 1 ? "does" : "do"} not run any more.`);
   if (forced > 0) parts.push(`${plural(forced, "value is", "values are")} forced.`);
-  return <p class={`headline ${far.length + wrong.length > 0 || running.length === 0 ? "is-bad" : gone > 0 || forced > 0 ? "is-warn" : "is-good"}`}>{parts.join(" ")}</p>;
+  return <p class={`headline ${far.length + wrong.length + gone.length > 0 || running.length === 0 ? "is-bad" : forced > 0 ? "is-warn" : "is-good"}`}>{parts.join(" ")}</p>;
 }
 
 export function Overview() {
   const { boards: all, status } = useStore(plant);
+  const chosen = useStore(place).query.get("board");
   const far = usePlant();
   if (!all) return <Waiting />;
   const boards = all.filter(({ here }) => here);  // the others are the plant's
   // Boards of this host say themselves what is wrong with them.
   const silent = far.value?.trouble.filter((text) => !boards.some(({ board, alive }) => alive && text.startsWith(`board ${board}:`))) ?? [];
   const elsewhere = [...silent, ...all.filter(({ here, alive, trouble }) => !here && alive && trouble.length > 0).map(({ board, trouble }) => `${board}: ${trouble[0]}`)];
-  const rank = ({ alive, faults, trouble }: BoardSummary) => (!alive ? 3 : faults > 0 ? 0 : trouble.length > 0 ? 1 : 2);
+  const rank = ({ faults, trouble }: BoardSummary) => (faults > 0 ? 0 : trouble.length > 0 ? 1 : 2);
   const sorted = [...boards].sort((a, b) => rank(a) - rank(b) || a.board.localeCompare(b.board));
-  const gone = sorted.filter(({ alive }) => !alive);
-  const shown = gone.length > 3 ? sorted.filter(({ alive }) => alive) : sorted;
+  const running = sorted.filter(({ alive }) => alive);
+  const gone = sorted.filter(({ alive, board }) => !alive && seen.has(board));
+  const shown = [...running, ...sorted.filter((one) => !one.alive && (gone.includes(one) || one.board === chosen))];
+  const ended = sorted.filter((one) => !shown.includes(one));
   return (
     <>
-      {(boards.length > 0 || elsewhere.length > 0) && <Headline boards={sorted} far={elsewhere} />}
+      {(boards.length > 0 || elsewhere.length > 0) && <Headline running={running} gone={gone} far={elsewhere} />}
       {status?.plant && <PlantPanel value={far.value} error={far.error} />}
       <div class="cards">{shown.map((summary) => <BoardCard key={summary.board} summary={summary} />)}</div>
       {all.filter(({ here, alive }) => !here && alive).map((summary) => <FarCard key={summary.board} summary={summary} />)}
-      {shown.length < sorted.length && (
+      {ended.length > 0 && (
         <details class="panel">
-          <summary>{plural(gone.length, "board")} that ended and left their last values</summary>
-          <ul class="plain">{gone.map(({ board, state, trouble }) => (
-            <li key={board}><a href={address("variables", { board })}>{board}</a>: {trouble[0] ?? state}</li>))}</ul>
+          <summary>{plural(ended.length, "board")} that ended and left {ended.length === 1 ? "its" : "their"} last values</summary>
+          <ul class="plain">{ended.map(({ board, state, trouble }) => (
+            <li key={board}><a href={address("overview", { board })}>{board}</a>: {trouble[0] ?? state}</li>))}</ul>
+          <p class="quiet">They are looked at by choosing them above. <code>indurop clean</code> removes what they left.</p>
         </details>)}
     </>);
 }

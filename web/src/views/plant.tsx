@@ -6,11 +6,11 @@ import type { FarBoard, PlantNow } from "../api/types";
 import { plant as here } from "../shell/plant";
 import { address } from "../ui/address";
 import { count, span } from "../ui/format";
-import { Panel, Waiting } from "../ui/parts";
+import { Figures, Panel, Waiting } from "../ui/parts";
 import { type Asked, useAsked, useStore } from "../ui/store";
 
 const EVERY_MS = 1000;
-const SHOWN_ID = 12;
+export const SHOWN_ID = 12;  // letters of a deployment's id
 
 function Row({ row }: { row: FarBoard }) {
   const { boards } = useStore(here);
@@ -23,7 +23,7 @@ function Row({ row }: { row: FarBoard }) {
         {row.heard && row.phase !== "steady" ? `, ${row.phase}` : ""}</td>
       <td>{row.host}</td>
       <td>{row.plant || "-"}</td>
-      <td>{row.deployment ? row.deployment.slice(0, SHOWN_ID) : "-"}</td>
+      <td title={row.deployment}>{row.deployment ? row.deployment.slice(0, SHOWN_ID) : "-"}</td>
       <td class="number">{count(row.tick)}</td>
       <td class={`number ${row.lost_ticks ? "warn" : ""}`}>{count(row.lost_ticks)}</td>
       <td class={`number ${row.overruns ? "warn" : ""}`}>{count(row.overruns)}</td>
@@ -56,14 +56,12 @@ export function PlantPanel({ value, error }: { value: PlantNow | null; error: st
       {value.trouble.length > 0 && <ul class="troubles">{value.trouble.map((text) => <li class="warning" key={text}>{text}</li>)}</ul>}
       {value.boards.length === 0 && <p class="quiet">No board was heard on domain {value.domain}. Boards have an agent: indurop-agent --board NAME.</p>}
       {value.boards.length > 0 && (
-        <div class="scroll" tabIndex={0} role="region" aria-label="Boards of the plant">
-          <table class="figures">
+        <Figures label="Boards of the plant">
             <thead><tr><th scope="col">Board</th><th scope="col">State</th><th scope="col">Host</th><th scope="col">Plant</th><th scope="col">Deployment</th>
               <th scope="col" class="number">Tick</th><th scope="col" class="number">Lost</th><th scope="col" class="number">Overruns</th>
               <th scope="col" class="number">Faults</th><th scope="col" class="number">Heard</th></tr></thead>
             <tbody>{value.boards.map((row) => <Row key={row.board} row={row} />)}</tbody>
-          </table>
-        </div>)}
+        </Figures>)}
       <p><a href={address("deployments")}>What was deployed, what differs, and the way back</a></p>
     </Panel>);
 }

@@ -7,7 +7,7 @@ import type { Alarm, AlarmEvent, Alarms as All, Message } from "../../api/types"
 import { plant, useBoard } from "../../shell/plant";
 import { address } from "../../ui/address";
 import { clock, plural, span } from "../../ui/format";
-import { Panel, Waiting } from "../../ui/parts";
+import { Figures, Panel, Waiting } from "../../ui/parts";
 import { useAsked, useStore } from "../../ui/store";
 
 const EVERY_MS = 5000;  // besides what the stream tells at once
@@ -38,7 +38,7 @@ function More({ alarm }: { alarm: Alarm }) {
 
 function List({ board, alarms, for_ns, order }: { board: string; alarms: Alarm[]; for_ns: number; order: Order | null }) {
   return (
-    <table class="figures alarms">
+    <Figures label="Alarms" more="alarms">
       <thead>
         <tr><th scope="col">Priority</th><th scope="col">Alarm</th><th scope="col">State</th><th scope="col">Since</th>
           <th scope="col">Value</th><th scope="col" class="number">Raised</th>{order && <th scope="col">Orders</th>}</tr>
@@ -47,17 +47,17 @@ function List({ board, alarms, for_ns, order }: { board: string; alarms: Alarm[]
         {alarms.map((alarm) => (
           <tr key={alarm.alarm} class={alarm.state === "normal" || alarm.state === "shelved" ? "is-quiet" : ""}>
             <td><span class={`priority ${alarm.priority}`}>{alarm.priority}</span></td>
-            <th scope="row" class="what">{alarm.text}
+            <th scope="row" class="what message">{alarm.text}
               <small>{alarm.name ? <a href={address("variables", { board, v: alarm.name })}>{alarm.alarm}</a> : alarm.alarm}
                 {alarm.unit && ` ${alarm.unit}`}{alarm.delay_ns > 0 && `, after ${span(alarm.delay_ns)}`}</small></th>
-            <td class="what"><More alarm={alarm} /></td>
-            <td class="when" data-name="Since">{alarm.since_wall_ns ? clock(alarm.since_wall_ns) : "-"}</td>
-            <td data-name="Value">{alarm.value || "-"}</td>
-            <td class="number" data-name="Raised">{plural(alarm.count, "time")}</td>
-            {order && <td><Orders alarm={alarm} for_ns={for_ns} order={order} /></td>}
+            <td class="what wide"><More alarm={alarm} /></td>
+            <td class="when">{alarm.since_wall_ns ? clock(alarm.since_wall_ns) : "-"}</td>
+            <td>{alarm.value || "-"}</td>
+            <td class="number">{plural(alarm.count, "time")}</td>
+            {order && <td class="wide"><Orders alarm={alarm} for_ns={for_ns} order={order} /></td>}
           </tr>))}
       </tbody>
-    </table>);
+    </Figures>);
 }
 
 function History({ board, revision }: { board: string; revision: string }) {
@@ -67,19 +67,17 @@ function History({ board, revision }: { board: string; revision: string }) {
   if (!value) return <Waiting />;
   if (value.events.length === 0) return <p class="quiet">Nothing happened yet.</p>;
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label="Events">
-      <table class="figures">
+    <Figures label="Events" more="events">
         <thead><tr><th scope="col">Time</th><th scope="col">Event</th><th scope="col">Alarm</th><th scope="col">Value</th><th scope="col">Who and why</th></tr></thead>
         <tbody>
           {[...value.events].reverse().map((one, i) => (
             <tr key={`${one.wall_ns} ${i}`}>
               <td>{clock(one.wall_ns)}</td><td class={one.event === "raised" ? "bad" : ""}>{one.event}</td>
-              <td>{one.text} <span class="quiet">({one.alarm})</span></td><td>{one.value ?? "-"}</td>
+              <td class="message">{one.text} <span class="quiet">({one.alarm})</span></td><td>{one.value ?? "-"}</td>
               <td>{[one.who, one.reason].filter(Boolean).join(": ") || "-"}</td>
             </tr>))}
         </tbody>
-      </table>
-    </div>);
+    </Figures>);
 }
 
 function Messages({ board }: { board: string }) {
@@ -88,17 +86,15 @@ function Messages({ board }: { board: string }) {
   if (!value) return <Waiting />;
   if (value.messages.length === 0) return <p class="quiet">No module has printed anything.</p>;
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label="Messages">
-      <table class="figures">
+    <Figures label="Messages" more="events">
         <thead><tr><th scope="col">After</th><th scope="col" class="number">Tick</th><th scope="col">Module</th><th scope="col">Message</th></tr></thead>
         <tbody>
           {[...value.messages].reverse().map((one, i) => (
             <tr key={`${one.time_ns} ${i}`}>
-              <td>{span(Math.max(one.time_ns - value.epoch_ns, 0))}</td><td class="number">{one.tick}</td><td>{one.who}</td><td>{one.text}</td>
+              <td>{span(Math.max(one.time_ns - value.epoch_ns, 0))}</td><td class="number">{one.tick}</td><td>{one.who}</td><td class="message">{one.text}</td>
             </tr>))}
         </tbody>
-      </table>
-    </div>);
+    </Figures>);
 }
 
 export function Alarms() {
@@ -130,8 +126,9 @@ export function Alarms() {
         {error && <p class="bad">{error}</p>}
         {!value && !error && <Waiting />}
         {value && !value.watched && value.declared > 0 && summary.alive && <p class="warn">Nobody looks at the conditions of these alarms yet.</p>}
-        {value && value.declared === 0 && <p class="quiet">No variable of this board declares an alarm: <code>bool open @alarm("the door is open", high);</code></p>}
-        {value && value.declared > 0 && (
+        {value && value.declared === 0 && <p class="quiet">Here stands what somebody has to do something about, until it is acknowledged. Modules that do not run are always alarms; no variable
+          of this board declares one yet: <code>bool open @alarm("the door is open", high);</code></p>}
+        {value && (value.declared > 0 || value.alarms.length > 0) && (
           <div class="bar">
             <button type="button" aria-pressed={all} onClick={() => show(!all)}>All {value.declared} declared</button>
             {status?.may_write && <>
@@ -143,7 +140,7 @@ export function Alarms() {
           </div>)}
         <p role="status" class={said.bad ? "bad" : "good"}>{said.text}</p>
         {value && value.alarms.length > 0 && <List board={board} alarms={value.alarms} for_ns={SHELVE_FOR[shelve][1]} order={status?.may_write ? order : null} />}
-        {value && value.declared > 0 && value.alarms.length === 0 && <p class="good">All alarms are normal.</p>}
+        {value && value.alarms.length === 0 && <p class="good">All alarms are normal.</p>}
       </Panel>
       <Panel title="Events"><History board={board} revision={revision} /></Panel>
       <Panel title="Messages"><Messages board={board} /></Panel>

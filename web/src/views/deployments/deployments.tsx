@@ -7,7 +7,7 @@ import type { Deployment } from "../../api/types";
 import { plant } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { clock } from "../../ui/format";
-import { Panel, Waiting } from "../../ui/parts";
+import { Figures, Panel, Waiting } from "../../ui/parts";
 import { useAsked, useStore } from "../../ui/store";
 import { usePlant } from "../plant";
 import { Difference, shown_id } from "./difference";
@@ -25,8 +25,7 @@ interface Choice {
 function Rows({ all, before, after, back }: Choice) {
   const { status } = useStore(plant);
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label="Deployments">
-      <table class="figures deployments">
+    <Figures label="Deployments" more="deployments">
         <thead><tr><th scope="col">Before</th><th scope="col">After</th><th scope="col">Deployment</th><th scope="col">Back to it</th><th scope="col">Plant</th><th scope="col">When</th>
           <th scope="col">From</th><th scope="col">Boards</th><th scope="col">Outcome</th></tr></thead>
         <tbody>{all.map((one) => {
@@ -37,15 +36,14 @@ function Rows({ all, before, after, back }: Choice) {
                 onChange={() => change_query({ before: one.deployment })} /></td>
               <td><input type="radio" name="after" aria-label={`Compare to ${name}`} checked={after === one.deployment}
                 onChange={() => change_query({ after: one.deployment })} /></td>
-              <th scope="row">{shown_id(one.deployment)}{one.current && <span class="chip good">runs now</span>}</th>
+              <th scope="row" title={one.deployment}>{shown_id(one.deployment)}{one.current && <span class="chip good">runs now</span>}</th>
               <td>{status?.may_write && !one.current && one.outcome === "committed" &&
                 <button type="button" aria-label={`Roll back to ${name}`} onClick={() => back(one)}>Roll back</button>}</td>
               <td>{one.plant}</td><td>{clock(one.wall_ns)}</td><td>{one.host}</td><td class="boards">{one.boards.join(", ")}</td>
               <td class={one.outcome === "committed" ? "" : "warn"}>{one.outcome}</td>
             </tr>);
         })}</tbody>
-      </table>
-    </div>);
+    </Figures>);
 }
 
 // Asked once more, for it ends what runs.
@@ -97,7 +95,7 @@ export function Deployments() {
       {error && <p class="bad">{error}</p>}
       {to && <Confirm key={to.deployment} to={to} give_up={() => choose(null)} done={again} />}
       <Panel title="Deployments">
-        {all.length === 0 && <p class="quiet">Nothing was deployed: nodes here were started by hand.</p>}
+        {all.length === 0 && <p class="quiet">Here stands what was put to work on the boards and when, what differs between two of it, and the way back. Nothing was deployed: nodes here were started by hand.</p>}
         {all.length > 0 && <Rows all={all} before={before} after={after} back={choose} />}
         {!status?.plant && <p class="quiet">What was deployed before is known to the agents of boards: indurop serve --plant</p>}
       </Panel>

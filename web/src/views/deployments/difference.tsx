@@ -6,8 +6,8 @@ import type { ChangedFile } from "../../api/types";
 import { plural } from "../../ui/format";
 import { Panel, Waiting } from "../../ui/parts";
 import { useAsked } from "../../ui/store";
+import { SHOWN_ID } from "../plant";
 
-const SHOWN_ID = 12;
 const PATIENCE_MS = 60_000;
 const SIGN = { added: "+", removed: "-", same: " " };
 

@@ -7,11 +7,16 @@ import type { PlcBody, PlcBodyLive, PlcChart, PlcLive, PlcNetwork, PlcNetworkLiv
 import { plant, useBoard } from "../../shell/plant";
 import { address, change_query, place } from "../../ui/address";
 import { Panel, Waiting } from "../../ui/parts";
+import { part_named } from "../../ui/paths";
 import { useAsked, useStore } from "../../ui/store";
+import { Detail } from "../variables/detail";
+import { Forces } from "../variables/forces";
+import { useLive } from "../variables/live";
 
 const EVERY_MS = 200;
 const SWITCH_PX = 27;
 const SWITCH_HIGH_PX = 22;
+const SMALLEST = 0.62;  // of its size: a drawing that is wider than a phone, and still read
 
 type Find = (name: string) => string | null;  // the shared variable behind a name of the program
 
@@ -30,29 +35,51 @@ function finder(space: string, names: string[]): Find {
   };
 }
 
-function Network({ network, live, find, board }: { network: PlcNetwork; live: PlcNetworkLive | undefined; find: Find; board: string }) {
+interface Place {
+  find: Find;
+  address_of: (variable: string) => string;
+  forced: Set<string>;
+}
+
+// What the network does, where its right end is out of sight.
+function Coils({ network, live, place: { find, address_of } }: { network: PlcNetwork; live: PlcNetworkLive | undefined; place: Place }) {
+  const coils = network.switches.map((one, i) => ({ ...one, is_on: on(live?.closed, i) })).filter(({ coil }) => coil);
+  return (
+    <p class="coils">{coils.map(({ name, is_on, x, y }) => {
+      const variable = find(name);
+      const chip = <span class={`chip ${is_on ? "good" : "quiet"}`}>{name} {is_on ? "on" : "off"}</span>;
+      return variable ? <a key={`${x} ${y}`} href={address_of(variable)}>{chip}</a> : <span key={`${x} ${y}`}>{chip}</span>;
+    })}</p>);
+}
+
+function Network({ network, live, place }: { network: PlcNetwork; live: PlcNetworkLive | undefined; place: Place }) {
   const { number, remarks, svg, width, height, rail, wires, switches, values } = network;
+  const wide = width + 94;
   return (
     <figure class="network">
       <figcaption><span class="rung">{number}</span> {remarks.join(" ")}</figcaption>
       <div class="scroll" tabIndex={0} role="region" aria-label={`Network ${number}`}>
-        <svg viewBox={`-4 -4 ${width + 90} ${height + 8}`} width={width + 94} height={height + 8} role="group" aria-label={`Network ${number}: ${said(network, live)}`}>
+        <svg viewBox={`-4 -4 ${width + 90} ${height + 8}`} style={{ width: `${wide}px`, maxWidth: `max(100%, ${wide * SMALLEST}px)`, height: "auto" }}
+          role="group" aria-label={`Network ${number}: ${said(network, live)}`}>
           {rail && live && <line class="power" x1={4.5} y1={0} x2={4.5} y2={height} />}
           {wires.map(([x1, y1, x2, y2], i) => on(live?.power, i) && <line key={i} class="power" x1={x1} y1={y1} x2={x2} y2={y2} />)}
           {switches.map(({ x, y }, i) => on(live?.closed, i) &&
             <rect key={i} class="closed" x={x} y={y - SWITCH_HIGH_PX / 2} width={SWITCH_PX} height={SWITCH_HIGH_PX} rx={4} />)}
-          <g dangerouslySetInnerHTML={{ __html: svg }} />
+          <g class="drawn" dangerouslySetInnerHTML={{ __html: svg }} />
           {values.map(([x, y], i) => live?.values[i] && <text key={i} class="value" x={x} y={y - 5}>{live.values[i]}</text>)}
           {switches.map(({ x, y, name }, i) => {
-            const variable = find(name);
+            const variable = place.find(name);
+            const is_forced = variable !== null && place.forced.has(variable);
             return variable && (
-              <a key={i} href={address("variables", { board, v: variable })} aria-label={`${variable}, ${on(live?.closed, i) ? "lets power through" : "does not let power through"}`}>
-                <title>{`${variable}: show, set, force`}</title>
-                <rect class="hit" x={x - 6} y={y - 32} width={SWITCH_PX + 12} height={44} />
+              <a key={i} href={place.address_of(variable)} aria-label={`${variable}, ${on(live?.closed, i) ? "lets power through" : "does not let power through"}${is_forced ? ", forced" : ""}`}>
+                <title>{`${variable}: show, set, force${is_forced ? "; forced" : ""}`}</title>
+                <rect class={`hit ${is_forced ? "forced" : ""}`} x={x - 6} y={y - 32} width={SWITCH_PX + 12} height={44} />
+                {is_forced && <text class="forced" x={x + SWITCH_PX / 2} y={y + 23} text-anchor="middle">forced</text>}
               </a>);
           })}
         </svg>
       </div>
+      <Coils network={network} live={live} place={place} />
     </figure>);
 }
 
@@ -68,7 +95,7 @@ function Chart({ chart, live, title }: { chart: PlcChart; live: PlcBodyLive | un
       <div class="scroll" tabIndex={0} role="region" aria-label={`Chart ${title}`}>
         <svg viewBox={`-4 -4 ${chart.width + 60} ${chart.height + 8}`} width={chart.width + 64} height={chart.height + 8} role="img"
           aria-label={`Active: ${chart.steps.filter((_, i) => on(live?.active, i)).map(({ name }) => name).join(", ") || "no step"}`}>
-          <g dangerouslySetInnerHTML={{ __html: chart.svg }} />
+          <g class="drawn" dangerouslySetInnerHTML={{ __html: chart.svg }} />
           {chart.steps.map(({ name, box: [x, y, width, height] }, i) => on(live?.active, i) && (
             <g key={name}>
               <rect class="active" x={x} y={y} width={width} height={height} rx={3} />
@@ -89,11 +116,11 @@ function Lines({ lines, values, title }: { lines: string[]; values: string[] | u
     </div>);
 }
 
-function Body({ body, live, find, board }: { body: PlcBody; live: PlcBodyLive | undefined; find: Find; board: string }) {
+function Body({ body, live, place }: { body: PlcBody; live: PlcBodyLive | undefined; place: Place }) {
   const title = body.action ? `${body.title}, action ${body.action}` : body.title;
   return (
     <Panel title={title} state={body.language} good>
-      {body.networks?.map((network, i) => <Network key={network.number} network={network} live={live?.networks?.[i]} find={find} board={board} />)}
+      {body.networks?.map((network, i) => <Network key={network.number} network={network} live={live?.networks?.[i]} place={place} />)}
       {body.chart && <Chart chart={body.chart} live={live} title={title} />}
       {body.lines && <Lines lines={body.lines} values={live?.values} title={title} />}
     </Panel>);
@@ -103,16 +130,27 @@ export function Plc() {
   const board = useBoard();
   const { status } = useStore(plant);
   const name = board && status?.plc ? board.board : "";
-  const chosen = useStore(place).query.get("p") ?? "";
+  const { query } = useStore(place);
+  const chosen = query.get("p") ?? "";
+  const wanted = query.get("v") ?? "";
   const which = (program: string) => (program ? `?program=${encodeURIComponent(program)}` : "");
   const program = useAsked(name && `${name} ${board?.layout} ${chosen}`, 0, () => get<PlcProgram>(board_path(name, `/plc${which(chosen)}`)), words);
   const shared = useAsked(name && `${name} ${board?.layout}`, 0, () => get<Variables>(board_path(name, "/variables?values=false")), words);
   const now = useAsked(program.value ? `${name} ${board?.layout} ${program.value.program} live` : "", EVERY_MS,
     () => get<PlcLive>(board_path(name, `/plc/live${which(program.value!.program)}`)), words);
   const find = useMemo(() => finder(program.value?.namespace ?? "", shared.value?.variables.map((one) => one.name) ?? []), [program.value, shared.value]);
+  const variables = shared.value?.variables ?? [];
+  const switched = useMemo(() => [...new Set(program.value?.bodies.flatMap(({ networks }) => networks ?? []).flatMap(({ switches }) => switches)
+    .map(({ name }) => find(name)).filter((name) => name !== null) ?? [])], [program.value, find]);
+  const chosen_part = useMemo(() => (wanted ? part_named(variables, wanted) : null), [variables, wanted]);
+  const followed = chosen_part && !switched.includes(chosen_part.variable.name) ? [...switched, chosen_part.variable.name] : switched;
+  const values = useLive(board?.board ?? "", followed);
   if (status && !status.plc) {
-    return <p class="panel">This server knows no PLC program. Build one with <code>indurop plc build FILE --watch</code>, and start the server
-      with <code>indurop serve --plc FILE</code>.</p>;
+    return (
+      <div class="panel">
+        <p>Here a PLC program is seen as it runs: power in ladders and function blocks, active steps of charts, values beside lines of text. Contacts are forced where they stand.</p>
+        <p class="quiet">This server knows no PLC program. Build one with <code>indurop plc build FILE --watch</code>, and start the server with <code>indurop serve --plc FILE</code>.</p>
+      </div>);
   }
   if (program.error) {
     return (
@@ -122,17 +160,27 @@ export function Plc() {
       </>);
   }
   if (!board || !program.value) return <Waiting />;
+  const where: Place = {
+    find, forced: values.forced,
+    address_of: (v) => address("plc", { board: board.board, ...(chosen ? { p: chosen } : {}), v }),
+  };
   return (
-    <div class="plc">
-      {program.value.programs.length > 1 && (
-        <div class="bar"><label class="choice">Program{" "}
-          <select value={program.value.program} onChange={(event) => change_query({ p: event.currentTarget.value })}>
-            {program.value.programs.map((one) => <option key={one}>{one}</option>)}
-          </select></label></div>)}
-      <p class="quiet">Green has power; a green contact or coil lets it through. Choose one to see its variable, set or force it.</p>
-      {now.error && <p class="bad">{now.error}</p>}
-      {now.value && !now.value.alive && <p class="warn">The node does not run: these are its last values.</p>}
-      {program.value.others && <p class="quiet">Not shown: {program.value.others}</p>}
-      {program.value.bodies.map((body, i) => <Body key={i} body={body} live={now.value?.bodies[i]} find={find} board={board.board} />)}
-    </div>);
+    <>
+      <Forces board={board.board} />
+      <div class={`plc variables ${chosen_part ? "with-detail" : ""}`}>
+        <div>
+          {program.value.programs.length > 1 && (
+            <div class="bar"><label class="choice">Program{" "}
+              <select value={program.value.program} onChange={(event) => change_query({ p: event.currentTarget.value })}>
+                {program.value.programs.map((one) => <option key={one}>{one}</option>)}
+              </select></label></div>)}
+          <p class="quiet">Green has power; a green contact or coil lets it through. Choose one to see its variable, set or force it.</p>
+          {now.error && <p class="bad">{now.error}</p>}
+          {now.value && !now.value.alive && <p class="warn">The node does not run: these are its last values.</p>}
+          {program.value.others && <p class="quiet">Not shown: {program.value.others}</p>}
+          {program.value.bodies.map((body, i) => <Body key={i} body={body} live={now.value?.bodies[i]} place={where} />)}
+        </div>
+        {chosen_part && <Detail board={board.board} part={chosen_part} live={values} close={() => change_query({ v: "" })} changed={shared.again} />}
+      </div>
+    </>);
 }

@@ -61,7 +61,7 @@ export function Plots() {
       {unknown.length > 0 && <p class="warn">This board has no {unknown.join(", ")}.</p>}
       <div class="plots">
         <div>
-          {charts.length === 0 && (wish.mode === "strip" || wish.expressions.length === 0) && <p class="panel">No chart yet. Click a number, or drag it here, to see it over time. The link in the address bar keeps your charts.</p>}
+          {charts.length === 0 && (wish.mode === "strip" || wish.expressions.length === 0) && <p class="panel">Here numbers are seen over time: as they come, around a trigger in every tick, or from a recording. No chart yet: click a number, or drag it here. The link in the address bar keeps your charts.</p>}
           {wish.mode === "strip" ? <Strip {...shared} layout={layout} /> : <Triggered {...shared} wish={wish} charts={charts} />}
           <p class="panel drop" onDragOver={(event) => event.preventDefault()}
             onDrop={(event) => { event.preventDefault(); add(event.dataTransfer?.getData("text/plain") ?? "", charts.length); }}>

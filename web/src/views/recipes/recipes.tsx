@@ -7,7 +7,7 @@ import type { Recipe, RecipeValues } from "../../api/types";
 import { plant, useBoard } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { clock, plural, value_text } from "../../ui/format";
-import { Panel, Waiting } from "../../ui/parts";
+import { Figures, Panel, Waiting } from "../../ui/parts";
 import { useAsked, useStore } from "../../ui/store";
 
 const EVERY_MS = 5000;
@@ -30,16 +30,14 @@ function Values({ board, name }: { board: string; name: string }) {
         <button type="button" aria-pressed={all} onClick={() => show(!all)}>All {value.values.length} values</button>
       </div>
       {shown.length > 0 && (
-        <div class="scroll" tabIndex={0} role="region" aria-label={`Values of ${name}`}>
-          <table class="figures">
+        <Figures label={`Values of ${name}`}>
             <thead><tr><th scope="col">Name</th><th scope="col" class="number">In the recipe</th><th scope="col" class="number">Now</th></tr></thead>
             <tbody>
               {shown.map(({ name: part, recipe, now, same }) => (
                 <tr key={part}><th scope="row">{part}</th><td class="number">{value_text(recipe)}</td>
                   <td class={`number ${same ? "" : "warn"}`}>{now === null ? "not there" : value_text(now)}</td></tr>))}
             </tbody>
-          </table>
-        </div>)}
+        </Figures>)}
     </>);
 }
 
@@ -86,10 +84,10 @@ export function Recipes() {
         {!value && !error && <Waiting />}
         {status?.may_write && <Save order={order} />}
         <p role="status" class={said.bad ? "bad" : "good"}>{said.text}</p>
-        {value && recipes.length === 0 && <p class="quiet">There are no recipes of this board yet.</p>}
+        {value && recipes.length === 0 && <p class="quiet">A recipe keeps parameters under a name: those of another product, or those that worked. It is compared with what is now, and loaded in one tick. There are no recipes of this board yet.{" "}
+          {status?.may_write ? "" : "To save one: indurop serve --write."}</p>}
         {recipes.length > 0 && (
-          <div class="scroll" tabIndex={0} role="region" aria-label="Recipes">
-            <table class="figures">
+          <Figures label="Recipes">
               <thead><tr><th scope="col">Recipe</th><th scope="col" class="number">Values</th><th scope="col">Saved</th><th scope="col">Comment</th>
                 {status?.may_write && <th scope="col">Orders</th>}</tr></thead>
               <tbody>
@@ -103,8 +101,7 @@ export function Recipes() {
                     </span></td>}
                   </tr>))}
               </tbody>
-            </table>
-          </div>)}
+          </Figures>)}
       </Panel>
       {recipes.some(({ recipe }) => recipe === chosen) && <Panel title={`${chosen} and what is now`}><Values board={board} name={chosen} /></Panel>}
     </>);

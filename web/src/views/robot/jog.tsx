@@ -5,6 +5,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { board_path, post, post_at_the_end, words } from "../../api/http";
 import type { RobotState } from "./state";
+import { SERVICE } from "./words";
 
 const FRAMES: [string, string][] = [
   ["axes", "Axes"],
@@ -12,8 +13,6 @@ const FRAMES: [string, string][] = [
   ["tool", "Tool along itself"],
 ];
 const DIRECTIONS = ["x", "y", "z", "roll", "pitch", "yaw"];
-const SVC_MV_STOP = 10;  // OPCODE_ROBOT_SERVICE
-const SVC_JB_STOP = 12;
 const KEEPS = 3;  // times within what the server waits
 
 // One hand: what is held down, until it is let go or lost.
@@ -57,15 +56,28 @@ class Hand {
   }
 }
 
+// Why no button moves it, in words, and what to do; empty: they do.
+function why_not(state: RobotState | null, down: string): string {
+  if (down) return `${down}: the robot cannot be moved. Start it on the overview.`;
+  if (!state) return "Nothing is known of it yet.";
+  if (state.automatic) return "Automatic mode: the robot is not moved by hand.";
+  if (!state.may_move) return "Nothing moves: the enabling switch is not held, or another mode was chosen.";
+  if (state.group === "no power") return "The drives have no power. They get it from the PLC program, when it starts the robot, or from Power on here.";
+  if (state.group.includes("error")) return "The group was stopped by an error. Once its cause is gone, reset it, here or with the PLC program.";
+  if (state.group !== "standing by") return `The group is ${state.group}: it is moved by hand when it stands by.`;
+  return "";
+}
+
 interface Props {
   board: string;
   scope: string;
   state: RobotState | null;
+  down: string;  // why the robot task does not run; empty: it does
   names: string[];
   work_frames: string[];
 }
 
-export function Jog({ board, scope, state, names, work_frames }: Props) {
+export function Jog({ board, scope, state, down, names, work_frames }: Props) {
   const [frame, choose] = useState("axes");
   const [speed, set_speed] = useState(10);
   const [said, say] = useState("");
@@ -88,8 +100,12 @@ export function Jog({ board, scope, state, names, work_frames }: Props) {
       let_go();
     };
   }, [board, scope, frame]);
+  const refused = why_not(state, down);
+  const off = refused !== "" && held === "";  // while it is held, it moves
+  useEffect(() => { if (down) let_go(); }, [down]);
   const press = (index: number, sign: number) => {
     let_go();
+    if (off) return say(refused);
     say("");
     const one = new Hand(board, (text) => { say(text); hold(""); });
     hand.current = one;
@@ -106,12 +122,14 @@ export function Jog({ board, scope, state, names, work_frames }: Props) {
       say(words(error));
     }
   };
+  const serve = (opcode: number, what: string) =>
+    void order({ ROBOT_MODULE_SERVICE: `{eOpCode: ${opcode}, nRequest: ${(state?.acknowledged ?? 0) + 1}}` }, what);
   const axes = frame === "axes" ? (state?.joint ?? []).map((_, i) => names[i] ?? `axis ${i + 1}`) : DIRECTIONS;
   const frames = [...FRAMES, ...work_frames.map((name): [string, string] => [name, `Tool along ${name}`])];
   const override = wanted ?? (Number.isFinite(state?.override_set) ? state!.override_set : 100);
   useEffect(() => want((now) => (now === state?.override_set ? null : now)), [wanted, state?.override_set]);
   const button = (index: number, sign: number, name: string) => (
-    <button type="button" class={`jog ${held === `${index} ${sign}` ? "main" : ""}`} aria-label={`${name} ${sign > 0 ? "forward" : "back"}, while held down`}
+    <button type="button" class={`jog ${held === `${index} ${sign}` ? "main" : off ? "off" : ""}`} aria-disabled={off} aria-label={`${name} ${sign > 0 ? "forward" : "back"}, while held down`}
       onPointerDown={(event) => { if (event.button === 0) { event.currentTarget.releasePointerCapture?.(event.pointerId); press(index, sign); } }}
       onPointerLeave={let_go} onContextMenu={(event) => event.preventDefault()}
       onKeyDown={(event) => { if (event.key === " " && !event.repeat) { event.preventDefault(); press(index, sign); } }}
@@ -119,15 +137,21 @@ export function Jog({ board, scope, state, names, work_frames }: Props) {
   return (
     <section class="panel" aria-label="Moving by hand">
       <h2>By hand</h2>
+      {refused && !held && <p class="warn why">{refused}</p>}
+      <fieldset disabled={!!down}>
       <div class="bar">
-        <button type="button" class="stop" onClick={() => { let_go(); void order(
-          { ROBOT_MODULE_SERVICE: `{eOpCode: ${state?.job_state === "runs" || state?.job_state === "waits" ? SVC_JB_STOP : SVC_MV_STOP}, nRequest: ${(state?.acknowledged ?? 0) + 1}}` }, "Stopped."); }}>Stop</button>
+        <button type="button" class="stop" onClick={() => {
+          let_go();
+          serve(state?.job_state === "runs" || state?.job_state === "waits" ? SERVICE.job_stop : SERVICE.stop, "Stopped.");
+        }}>Stop</button>
         <button type="button" aria-pressed={state?.hold ?? false} onClick={() => void order({ ROBOT_HOLD: state?.hold ? 0 : 1 }, state?.hold ? "Goes on." : "Held.")}>
           {state?.hold ? "Go on" : "Hold"}</button>
         <label>Override {override} % <input type="range" aria-label="Override" min={0} max={100} step={5} value={override}
           onInput={(event) => want(Number(event.currentTarget.value))}
           onChange={(event) => void order({ ROBOT_OVERRIDE: Number(event.currentTarget.value) }, `Override ${event.currentTarget.value} %.`)} /></label>
       </div>
+      {!down && state?.group === "no power" && <p><button type="button" class="main" onClick={() => serve(SERVICE.enable, "Power is asked for.")}>Power on</button></p>}
+      {!down && state?.group.includes("error") && <p><button type="button" class="main" onClick={() => serve(SERVICE.reset, "A reset is asked for.")}>Reset</button></p>}
       <div class="bar">
         <label>Moves <select value={frame} onChange={(event) => choose(event.currentTarget.value)}>
           {frames.map(([name, title]) => <option key={name} value={name}>{title}</option>)}</select></label>
@@ -136,8 +160,7 @@ export function Jog({ board, scope, state, names, work_frames }: Props) {
       <ul class="plain jogs">
         {axes.map((name, i) => <li key={name}>{button(i, -1, name)} <span>{name}</span> {button(i, 1, name)}</li>)}
       </ul>
-      {state?.automatic && <p class="warn">Automatic mode: the robot is not moved by hand.</p>}
-      {state && !state.may_move && <p class="warn">Nothing moves: the enabling switch is not held, or another mode was chosen.</p>}
+      </fieldset>
       <p role="status" class="warn">{said}</p>
       <p class="quiet">Moves while a button (or the space bar on it) is held down, at most at 250 mm/s, when the group stands by. This is no safety function: keep the emergency stop within reach.</p>
     </section>);

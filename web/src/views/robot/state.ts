@@ -4,11 +4,10 @@
 import { useEffect, useState } from "preact/hooks";
 import { decode } from "../../api/decode";
 import { stream } from "../../api/stream";
-import type { Variable } from "../../api/types";
+import type { Form, Variable } from "../../api/types";
+import { error_text, GROUP_STATES, JOB_STATES } from "./words";
 
 const RATE_HZ = 25;
-const GROUP_STATES = ["no power", "standing by", "moving", "homing", "stopping", "stopped by an error"];
-const JOB_STATES = ["idle", "runs", "waits", "has ended", "failed", "pauses"];
 
 export interface RobotState {
   joint: number[];
@@ -20,7 +19,7 @@ export interface RobotState {
   override_now: number;
   to_go: number;
   group: string;
-  error: number;
+  error: string;  // in words; empty: none
   job: string;
   job_line: number;
   job_called: string;  // whose line that is: the job itself, or one that it called
@@ -33,27 +32,35 @@ export interface RobotState {
   acknowledged: number;  // the number of the service that was taken last
 }
 
-// Namespaces that have a robot: PLC_ROBOT of PLC_ROBOT::ROBOT_ARM.
-export function scopes_of(variables: Variable[]): string[] {
+export interface Scope {
+  name: string;  // namespace that has a robot: PLC_ROBOT of PLC_ROBOT::ROBOT_ARM
+  modules: string[];  // that write it, as far as that is known
+}
+
+export function scopes_of(variables: Variable[]): Scope[] {
   return variables.filter(({ name, form }) => /(^|::)ROBOT_ARM$/.test(name) && form.kind === "struct")
-    .map(({ name }) => name.replace(/(::)?ROBOT_ARM$/, ""));
+    .map(({ name, writers }) => ({ name: name.replace(/(::)?ROBOT_ARM$/, ""), modules: writers ?? [] }));
 }
 
 function words_of(list: string[], state: unknown): string {
   return list[Number(state)] ?? `state ${state}`;
 }
 
-function state_of(values: Record<string, any>): RobotState {
+function state_of(values: Record<string, any>, errors: Record<string, number> | undefined): RobotState {
   const { arm = {}, module = {}, job = {} } = values;
   return {
     joint: arm.joint ?? [], command: arm.command ?? [], speed: arm.speed ?? [], position: arm.position ?? [],
     orientation: arm.orientation ?? [], tool_speed: arm.tool_speed ?? NaN, override_now: arm.override_now ?? NaN, to_go: arm.to_go ?? NaN,
-    group: words_of(GROUP_STATES, module.eState), error: module.nError ?? 0,
+    group: words_of(GROUP_STATES, module.eState), error: module.nError ? error_text(module.nError, errors) : "",
     job: job.name ?? "", job_line: job.nLine ?? 0,
     job_called: job.called || job.name || "", job_state: words_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
     override_set: values.override ?? NaN, hold: !!values.hold, acknowledged: module.nAcknowledge ?? 0,
     automatic: arm.eMode === 1, may_move: arm.bMayMove !== 0,
   };
+}
+
+function field_of(form: Form | undefined, name: string): Form | undefined {
+  return form?.fields?.find((field) => field.name === name)?.type;
 }
 
 // `each` gets the joints of every frame, also those the page does not write as numbers.
@@ -71,7 +78,9 @@ export function useRobotState(board: string, scope: string | null, each: (state:
     return stream.subscribe({
       board, names: Object.keys(names), rate_hz: RATE_HZ, binary: true,
       frame: (frame, of) => {
-        const next = state_of(Object.fromEntries(of.variables.map(({ name, offset, form }) => [names[name], decode(frame.view, offset, form)])));
+        const values = Object.fromEntries(of.variables.map(({ name, offset, form }) => [names[name], decode(frame.view, offset, form)]));
+        const module = of.variables.find(({ name }) => names[name] === "module")?.form;
+        const next = state_of(values, field_of(module, "nError")?.enumerators);
         each(next);
         if (Date.now() - written < 100) return;
         written = Date.now();

@@ -7,7 +7,7 @@ import type { Module, Overrun, Runs, Schedule as Plan } from "../../api/types";
 import { useBoard } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { count, span } from "../../ui/format";
-import { Figure, Waiting } from "../../ui/parts";
+import { Figure, Figures as Table, Waiting } from "../../ui/parts";
 import { useAsked, useStore } from "../../ui/store";
 import { Gantt } from "./gantt";
 import { Histograms } from "./histograms";
@@ -16,6 +16,7 @@ import { explain, lanes_of, overrun_text, type Bar } from "./lanes";
 const EVERY_MS = 1000;
 const PERIODS = [1, 2, 3, 5, 10, 20];
 const ZOOMS = [1, 4, 16, 64];
+const FIT_MARGIN = 1.1;
 const MOST_RUNS = 1500;
 const MOST_OVERRUNS = 50;
 
@@ -38,8 +39,7 @@ async function look(board: string): Promise<Look> {
 
 function Figures({ modules, chosen }: { modules: Module[]; chosen: string }) {
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label="Times of the modules">
-      <table class="figures">
+    <Table label="Times of the modules">
         <thead>
           <tr><th scope="col">Module</th><th scope="col" class="number">Core</th><th scope="col" class="number">Priority</th><th scope="col">Released</th>
             <th scope="col" class="number">Takes (mean)</th><th scope="col" class="number">At most</th><th scope="col" class="number">Jitter: half below</th>
@@ -58,8 +58,7 @@ function Figures({ modules, chosen }: { modules: Module[]; chosen: string }) {
               <td class={`number ${module.overruns ? "bad" : ""}`}>{count(module.overruns)}</td>
             </tr>))}
         </tbody>
-      </table>
-    </div>);
+    </Table>);
 }
 
 function Overruns({ overruns, modules }: { overruns: Overrun[]; modules: Module[] }) {
@@ -75,7 +74,7 @@ function Newest({ bars, choose }: { bars: Bar[]; choose: (bar: Bar) => void }) {
   return (
     <details class="panel">
       <summary>The newest runs as a table</summary>
-      <div class="scroll" tabIndex={0} role="region" aria-label="The newest runs"><table class="figures">
+      <Table label="The newest runs">
         <thead><tr><th scope="col" class="number">Tick</th><th scope="col">Module</th><th scope="col" class="number">Started late by</th><th scope="col" class="number">Took</th><th scope="col">Late</th></tr></thead>
         <tbody>
           {bars.map((bar) => (
@@ -86,15 +85,15 @@ function Newest({ bars, choose }: { bars: Bar[]; choose: (bar: Bar) => void }) {
               <td class={bar.late ? "bad" : ""}>{bar.late ? "yes" : "no"}</td>
             </tr>))}
         </tbody>
-      </table></div>
+      </Table>
     </details>);
 }
 
 export function Schedule() {
   const board = useBoard();
   const { query } = useStore(place);
-  const periods = Number(query.get("n")) || 2;
-  const zoom = Number(query.get("z")) || 1;
+  const periods = Number(query.get("n")) || 1;
+  const zoom = Number(query.get("z"));  // 0: as far as modules run
   const module = query.get("m") ?? "";
   const [held, hold] = useState<Look | null>(null);
   const [bar, choose] = useState<Bar | null>(null);
@@ -109,8 +108,10 @@ export function Schedule() {
   const macro = plan.macro_period_ns || 1e9;
   const first_release = Math.min(last_release, ...runs.runs.map(({ release_ns }) => release_ns));
   const begun = epoch + Math.floor((last_release - epoch) / macro) * macro;
-  const to = begun > first_release ? begun : begun + macro;
-  const from = Math.max(epoch, to - periods * macro);
+  const end = begun > first_release ? begun : begun + macro;
+  const from = Math.max(epoch, end - periods * macro);
+  const busy = Math.max(...runs.runs.filter(({ release_ns }) => release_ns >= from && release_ns < end).map(({ end_ns }) => end_ns - from));
+  const to = zoom === 0 && busy > 0 ? Math.min(end, from + busy * FIT_MARGIN) : end;
   const newest = lanes.flatMap(({ bars }) => bars).sort((a, b) => b.run.number - a.run.number).slice(0, 20);
   const show = (chosen: Bar) => {
     choose(chosen);
@@ -134,13 +135,14 @@ export function Schedule() {
               {PERIODS.map((n) => <option key={n} value={n}>{n} macro period{n === 1 ? "" : "s"}</option>)}
             </select></label>
           <label class="choice">Zoom{" "}
-            <select value={zoom} onChange={(event) => change_query({ z: event.currentTarget.value })}>
+            <select value={zoom} onChange={(event) => change_query({ z: event.currentTarget.value === "0" ? "" : event.currentTarget.value })}>
+              <option value={0}>what runs</option>
               {ZOOMS.map((n) => <option key={n} value={n}>{n} x</option>)}
             </select></label>
           <span class="quiet">Click a bar to know why it was when it was. Red is late.</span>
         </div>
-        {runs.runs.length === 0 ? <p>No run was recorded yet.</p> :
-          <Gantt lanes={lanes} from_ns={from} to_ns={to} epoch_ns={epoch} basic_ns={plan.basic_period_ns || macro} macro_ns={macro} zoom={zoom}
+        {runs.runs.length === 0 ? <p>Here stands when each module ran, a lane each, and why it ran when it did. No run was recorded yet.</p> :
+          <Gantt lanes={lanes} from_ns={from} to_ns={to} epoch_ns={epoch} basic_ns={plan.basic_period_ns || macro} macro_ns={macro} zoom={zoom || 1}
             chosen={bar?.run.number ?? null} choose={show} />}
         {bar && (
           <div class="explained" role="status">

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tree as lines: namespaces, variables, and the parts of those that are opened.
 
-import type { Variable } from "../../api/types";
+import type { Form, Variable } from "../../api/types";
 import { has_parts, parts_of, whole, type Part } from "../../ui/paths";
 
 export interface Row {
@@ -16,14 +16,16 @@ export interface Row {
 
 const SEPARATOR = "::";
 
-function said_of(part: Part): string {
-  const { variable, form } = part;
-  const fields = (form.fields ?? []).map(({ name }) => `${variable.name}.${name}`).join(" ");
-  return `${variable.name} ${fields} ${variable.description} ${variable.unit}`.toLowerCase();
+function fields_of(form: Form): string {
+  return (form.fields ?? []).map(({ name, description, type }) => `${name} ${description ?? ""} ${fields_of(type)}`).join(" ");
+}
+
+function said_of({ variable, form }: Part): string {
+  return `${variable.name} ${fields_of(form)} ${variable.description} ${variable.unit}`.toLowerCase();
 }
 
 export function matching(variables: Variable[], search: string): Variable[] {
-  const wanted = search.toLowerCase().split(/\s+/).filter(Boolean);
+  const wanted = words_in(search);
   if (wanted.length === 0) return variables;
   return variables.filter((variable) => {
     const said = said_of(whole(variable));
@@ -31,14 +33,35 @@ export function matching(variables: Variable[], search: string): Variable[] {
   });
 }
 
-function add_part(rows: Row[], part: Part, level: number, open: Set<string>): void {
-  const opens = has_parts(part);
-  const is_open = opens && open.has(part.name);
-  rows.push({ key: part.name, level, label: part.label, opens, open: is_open, part });
-  if (is_open) for (const inner of parts_of(part)) add_part(rows, inner, level + 1, open);
+function words_in(search: string): string[] {
+  return search.toLowerCase().split(/\s+/).filter(Boolean);
 }
 
-// `shut` are namespaces that somebody closed, `open` variables that somebody opened; a search opens all namespaces.
+// A word of the search that names a field, not the whole: what is looked for is inside.
+function is_inside(part: Part, wanted: string[]): boolean {
+  const whole_text = `${part.name} ${part.variable.description}`.toLowerCase();
+  return parts_of({ ...part, form: { ...part.form, dims: [] } }).some((inner) => {
+    const text = `${inner.label} ${inner.description}`.toLowerCase();
+    return wanted.some((word) => !whole_text.includes(word) && text.includes(word)) || is_inside(inner, wanted);
+  });
+}
+
+interface Choice {
+  open: Set<string>;
+  shut: Set<string>;
+  wanted: string[];
+}
+
+function add_part(rows: Row[], part: Part, level: number, choice: Choice): void {
+  const opens = has_parts(part);
+  const found = choice.wanted.length > 0 && opens && !part.form.dims?.length && !choice.shut.has(part.name) && is_inside(part, choice.wanted);
+  const is_open = opens && (choice.open.has(part.name) || found);
+  rows.push({ key: part.name, level, label: part.label, opens, open: is_open, part });
+  if (is_open) for (const inner of parts_of(part)) add_part(rows, inner, level + 1, choice);
+}
+
+// `shut` is what somebody closed, `open` are variables that somebody opened. A search opens all namespaces, and structs
+// that have what is looked for inside.
 export function rows_of(variables: Variable[], search: string, open: Set<string>, shut: Set<string>): Row[] {
   const rows: Row[] = [];
   const sorted = [...matching(variables, search)].sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
@@ -59,7 +82,7 @@ export function rows_of(variables: Variable[], search: string, open: Set<string>
       rows.push({ key: name, level, label: name.slice(space.length, -SEPARATOR.length), opens: true, open: is_open, inside: members.length });
       if (is_open) walk(members, name, level + 1);
     }
-    for (const variable of own) add_part(rows, whole(variable), level, open);
+    for (const variable of own) add_part(rows, whole(variable), level, { open, shut, wanted: words_in(search) });
   };
   walk(sorted, "", 1);
   return rows;

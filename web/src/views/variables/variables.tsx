@@ -53,7 +53,7 @@ export function Variables() {
   const age = (name: string) => ages.get(name) ?? null;
   const toggle = (row: Row, to: boolean) => {
     if (row.part) set_open(with_change(open, row.key, to));
-    else set_shut(with_change(shut, row.key, !to));
+    set_shut(with_change(shut, row.key, !to));
   };
   const choose = (row: Row) => {
     if (row.part) change_query({ v: row.key });
@@ -71,7 +71,7 @@ export function Variables() {
       {error && <p class="bad">{error}</p>}
       {live.refused && <p class="bad">{live.refused}</p>}
       {!value && !error && <Waiting />}
-      {value && variables.length === 0 && <p>This board shares no variables.</p>}
+      {value && variables.length === 0 && <p>Here the variables that modules share are seen as they change, plotted, set and forced. This board shares none: they are declared in a <code>.glb</code> file.</p>}
       {value && variables.length > 0 && found === 0 && <p>No variable matches '{search}'.</p>}
       {rows.length > 0 && (
         <div class={`variables ${chosen_part ? "with-detail" : ""}`}>
