@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "base/exit_code.h"
-#include "base/program_folder.h"
 #include "base/spawn.h"
+#include "deploy/agent/node_program.h"
 #include "deploy/agent/options.h"
 #include "mirror/frames/mirror_block.h"
 #include "rt/clock.h"
@@ -38,19 +38,6 @@ const scheduler::RunBlock* block_of(const vars::RunFile& file) {
 
 const scheduler::RunBlock& present(const std::optional<vars::RunFile>& file) {
   return *static_cast<const scheduler::RunBlock*>(file->data());
-}
-
-// indurop-node beside this program, held open: after an update of the files the node is still the one this agent knows.
-int open_node_program() {
-  return ::open((base::program_folder() / "indurop-node").c_str(), O_PATH | O_CLOEXEC);
-}
-
-// By its name if it still has one, so that the node has it in the list of processes too.
-std::string path_of(int program) {
-  const std::string held = "/proc/self/fd/" + std::to_string(program);
-  std::error_code error;
-  const std::filesystem::path file = std::filesystem::read_symlink(held, error);
-  return !error && ::access(file.c_str(), X_OK) == 0 ? file.string() : held;
 }
 
 std::string describe(int status) {
@@ -147,12 +134,13 @@ void BoardProcess::launch(rt::MonoTime now) {
   (void)::fcntl(ends[0], F_SETFL, O_NONBLOCK);
   (void)::fcntl(ends[1], F_SETFL, O_NONBLOCK);
   (void)::fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);
-  std::vector<std::string> words{path_of(program_), wanted_.string(), "--board", board_, "--deployment", deployment_};
+  std::vector<std::string> words{
+      node_program_path(program_), wanted_.string(), "--board", board_, "--deployment", deployment_};
   words.insert(words.end(), arguments_.begin(), arguments_.end());
   // Ctrl-C reaches the agent alone; the node may outlive it. With a reader of its own the pipe outlives the agent too:
   // what is printed then is lost, but nobody dies of it.
   const auto pid = base::spawn({.words = std::move(words),
-                                .program = path_of(program_),
+                                .program = node_program_path(program_),
                                 .group = base::Launch::Group::OwnSession,
                                 .output = ends[1],
                                 .inherits = ends[0],

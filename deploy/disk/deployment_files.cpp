@@ -3,12 +3,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <linux/fs.h>
-#include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 #include "base/descriptor.h"
 #include "base/read_file.h"
@@ -91,7 +90,13 @@ Result<void, Problem> clone_file(const fs::path& from, const fs::path& to) {
   if (!out.is_open()) {
     return Problem{base::cannot_write(to, base::file_problem(errno))};
   }
-  if (::ioctl(out.get(), FICLONE, opened->file.get()) == 0) {
+  std::uint64_t left = opened->size;
+  ssize_t copied = 1;
+  while (left > 0 && copied > 0) {
+    copied = ::copy_file_range(opened->file.get(), nullptr, out.get(), nullptr, left, 0);
+    left -= static_cast<std::uint64_t>(std::max<ssize_t>(copied, 0));
+  }
+  if (left == 0) {
     return {};
   }
   std::error_code error;

@@ -159,7 +159,8 @@ void Output::send(std::string_view text) {
     return;
   }
   flush();
-  static_cast<void>(write_all(STDERR_FILENO, harmless(text, "\n\t") + '\n'));  // nowhere left to say that stderr is broken
+  static_cast<void>(
+      write_all(STDERR_FILENO, harmless(text, "\n\t") + '\n'));  // nowhere left to say that stderr is broken
 }
 
 void Output::keep(std::string_view text) {

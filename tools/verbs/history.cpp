@@ -44,6 +44,31 @@ void merge(std::vector<Row>& rows, const std::string& board, const PastDeploymen
   same->current = same->current || current;
 }
 
+Table table_of(const std::vector<Row>& rows) {
+  Table table({{"", "generation"},
+               {"", "current"},
+               {"DEPLOYMENT", "deployment"},
+               {"PLANT", "plant"},
+               {"WHEN", "wall_ns"},
+               {"FROM", "host"},
+               {"BOARDS", "boards"},
+               {"OUTCOME", "outcome"},
+               {"COMMENT", "comment"}});
+  for (const Row& row : rows) {
+    const bool committed = row.past.outcome == "committed";
+    table.add({{"", row.past.generation},
+               {"", row.current},
+               {deploy::shown_id(row.past.deployment) + (row.current ? " *" : ""), row.past.deployment, Style::Bold},
+               Cell(printable(row.past.plant)),
+               {local_time(row.past.wall_ns), row.past.wall_ns},
+               Cell(printable(row.past.host)),
+               {fmt::format("{}", fmt::join(row.boards, ", ")), row.boards},
+               {printable(row.past.outcome), row.past.outcome, committed ? Style::Good : Style::Bad},
+               Cell(printable(row.past.comment))});
+  }
+  return table;
+}
+
 int history(Context& context, Options& options) {
   auto link = open_link(context, options.link);
   if (link == nullptr) {
@@ -80,27 +105,7 @@ int history(Context& context, Options& options) {
   }
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Row& a, const Row& b) { return a.past.generation < b.past.generation; });
-  Table table({{"", "generation"},
-               {"", "current"},
-               {"DEPLOYMENT", "deployment"},
-               {"PLANT", "plant"},
-               {"WHEN", "wall_ns"},
-               {"FROM", "host"},
-               {"BOARDS", "boards"},
-               {"OUTCOME", "outcome"},
-               {"COMMENT", "comment"}});
-  for (const Row& row : rows) {
-    const bool committed = row.past.outcome == "committed";
-    table.add({{"", row.past.generation},
-               {"", row.current},
-               {deploy::shown_id(row.past.deployment) + (row.current ? " *" : ""), row.past.deployment, Style::Bold},
-               Cell(printable(row.past.plant)),
-               {local_time(row.past.wall_ns), row.past.wall_ns},
-               Cell(printable(row.past.host)),
-               {fmt::format("{}", fmt::join(row.boards, ", ")), row.boards},
-               {printable(row.past.outcome), row.past.outcome, committed ? Style::Good : Style::Bad},
-               Cell(printable(row.past.comment))});
-  }
+  const Table table = table_of(rows);
   for (const std::string& board : missing) {
     context.out.error(fmt::format("board {} was not heard or did not answer: what it remembers is not in this list",
                                   printable(board)));
