@@ -23,6 +23,7 @@ namespace {
 
 constexpr std::size_t kShortestToken = 20;
 constexpr std::size_t kLongestToken = 200;
+constexpr std::string_view kReadOnly = "read";
 
 bool sound(std::string_view token) {
   const auto allowed = [](unsigned char c) {
@@ -30,6 +31,13 @@ bool sound(std::string_view token) {
   };
   return token.size() >= kShortestToken && token.size() <= kLongestToken &&
          std::all_of(token.begin(), token.end(), allowed);
+}
+
+// Takes the first word off, and the blanks behind it.
+std::string_view next_word(std::string_view& text) {
+  const std::string_view word = text.substr(0, text.find_first_of(" \t"));
+  text = base::trimmed(text.substr(word.size()));
+  return word;
 }
 
 // Addresses and name of this machine.
@@ -104,15 +112,15 @@ Result<std::vector<Token>, base::Problem> parse_tokens(std::string_view text) {
     if (words.empty() || words.starts_with('#')) {
       continue;
     }
-    const auto blank = words.find_first_of(" \t");
-    const std::string_view token =
-        blank == std::string_view::npos ? std::string_view() : base::trimmed(words.substr(blank));
-    if (!sound(token)) {
-      return base::Problem{
-          fmt::format("{}: error: a line is a name, a blank, and a token of {} to {} letters, digits, '-' or '_'", line,
-                      kShortestToken, kLongestToken)};
+    std::string_view rest = words;
+    const std::string_view name = next_word(rest);
+    const std::string_view token = next_word(rest);
+    if (!sound(token) || (!rest.empty() && rest != kReadOnly)) {
+      return base::Problem{fmt::format(
+          "{}: error: a line is a name, a token of {} to {} letters, digits, '-' or '_', and '{}' if it only lets look",
+          line, kShortestToken, kLongestToken, kReadOnly)};
     }
-    tokens.push_back({std::string(words.substr(0, blank)), std::string(token)});
+    tokens.push_back({std::string(name), std::string(token), rest.empty() ? Role::Writer : Role::Reader});
   }
   if (tokens.empty()) {
     return base::Problem{"1: error: there is no token"};
@@ -120,8 +128,9 @@ Result<std::vector<Token>, base::Problem> parse_tokens(std::string_view text) {
   return tokens;
 }
 
-Result<GateSettings, tools::Failure> admission_of(const tools::ServeOptions& options) {
-  GateSettings gate;
+Result<Admission, tools::Failure> admission_of(const tools::ServeOptions& options) {
+  Admission admission;
+  GateSettings& gate = admission.gate;
   gate.loopback = is_loopback(options.bind);
   gate.tls = !options.cert.empty();
   gate.write = options.write;
@@ -130,6 +139,9 @@ Result<GateSettings, tools::Failure> admission_of(const tools::ServeOptions& opt
   }
   if (!options.client_ca.empty() && !gate.tls) {
     return usage("--client-ca needs --cert and --key");
+  }
+  if (!options.revoked.empty() && options.client_ca.empty()) {
+    return usage("--revoked is about certificates of --client-ca");
   }
   if (!gate.loopback && !gate.tls) {
     return usage(fmt::format("{} can be reached from other machines: that needs --cert and --key", options.bind));
@@ -147,14 +159,25 @@ Result<GateSettings, tools::Failure> admission_of(const tools::ServeOptions& opt
   } else if (options.write && options.client_ca.empty()) {
     gate.tokens.push_back({"operator", random_word()});
   }
+  if (!options.client_ca.empty()) {
+    auto authority = ClientAuthority::open(options.client_ca, options.revoked);
+    if (!authority) {
+      return tools::Failure{kFailed, std::move(authority).error().text};
+    }
+    admission.authority = std::move(authority).value();
+  }
   gate.hosts = {"localhost", "127.0.0.1", "::1", options.bind};
   if (!gate.loopback) {
     const auto own = own_names();
     gate.hosts.insert(gate.hosts.end(), own.begin(), own.end());
   }
   gate.hosts.insert(gate.hosts.end(), options.hosts.begin(), options.hosts.end());
+  for (std::string& name : gate.hosts) {
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  }
   gate.origins = options.origins;
-  return gate;
+  return admission;
 }
 
 }  // namespace indurop::serve

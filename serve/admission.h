@@ -9,14 +9,19 @@
 #include <vector>
 
 #include "base/problem.h"
+#include "serve/client_authority.h"
 #include "serve/door/gate.h"
 #include "tools/command/failure.h"
 #include "tools/command/serve_options.h"
 
 namespace indurop::serve {
 
-// The gate of these options. Makes the token file if it is named and not there.
-Result<GateSettings, tools::Failure> admission_of(const tools::ServeOptions& options);
+struct Admission {
+  GateSettings gate;
+  ClientAuthority authority;
+};
+// What these options want. Makes the token file if it is named and not there.
+Result<Admission, tools::Failure> admission_of(const tools::ServeOptions& options);
 
 bool is_loopback(std::string_view address) noexcept;
 // Tokens of a file's text, or what is wrong with it.

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/exit_code.h"
+#include "keys/participant_keys.h"
 #include "serve/admission.h"
 #include "serve/server.h"
 #include "tools/command/interrupt.h"
@@ -19,12 +20,15 @@ constexpr const char* kDetails = R"(What 'indurop serve' becomes. Prints its add
 )";
 
 int run(const tools::ServeOptions& options) {
-  auto gate = admission_of(options);
-  if (!gate) {
-    fmt::print(stderr, "indurop-serve: error: {}\n", gate.error().text);
-    return gate.error().code;
+  auto admission = admission_of(options);
+  if (!admission) {
+    fmt::print(stderr, "indurop-serve: error: {}\n", admission.error().text);
+    return admission.error().code;
   }
-  return Server(options, std::move(gate).value(), INDUROP_VERSION).run();
+  if (const std::string exposed = keys::exposed_key(options.key); !options.key.empty() && !exposed.empty()) {
+    fmt::print(stderr, "indurop-serve: warning: {}\n", exposed);
+  }
+  return Server(options, std::move(admission).value(), INDUROP_VERSION).run();
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
   return facts;
 }
 
-DoorSettings door_of(const tools::ServeOptions& options) {
+DoorSettings door_of(const tools::ServeOptions& options, const GateSettings& gate) {
   DoorSettings settings;
   settings.bind = options.bind;
   settings.port = static_cast<int>(options.port);
@@ -37,14 +37,16 @@ DoorSettings door_of(const tools::ServeOptions& options) {
   settings.key = options.key;
   settings.client_ca = options.client_ca;
   settings.most_streams = options.clients;
+  settings.reserve_streams = gate.loopback && (!gate.tokens.empty() || !options.client_ca.empty());
   return settings;
 }
 
 }  // namespace
 
-Server::Server(tools::ServeOptions options, GateSettings gate, const std::string& version)
+Server::Server(tools::ServeOptions options, Admission admission, const std::string& version)
     : options_(std::move(options)),
-      gate_(std::move(gate)),
+      gate_(std::move(admission.gate)),
+      authority_(std::move(admission.authority)),
       audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
       leases_(audit_),
       jogs_(audit_),
@@ -57,17 +59,44 @@ Server::Server(tools::ServeOptions options, GateSettings gate, const std::string
       orders_(options_.node),
       holds_(options_.node) {}
 
-std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
-  if (!request.path.starts_with("/api/")) {
-    return request.method == Method::Get ? page_.answer(request.path)
-                                         : refusal(status::kMethodNotAllowed, "files can only be read");
+std::string Server::choose_subprotocol(const Request& request) {
+  return serve::choose_subprotocol(all_routes(), request);
+}
+
+Client Server::identify(const std::string& certificate) {
+  return authority_.identify(certificate);
+}
+
+std::optional<Reply> Server::refuse(Request& request) {
+  if (auto refused = gate_.refuse(request, right_of(all_routes(), request))) {
+    return refused;
   }
+  request.client = gate_.client_of(request);
+  if (!request.subprotocol.empty() && match_route(all_routes(), request).route == nullptr) {
+    return refusal(status::kNotFound, "the WebSocket is at /api/v1/stream");
+  }
+  return std::nullopt;
+}
+
+void Server::note_refused(const Request& request, const std::string& why, std::uint64_t count) {
+  AuditEntry entry;
+  entry.who = request.certificate.name;
+  entry.from = request.from;
+  entry.action = "refused";
+  entry.what = request.path;
+  entry.outcome = count > 1 ? fmt::format("{} ({} times)", why, count) : why;
+  // Not by this thread, which must not wait for a disk. What is lost if too much waits already is told with the next
+  // one.
+  (void)holds_.worker.add([this, entry = std::move(entry)] { (void)audit_.note(entry); });
+}
+
+std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
   Match match = match_route(all_routes(), request);
   if (match.route == nullptr) {
     return match.other_method ? refusal(status::kMethodNotAllowed, "this path is for another method")
                               : refusal(status::kNotFound, "there is nothing at this path; see /api/v1/openapi.json");
   }
-  match.call.who = gate_.who(request);
+  match.call.who = request.client.name;
   if (is_far(match)) {
     return ask_far(std::move(match), ticket);
   }
@@ -86,6 +115,9 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
       return order_plant(std::move(match), ticket);
     case Pace::Plc:
       return ask_plc(std::move(match), ticket);
+    case Pace::Page:
+      return page_.answer(request.path);
+    case Pace::Stream:
     case Pace::Quick:
       break;
   }
@@ -219,7 +251,7 @@ int Server::run() {
     fmt::print(stderr, "indurop-serve: error: {}\n", programs.error().text);
     return programs.error().code;
   }
-  auto opened = Door::open(door_of(options_), *this);
+  auto opened = Door::open(door_of(options_, gate_.settings()), *this);
   if (!opened) {
     fmt::print(stderr, "indurop-serve: error: {}\n", opened.error().text);
     return kFailed;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "serve/admission.h"
 #include "serve/alarms/alarm_desk.h"
 #include "serve/api/api.h"
 #include "serve/api/audit.h"
@@ -28,12 +29,15 @@ namespace indurop::serve {
 
 class Server final : public House {
  public:
-  Server(tools::ServeOptions options, GateSettings gate, const std::string& version);
+  Server(tools::ServeOptions options, Admission admission, const std::string& version);
 
   // Serves until a signal ends it. Returns the exit code.
   int run();
 
-  std::optional<Reply> refuse(const Request& request) override { return gate_.refuse(request); }
+  std::string choose_subprotocol(const Request& request) override;
+  Client identify(const std::string& certificate) override;
+  std::optional<Reply> refuse(Request& request) override;
+  void note_refused(const Request& request, const std::string& why, std::uint64_t count) override;
   std::optional<Reply> answer(const Request& request, Ticket ticket) override;
   std::unique_ptr<Visitor> receive(const Request& request, Line& line) override;
 
@@ -59,6 +63,7 @@ class Server final : public House {
 
   tools::ServeOptions options_;
   Gate gate_;
+  ClientAuthority authority_;
   Audit audit_;
   AlarmDesk alarms_;
   LeaseDesk leases_;

@@ -19,7 +19,7 @@ Reply server_status(Api& api, const Call& call) {
   body["version"] = facts.version;
   body["api"] = kApiVersion;
   body["write"] = api.gate().settings().write;
-  body["may_write"] = api.gate().settings().write && !call.who.empty();
+  body["may_write"] = api.gate().may_write(call.request->client);
   body["who"] = call.who;
   body["web"] = facts.web;
   body["plant"] = facts.plant;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "serve/api/router.h"
 
+#include <algorithm>
+
+#include "base/text.h"
+
 namespace indurop::serve {
 namespace {
 
@@ -12,11 +16,19 @@ std::string_view take_part(std::string_view& path) {
   return part;
 }
 
+bool has_protocol(std::span<const Route> routes, std::string_view name) {
+  return !name.empty() &&
+         std::any_of(routes.begin(), routes.end(), [name](const Route& route) { return route.protocol == name; });
+}
+
 }  // namespace
 
 std::optional<std::map<std::string, std::string, std::less<>>> match_path(std::string_view pattern,
                                                                           std::string_view path) {
   std::map<std::string, std::string, std::less<>> parts;
+  if (pattern.starts_with("/{") && pattern.ends_with("...}")) {
+    return path.starts_with('/') ? std::optional(std::move(parts)) : std::nullopt;
+  }
   while (!pattern.empty() && !path.empty()) {
     const std::string_view wanted = take_part(pattern);
     const std::string_view found = take_part(path);
@@ -33,8 +45,9 @@ Match match_route(std::span<const Route> routes, const Request& request) {
   Match match;
   match.call.request = &request;
   for (const Route& route : routes) {
+    const bool page_for_api = route.pace == Pace::Page && request.path.starts_with("/api/");
     auto parts = match_path(route.pattern, request.path);
-    if (!parts) {
+    if (!parts || page_for_api || route.protocol != request.subprotocol) {
       continue;
     }
     if (route.method == request.method) {
@@ -45,6 +58,25 @@ Match match_route(std::span<const Route> routes, const Request& request) {
     match.other_method = true;
   }
   return match;
+}
+
+Right right_of(std::span<const Route> routes, const Request& request) {
+  const bool unknown_stream = request.stream && request.subprotocol.empty();
+  const Match match = match_route(routes, request);
+  return match.route != nullptr && !unknown_stream ? match.route->right
+         : request.method == Method::Post          ? Right::Write
+                                                   : Right::Read;
+}
+
+std::string choose_subprotocol(std::span<const Route> routes, const Request& request) {
+  for (std::string_view rest = request.subprotocols; !rest.empty();) {
+    const std::string_view one = rest.substr(0, rest.find(','));
+    if (has_protocol(routes, base::trimmed(one))) {
+      return std::string(base::trimmed(one));
+    }
+    rest.remove_prefix(std::min(one.size() + 1, rest.size()));
+  }
+  return {};
 }
 
 }  // namespace indurop::serve

@@ -38,16 +38,19 @@ struct Call {
 
 // Which thread answers: the door's; one that may read files; one that may wait for a node; one of those that wait for
 // something to happen; one for what must not wait for the others; the one that hears other boards; the one that changes
-// what they run; the one that knows the PLC program.
-enum class Pace { Quick, Files, Orders, Wait, Holds, Plant, PlantOrders, Plc };
+// what they run; the one that knows the PLC program. Files of the page and streams have no answer of their own.
+enum class Pace { Quick, Files, Orders, Wait, Holds, Plant, PlantOrders, Plc, Page, Stream };
 
 struct Route {
   Method method;
-  std::string_view pattern;  // "/api/v1/boards/{board}/set"
+  std::string_view pattern;  // "/api/v1/boards/{board}/set"; a last part "{file...}" is every path
+  Right right;
   Pace pace;
   Reply (*answer)(Api& api, const Call& call);
+  std::string_view protocol = "";  // subprotocol of a WebSocket; empty: HTTP
 };
 
+// Everything that can be asked of the server. What is not in here is not there: no protocol, no path, no method.
 std::span<const Route> all_routes();
 // How a question about a board is answered if that is on another host: in the same way (null), in another one, which
 // goes through the plant, or not.
@@ -63,6 +66,10 @@ struct Match {
   Call call;
 };
 Match match_route(std::span<const Route> routes, const Request& request);
+// What a client needs to be allowed for this request; of what is not there as much as if it were.
+Right right_of(std::span<const Route> routes, const Request& request);
+// The first of the subprotocols a client asks for that is in the table; empty: none.
+std::string choose_subprotocol(std::span<const Route> routes, const Request& request);
 
 // The parts of a path that a pattern names; nothing if it does not fit.
 std::optional<std::map<std::string, std::string, std::less<>>> match_path(std::string_view pattern,

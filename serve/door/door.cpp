@@ -1,64 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "serve/door/door.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/resource.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
 
-#include "serve/door/door_impl.h"
+#include "serve/door/connection.h"
+#include "serve/door/listener.h"
 
 namespace indurop::serve {
 namespace {
 
-constexpr unsigned short kMostHeaders = 8192;
-constexpr unsigned kHeaderSeconds = 10;
-constexpr int kKeepAliveSeconds = 60;
-// A WebSocket that is silent for the first time is asked whether it lives, after the second it is closed.
-constexpr std::uint16_t kPingSeconds = 15;
-constexpr std::uint16_t kSilentSeconds = 30;
+// Connections beside those of streams, and how many of all one address may have.
+constexpr std::size_t kMostRequests = 192;
+constexpr std::size_t kMostOfOne = 64;
+constexpr std::size_t kSpareFiles = 64;
+constexpr int kAcceptedAtOnce = 16;
+constexpr std::int64_t kNsPerMs = 1'000'000;
+constexpr std::int64_t kNoFilesNs = 100 * kNsPerMs;  // until it is tried again
 
-const lws_retry_bo_t& idle_policy() {
-  static const lws_retry_bo_t kPolicy = [] {
-    lws_retry_bo_t made{};
-    made.secs_since_valid_ping = kPingSeconds;
-    made.secs_since_valid_hangup = kSilentSeconds;
-    return made;
-  }();
-  return kPolicy;
+std::int64_t now() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
-void say(int level, const char* line) {
-  if ((level & LLL_ERR) != 0) {
-    (void)std::fprintf(stderr, "indurop-serve: %s", line);
-  }
-}
-
-void add_tls(lws_context_creation_info& info, const DoorSettings& settings) {
-  info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
-  info.ssl_cert_filepath = settings.cert.c_str();
-  info.ssl_private_key_filepath = settings.key.c_str();
-  info.alpn = "http/1.1";
-  if (!settings.client_ca.empty()) {
-    info.options |= LWS_SERVER_OPTION_REQUIRE_VALID_OPENSSL_CLIENT_CERT | LWS_SERVER_OPTION_PEER_CERT_NOT_REQUIRED;
-    info.ssl_ca_filepath = settings.client_ca.c_str();
+// Files for so many connections, as far as this process may have them.
+void want_files(std::size_t most) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < most + kSpareFiles) {
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, most + kSpareFiles);
+    (void)setrlimit(RLIMIT_NOFILE, &limit);
   }
 }
 
 }  // namespace
 
 struct Door::Alarm::State {
-  lws_sorted_usec_list_t entry{};  // first: the library gives us its address
-  lws_context* context = nullptr;
+  Door::Impl* door = nullptr;
   std::function<void()> ring;
+};
 
-  static void rang(lws_sorted_usec_list_t* entry) { reinterpret_cast<State*>(entry)->ring(); }
+struct Door::Impl {
+  Impl(DoorSettings settings, House& house, Listener own_listener, TlsContext own_tls)
+      : common{std::move(settings), &house, ConnectionLimits(0, 0), {}},
+        listener(std::move(own_listener)),
+        tls(std::move(own_tls)),
+        wake(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    const std::size_t most = common.settings.most_streams + kMostRequests;
+    common.limits = ConnectionLimits(most, std::min(most, kMostOfOne));
+    want_files(most);
+  }
+
+  void turn();
+  [[nodiscard]] int patience_ms() const;
+  void let_in();
+  void give_replies();
+  void ring_alarms();
+  void end_late();
+
+  Common common;
+  Listener listener;
+  TlsContext tls;
+  base::Descriptor wake;
+  std::map<ConnectionLimits::Id, std::unique_ptr<Connection>> connections;
+  std::multimap<std::int64_t, Alarm::State*> alarms;
+  std::int64_t listens_again_ns = 0;
+  std::mutex lock;
+  std::vector<std::pair<Ticket, Reply>> replies;  // of other threads
 };
 
 Door::Alarm::Alarm(Door& door, std::function<void()> ring) : state_(std::make_unique<State>()) {
-  state_->context = door.impl_->context;
-  state_->ring = std::move(ring);
+  *state_ = {door.impl_.get(), std::move(ring)};
 }
 
 Door::Alarm::~Alarm() {
@@ -66,98 +88,33 @@ Door::Alarm::~Alarm() {
 }
 
 void Door::Alarm::set(std::int64_t after_ns) {
-  constexpr std::int64_t kNsPerUs = 1000;
-  lws_sul_schedule(state_->context, 0, &state_->entry, &State::rang, std::max<std::int64_t>(after_ns / kNsPerUs, 1));
+  stop();
+  state_->door->alarms.emplace(now() + std::max<std::int64_t>(after_ns, 1), state_.get());
 }
 
 void Door::Alarm::stop() {
-  lws_sul_schedule(state_->context, 0, &state_->entry, &State::rang, LWS_SET_TIMER_USEC_CANCEL);
-}
-
-Door::Impl& Door::Impl::of(lws* wsi) {
-  return *static_cast<Impl*>(lws_context_user(lws_get_context(wsi)));
-}
-
-Door::Impl::~Impl() {
-  if (context != nullptr) {
-    lws_context_destroy(context);
-  }
+  std::erase_if(state_->door->alarms, [this](const auto& one) { return one.second == state_.get(); });
 }
 
 Door::Door(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Door::~Door() = default;
 
 Result<std::unique_ptr<Door>, base::Problem> Door::open(const DoorSettings& settings, House& house) {
-  constexpr std::size_t kSpareFiles = 64;
   auto listener = Listener::open(settings.bind, settings.port);
   if (!listener) {
     return std::move(listener).error();
   }
-  auto impl = std::make_unique<Impl>(settings, house, std::move(listener).value());
-  const auto rx = static_cast<std::size_t>(kMostHeaders);
-  impl->protocols[0] = {"http", &Impl::on_http, 0, rx, 0, nullptr, 0};
-  impl->protocols[1] = {"indurop.v1", &Impl::on_stream, 0, rx, 0, nullptr, 0};
-  impl->protocols[2] = {kFoxgloveSdk, &Impl::on_stream, 0, rx, 0, nullptr, 0};
-  impl->protocols[3] = {kFoxglove, &Impl::on_stream, 0, rx, 0, nullptr, 0};
-  impl->protocols[4] = {"listener", &Impl::on_listener, 0, rx, 0, nullptr, 0};
-  lws_set_log_level(LLL_ERR, &say);
-  lws_context_creation_info info{};
-  info.port = CONTEXT_PORT_NO_LISTEN_SERVER;
-  info.protocols = impl->protocols.data();
-  info.user = impl.get();
-  info.gid = static_cast<decltype(info.gid)>(-1);
-  info.uid = static_cast<decltype(info.uid)>(-1);
-  info.server_string = "indurop";
-  info.max_http_header_data = kMostHeaders;
-  info.timeout_secs = kHeaderSeconds;
-  info.timeout_secs_ah_idle = kHeaderSeconds;
-  info.keepalive_timeout = kKeepAliveSeconds;
-  info.retry_and_idle_policy = &idle_policy();
-  info.fd_limit_per_thread = static_cast<unsigned>(impl->settings.most_connections + kSpareFiles);
-  if (!impl->settings.cert.empty()) {
-    add_tls(info, impl->settings);
-  }
-  impl->context = lws_create_context(&info);
-  lws_set_log_level(0, &say);  // from now on it would only tell what clients do wrong
-  auto door = std::unique_ptr<Door>(new Door(std::move(impl)));
-  if (!door->impl_->adopt_listener()) {
-    return base::Problem{
-        settings.cert.empty()
-            ? "libwebsockets cannot start"
-            : fmt::format("{} and {} cannot be used for TLS: they do not belong together, or cannot be read",
-                          settings.cert.string(), settings.key.string())};
-  }
-  return door;
-}
-
-bool Door::Impl::adopt_listener() {
-  lws_vhost* const host = context != nullptr ? lws_get_vhost_by_name(context, "default") : nullptr;
-  if (host == nullptr) {
-    return false;
-  }
-  // The library closes what it is given.
-  lws_sock_file_fd_type file{};
-  file.filefd = fcntl(listener.file(), F_DUPFD_CLOEXEC, 0);
-  return file.filefd >= 0 &&
-         lws_adopt_descriptor_vhost(host, LWS_ADOPT_RAW_FILE_DESC, file, "listener", nullptr) != nullptr;
-}
-
-void Door::Impl::let_in() {
-  lws_vhost* const host = lws_get_vhost_by_name(context, "default");
-  constexpr int kAtOnce = 16;
-  for (int i = 0; i < kAtOnce; ++i) {
-    const int file = listener.take();
-    if (file < 0 || lws_adopt_socket_vhost(host, file) == nullptr) {
-      return;
+  TlsContext tls;
+  if (!settings.cert.empty()) {
+    auto opened = open_tls(settings.cert, settings.key, settings.client_ca);
+    if (!opened) {
+      return std::move(opened).error();
     }
+    tls = std::move(opened).value();
   }
-}
-
-int Door::Impl::on_listener(lws* wsi, lws_callback_reasons reason, void* /*user*/, void* /*in*/, std::size_t /*size*/) {
-  if (reason == LWS_CALLBACK_RAW_RX_FILE) {
-    of(wsi).let_in();
-  }
-  return 0;
+  std::signal(SIGPIPE, SIG_IGN);  // libssl writes to clients that have gone
+  return std::unique_ptr<Door>(
+      new Door(std::make_unique<Impl>(settings, house, std::move(listener).value(), std::move(tls))));
 }
 
 int Door::port() const {
@@ -165,7 +122,8 @@ int Door::port() const {
 }
 
 void Door::serve(const std::function<bool()>& ended) {
-  while (!ended() && lws_service(impl_->context, 0) >= 0) {
+  while (!ended()) {
+    impl_->turn();
   }
 }
 
@@ -174,7 +132,115 @@ void Door::reply(Ticket ticket, Reply reply) {
     const std::lock_guard guard(impl_->lock);
     impl_->replies.emplace_back(ticket, std::move(reply));
   }
-  lws_cancel_service(impl_->context);
+  const std::uint64_t one = 1;
+  (void)!::write(impl_->wake.get(), &one, sizeof one);
+}
+
+// Until the first alarm or the first connection whose time is over.
+int Door::Impl::patience_ms() const {
+  std::int64_t first = alarms.empty() ? std::numeric_limits<std::int64_t>::max() : alarms.begin()->first;
+  for (const auto& [id, connection] : connections) {
+    if (connection->holds_input()) {
+      return 0;
+    }
+    first = std::min(first, connection->deadline_ns());
+  }
+  if (listens_again_ns != 0) {
+    first = std::min(first, listens_again_ns);
+  }
+  constexpr std::int64_t kMost = 60'000;
+  const std::int64_t left = first - now();
+  return static_cast<int>(std::clamp<std::int64_t>((left + kNsPerMs - 1) / kNsPerMs, 0, kMost));
+}
+
+void Door::Impl::turn() {
+  std::vector<pollfd> files{{wake.get(), POLLIN, 0}, {listens_again_ns == 0 ? listener.file() : -1, POLLIN, 0}};
+  const std::size_t first = files.size();
+  std::vector<ConnectionLimits::Id> whose;
+  for (const auto& [id, connection] : connections) {
+    files.push_back({connection->file(), connection->events(), 0});
+    whose.push_back(id);
+  }
+  if (::poll(files.data(), files.size(), patience_ms()) < 0) {
+    return;  // a signal
+  }
+  std::uint64_t ignored = 0;
+  (void)!::read(wake.get(), &ignored, sizeof ignored);
+  give_replies();
+  for (std::size_t i = 0; i < whose.size(); ++i) {
+    const auto found = connections.find(whose[i]);
+    if (found != connections.end() && (files[first + i].revents != 0 || found->second->holds_input()) &&
+        !found->second->ready(files[first + i].revents, now())) {
+      connections.erase(found);
+    }
+  }
+  end_late();
+  ring_alarms();
+  if (files[1].revents != 0) {
+    let_in();
+  }
+  if (listens_again_ns != 0 && listens_again_ns <= now()) {
+    listens_again_ns = 0;
+  }
+}
+
+void Door::Impl::end_late() {
+  const std::int64_t at = now();
+  std::erase_if(connections,
+                [at](const auto& one) { return one.second->deadline_ns() <= at && !one.second->on_time(at); });
+}
+
+// Those that are due now; what they set anew is for a later turn.
+void Door::Impl::ring_alarms() {
+  const std::int64_t at = now();
+  std::vector<Alarm::State*> due;
+  for (auto one = alarms.begin(); one != alarms.end() && one->first <= at; ++one) {
+    due.push_back(one->second);
+  }
+  for (Alarm::State* const state : due) {
+    const auto still =
+        std::find_if(alarms.begin(), alarms.end(), [state](const auto& one) { return one.second == state; });
+    if (still != alarms.end()) {
+      alarms.erase(still);
+      state->ring();
+    }
+  }
+}
+
+void Door::Impl::let_in() {
+  for (int i = 0; i < kAcceptedAtOnce; ++i) {
+    auto taken = listener.take();
+    if (!taken) {
+      // Without this the loop would turn and turn for a connection that cannot be had.
+      listens_again_ns = taken.error().sys_errno != 0 ? now() + kNoFilesNs : 0;
+      return;
+    }
+    const ConnectionLimits::Admission admission = common.limits.admit(taken->address, taken->loopback);
+    if (admission.instead) {
+      connections.erase(*admission.instead);
+    }
+    if (admission.id != 0) {
+      auto& made = connections[admission.id];
+      made =
+          std::make_unique<Connection>(common, admission.id, Wire(std::move(taken->file), tls.get()), taken->address);
+      made->begin_at(now());
+    }
+  }
+}
+
+void Door::Impl::give_replies() {
+  std::vector<std::pair<Ticket, Reply>> given;
+  {
+    const std::lock_guard guard(lock);
+    given.swap(replies);
+  }
+  for (auto& [ticket, reply] : given) {
+    const auto found = std::find_if(connections.begin(), connections.end(),
+                                    [ticket = ticket](const auto& one) { return one.second->waits_for(ticket); });
+    if (found != connections.end() && !found->second->reply(std::move(reply), now())) {
+      connections.erase(found);
+    }
+  }
 }
 
 }  // namespace indurop::serve

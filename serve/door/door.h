@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one place that speaks HTTP and WebSocket, with libwebsockets: one thread, one loop. Limits of size, time and
-// number are kept here; what is asked and answered is the house's business.
+// The loop that serves all connections: one thread. Limits of size, time and number are kept in this folder; what is
+// asked and answered is the house's business.
 
 #pragma once
 
@@ -25,7 +25,7 @@ struct DoorSettings {
   std::filesystem::path key;  // with cert: TLS
   std::filesystem::path client_ca;
   std::size_t most_streams = 64;
-  std::size_t most_connections = 256;
+  bool reserve_streams = false;  // some of them are kept for clients with a token or certificate
 };
 
 inline constexpr std::size_t kMostBody = 256U << 10;
@@ -54,9 +54,9 @@ class Door {
     ~Alarm();
     void set(std::int64_t after_ns);
     void stop();
+    struct State;
 
    private:
-    struct State;
     std::unique_ptr<State> state_;
   };
 

@@ -16,18 +16,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-// "[::1]:8080" -> "::1", "localhost:8080" -> "localhost".
-std::string without_port(std::string_view host) {
-  if (host.starts_with('[')) {
-    const auto end = host.find(']');
-    return lower(end == std::string_view::npos ? host : host.substr(1, end - 1));
-  }
-  return lower(host.substr(0, host.rfind(':')));
-}
-
 constexpr std::string_view kBearer = "Bearer ";
-// Who has these keys of a plant may only look (docs/security.md).
-constexpr std::string_view kViewer = "viewer";
 constexpr std::string_view kTokenProtocol = "indurop.token.";
 
 // The token as it was sent, in a header or, by the WebSocket of a browser, as a subprotocol. Empty: none.
@@ -63,20 +52,44 @@ bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept {
   return difference == 0;
 }
 
-std::string Gate::who(const Request& request) const {
-  const std::string_view sent = sent_token(request);
-  std::string name;
-  for (const Token& token : settings_.tokens) {  // all of them: the time does not tell which
-    if (equal_in_constant_time(token.value, sent) && !sent.empty()) {
-      name = token.name;
+// "[::1]:8080" -> "::1", "LocalHost:8080" -> "localhost".
+std::string host_name(std::string_view host) {
+  constexpr std::size_t kLongestPort = 5;
+  const auto end = host.starts_with('[') ? host.find(']') : host.find(':');
+  if (host.starts_with('[') && end == std::string_view::npos) {
+    return {};
+  }
+  std::string_view rest = end == std::string_view::npos ? std::string_view() : host.substr(end);
+  const std::string_view name = host.starts_with('[') ? host.substr(1, end - 1) : host.substr(0, end);
+  rest.remove_prefix(rest.starts_with(']') ? 1 : 0);
+  if (!rest.empty()) {
+    const std::string_view port = rest.substr(1);
+    const bool number = !port.empty() && port.size() <= kLongestPort &&
+                        std::all_of(port.begin(), port.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (!rest.starts_with(':') || !number) {
+      return {};
     }
   }
-  return name.empty() ? request.certificate : name;
+  return lower(name);
+}
+
+Client Gate::client_of(const Request& request) const {
+  const std::string_view sent = sent_token(request);
+  if (sent.empty()) {
+    return request.certificate;
+  }
+  Client client{{}, Role::Unknown, "the token is wrong"};
+  for (const Token& token : settings_.tokens) {  // all of them: the time does not tell which
+    if (equal_in_constant_time(token.value, sent)) {
+      client = {token.name, token.role, {}};
+    }
+  }
+  return client;
 }
 
 bool Gate::host_known(std::string_view host) const {
-  const std::string name = without_port(host);
-  return std::find(settings_.hosts.begin(), settings_.hosts.end(), name) != settings_.hosts.end();
+  const std::string name = host_name(host);
+  return !name.empty() && std::find(settings_.hosts.begin(), settings_.hosts.end(), name) != settings_.hosts.end();
 }
 
 bool Gate::same_origin(const Request& request) const {
@@ -91,7 +104,33 @@ bool Gate::same_origin(const Request& request) const {
   return lower(request.origin) == (settings_.tls ? "https://" : "http://") + lower(request.host);
 }
 
-std::optional<Reply> Gate::refuse(const Request& request) const {
+std::optional<Reply> Gate::refuse_client(const Client& client, Right right) const {
+  if (right == Right::Open) {
+    return std::nullopt;
+  }
+  if (!client.refusal.empty()) {
+    Reply reply = refusal(status::kUnauthorized, client.refusal);
+    reply.wrong_credentials = client.refusal;
+    return reply;
+  }
+  if (client.role == Role::Unknown && !settings_.loopback) {
+    return refusal(status::kUnauthorized, "a token or a client certificate is needed");
+  }
+  if (right == Right::Read) {
+    return std::nullopt;
+  }
+  if (!settings_.write) {
+    return refusal(status::kForbidden, "this server only shows; start it with --write to let it write");
+  }
+  if (client.role == Role::Unknown) {
+    return refusal(status::kUnauthorized, "writing needs a token or a client certificate");
+  }
+  return may_write(client)
+             ? std::nullopt
+             : std::optional(refusal(status::kForbidden, "what " + client.name + " showed lets it look, not write"));
+}
+
+std::optional<Reply> Gate::refuse(const Request& request, Right right) const {
   if (!host_known(request.host)) {
     return refusal(status::kMisdirected, "this server is not called '" + request.host +
                                              "'; start it with --host NAME to let it be called so");
@@ -99,30 +138,13 @@ std::optional<Reply> Gate::refuse(const Request& request) const {
   if (!same_origin(request)) {
     return refusal(status::kForbidden, "a page of another site may not ask this server");
   }
-  const bool api = request.stream || request.path.starts_with("/api/");
   if (request.method == Method::Other) {
     Reply reply = refusal(status::kMethodNotAllowed, "only GET and POST are answered");
     reply.allow = "GET, POST";
     return reply;
   }
-  const bool known = !who(request).empty();
-  if (api && !known && !sent_token(request).empty()) {
-    return refusal(status::kUnauthorized, "the token is wrong");
-  }
-  if (api && !known && !settings_.loopback) {
-    return refusal(status::kUnauthorized, "a token or a client certificate is needed");
-  }
-  if (request.method != Method::Post) {
-    return std::nullopt;
-  }
-  if (!settings_.write) {
-    return refusal(status::kForbidden, "this server only shows; start it with --write to let it write");
-  }
-  if (!known) {
-    return refusal(status::kUnauthorized, "writing needs a token or a client certificate");
-  }
-  if (sent_token(request).empty() && request.certificate == kViewer) {
-    return refusal(status::kForbidden, "the keys of a viewer let look, not write");
+  if (auto refused = refuse_client(client_of(request), right)) {
+    return refused;
   }
   if (request.has_body && !is_json(request.content_type)) {
     return refusal(status::kNotJson, "the body has to be JSON, with the header Content-Type: application/json");

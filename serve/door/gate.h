@@ -15,6 +15,7 @@ namespace indurop::serve {
 struct Token {
   std::string name;  // for the audit log
   std::string value;
+  Role role = Role::Writer;
 };
 
 struct GateSettings {
@@ -30,19 +31,23 @@ class Gate {
  public:
   explicit Gate(GateSettings settings) : settings_(std::move(settings)) {}
 
-  // Why the request is not answered, or nothing.
-  [[nodiscard]] std::optional<Reply> refuse(const Request& request) const;
-  // Name of the token's or certificate's holder; empty: nobody known.
-  [[nodiscard]] std::string who(const Request& request) const;
-  [[nodiscard]] bool may_write(const Request& request) const { return settings_.write && !who(request).empty(); }
+  // Why the request, which needs `right`, is not answered, or nothing.
+  [[nodiscard]] std::optional<Reply> refuse(const Request& request, Right right) const;
+  // Who the token, else the certificate, says it is.
+  [[nodiscard]] Client client_of(const Request& request) const;
+  [[nodiscard]] bool may_write(const Client& client) const { return settings_.write && client.role == Role::Writer; }
   [[nodiscard]] const GateSettings& settings() const noexcept { return settings_; }
 
  private:
   [[nodiscard]] bool host_known(std::string_view host) const;
   [[nodiscard]] bool same_origin(const Request& request) const;
+  [[nodiscard]] std::optional<Reply> refuse_client(const Client& client, Right right) const;
 
   GateSettings settings_;
 };
+
+// Name or address of a Host header, in lower case and without the port; empty: it is no Host.
+std::string host_name(std::string_view host);
 
 // Takes the same time wherever the two differ.
 bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept;

@@ -15,7 +15,8 @@
 
 namespace indurop::serve {
 
-// What goes to a WebSocket. Many clients may share one: the door writes its own header into the room in front.
+// What goes to a WebSocket. Many clients share one: the frame's header is the same for all, and is written into the
+// room in front.
 struct Message {
   static constexpr std::size_t kRoom = 32;
   explicit Message(std::string_view text, bool is_binary = false) : bytes(kRoom), binary(is_binary) {
@@ -30,11 +31,15 @@ using SharedMessage = std::shared_ptr<Message>;
 
 // WebSocket close codes we use.
 namespace close_code {
+inline constexpr int kProtocol = 1002;
 inline constexpr int kNotUnderstood = 1003;
 inline constexpr int kBadText = 1007;
+inline constexpr int kNotAllowed = 1008;
 inline constexpr int kTooLarge = 1009;
 }  // namespace close_code
 
+// Our own subprotocol.
+inline constexpr const char* kStream = "indurop.v1";
 // Subprotocols of https://github.com/foxglove/ws-protocol, under two names: of others' servers and of their own.
 inline constexpr const char* kFoxglove = "foxglove.websocket.v1";
 inline constexpr const char* kFoxgloveSdk = "foxglove.sdk.v1";
@@ -74,8 +79,14 @@ class House {
   House(const House&) = delete;
   House& operator=(const House&) = delete;
   virtual ~House() = default;
-  // Why this request is not answered, from its headers alone.
-  virtual std::optional<Reply> refuse(const Request& request) = 0;
+  // Which of the subprotocols that a client asks for is spoken with it; empty: none of them.
+  virtual std::string choose_subprotocol(const Request& request) = 0;
+  // What a client may do that showed this certificate (PEM), which the authority signed.
+  virtual Client identify(const std::string& certificate) = 0;
+  // Why this request is not answered, from its headers alone. Else `client` of it is filled in.
+  virtual std::optional<Reply> refuse(Request& request) = 0;
+  // So many requests of this address were refused for what they showed; `request` is the last one.
+  virtual void note_refused(const Request& request, const std::string& why, std::uint64_t count) = 0;
   // Nothing: it comes later, by Door::reply().
   virtual std::optional<Reply> answer(const Request& request, Ticket ticket) = 0;
   virtual std::unique_ptr<Visitor> receive(const Request& request, Line& line) = 0;

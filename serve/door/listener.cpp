@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <netdb.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <array>
@@ -67,8 +68,23 @@ Result<Listener, base::Problem> Listener::open(const std::string& address, int p
   return Listener(std::move(file), bound);
 }
 
-int Listener::take() const noexcept {
-  return accept4(file_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+Result<Listener::Taken, Error> Listener::take() const {
+  sockaddr_storage peer{};
+  socklen_t size = sizeof peer;
+  auto* const address = reinterpret_cast<sockaddr*>(&peer);
+  Taken taken{base::Descriptor(accept4(file_.get(), address, &size, SOCK_CLOEXEC | SOCK_NONBLOCK)), {}, false};
+  if (!taken.file.is_open()) {
+    const bool none = errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ECONNABORTED;
+    return Error{none ? Errc::NotFound : Errc::System, none ? 0 : errno, "accept"};
+  }
+  const int on = 1;
+  setsockopt(taken.file.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  std::array<char, NI_MAXHOST> text{};
+  if (getnameinfo(address, size, text.data(), text.size(), nullptr, 0, NI_NUMERICHOST) == 0) {
+    taken.address = text.data();
+  }
+  taken.loopback = taken.address == "::1" || taken.address.starts_with("127.");
+  return taken;
 }
 
 }  // namespace indurop::serve

@@ -20,8 +20,13 @@ class Listener {
 
   [[nodiscard]] int file() const noexcept { return file_.get(); }
   [[nodiscard]] int port() const noexcept { return port_; }
-  // The next connection, or -1. Never blocks.
-  [[nodiscard]] int take() const noexcept;
+  struct Taken {
+    base::Descriptor file;
+    std::string address;
+    bool loopback = false;
+  };
+  // The next connection. Never blocks. Without one, `sys_errno` is 0 if none waits, else why it cannot be had.
+  [[nodiscard]] Result<Taken, Error> take() const;
 
  private:
   Listener(base::Descriptor file, int port) noexcept : file_(std::move(file)), port_(port) {}

@@ -7,7 +7,7 @@
 namespace indurop::serve {
 
 std::string_view word_of(int code) noexcept {
-  constexpr std::array<std::pair<int, std::string_view>, 15> kWords{{
+  constexpr std::array<std::pair<int, std::string_view>, 16> kWords{{
       {status::kBadRequest, "bad_request"},
       {status::kUnauthorized, "unauthorized"},
       {status::kForbidden, "forbidden"},
@@ -20,6 +20,7 @@ std::string_view word_of(int code) noexcept {
       {status::kMisdirected, "wrong_host"},
       {status::kWrongValue, "wrong_value"},
       {status::kLocked, "locked"},
+      {status::kHeadTooLarge, "too_large"},
       {status::kFailed, "failed"},
       {status::kUnavailable, "unavailable"},
       {status::kNoAnswer, "no_answer"},

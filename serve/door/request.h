@@ -15,6 +15,19 @@ namespace indurop::serve {
 
 enum class Method { Get, Post, Other };
 
+// What a request asks for: nothing that is anybody's, to look, or to change something.
+enum class Right { Open, Read, Write };
+
+// What a client may do. On this machine those that nobody knows may look.
+enum class Role { Unknown, Reader, Writer };
+
+// Who asks, as far as its certificate or token says.
+struct Client {
+  std::string name;  // empty: nobody known
+  Role role = Role::Unknown;
+  std::string refusal;  // why what it showed does not count; empty: it counts, or there was nothing
+};
+
 struct Request {
   Method method = Method::Get;
   std::string path;  // decoded
@@ -24,10 +37,11 @@ struct Request {
   std::string fetch_site;     // Sec-Fetch-Site
   std::string authorization;  // whole header
   std::string subprotocols;   // Sec-WebSocket-Protocol
-  std::string subprotocol;    // the one that is spoken
+  std::string subprotocol;    // the one that is spoken; empty: HTTP
   std::string content_type;
-  std::string certificate;  // name in the client's certificate, if an authority we trust signed it
-  std::string from;         // address
+  Client certificate;  // what the client's certificate says
+  Client client;       // what certificate and token say together; known once it was admitted
+  std::string from;    // address
   std::string body;
   bool has_body = false;
   bool stream = false;  // asks for a WebSocket
@@ -38,9 +52,10 @@ struct Reply {
   int status = 200;
   std::string type = "application/json";
   std::string body;
-  std::string allow;       // header Allow, of 405
-  bool immutable = false;  // may be kept by browsers for a year
-  bool close = false;      // end the connection afterwards
+  std::string allow;              // header Allow, of 405
+  bool immutable = false;         // may be kept by browsers for a year
+  bool close = false;             // end the connection afterwards
+  std::string wrong_credentials;  // why the token or certificate that was shown does not count; empty: it does
 };
 
 namespace status {
@@ -57,6 +72,7 @@ inline constexpr int kNotJson = 415;
 inline constexpr int kMisdirected = 421;
 inline constexpr int kWrongValue = 422;
 inline constexpr int kLocked = 423;
+inline constexpr int kHeadTooLarge = 431;
 inline constexpr int kFailed = 500;
 inline constexpr int kUnavailable = 503;
 inline constexpr int kNoAnswer = 504;

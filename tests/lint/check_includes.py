@@ -18,7 +18,6 @@ THIRD_PARTY = {
     "dds": ("dds/", "ddsc/", "dds.h", "idl/", "org/eclipse/cyclonedds/"),
     "openssl": ("openssl/",),
     "modbus": ("modbus/",),
-    "websockets": ("libwebsockets.h",),
     "curses": ("curses.h",),
     "zstd": ("zstd.h",),
     "lz4": ("lz4frame.h",),

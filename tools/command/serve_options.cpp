@@ -40,6 +40,9 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
   app.add("--client-ca", "FILE", options.client_ca,
           "Authority whose certificates count like a token (a plant's ca.pem)")
       .completes(base::Completion::File);
+  app.add("--revoked", "FILE", options.revoked,
+          "Certificates of --client-ca that do not count any more (default: revoked.pem beside it)")
+      .completes(base::Completion::File);
   app.add("--host", "NAME", options.hosts, "Another name under which clients may call this server").one_at_a_time();
   app.add("--origin", "URL", options.origins,
           "A page of another origin may follow variables too, https://app.foxglove.dev")
@@ -84,6 +87,7 @@ std::vector<std::string> words_of(const ServeOptions& options) {
   value("--cert", options.cert.string());
   value("--key", options.key.string());
   value("--client-ca", options.client_ca.string());
+  value("--revoked", options.revoked.string());
   for (const std::string& host : options.hosts) {
     value("--host", host);
   }

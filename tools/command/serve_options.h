@@ -24,6 +24,7 @@ struct ServeOptions {
   std::filesystem::path cert;
   std::filesystem::path key;
   std::filesystem::path client_ca;
+  std::filesystem::path revoked;
   std::filesystem::path web;
   std::filesystem::path audit;
   std::filesystem::path recordings;

@@ -208,7 +208,9 @@ def test_refuses_those_who_may_not(setting):
     assert server.ask("PUT", path, body, TOKEN).status == 405
     assert server.get(path).status == 405
     assert server.get(f"{API}/boards/{setting.node}/variables/gain").json()["value"] == 1
-    assert server.get(API + "/audit").json()["audit"] == []
+    noted = wait_for(lambda: server.get(API + "/audit").json()["audit"], "a note about the wrong token")
+    assert [(one["action"], one["from"]) for one in noted] == [("refused", "127.0.0.1")] * 2, noted  # one of each server
+    assert all("token is wrong" in one["outcome"] for one in noted), noted
 
 
 def test_stays_in_its_folder(setting):

@@ -49,6 +49,9 @@ TEST(Router, Has_the_paths_of_the_description_and_no_others) {
   }
   std::set<std::string> routed;
   for (const Route& route : all_routes()) {
+    if (route.answer == nullptr) {
+      continue;  // streams, and files of the page
+    }
     routed.insert(std::string(route.method == Method::Post ? "post " : "get ") + std::string(route.pattern));
   }
   EXPECT_EQ(routed, described);

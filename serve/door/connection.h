@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// One client: its requests one after the other, or its WebSocket. It is called when something has come, when something
+// can be sent, and when its time is over; it never waits.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "serve/door/connection_limits.h"
+#include "serve/door/door.h"
+#include "serve/door/frames.h"
+#include "serve/door/house.h"
+#include "serve/door/http_head.h"
+#include "serve/door/wire.h"
+#include "serve/door/wrong_tokens.h"
+
+namespace indurop::serve {
+
+// What all connections have in common.
+struct Common {
+  DoorSettings settings;
+  House* house = nullptr;
+  ConnectionLimits limits;
+  WrongTokens wrong_tokens;
+  Ticket last_ticket = 0;
+  std::size_t streams = 0;
+  std::size_t unknown_streams = 0;  // of clients without token or certificate
+};
+
+class Connection final : public Line {
+ public:
+  Connection(Common& common, ConnectionLimits::Id id, Wire wire, std::string address);
+  ~Connection() override;
+
+  [[nodiscard]] ConnectionLimits::Id id() const noexcept { return id_; }
+  [[nodiscard]] int file() const noexcept { return wire_.file(); }
+  [[nodiscard]] short events() const;  // for poll()
+  [[nodiscard]] std::int64_t deadline_ns() const noexcept { return deadline_ns_; }
+  [[nodiscard]] bool holds_input() const { return !input_ended_ && wire_.holds_input(); }
+  void begin_at(std::int64_t now_ns);
+  // Results: false ends the connection.
+  bool ready(short happened, std::int64_t now_ns);
+  bool on_time(std::int64_t now_ns);
+  bool reply(Reply reply, std::int64_t now_ns);
+  // Waits for this reply?
+  [[nodiscard]] bool waits_for(Ticket ticket) const { return phase_ == Phase::Answering && ticket_ == ticket; }
+  void ask() override { asked_ = true; }
+
+ private:
+  enum class Phase {
+    Head,  // of a request that comes
+    Body,
+    Answering,  // the reply comes later
+    Held,       // so does a refusal, on purpose
+    Sending,    // of the reply
+    Stream,     // a WebSocket
+    Closing,    // everything is said, the client ends
+  };
+  void enter(Phase phase, std::int64_t lasts_ns, std::int64_t now_ns);
+  bool receive(std::int64_t now_ns);
+  bool go_on(std::int64_t now_ns);
+  bool requested(std::int64_t now_ns);
+  bool body_came(std::int64_t now_ns);
+  bool answer(std::int64_t now_ns);
+  bool refuse(Reply reply, std::int64_t now_ns);
+  bool begin(Reply reply, std::int64_t now_ns);
+  bool flush(std::int64_t now_ns);
+  bool sent_all(std::int64_t now_ns);
+  bool upgrade(const Head& head, Request request, std::int64_t now_ns);
+  bool open_stream(const std::string& accept, std::int64_t now_ns);
+  bool hear(std::int64_t now_ns);
+  int heard(FrameKind kind, const std::string& data);
+  bool next_message();
+  [[nodiscard]] std::string_view rest_of_message() const;
+  bool close_stream(int code, std::int64_t now_ns);
+  bool stream_on_time(std::int64_t now_ns);
+  void read_certificate();
+
+  Common& common_;
+  ConnectionLimits::Id id_;
+  Wire wire_;
+  std::string address_;
+  Phase phase_ = Phase::Head;
+  std::int64_t deadline_ns_ = 0;
+  std::string input_;
+  bool input_ended_ = false;
+  std::string output_;
+  std::size_t sent_ = 0;  // of it
+  bool close_ = false;    // after what is being sent
+  Request request_;
+  std::size_t body_length_ = 0;
+  Ticket ticket_ = 0;
+  Reply held_;
+  std::string certificate_;  // PEM
+  bool certificate_read_ = false;
+
+  // A WebSocket.
+  std::unique_ptr<Visitor> visitor_;
+  FrameReader frames_{kMostMessage};
+  SharedMessage message_;
+  std::size_t message_begin_ = 0;  // of its frame
+  std::size_t message_sent_ = 0;   // of that
+  bool asked_ = false;             // next() has something
+  std::int64_t heard_ns_ = 0;
+};
+
+}  // namespace indurop::serve

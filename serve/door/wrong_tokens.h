@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who shows wrong tokens or certificates, by address: how long the refusal is held back, and when it is noted down. Its
+// memory has a limit, whatever comes. Pure numbers, no sockets.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace indurop::serve {
+
+class WrongTokens {
+ public:
+  static constexpr std::size_t kMostAddresses = 256;
+  static constexpr std::int64_t kWindowNs = 60'000'000'000;   // after as long without any all is forgotten
+  static constexpr std::uint64_t kAtOnce = 3;                 // are refused without delay
+  static constexpr std::int64_t kFirstDelayNs = 250'000'000;  // doubled with each one
+  static constexpr std::int64_t kMostDelayNs = 2'000'000'000;
+  static constexpr std::uint64_t kMostNotes = 30;  // in a window, of all addresses
+
+  struct Verdict {
+    std::int64_t delay_ns = 0;
+    std::uint64_t note = 0;  // so many are to be noted down now, this one included; 0: nothing
+  };
+  // One more of this address.
+  Verdict wrong(const std::string& address, std::int64_t now_ns);
+  [[nodiscard]] std::size_t size() const noexcept { return all_.size(); }
+
+ private:
+  struct One {
+    std::uint64_t count = 0;
+    std::uint64_t not_noted = 0;
+    std::int64_t last_ns = 0;
+    std::int64_t noted_ns = 0;
+  };
+  One& of(const std::string& key, std::int64_t now_ns);
+  bool may_note(std::int64_t now_ns);
+
+  std::map<std::string, One> all_;
+  std::int64_t notes_since_ns_ = 0;
+  std::uint64_t notes_ = 0;
+};
+
+}  // namespace indurop::serve
