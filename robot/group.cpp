@@ -264,6 +264,12 @@ void Group::follow_path() noexcept {
   Joints q = follower_.joints();
   fault = fault.ok() ? ride(q) : fault;
   if (!fault.ok()) {
+    const bool stands = std::all_of(gates_.begin(), gates_.end(), [](const SetPointGate& g) { return g.at_rest(); });
+    if (jogging_ && stands && state_ == GroupState::Moving) {
+      follower_.reset(commanded());  // at the end of an axis there may be no first step
+      jog_blocked_ = true;
+      return;
+    }
     fall_off(fault.code, fault.axis);
     return;
   }
