@@ -27,8 +27,7 @@ std::map<std::string, Known> known_alarms(const std::vector<DeclaredAlarm>& decl
   }
   for (const auto& [name, record] : book.standing()) {
     const bool module = name.starts_with(module_alarm(""));
-    all.emplace(name,
-                Known{module ? name : name.substr(0, name.find(' ')), record.last.text, record.last.priority});
+    all.emplace(name, Known{module ? name : name.substr(0, name.find(' ')), record.last.text, record.last.priority});
   }
   return all;
 }

@@ -27,7 +27,7 @@ struct Simulation {
   std::optional<int> conductor;  // of a board: the open socket to who simulates the plant
 };
 
-inline constexpr std::uint64_t kTapeMegabytes = 8;
+inline constexpr std::uint64_t kTapeMegabytes = 20;
 
 // The runs of a recording once more, instead of a run of its own.
 struct Replay {

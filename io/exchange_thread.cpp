@@ -12,6 +12,7 @@ namespace indurop::io {
 namespace {
 
 constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
+constexpr std::chrono::seconds kToBegin{1};  // a device that starts together with the node may not be there at once
 
 }  // namespace
 
@@ -55,7 +56,7 @@ bool ExchangeThread::wait_until(Clock::time_point when) {
 }
 
 void ExchangeThread::work() {
-  Clock::time_point next = last_exchange_ = Clock::now();
+  Clock::time_point next = began_ = last_exchange_ = Clock::now();
   do {
     const Clock::time_point now = Clock::now();
     if (!is_open_) {
@@ -83,7 +84,9 @@ void ExchangeThread::open(Clock::time_point now) {
   if (!is_open_) {
     image_.lose();
     hand_over();
-    say(Quality::Lost, now);
+    if (told_ != Quality::None || now - began_ >= kToBegin) {
+      say(Quality::Lost, now);
+    }
   }
 }
 

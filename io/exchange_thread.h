@@ -60,6 +60,7 @@ class ExchangeThread {
   bool is_open_ = false;
   bool had_outputs_ = false;
   bool holding_ = false;
+  Clock::time_point began_;
   Clock::time_point last_outputs_;
   Clock::time_point last_exchange_;
   Clock::time_point bad_since_;

@@ -178,7 +178,7 @@ void write_state() {
   state->nAXESGROUP = static_cast<unsigned short>(plcRobot->axis_count());
   state->MotionDone = out.motion_done;
   state->Busy = out.busy;
-  state->eState = static_cast<short>(out.state);
+  state->eState = static_cast<ROBOT_GROUP_STATE>(out.state);
   state->bRuntimeService = out.acknowledged != out.done;
   state->bJob_RobotMoving = out.moving_by_job;
   for (std::size_t k = 0; k < state->dCurJoint.size(); ++k) {
@@ -194,7 +194,7 @@ void write_state() {
   }
   state->nAcknowledge = out.acknowledged;
   state->nDone = out.done;
-  state->nError = static_cast<uint32_t>(out.error);
+  state->nError = static_cast<ROBOT_ERROR>(out.error);
   state->nErrorAxis = out.error_axis;
 }
 
@@ -210,13 +210,13 @@ void write_arm() {
   arm->to_go = out.to_go;
   arm->nTool = static_cast<uint16_t>(out.tool);
   arm->tool = out.tool_name;
-  arm->eMode = static_cast<short>(out.mode);
+  arm->eMode = static_cast<ROBOT_OPERATING_MODE>(out.mode);
   arm->bMayMove = out.may_move;
 }
 
 void write_job() {
   auto job = lock(ROBOT_JOB);
-  job->eState = static_cast<short>(out.job.state);
+  job->eState = static_cast<ROBOT_JOB_STATE>(out.job.state);
   job->nJob = static_cast<uint16_t>(out.job.job);
   job->nLine = out.job.line;
   job->nCycles = out.job.cycles;
@@ -230,11 +230,11 @@ void write_axis_states() {
   auto axes = lock(AXIS_STATE);
   for (std::size_t k = 0; k < MAX_JOINTS; ++k) {
     const robot::AxisReport& a = out.axes[k];
-    axes[k] = {static_cast<int32_t>(a.state),
+    axes[k] = {static_cast<ROBOT_AXIS_STATE>(a.state),
                a.acknowledged,
                a.done,
                a.aborted,
-               static_cast<uint32_t>(a.error),
+               static_cast<ROBOT_ERROR>(a.error),
                static_cast<short>(a.power),
                a.homed,
                a.in_velocity,

@@ -43,7 +43,7 @@ tour() {
   while [ $second -lt 20 ]; do
     sleep 2
     second=$((second + 2))
-    printf '%3d s  job %-6s state %s, %s on the pallet, visitor %s\n' $second "$(indurop get --node "$1" ROBOT_JOB.name)" \
+    printf '%3d s  job %-6s %-22s %s on the pallet, visitor %s\n' $second "$(indurop get --node "$1" ROBOT_JOB.name)" \
       "$(indurop get --node "$1" ROBOT_MODULE_STATE.eState)" "$(indurop get --node "$2" CELL::world.placed)" \
       "$(indurop get --node "$2" CELL::world.doing)"
   done
@@ -60,7 +60,6 @@ picture() {
   recording=$1 file=$2 title=$3
   shift 3
   indurop chart "$recording" --svg "$file" --title "$title" -q --way ROBOT_ARM.position "$@" \
-    --words 'ROBOT_MODULE_STATE.eState=0 off, 1 standby, 2 moves, 3 homes, 4 stops, 5 error' \
     --name ROBOT_MODULE_STATE.eState=robot --name ROBOT_JOB.name=job --name EMERGENCY_STOP.bActive='emergency stop' \
     --name 'I4=I4: holds a part' --name 'I5=I5: gripper open' --name 'O8=O8: close gripper' --name 'O9=O9: open gripper' \
     --name 'O10=O10: glue'
@@ -80,7 +79,7 @@ show indurop check module.xml
 say "\$ indurop run module.xml --node cell &"
 indurop run module.xml --node cell -q &
 runner=$!
-say "A visitor starts the cell, walks through the light curtain and hits the emergency stop (state 2 moves, 5 was stopped); its job goes on after that"
+say "A visitor starts the cell, walks through the light curtain and hits the emergency stop (ROBOT_GROUP_ERRORSTOP); its job goes on after that"
 tour cell cell cell.csv
 show indurop jitter --node cell --no-histogram
 show indurop get --node cell EMERGENCY_STOP CELL::world
@@ -104,15 +103,16 @@ say "Pictures: $folder/cell.svg, cell_two_boards.svg, main.svg (ladder), schedul
 
 # Somebody who sits there may look at it.
 [ -t 1 ] || exit 0
-say "The cell goes on: look at it in a browser; Ctrl-C ends it"
+say "The cell goes on: look at it in a browser, its ladder, its robot, its alarms; Ctrl-C ends it"
 indurop run module.xml --node cell -q &
 runner=$!
 wait_for cell I14 1
 indurop set --node cell CELL::tour true
-indurop serve --node cell &
+watched=main.xml,plc_robot.glb,cell.glb
+indurop serve --node cell --plc $watched --write &
 server=$!
 wait $server || {
-  indurop serve --node cell --port 0 & # somebody else has the usual one
+  indurop serve --node cell --plc $watched --write --port 0 & # somebody else has the usual one
   server=$!
   wait $server
 }

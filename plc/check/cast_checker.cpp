@@ -5,6 +5,7 @@
 
 #include "plc/check/call_checker.h"
 #include "plc/check/expression_checker.h"
+#include "plc/check/foreign_types.h"
 #include "plc/model/make.h"
 
 namespace indurop::plc {
@@ -65,10 +66,14 @@ bool CallChecker::enumeration_call(Expression& call, const Type*& type) {
   if (at == std::string::npos || call.arguments.size() != 1 || !call.arguments[0].value) {
     return false;
   }
-  const auto enumeration = [this](const std::string& of) {
+  const auto enumeration = [this](const std::string& of) -> const Type* {
+    if (elementary_named(of)) {
+      return nullptr;
+    }
     const auto found = context_.program.type_names.find(of);
-    const bool is_one = found != context_.program.type_names.end() && found->second->kind == Type::Kind::Enum;
-    return is_one ? found->second : nullptr;
+    const Type* const one =
+        found != context_.program.type_names.end() ? found->second : foreign_type_named(context_, of);
+    return one != nullptr && one->kind == Type::Kind::Enum ? one : nullptr;
   };
   const std::string from_name = name.substr(0, at);
   const std::string to_name = name.substr(at + (at == 0 ? 3 : 4));

@@ -2,6 +2,9 @@
 #include "plc/check/foreign_types.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
+#include <string_view>
 
 namespace indurop::plc {
 namespace {
@@ -74,7 +77,25 @@ const Type* named(Context& context, const schema::Type& type) {
   return added;
 }
 
+// Adds the types of this name in `type` and in what it is made of.
+void find_named(const schema::Type& type, std::string_view name, std::map<std::string, const schema::Type*>& found) {
+  if (same_name(type.name.substr(type.name.rfind(':') + 1), name)) {
+    found.emplace(type.name, &type);
+  }
+  for (const schema::Field& field : type.fields) {
+    find_named(field.type, name, found);
+  }
+}
+
 }  // namespace
+
+const Type* foreign_type_named(Context& context, std::string_view name) {
+  std::map<std::string, const schema::Type*> found;
+  for (const schema::Variable& one : context.program.foreign) {
+    find_named(one.type, name, found);
+  }
+  return found.size() == 1 ? named(context, *found.begin()->second) : nullptr;
+}
 
 const Type* foreign_type(Context& context, const schema::Type& type) {
   const Type* element = nullptr;

@@ -9,5 +9,7 @@ namespace indurop::plc {
 
 // int16_t is INT, uint8_t USINT, char[16] STRING[15], an enum and a struct types of the same name. Never null.
 [[nodiscard]] const Type* foreign_type(Context& context, const schema::Type& type);
+// The struct or enumeration of this name that a shared variable is made of; null if there is none, or several.
+[[nodiscard]] const Type* foreign_type_named(Context& context, std::string_view name);
 
 }  // namespace indurop::plc

@@ -80,6 +80,14 @@ bool same_group(const LibraryFunction& function, std::size_t a, std::size_t b) n
   return function.input(a).type == function.input(b).type && (a == b || !counts);
 }
 
+// As = and <> do.
+bool compares_one_enumeration(const LibraryFunction& function, const std::vector<Expression*>& inputs) noexcept {
+  const bool compares = function.name == "EQ" || function.name == "NE";
+  return compares && std::all_of(inputs.begin(), inputs.end(), [&](const Expression* one) {
+           return one->type->kind == Type::Kind::Enum && same_type(*one->type, *inputs.front()->type);
+         });
+}
+
 }  // namespace
 
 // The values by position; none after an error.
@@ -178,8 +186,8 @@ const Type* CallChecker::library_function(Expression& call, std::vector<const Li
   }
   const Inputs& inputs = *found;
   const LibraryFunction& first = *overloads.front();
+  const bool counts = context_.codesys() || first.name.starts_with("TO_") || compares_one_enumeration(first, inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const bool counts = context_.codesys() || first.name.starts_with("TO_");
     if (counts && inputs[i]->type->kind == Type::Kind::Enum && first.input(i).type != LibraryType(Generic::Any)) {
       expressions_.cast(*inputs[i], *context_.elementary(inputs[i]->type->elementary));
     }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "plc/check/expression_checker.h"
+#include "plc/check/foreign_types.h"
 #include "plc/library/standard.h"
 
 namespace indurop::plc {
@@ -115,6 +116,9 @@ class TypeBuilder {
       const Type* added = context_.program.types.add(std::move(type));
       context_.program.type_names.emplace(upper(spec.name), added);
       return added;
+    }
+    if (const Type* foreign = foreign_type_named(context_, spec.name)) {
+      return foreign;
     }
     std::vector<std::string> known;
     for (const auto& [one, type] : context_.program.type_names) {

@@ -22,9 +22,8 @@ void add_module(std::vector<Trouble>& all, const scheduler::ModuleRecord& module
   const std::string name = tools::fixed_text(module.name);
   const auto kind = static_cast<scheduler::FaultKind>(module.fault_kind.load(std::memory_order_acquire));
   const auto state = module.state.load(kRelaxed);
-  const std::string fault = kind != scheduler::FaultKind::None
-                                ? tools::printable(tools::fixed_text(module.last_fault))
-                                : std::string();
+  const std::string fault =
+      kind != scheduler::FaultKind::None ? tools::printable(tools::fixed_text(module.last_fault)) : std::string();
   const std::optional<std::uint64_t> tick =
       fault.empty() ? std::nullopt : std::optional(module.fault_tick.load(kRelaxed));
   const char* const down = runs ? scheduler::down_text(state) : nullptr;
@@ -61,10 +60,11 @@ void add_node(std::vector<Trouble>& all, const Board& board, const tools::RunVie
   }
   for (const auto& peer : mirror ? mirror->peers : std::vector<tools::PeerView>()) {
     if (peer.state != "alive" || !peer.problem.empty()) {
-      all.push_back({Severity::Warning, "",
-                     fmt::format("board {} is {}{}{}", peer.name, peer.state, peer.problem.empty() ? "" : ": ",
-                                 peer.problem),
-                     {}});
+      all.push_back(
+          {Severity::Warning,
+           "",
+           fmt::format("board {} is {}{}{}", peer.name, peer.state, peer.problem.empty() ? "" : ": ", peer.problem),
+           {}});
     }
   }
 }

@@ -70,8 +70,17 @@ struct PlcPictures::Program {
     if (plan->ok) {
       return {};
     }
-    const std::string first = plan->diagnostics.empty() ? "it cannot be read" : base::to_string(plan->diagnostics[0]);
-    return Failure{kCheckFailed, fmt::format("the PLC program has errors: {}", first)};
+    std::string first = plan->diagnostics.empty() ? "it cannot be read" : base::to_string(plan->diagnostics[0]);
+    constexpr std::string_view kOption = " with --glb";  // which is none of the server
+    if (const auto at = first.find(kOption); at != std::string::npos) {
+      first.erase(at, kOption.size());
+    }
+    const std::string hint =
+        compile.glb_files.empty()
+            ? fmt::format("; .glb files whose variables it uses stand behind it: --plc {},robot.glb",
+                          compile.files.front())
+            : std::string();
+    return Failure{kCheckFailed, fmt::format("the PLC program has errors: {}{}", first, hint)};
   }
 
   Result<PlcView*, Failure> view_of(const std::string& node) {

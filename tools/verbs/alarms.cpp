@@ -183,7 +183,8 @@ Action declare(base::Options& app, Context& context) {
 
 const Verb kAlarmsVerb{
     "alarms", "A running node", "Show alarms, acknowledge and shelve them, and tell what happened",
-    "Alarms are declared in .glb files: bool open @alarm(\"the door is open\", high, 500ms). A module that does not do\n"
+    "Alarms are declared in .glb files: bool open @alarm(\"the door is open\", high, 500ms). A module that does not "
+    "do\n"
     "its work for two seconds is one, too: module Robot. One process on the\n"
     "node's machine looks at their conditions: its agent, indurop serve, or indurop alarms watch. What happened is "
     "kept in the\n"

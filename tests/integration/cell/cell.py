@@ -4,6 +4,7 @@
 import csv
 import json
 import subprocess
+import tempfile
 import time
 
 PATIENCE = 90  # seconds until whatever is waited for has happened
@@ -37,13 +38,16 @@ class Cell:
 
     def changes(self, work):
         """What happened during work(), in order: every change of the robot's state and of its job."""
-        recording = subprocess.Popen([f"{self.arguments.bin}/indurop", "watch", "--node", self.robot, "ROBOT_MODULE_STATE.eState",
-                                      "ROBOT_JOB.name", "--hz", "100", "-o", "csv"], stdout=subprocess.PIPE, text=True)
-        try:
-            work()
-        finally:
-            recording.terminate()
-            rows = list(csv.reader(recording.communicate(timeout=30)[0].splitlines()))[1:]
+        with tempfile.TemporaryFile("w+") as told:  # a pipe that nobody reads would be full
+            recording = subprocess.Popen([f"{self.arguments.bin}/indurop", "watch", "--node", self.robot, "ROBOT_MODULE_STATE.eState",
+                                          "ROBOT_JOB.name", "--hz", "100", "-o", "csv"], stdout=told, text=True)
+            try:
+                work()
+            finally:
+                recording.terminate()
+                recording.wait(timeout=30)
+            told.seek(0)
+            rows = list(csv.reader(told))[1:]
         changes = []
         for row in rows:
             now = tuple(row[1:])

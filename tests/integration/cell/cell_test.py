@@ -80,14 +80,14 @@ class RunningCell(Cell):
         self.wait("a motion of the job", lambda: self.get(self.robot, "ROBOT_JOB.name") == "place" and
                   (self.get(self.robot, "ROBOT_ARM.tool_speed") or 0) > 50)
         self.indurop("set", "--node", self.station, "CELL::panel.emergency_stop", "true")
-        self.wait("emergency stop", lambda: self.get(self.robot, "ROBOT_MODULE_STATE.eState") == 5)
+        self.wait("emergency stop", lambda: self.get(self.robot, "ROBOT_MODULE_STATE.eState") == "ROBOT_GROUP_ERRORSTOP")
         return self.get(self.robot, "ROBOT_JOB.bResume") == 1
 
     def go_on(self):
         self.indurop("set", "--node", self.station, "CELL::panel.emergency_stop", "false")
         self.wait("all is well", lambda: self.get(self.robot, "EMERGENCY_STOP.bActive") == 0)
-        self.press("reset", lambda: self.get(self.robot, "ROBOT_MODULE_STATE.eState") != 5)
-        self.press("start", lambda: self.get(self.robot, "ROBOT_MODULE_STATE.eState") == 2)
+        self.press("reset", lambda: self.get(self.robot, "ROBOT_MODULE_STATE.eState") != "ROBOT_GROUP_ERRORSTOP")
+        self.press("start", lambda: self.get(self.robot, "ROBOT_MODULE_STATE.eState") == "ROBOT_GROUP_MOVING")
 
     def resume(self):
         """Stopped on its way and asked to go on, the job does, and the part comes to its place."""
@@ -133,6 +133,18 @@ def without_devices(folder, name, arguments):
     return shown
 
 
+def starts_clean(folder, arguments):
+    """The cell is what people see first: it starts without a warning, and nothing sounds as if it were wrong."""
+    tools = Cell(arguments, folder, "clean_test", "clean_test")
+    for file in ("module.xml", "plant.xml"):
+        found = json.loads(tools.indurop("check", file, "-o", "json").stdout)["diagnostics"]
+        assert not [one for one in found if one["severity"] != "note"], found
+    done = tools.indurop("run", "module.xml", "--duration", "1s", "--node", "clean_test")
+    begin = (done.stdout + done.stderr).split("stopped: end of the duration")[0].split("the tick stands still")[0]
+    tools.indurop("clean", "--node", "clean_test")
+    assert done.returncode == 0 and not [word for word in ("warning", "note:", "cannot", "--tape") if word in begin], begin
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--bin", required=True)
@@ -141,6 +153,7 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         copy_configuration(os.path.abspath(arguments.cell), os.path.abspath(arguments.io_module), folder)
+        starts_clean(folder, arguments)
         with RunningCell(arguments, folder, ["module.xml", "--node", "cell_test"], "cell_test", "cell_test") as cell:
             one = cell.tour()
             cell.resume()
@@ -154,8 +167,8 @@ def main():
                 beside = cell.tour()
         values = without_devices(folder, "module.xml", arguments)
         assert values == without_devices(folder, "cores.xml", arguments), "not the values of one core"
-    states = {int(state) for state, _ in one}
-    assert {1, 2, 5} <= states, f"standby, moving and error stop were not all seen: {sorted(states)}"
+    states = {state for state, _ in one}
+    assert {f"ROBOT_GROUP_{state}" for state in ("STANDBY", "MOVING", "ERRORSTOP")} <= states, f"standby, moving and error stop were not all seen: {sorted(states)}"
     assert jobs(one)[:3] == ["home", "pick", "place"], jobs(one)
     common = min(len(jobs(one)), len(jobs(two))) - 1  # the last one is whatever was on when it ended
     assert common >= 6, (jobs(one), jobs(two))

@@ -80,7 +80,7 @@ class DeployedCell(Cell):
         return self.get(self.robot, "EMERGENCY_STOP.bActive") == 1
 
     def moves(self):
-        return self.get(self.robot, "ROBOT_MODULE_STATE.eState") == 2
+        return self.get(self.robot, "ROBOT_MODULE_STATE.eState") == "ROBOT_GROUP_MOVING"
 
     def keep_going(self):
         """True if the robot moves; after a stop, once its cause is gone, somebody presses reset and start. On a machine that is busy

@@ -48,10 +48,10 @@ class Cell:
 def stops(rows):
     """When the robot said that something pushes, and against which axis."""
     found = []
-    before = "0"
+    before = ""
     for row in rows:
         error = row[f"{SWING}.nError"]
-        if error == "30" and before != "30":
+        if error == "ROBOT_ERR_CONTACT" and before != error:
             found.append((row["t"], int(row[f"{SWING}.nErrorAxis"])))
         before = error
     return found

@@ -28,7 +28,7 @@ struct RobotServiceMessage {
   } arg;
 };
 struct {
-  int eState;
+  ROBOT_GROUP_STATE eState;
   struct {
     int nRobotAxis;
   } plcRobotInfo;

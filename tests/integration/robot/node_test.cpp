@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The robot task in a node, with six simulated drives and the emergency stop, asked as a PLC program would ask.
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -82,7 +84,14 @@ class RobotNode : public NodeTest {
   double number(const std::string& variable) {
     const Outcome outcome = indurop({"get", variable});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return outcome.code == 0 ? std::stod(outcome.out) : std::nan("");
+    if (outcome.code != 0) {
+      return std::nan("");
+    }
+    if (std::isalpha(static_cast<unsigned char>(outcome.out[0])) == 0) {
+      return std::stod(outcome.out);
+    }
+    const auto parts = indurop({"typeof", variable, "-o", "json"}).json()["parts"];  // the value of an enumeration
+    return parts[0]["values"][outcome.out.substr(0, outcome.out.find('\n'))].get<double>();
   }
   int next_request() { return static_cast<int>(number("PLC_ROBOT::ROBOT_MODULE_STATE.nAcknowledge")) + 1; }
   // ROBOT_ERROR of the service, once it has ended.

@@ -211,11 +211,12 @@ await browser.run({
 
   async "The schedule shows runs and explains them"() {
     for (const [screen, size] of Object.entries({ wide, phone })) {
-      const page = await browser.open("schedule?z=16&m=Robot&n=1", size);
+      const page = await browser.open("schedule?m=Robot", size);
       await page.waitForSelector(".run rect");
       await sees(page, "Robot: how its times are distributed");
       await sees(page, "half below");
       await page.locator("details.panel summary").click();
+      await page.$eval("details.panel tbody .link-button", (button) => button.scrollIntoView({ block: "center" }));
       await page.locator("details.panel tbody .link-button").click();
       await sees(page, "after it was due");
       await browser.judge(page, `schedule-${screen}`);
@@ -273,6 +274,77 @@ await browser.run({
     await press(page, "Stop");
     await sees(page, "Stopped.");
     await until("it is not stopped", async () => !(await moves()) && ![1, 2].includes(await job()));
+    await page.close();
+  },
+
+  async "The ladder of the cell is shown, wide and on a phone"() {
+    await order("start-tour");
+    for (const [screen, size] of Object.entries({ wide: { width: 1280, height: 900 }, phone, dark: { width: 1280, height: 900, dark: true } })) {
+      const page = await browser.open("plc", size);
+      await sees(page, "The drives have no power");
+      await page.waitForFunction(() => document.querySelectorAll(".network .power").length > 20);
+      check(await page.$eval(".network", (one) => one.querySelectorAll("a[aria-label^='PLC_ROBOT::I14,']").length) > 0, "the emergency stop circuit leads nowhere");
+      if (screen === "phone") check(await page.$eval(".coils .chip", (chip) => chip.innerText.startsWith("safe ")), "the coil is not said");
+      await browser.judge(page, `plc-cell-${screen}`);
+      await page.close();
+    }
+  },
+
+  async "Alarms of the cell"() {
+    await order("start-tour");
+    for (const [screen, size] of Object.entries({ wide: { width: 1280, height: 800 }, phone })) {
+      const page = await browser.open("alarms", size);
+      await sees(page, "somebody is in the light curtain");
+      await browser.judge(page, `alarms-cell-${screen}`);
+      await page.close();
+    }
+  },
+
+  async "A module is stopped only when that is confirmed, and is missed everywhere"() {
+    await order("stop-node");  // somebody stopped its job
+    await order("start-node");
+    await order("start-tour");
+    const page = await browser.open("overview", { width: 1280, height: 900 });
+    await sees(page, "estop");
+    const dialog = "dialog[open]";
+    const ask = async (label) => {
+      await page.locator(`::-p-aria(${label})`).click();
+      await page.waitForSelector(dialog);
+    };
+    const state_of = async (name) => (await (await fetch(`${origin}/api/v1/boards/${node}/modules`)).json()).modules.find((one) => one.name === name).state;
+    await ask("Stop estop");
+    await sees(page, "estop is the emergency stop: it writes PLC_ROBOT::EMERGENCY_STOP");
+    await browser.judge(page, "stop-asked");
+    await press(page, "Leave it running");
+    await page.waitForFunction((open) => !document.querySelector(open), {}, dialog);
+    check(await state_of("estop") === "running", "it was stopped although nobody agreed");
+    await ask("Restart main");
+    await page.keyboard.press("Escape");
+    await page.waitForFunction((open) => !document.querySelector(open), {}, dialog);
+    for (const end = Date.now() + 60_000; ![1, 2].includes((await value_of("PLC_ROBOT::ROBOT_JOB")).eState);) {
+      check(Date.now() < end, "no job runs");
+      await new Promise((done) => setTimeout(done, 20));
+    }
+    await ask("Stop Robot");
+    await sees(page, "The robot is in mid-job: ");
+    await press(page, "Stop Robot");
+    await sees(page, `${node}: module Robot is stopped`);
+    check(await state_of("Robot") === "stopped", "it was not stopped");
+    await browser.judge(page, "module-stopped");
+    const robot = await browser.open("robot", { width: 1280, height: 900 });
+    await sees(robot, "Module Robot is stopped: the robot cannot be moved. Start it on the overview.");
+    await sees(robot, "does not run");
+    await sees_no(robot, "moving");
+    check(await robot.$$eval(".jog", (all) => all.length > 0 && all.every((one) => one.matches(":disabled"))), "a button can be pressed");
+    await browser.judge(robot, "robot-stopped");
+    await page.evaluate(() => { location.hash = "#/alarms"; });
+    await sees(page, "module Robot is stopped");
+    await sees(page, "active, not acknowledged");
+    await page.evaluate(() => { location.hash = "#/overview"; });
+    await page.locator("::-p-aria(Start Robot)").click();
+    await sees_no(page, "module Robot is stopped");
+    await sees_no(robot, "the robot cannot be moved");
+    await robot.close();
     await page.close();
   },
 
@@ -357,54 +429,6 @@ await browser.run({
     await order("automatic");
     await sees(other, "Automatic mode: the robot is not moved by hand.");
     await other.close();
-  },
-
-  async "A module is stopped only when that is confirmed, and is missed everywhere"() {
-    await order("start-tour");
-    const page = await browser.open("overview", { width: 1280, height: 900 });
-    await sees(page, "estop");
-    const dialog = "dialog[open]";
-    const ask = async (label) => {
-      await page.locator(`::-p-aria(${label})`).click();
-      await page.waitForSelector(dialog);
-    };
-    const state_of = async (name) => (await (await fetch(`${origin}/api/v1/boards/${node}/modules`)).json()).modules.find((one) => one.name === name).state;
-    await ask("Stop estop");
-    await sees(page, "estop is the emergency stop: it writes PLC_ROBOT::EMERGENCY_STOP");
-    await browser.judge(page, "stop-asked");
-    await press(page, "Leave it running");
-    await page.waitForFunction((open) => !document.querySelector(open), {}, dialog);
-    check(await state_of("estop") === "running", "it was stopped although nobody agreed");
-    await ask("Restart main");
-    await page.keyboard.press("Escape");
-    await page.waitForFunction((open) => !document.querySelector(open), {}, dialog);
-    for (const end = Date.now() + 60_000; ![1, 2].includes((await value_of("PLC_ROBOT::ROBOT_JOB")).eState);) {
-      check(Date.now() < end, "no job runs");
-      await new Promise((done) => setTimeout(done, 20));
-    }
-    await ask("Stop Robot");
-    await sees(page, "The robot is in mid-job: ");
-    await press(page, "Stop Robot");
-    await sees(page, `${node}: module Robot is stopped`);
-    check(await state_of("Robot") === "stopped", "it was not stopped");
-    await browser.judge(page, "module-stopped");
-    const robot = await browser.open("robot", { width: 1280, height: 900 });
-    await sees(robot, "Module Robot is stopped: the robot cannot be moved. Start it on the overview.");
-    await sees(robot, "does not run");
-    await sees_no(robot, "moving");
-    check(await robot.$$eval(".jog", (all) => all.length > 0 && all.every((one) => one.matches(":disabled"))), "a button can be pressed");
-    await browser.judge(robot, "robot-stopped");
-    await page.evaluate(() => { location.hash = "#/alarms"; });
-    await sees(page, "module Robot is stopped");
-    await sees(page, "active, not acknowledged");
-    await page.evaluate(() => { location.hash = "#/overview"; });
-    await page.locator("::-p-aria(Start Robot)").click();
-    await sees_no(page, "module Robot is stopped");
-    await sees_no(robot, "the robot cannot be moved");
-    await robot.close();
-    await page.evaluate(() => { location.hash = "#/alarms"; });
-    await press(page, "Acknowledge all");
-    await page.close();
   },
 
   async "A server and a node that go are missed, and found again"() {

@@ -17,6 +17,10 @@ from page_server import PATIENCE, PageServer, prepared  # noqa: E402
 class Cell(PageServer):
     node = "web_test"
 
+    def start_server(self):
+        cell = self.options.cell
+        super().start_server("--plc", f"{cell}/main.xml,{cell}/plc_robot.glb,{cell}/cell.glb")
+
     def start_node(self):
         self.indurop("run", "module.xml", "--detach", "--node", self.node, check=True)
 
@@ -31,17 +35,17 @@ class Cell(PageServer):
         state = lambda: self.indurop("get", "--node", self.node, "PLC_ROBOT::ROBOT_MODULE_STATE.eState").stdout.strip()
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
-            if state() == "1":
+            if state() == "ROBOT_GROUP_STANDBY":
                 return
-            if state() == "0":
+            if state() == "ROBOT_GROUP_DISABLED":
                 asked = self.indurop("get", "--node", self.node, "PLC_ROBOT::ROBOT_MODULE_STATE.nAcknowledge", check=True)
                 self.indurop("set", "--node", self.node, "PLC_ROBOT::ROBOT_MODULE_SERVICE",
-                             f"{{eOpCode: 1, nRequest: {int(asked.stdout) + 1}}}", check=True)
+                             f"{{eOpCode: SVC_AD_GROUP_ENABLE, nRequest: {int(asked.stdout) + 1}}}", check=True)
             time.sleep(0.5)
         raise AssertionError("the group does not stand by")
 
     def automatic(self):
-        self.indurop("set", "--node", self.node, "PLC_ROBOT::ROBOT_MODE", "{eMode: 1}", check=True)
+        self.indurop("set", "--node", self.node, "PLC_ROBOT::ROBOT_MODE", "{eMode: ROBOT_MODE_AUTOMATIC}", check=True)
 
     def kill_server(self):
         self.server.kill()

@@ -35,6 +35,17 @@ TEST(PlcSharing, Fields_the_program_does_not_write_keep_their_writer) {
   EXPECT_EQ(PLC_ROBOT::ROBOT_MODULE_SERVICE.eOpCode.get(), 10);
 }
 
+TEST(PlcSharing, Enumerations_of_a_glb_are_types_and_compared_by_blocks) {
+  const indurop::testing::PlcModule slow("plc_test_sharing_slow");
+  v::changes = 0;
+  for (const auto state : {PLC_ROBOT::DISABLED, PLC_ROBOT::STANDBY, PLC_ROBOT::STANDBY, PLC_ROBOT::MOVING}) {
+    PLC_ROBOT::ROBOT_MODULE_STATE.eState = state;
+    slow.scan();
+    EXPECT_EQ(v::stands_by.get(), state == PLC_ROBOT::STANDBY);
+  }
+  EXPECT_EQ(v::changes.get(), 2);
+}
+
 TEST(PlcSharing, Tasks_are_modules_that_share_the_globals) {
   const indurop::testing::PlcModule fast("plc_test_sharing_fast");
   const indurop::testing::PlcModule slow("plc_test_sharing_slow");

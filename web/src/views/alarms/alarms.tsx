@@ -46,7 +46,7 @@ function List({ board, alarms, for_ns, order }: { board: string; alarms: Alarm[]
       <tbody>
         {alarms.map((alarm) => (
           <tr key={alarm.alarm} class={alarm.state === "normal" || alarm.state === "shelved" ? "is-quiet" : ""}>
-            <td><span class={`priority ${alarm.priority}`}>{alarm.priority}</span></td>
+            <td class="how"><span class={`priority ${alarm.priority}`}>{alarm.priority}</span></td>
             <th scope="row" class="what message">{alarm.text}
               <small>{alarm.name ? <a href={address("variables", { board, v: alarm.name })}>{alarm.alarm}</a> : alarm.alarm}
                 {alarm.unit && ` ${alarm.unit}`}{alarm.delay_ns > 0 && `, after ${span(alarm.delay_ns)}`}</small></th>
@@ -128,6 +128,7 @@ export function Alarms() {
         {value && !value.watched && value.declared > 0 && summary.alive && <p class="warn">Nobody looks at the conditions of these alarms yet.</p>}
         {value && value.declared === 0 && <p class="quiet">Here stands what somebody has to do something about, until it is acknowledged. Modules that do not run are always alarms; no variable
           of this board declares one yet: <code>bool open @alarm("the door is open", high);</code></p>}
+        <div class="alarm-parts">
         {value && (value.declared > 0 || value.alarms.length > 0) && (
           <div class="bar">
             <button type="button" aria-pressed={all} onClick={() => show(!all)}>All {value.declared} declared</button>
@@ -141,6 +142,7 @@ export function Alarms() {
         <p role="status" class={said.bad ? "bad" : "good"}>{said.text}</p>
         {value && value.alarms.length > 0 && <List board={board} alarms={value.alarms} for_ns={SHELVE_FOR[shelve][1]} order={status?.may_write ? order : null} />}
         {value && value.alarms.length === 0 && <p class="good">All alarms are normal.</p>}
+        </div>
       </Panel>
       <Panel title="Events"><History board={board} revision={revision} /></Panel>
       <Panel title="Messages"><Messages board={board} /></Panel>

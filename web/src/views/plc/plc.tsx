@@ -24,13 +24,19 @@ function on(bits: string | undefined, i: number): boolean {
   return bits?.[i] === "1";
 }
 
-// Shared variables are those of the program's namespace, and others by their full names. Case does not count.
+// Shared variables are those of the program's namespace, and others by their full names, or by their last ones if there is one of
+// that name. Case does not count.
 function finder(space: string, names: string[]): Find {
   const known = new Map(names.map((name) => [name.toLowerCase(), name]));
+  const last = new Map<string, string | null>();
+  for (const name of names) {
+    const key = name.slice(name.lastIndexOf("::") + 1).replace(/^:/, "").toLowerCase();
+    last.set(key, last.has(key) ? null : name);
+  }
   return (text) => {
     const name = text.toLowerCase().replaceAll(".", "::");
     const [first, ...rest] = text.split(".");
-    return known.get(`${space.toLowerCase()}::${first.toLowerCase()}`)?.concat(...rest.map((part) => `.${part}`))
+    return (known.get(`${space.toLowerCase()}::${first.toLowerCase()}`) ?? last.get(first.toLowerCase()))?.concat(...rest.map((part) => `.${part}`))
       ?? known.get(name) ?? null;
   };
 }
