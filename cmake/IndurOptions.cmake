@@ -40,8 +40,9 @@ endif()
 # Headers of others that most files include, read once for all rooms that call indurop_precompile(<target>), and once more
 # with GoogleTest for all tests: a third of all compile time. Such a room links fmt::fmt and hides its symbols. Every file
 # still includes what it uses (tests/lint/check_headers.py).
-set(INDUROP_PRECOMPILED <algorithm> <array> <charconv> <chrono> <cstdint> <functional> <map> <memory> <optional>
-  <span> <string> <string_view> <unordered_map> <utility> <variant> <vector> <fmt/format.h>)
+set(INDUROP_PRECOMPILED_STANDARD <algorithm> <array> <charconv> <chrono> <cstdint> <functional> <map> <memory>
+  <optional> <span> <string> <string_view> <unordered_map> <utility> <variant> <vector>)
+set(INDUROP_PRECOMPILED ${INDUROP_PRECOMPILED_STANDARD} <fmt/format.h>)
 set(INDUROP_PRECOMPILED_SOURCE ${PROJECT_BINARY_DIR}/precompiled.cpp)  # a target needs one; only the headers count
 file(CONFIGURE OUTPUT ${INDUROP_PRECOMPILED_SOURCE} CONTENT "")
 add_library(indurop_precompiled OBJECT ${INDUROP_PRECOMPILED_SOURCE})
@@ -63,6 +64,8 @@ function(indurop_room name)
 endfunction()
 
 # A GoogleTest program: indurop_test(<name> LABEL unit SOURCES ... LIBRARIES ...)
+# A folder may set INDUROP_TEST_HEADERS to an object library that made other precompiled headers.
+set(INDUROP_TEST_HEADERS indurop_test_headers)
 function(indurop_test name)
   cmake_parse_arguments(arg "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
@@ -70,7 +73,7 @@ function(indurop_test name)
   # What is tested is optimized, the tests themselves need not be: half of all compile time.
   target_compile_options(${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests INDUROP_LABEL ${arg_LABEL})
-  target_precompile_headers(${name} REUSE_FROM indurop_test_headers)
+  target_precompile_headers(${name} REUSE_FROM ${INDUROP_TEST_HEADERS})
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${arg_LABEL} TIMEOUT 120)
 endfunction()
 
