@@ -117,7 +117,8 @@ TEST_F(Deploying, A_comment_stays_with_its_deployment) {
   EXPECT_EQ(indurop({"rollback", "--health", "500ms"}).code, 0);
   EXPECT_EQ(report("b")["comment"], "as it was: 20 °C");
   std::vector<std::string> comments;
-  for (const Json& past : indurop({"history", "-o", "json"}).json()["deployments"]) {
+  const Json told = indurop({"history", "-o", "json"}).json();
+  for (const Json& past : told["deployments"]) {
     comments.push_back(past["comment"]);
   }
   EXPECT_THAT(comments, testing::ElementsAre("as it was: 20 °C", "wider", "as it was: 20 °C"));

@@ -67,6 +67,14 @@ class Phases : public Killed {
     }
     return 0;
   }
+  // A file that b opens when it checks `next_`, because it had that before, and `committed_` again since.
+  std::filesystem::path file_of_the_check() {
+    const Outcome before = deploy(next_);
+    EXPECT_EQ(before.code, 0) << before.err;
+    const Outcome again = deploy(path("v1.xml"));
+    EXPECT_EQ(again.code, 0) << again.err;
+    return before.code == 0 ? installed("b", before.json()["deployment"]) / "nap.sh" : "";
+  }
   // Deploys `next_` until b checks, which lasts as long as its file is held, and a waits for it.
   Program& deploy_until_checking() {
     Program& deployer = start_indurop({"deploy", next_, "--health", "500ms", "--timeout", "20s"});
@@ -146,7 +154,7 @@ TEST_F(Phases, A_deployer_killed_while_boards_fetch_changes_nothing) {
 }
 
 TEST_F(Phases, A_board_killed_while_it_checks_resumes) {
-  HeldFile held((installed("b", committed_) / "nap.sh").string());
+  HeldFile held(file_of_the_check().string());
   NEEDS_LEASE(held);
   Program& deployer = deploy_until_checking();
   lose("b");
@@ -159,7 +167,7 @@ TEST_F(Phases, A_board_killed_while_it_checks_resumes) {
 }
 
 TEST_F(Phases, A_board_killed_while_it_is_prepared_resumes) {
-  HeldFile held((installed("b", committed_) / "nap.sh").string());
+  HeldFile held(file_of_the_check().string());
   NEEDS_LEASE(held);
   Program& deployer = deploy_until_checking();
   lose("a");
@@ -172,7 +180,7 @@ TEST_F(Phases, A_board_killed_while_it_is_prepared_resumes) {
 }
 
 TEST_F(Phases, A_deployer_killed_while_one_board_checks_and_the_other_is_prepared_changes_nothing) {
-  HeldFile held((installed("b", committed_) / "nap.sh").string());
+  HeldFile held(file_of_the_check().string());
   NEEDS_LEASE(held);
   Program& deployer = deploy_until_checking();
   deployer.signal(SIGKILL);
