@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstring>
 
+#include "keys/digest.h"
 #include "node/expected_signal.h"
 #include "node/trampoline.h"
 #include "rt/clock.h"
@@ -40,7 +41,7 @@ Processes::Processes(const config::Config& config, scheduler::RunBlock& run, std
     : run_(run), node_(std::move(node)), realtime_(realtime), console_(console), failsafe_(failsafe), tape_(tape) {
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
     if (config.modules[i].type == scheduler::ModuleType::Process) {
-      children_.push_back(Child{i, &config.modules[i], -1, {}, {}, false});
+      children_.push_back(Child{i, &config.modules[i], {}, -1, {}, {}, false});
     }
   }
 }
@@ -77,7 +78,27 @@ bool Processes::launch_all() {
   return true;
 }
 
+bool Processes::is_sound(Child& child) {
+  if (run_.deployment[0] == '\0') {
+    return true;
+  }
+  const auto found = keys::digest_of_file(child.module->file);
+  const std::string digest = found ? found->digest : std::string();
+  if (child.digest.empty()) {
+    child.digest = digest;
+  }
+  if (!digest.empty() && digest == child.digest) {
+    return true;
+  }
+  console_.error("module {}: it is not started again, for {} is not what was deployed: its SHA-256 is {}, it was {}",
+                 child.module->name, child.module->file.string(), digest.empty() ? "unknown" : digest, child.digest);
+  return false;
+}
+
 bool Processes::launch(Child& child) {
+  if (!is_sound(child)) {
+    return false;
+  }
   scheduler::ProcessSlot& at = slot(child);
   while (at.wake.try_wait()) {
   }

@@ -53,6 +53,7 @@ class Processes {
   struct Child {
     std::uint32_t index;
     const config::Module* module;
+    std::string digest = {};  // of its file, as it was when the node started; of what was deployed only
     pid_t pid = -1;
     rt::MonoTime restart_at{};
     std::deque<rt::MonoTime> restarts;  // times of those within the window
@@ -70,6 +71,8 @@ class Processes {
   // A process that was launched is ready to be released.
   bool enrolled(Child& child);
   bool launch(Child& child);
+  // The file of a deployment is what it was when the node started, which is what was deployed.
+  bool is_sound(Child& child);
   void died(Child& child, int status, rt::MonoTime schedule);
   void fault(Child& child, scheduler::FaultKind kind, const std::string& text);
   void plan_restart(Child& child, rt::MonoTime schedule);

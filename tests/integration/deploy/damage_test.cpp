@@ -173,5 +173,28 @@ TEST_F(Damaged, A_module_is_not_started_again_from_a_damaged_file) {
   EXPECT_THAT(refused.err, HasSubstr("its files are not what was deployed"));
 }
 
+TEST_F(Damaged, A_process_that_died_is_not_started_again_from_a_damaged_file) {
+  fs::copy_file(std::string(MODULE_FOLDER) + "/waits", folder() / "waits");
+  start_agent("a");
+  const std::string id =
+      deployed(manifest("alone.xml", {{"a", "steady"}},
+                        "<module><filename>./waits</filename><moduletype>process</moduletype>"
+                        "<operationtype>non-real</operationtype><restart delay=\"10ms\" max=\"2\"/></module>"));
+  const auto process = [&] {
+    const Json all = indurop_here({"status", "--node", board("a"), "-o", "json"}).json();
+    return all.is_object() && all["modules"].size() == 2 ? all["modules"][1] : Json();
+  };
+  ASSERT_TRUE(wait_until([&] { return process()["state"] == "running"; }));
+  const Json first = process();
+  const fs::path file = state("a") / "deployments" / id.substr(0, 16) / "waits";
+  // A program that runs cannot be written to: the disk changes it all the same.
+  fs::copy_file(file, folder() / "changed");
+  flip(folder() / "changed");
+  fs::rename(folder() / "changed", file);
+  ASSERT_EQ(::kill(first["pid"].get<pid_t>(), SIGKILL), 0);
+  EXPECT_TRUE(wait_until([&] { return agent("a").err().find("is not what was deployed") != std::string::npos; }));
+  EXPECT_NE(process()["state"], "running");
+}
+
 }  // namespace
 }  // namespace indurop::test
