@@ -38,5 +38,7 @@ function Page() {
 }
 
 take_token_from_address();
+// An address with another token, opened in this tab, does not load the page by itself.
+window.addEventListener("hashchange", () => { if (take_token_from_address()) location.reload(); });
 start_looking();
 render(<Page />, document.getElementById("page")!);

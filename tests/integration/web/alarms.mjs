@@ -71,4 +71,23 @@ await browser.run({
     await sees_no(page, "Acknowledge all");
     await page.close();
   },
+
+  async "A server that was started again with another token is not gone"() {
+    const page = await browser.open("alarms", wide);
+    await sees(page, "writing as tester");
+    await order("kill-server");
+    await sees(page, "The server is gone");
+    await order("other-token");
+    await order("start-server");
+    await sees(page, "The server does not know the token of this page");
+    await sees(page, "You only look");
+    await sees(page, "connected, only looking");
+    await sees_no(page, "The server is gone");
+    await sees_no(page, "Acknowledge all");
+    await browser.judge(page, "other-token");
+    await page.evaluate(() => { location.hash = "#token=the-next-token-of-this-server-0123456789"; });
+    await sees(page, "writing as tester");
+    await sees_no(page, "does not know the token");
+    await page.close();
+  },
 });

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The page's alarms in headless Chromium: one comes, is acknowledged, shelved and gone; the server is killed in between."""
+"""The page's alarms in headless Chromium: one comes, is acknowledged, shelved and gone; the server is killed in
+between, and started again with another token."""
 
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -25,6 +27,8 @@ class Press(PageServer):
             self.process.kill()
             self.process.wait(timeout=PATIENCE)
             self.start_node("many", "12")
+        elif word == "other-token":
+            (pathlib.Path(self.folder) / "tokens").write_text("tester the-next-token-of-this-server-0123456789\n")
         elif word == "start-server":
             self.start_server()
         else:

@@ -2,31 +2,50 @@
 // Questions and orders over HTTP. What the server refuses becomes a Refusal with the server's words.
 
 const TOKEN_KEY = "indurop.token";
+const REFUSED_KEY = "indurop.refused";  // the token that was here is not the server's
+const UNAUTHORIZED = 401;
 const PATIENCE_MS = 8000;
 
 export class Refusal extends Error {
   constructor(readonly status: number, message: string, readonly details: string[] = []) {
     super(message);
   }
+  // The server is there and does not let this page look.
+  get unauthorized(): boolean { return this.status === UNAUTHORIZED; }
 }
 
-// `#token=...` of the address is kept for this tab and taken out of the address, which people copy and photograph.
-export function take_token_from_address(): void {
+// `#token=...` of the address is kept for this tab and taken out of the address, which people copy and photograph. False:
+// there is none.
+export function take_token_from_address(): boolean {
   const found = /(?:^#|&)token=([A-Za-z0-9_-]+)/.exec(location.hash);
-  if (!found) return;
+  if (!found) return false;
   sessionStorage.setItem(TOKEN_KEY, found[1]);
+  sessionStorage.removeItem(REFUSED_KEY);
   const rest = location.hash.replace(/(^#|&)token=[A-Za-z0-9_-]+/, "").replace(/^&/, "");
   history.replaceState(null, "", location.pathname + (rest ? (rest.startsWith("#") ? rest : `#${rest}`) : ""));
   window.dispatchEvent(new HashChangeEvent("hashchange"));  // which replaceState does not say
+  return true;
 }
 
 export function token(): string {
   return sessionStorage.getItem(TOKEN_KEY) ?? "";
 }
 
+// This page had a token that the server does not know. It is not shown again: without one a page may still look.
+export function token_was_refused(): boolean {
+  return sessionStorage.getItem(REFUSED_KEY) !== null;
+}
+
+function forget(refused: string): void {
+  if (!refused || refused !== token()) return;
+  sessionStorage.removeItem(TOKEN_KEY);
+  sessionStorage.setItem(REFUSED_KEY, "1");
+}
+
 async function ask<T>(path: string, more: RequestInit, patience_ms = PATIENCE_MS): Promise<T> {
   const headers: Record<string, string> = { Accept: "application/json" };
-  if (token()) headers.Authorization = `Bearer ${token()}`;
+  const shown = token();
+  if (shown) headers.Authorization = `Bearer ${shown}`;
   if (more.body) headers["Content-Type"] = "application/json";
   let answer: Response;
   try {
@@ -34,6 +53,7 @@ async function ask<T>(path: string, more: RequestInit, patience_ms = PATIENCE_MS
   } catch {
     throw new Refusal(0, "The server does not answer.");
   }
+  if (answer.status === UNAUTHORIZED) forget(shown);
   const text = await answer.text();
   let body: any;
   try {

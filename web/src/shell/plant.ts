@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every view needs to know: is the server there, which boards are there, which one is looked at.
 
-import { get, words } from "../api/http";
+import { get, Refusal, token, words } from "../api/http";
 import { stream, type Link } from "../api/stream";
 import type { BoardSummary, ServerStatus } from "../api/types";
 import { place } from "../ui/address";
@@ -14,9 +14,10 @@ export interface Plant {
   status: ServerStatus | null;
   boards: BoardSummary[] | null;
   error: string;
+  let_in: boolean;  // false: the server is there and wants a token
 }
 
-export const plant = new Store<Plant>({ link: "connecting", status: null, boards: null, error: "" });
+export const plant = new Store<Plant>({ link: "connecting", status: null, boards: null, error: "", let_in: true });
 
 function update(part: Partial<Plant>): void {
   plant.set({ ...plant.get(), ...part });
@@ -28,20 +29,23 @@ let looking = false;
 async function look(): Promise<void> {
   if (looking) return;
   looking = true;
+  const shown = token();
   try {
     const [status, { boards }] = await Promise.all([
       get<ServerStatus>("status"), get<{ boards: BoardSummary[] }>("boards")]);
-    update({ status, boards, error: "" });
+    update({ status, boards, error: "", let_in: true });
   } catch (error) {
-    update({ error: words(error) });
+    update({ error: words(error), let_in: !(error instanceof Refusal && error.unauthorized) });
   } finally {
     looking = false;
   }
+  if (shown && !token()) void look();  // it was refused: without one
 }
 
 export function start_looking(): void {
   stream.on_link = (link) => {
     update({ link });
+    if (link === "lost") void look();  // a browser does not say why a WebSocket was refused
     if (link !== "open") return;
     turned.set(turned.get() + 1);
     void look();

@@ -3,6 +3,7 @@
 
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { token_was_refused } from "../api/http";
 import { address, change_query, place } from "../ui/address";
 import { useStore } from "../ui/store";
 import { plant, useBoard } from "./plant";
@@ -38,10 +39,13 @@ function Navigation({ views }: { views: View[] }) {
 
 // What keeps the page from showing what is, in order of how much is missing; empty if nothing does.
 function missing(): string {
-  const { link, status, boards, error } = plant.get();
+  const { link, status, boards, error, let_in } = plant.get();
+  const unknown = token_was_refused() ? "The server does not know the token of this page: it was started again, or has other tokens. " : "";
+  if (!let_in) return `${unknown}It wants a token: open the address that it prints, which ends in #token=...`;
   if (link === "lost") return "The server is gone: looking for it again. What you see is old.";
   if (error) return `${error} Asking again.`;
   if (!status || !boards) return "";
+  if (unknown && !status.may_write) return `${unknown}You only look. To write, open the address that it prints.`;
   if (boards.length === 0 && !status.plant) return "There is no node on this host yet. Start one with: indurop run module.xml";
   return "";
 }
@@ -72,12 +76,12 @@ function BoardChoice() {
 }
 
 function LinkState() {
-  const { link, status } = useStore(plant);
-  const text = { open: "connected", connecting: "connecting", lost: "server gone" }[link];
+  const { link, status, let_in } = useStore(plant);
+  const text = let_in ? { open: "connected", connecting: "connecting", lost: "server gone" }[link] : "no token";
   return (
     <span class={`link ${link}`}>
       <span class="dot" aria-hidden="true" />{text}
-      {status && <span class="rights">{status.may_write ? `, writing as ${status.who || "nobody known"}` : ", only looking"}</span>}
+      {status && let_in && <span class="rights">{status.may_write ? `, writing as ${status.who || "nobody known"}` : ", only looking"}</span>}
     </span>);
 }
 
