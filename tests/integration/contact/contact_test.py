@@ -13,6 +13,7 @@ import subprocess
 import sys
 
 SWING = "PLC_ROBOT::ROBOT_MODULE_STATE"
+CONTACT = "30"  # ROBOT_ERR_CONTACT: recordings hold numbers
 
 
 class Cell:
@@ -48,10 +49,10 @@ class Cell:
 def stops(rows):
     """When the robot said that something pushes, and against which axis."""
     found = []
-    before = ""
+    before = "0"
     for row in rows:
         error = row[f"{SWING}.nError"]
-        if error == "ROBOT_ERR_CONTACT" and before != error:
+        if error == CONTACT and before != CONTACT:
             found.append((row["t"], int(row[f"{SWING}.nErrorAxis"])))
         before = error
     return found
