@@ -113,7 +113,7 @@ void declare_run_options(base::Options& line, RunOptions& options) {
   line.add("--core", "N", options.core, "Core of all modules that name none");
   line.add("--spin", "auto|off|TIME", spin, "Time to spin before each tick");
   line.add("--tape", "MB", options.tape_megabytes,
-           "Memory for what the last runs saw and wrote, in MB (default: 8); 0: none, then nothing can be recorded");
+           "Memory for what the last runs saw and wrote, in MB (default: 20); 0: none, then nothing can be recorded");
   line.add("--replay", "FILE", options.replay.file,
            "Run what this recording of --record tells once more, and compare what modules leave")
       .completes(base::Completion::File);

@@ -183,13 +183,11 @@ Action declare(base::Options& app, Context& context) {
 
 const Verb kAlarmsVerb{
     "alarms", "A running node", "Show alarms, acknowledge and shelve them, and tell what happened",
-    "Alarms are declared in .glb files: bool open @alarm(\"the door is open\", high, 500ms). A module that does not "
-    "do\n"
-    "its work for two seconds is one, too: module Robot. One process on the\n"
-    "node's machine looks at their conditions: its agent, indurop serve, or indurop alarms watch. What happened is "
-    "kept in the\n"
-    "state folder of the node, over restarts. An alarm that ended before it was acknowledged stays in the list as\n"
-    "'returned'. A shelved one is not raised until its time is over or it is unshelved.\n"
+    "Alarms are declared in .glb files: bool open @alarm(\"the door is open\", high, 500ms). A module that does not\n"
+    "do its work for two seconds is one by itself: module Robot. One process on the node's machine looks at the\n"
+    "conditions: its agent, indurop serve, or indurop alarms watch. What happened is kept in the state folder of the\n"
+    "node, over restarts. An alarm that ended before it was acknowledged stays in the list as 'returned'. A shelved\n"
+    "one is not raised until its time is over or it is unshelved.\n"
     "Examples:\n"
     "  indurop alarms\n"
     "  indurop alarms ack press::door_open --reason 'closed it'\n"

@@ -10,6 +10,7 @@ const SCREENS = {
 };
 const { wide, phone } = SCREENS;
 const JOINTS = [0, 1, 2].map((i) => `PLC_ROBOT::ROBOT_ARM.joint[${i}]`).join();
+const RUNS = ["ROBOT_JOB_RUNS", "ROBOT_JOB_WAITS"];
 const OVERRIDE = "PLC_ROBOT::ROBOT_OVERRIDE";
 
 const browser = await Browser.launch();
@@ -273,7 +274,7 @@ await browser.run({
     await until("it does not go on", async () => !(await value_of("PLC_ROBOT::ROBOT_HOLD")) && await moves());
     await press(page, "Stop");
     await sees(page, "Stopped.");
-    await until("it is not stopped", async () => !(await moves()) && ![1, 2].includes(await job()));
+    await until("it is not stopped", async () => !(await moves()) && !RUNS.includes(await job()));
     await page.close();
   },
 
@@ -321,7 +322,7 @@ await browser.run({
     await ask("Restart main");
     await page.keyboard.press("Escape");
     await page.waitForFunction((open) => !document.querySelector(open), {}, dialog);
-    for (const end = Date.now() + 60_000; ![1, 2].includes((await value_of("PLC_ROBOT::ROBOT_JOB")).eState);) {
+    for (const end = Date.now() + 60_000; !RUNS.includes((await value_of("PLC_ROBOT::ROBOT_JOB")).eState);) {
       check(Date.now() < end, "no job runs");
       await new Promise((done) => setTimeout(done, 20));
     }

@@ -25,9 +25,11 @@ function last_of(name: string): string {
 async function of_robots(board: string, module: string, written: Variable[]): Promise<Effect[]> {
   const arms = written.filter(({ name }) => last_of(name) === "ROBOT_ARM").map(({ name }) => name.slice(0, -"ROBOT_ARM".length));
   return await Promise.all(arms.map(async (space) => {
-    const value = async (name: string) => (await get<{ value: any }>(board_path(board, `/variables/${encodeURIComponent(space + name)}`))).value;
-    const [job, arm] = await Promise.all([value("ROBOT_JOB"), value("ROBOT_ARM")]);
-    const doing = JOB_STATES[Number(job.eState)] ?? "";
+    const ask = async (name: string) => await get<Variable & { value: any }>(board_path(board, `/variables/${encodeURIComponent(space + name)}`));
+    const [{ value: job, form }, { value: arm }] = await Promise.all([ask("ROBOT_JOB"), ask("ROBOT_ARM")]);
+    // The value of an enumeration comes by its name.
+    const names = form.fields?.find(({ name }) => name === "eState")?.type.enumerators;
+    const doing = JOB_STATES[names?.[job.eState] ?? Number(job.eState)] ?? "";
     if (["runs", "waits", "pauses"].includes(doing)) return { text: `The robot is in mid-job: ${job.name || "a job"} ${doing}, in line ${job.nLine}. It comes to rest where it is.`, bad: true };
     if (arm.tool_speed > 0) return { text: "The robot is moving. It comes to rest where it is.", bad: true };
     return { text: `${module} is the robot task: without it the robot cannot be moved.`, bad: false };
