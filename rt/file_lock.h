@@ -12,5 +12,7 @@ enum class FileLock { Shared, Exclusive };  // Shared: the file is open for read
 // Errors: Busy (somebody else has it), System. A call that may wait waits until it is free. Not real-time safe.
 Status lock_file(int file, FileLock kind) noexcept;
 Status lock_file_when_free(int file, FileLock kind) noexcept;
+// Somebody has it for writing; `file` is open for reading. Not real-time safe.
+bool is_locked(int file) noexcept;
 
 }  // namespace indurop::rt

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "rt/lost_pages.h"
+
 namespace indurop::rt {
 namespace {
 
@@ -16,8 +18,13 @@ int order_signal() noexcept {
 }
 
 void on_fault(int number, siginfo_t* info, void* /*context*/) {
+  const bool survived = number == SIGBUS && replace_lost_page(info->si_addr);
+  // A module does not go on with zeros in place of its values.
   if (t_guard != nullptr && t_guard->armed()) {
     t_guard->on_signal(number, info->si_addr);
+  }
+  if (survived) {
+    return;
   }
   // Our own fault or a thread we do not guard: die as usual, with a core dump.
   struct sigaction standard {};

@@ -102,6 +102,8 @@ void let_go_of_free_heap() noexcept {
 }  // namespace
 
 Status lock_memory(std::span<const std::string_view> except, std::span<const char> code) noexcept {
+  // A heap of its own for each thread that comes would take 64 MB of the limit of locked memory, and stay.
+  ::mallopt(M_ARENA_MAX, 1);
   // What comes later is locked from its first use on: else memory that others ask for and never touch would be taken.
   if (::mlockall(MCL_CURRENT) == 0 && ::mlockall(MCL_FUTURE | MCL_ONFAULT) == 0) {
     let_go_of_free_heap();

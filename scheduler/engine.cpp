@@ -83,6 +83,13 @@ Engine::~Engine() {
   join();
 }
 
+void Engine::halt() noexcept {
+  for (const auto& state : states_) {
+    state->enabled.store(false, std::memory_order_seq_cst);
+  }
+  request_stop();
+}
+
 Engine::Core& Engine::core(int number) {
   for (const auto& known : cores_) {
     if (known->number == number) {

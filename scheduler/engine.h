@@ -47,6 +47,8 @@ class Engine {
 
   // Ends the run at the next tick. Real-time safe, any thread, any number of times.
   void request_stop() noexcept { stop_.store(true, std::memory_order_release); }
+  // No module is entered any more, and the run ends at the next tick. Any thread; safe in a signal handler.
+  void halt() noexcept;
   [[nodiscard]] bool stopping() const noexcept { return stop_.load(std::memory_order_acquire) || finished(); }
   [[nodiscard]] bool finished() const noexcept { return ticking_.load(std::memory_order_acquire) == 0; }
 

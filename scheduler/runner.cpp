@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "rt/copy_text.h"
+#include "rt/lost_pages.h"
 
 namespace indurop::scheduler {
 namespace {
@@ -189,6 +190,8 @@ void Runner::contain_jump() noexcept {
                                  static_cast<long long>((end - start) / 1000));
   } else if (guard_.signal_number() == SIGSEGV && stack_.overflowed_at(guard_.fault_address())) {
     std::snprintf(text, sizeof text, "stack overflow: the module's thread has %zu KiB of stack", stack_.bytes / 1024);
+  } else if (guard_.signal_number() == SIGBUS && rt::is_guarded(guard_.fault_address())) {
+    std::snprintf(text, sizeof text, "the node's shared memory was cut while it ran");
   } else if (guard_.signal_number() == SIGSEGV || guard_.signal_number() == SIGBUS) {
     std::snprintf(text, sizeof text, "%s at address %p", signal_text(guard_.signal_number()), guard_.fault_address());
   } else {

@@ -240,10 +240,15 @@ Result<BlockIndex> check_block(std::span<const std::byte> memory) {
   }
   const BlockHeader& header = *header_of(memory.data());
   const Error corrupt{Errc::Corrupt, 0, "directory of the store"};
+  constexpr std::uint32_t kMostVariables = 1'000'000;
+  constexpr std::uint64_t kMostText = std::uint64_t{256} << 20U;
   BlockIndex index;
   std::vector<char> text;
-  if (!copy_table(memory, header.directory_offset, header.variable_count, index.directory) ||
-      !copy_table(memory, header.schema_offset, header.schema_size, text)) {
+  const std::uint32_t variables = header.variable_count;
+  const std::uint64_t text_size = header.schema_size;
+  if (variables > kMostVariables || text_size > kMostText ||
+      !copy_table(memory, header.directory_offset, variables, index.directory) ||
+      !copy_table(memory, header.schema_offset, text_size, text)) {
     return corrupt;
   }
   const std::string_view schema_text(text.data(), text.size());

@@ -6,12 +6,20 @@
 
 #include <fcntl.h>
 #include <pwd.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
+#include <fstream>
 #include <thread>
 #include <utility>
 
@@ -81,14 +89,93 @@ void write_holder(int file) noexcept {
       ::ftruncate(file, 0) == 0 && ::pwrite(file, text, static_cast<std::size_t>(length), 0) == length;
 }
 
-pid_t holder_by_block(const std::string& node) {
+pid_t pid_in_block(const std::string& node) {
   auto file = ShmFile::open(block_file(node), Mode::ReadOnly);
-  if (!file || !check_block({file->data(), file->size()})) {
+  if (!file || !check_header({file->data(), file->size()})) {
     return 0;
   }
   const BlockHeader& header = *header_of(file->data());
   const pid_t pid = header.node_pid.load();
   return process_alive(pid, header.node_start_time.load()) ? pid : 0;
+}
+
+// For whoever may not open the file. The kernel shows all locks, with the numbers of their files.
+bool locked_by_anybody(const struct stat& file) {
+  char wanted[64];
+  std::snprintf(wanted, sizeof wanted, " %02x:%02x:%llu ", major(file.st_dev), minor(file.st_dev),
+                static_cast<unsigned long long>(file.st_ino));
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    if (line.find(wanted) != std::string::npos && line.find(" WRITE ") != std::string::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The process is one of this user: else whoever copied a lock's text would show a process of somebody else as a node.
+bool belongs_to(pid_t pid, uid_t user) {
+  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("Uid:")) {
+      return std::strtoull(line.c_str() + 4, nullptr, 10) == user;  // the real one
+    }
+  }
+  return false;
+}
+
+// A name of the network namespace, which nobody can remove while the node runs.
+sockaddr_un address_of(const std::string& node, socklen_t& length) noexcept {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string name = block_file(node);
+  name.copy(address.sun_path + 1, sizeof address.sun_path - 1);
+  length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+  return address;
+}
+
+int new_socket() noexcept {
+  return ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+}
+
+// -1 with EADDRINUSE: another process has the name.
+int take_socket(const std::string& node) noexcept {
+  socklen_t length = 0;
+  const sockaddr_un address = address_of(node, length);
+  const int number = new_socket();
+  if (number >= 0 && ::bind(number, reinterpret_cast<const sockaddr*>(&address), length) == 0 &&
+      ::listen(number, 1) == 0) {
+    return number;
+  }
+  const int error = errno;
+  if (number >= 0) {
+    ::close(number);
+  }
+  errno = error;
+  return -1;
+}
+
+// The process that has the name of the socket, 0 if that is not to be learnt.
+pid_t holder_by_socket(const std::string& node) noexcept {
+  socklen_t length = 0;
+  const sockaddr_un address = address_of(node, length);
+  const int number = new_socket();
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  const bool known = number >= 0 && ::connect(number, reinterpret_cast<const sockaddr*>(&address), length) == 0 &&
+                     ::getsockopt(number, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0;
+  if (number >= 0) {
+    ::close(number);
+  }
+  return known ? peer.pid : 0;
+}
+
+// Root takes over the name of another user whose node is gone; from then on the lock is root's.
+void make_ours(int file) noexcept {
+  struct stat info {};
+  if (::geteuid() == 0 && ::fstat(file, &info) == 0 && info.st_uid != 0) {
+    (void)::fchown(file, 0, info.st_gid);
+  }
 }
 
 }  // namespace
@@ -107,13 +194,23 @@ Result<NodeLock> NodeLock::acquire(const std::string& node, pid_t& holder) {
       }
       return os_error(errno, "open the node's lock file");
     }
-    NodeLock lock(number);
+    NodeLock lock(number, -1);
     const Status locked = rt::lock_file(number, rt::FileLock::Exclusive);
     if (locked) {
-      if (has_name(number, path)) {
+      if (!has_name(number, path)) {
+        continue;
+      }
+      lock.socket_ = take_socket(node);
+      if (lock.socket_ >= 0 || errno != EADDRINUSE) {
+        make_ours(number);
         write_holder(number);
         return lock;
       }
+      // The files of a node that runs were removed, or it is just ending.
+      if (i + 1 == kTries) {
+        holder = holder_by_socket(node);
+      }
+      std::this_thread::sleep_for(kPause);
       continue;
     }
     if (locked.error().code != Errc::Busy) {
@@ -128,27 +225,58 @@ Result<NodeLock> NodeLock::acquire(const std::string& node, pid_t& holder) {
   return Error{Errc::Busy, 0, "a node of this name is running"};
 }
 
-NodeLock::NodeLock(NodeLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+NodeLock::NodeLock(NodeLock&& other) noexcept
+    : file_(std::exchange(other.file_, -1)), socket_(std::exchange(other.socket_, -1)) {}
 NodeLock& NodeLock::operator=(NodeLock&& other) noexcept {
   std::swap(file_, other.file_);
+  std::swap(socket_, other.socket_);
   return *this;
 }
 NodeLock::~NodeLock() {
-  if (file_ >= 0) {
-    ::close(file_);
+  for (const int number : {file_, socket_}) {
+    if (number >= 0) {
+      ::close(number);
+    }
   }
+}
+
+bool NodeLock::named(const std::string& node) const {
+  return has_name(file_, path_of(node));
+}
+
+bool NodeLock::make_again(const std::string& node) {
+  const std::string path = path_of(node);
+  const int number = open_lock(path);
+  if (number < 0) {
+    return false;
+  }
+  if (!rt::lock_file(number, rt::FileLock::Exclusive) || !has_name(number, path)) {
+    ::close(number);
+    return false;
+  }
+  write_holder(number);
+  ::close(std::exchange(file_, number));
+  return true;
+}
+
+std::string user_name(uid_t user) {
+  passwd entry{};
+  passwd* found = nullptr;
+  char text[1024];
+  const bool known = ::getpwuid_r(user, &entry, text, sizeof(text), &found) == 0 && found != nullptr;
+  return known ? found->pw_name : std::to_string(user);
+}
+
+std::optional<uid_t> owner_of(const std::string& node) {
+  struct stat status {};
+  const std::string path = std::string(kShmDirectory) + "/" + block_file(node);
+  return ::lstat(path.c_str(), &status) == 0 ? std::optional(status.st_uid) : std::nullopt;
 }
 
 std::string other_owner(const std::string& node) {
   struct stat status {};
-  if (::lstat(path_of(node).c_str(), &status) != 0 || status.st_uid == ::geteuid()) {
-    return {};
-  }
-  passwd entry{};
-  passwd* found = nullptr;
-  char text[1024];
-  const bool known = ::getpwuid_r(status.st_uid, &entry, text, sizeof(text), &found) == 0 && found != nullptr;
-  return known ? found->pw_name : std::to_string(status.st_uid);
+  return ::lstat(path_of(node).c_str(), &status) != 0 || status.st_uid == ::geteuid() ? std::string()
+                                                                                      : user_name(status.st_uid);
 }
 
 std::string default_node() {
@@ -160,13 +288,18 @@ pid_t running_node(const std::string& node) {
   if (!valid_node_name(node)) {
     return 0;
   }
-  const int file = ::open(path_of(node).c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  const std::string path = path_of(node);
+  struct stat info {};
+  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) {
-    return errno == EACCES ? holder_by_block(node) : 0;
+    const bool closed = errno == EACCES && ::lstat(path.c_str(), &info) == 0 && locked_by_anybody(info);
+    const pid_t pid = closed ? pid_in_block(node) : 0;
+    return pid != 0 && belongs_to(pid, info.st_uid) ? pid : 0;
   }
-  const pid_t pid = read_holder(file);
+  const bool locked = ::fstat(file, &info) == 0 && S_ISREG(info.st_mode) && rt::is_locked(file);
+  const pid_t pid = locked ? read_holder(file) : 0;
   ::close(file);
-  return pid;
+  return pid != 0 && belongs_to(pid, info.st_uid) ? pid : 0;
 }
 
 }  // namespace indurop::vars

@@ -2,9 +2,13 @@
 // The nodes of this machine, seen from their files.
 
 #include <dirent.h>
+#include <sys/stat.h>
 #include <sys/types.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -42,9 +46,38 @@ Result<rt::MonoTime> last_beat(const std::string& node) {
   return beat != 0 ? Result<rt::MonoTime>(rt::mono_time(beat)) : Error{Errc::NotFound, 0, "no heartbeat yet"};
 }
 
-std::vector<std::string> list_nodes() {
+std::uint32_t store_format(const std::string& node) {
+  const auto file = ShmFile::open(block_file(node), Mode::ReadOnly);
+  const bool is_store = file && file->size() >= offsetof(BlockHeader, header_size) &&
+                        header_of(file->data())->magic.load(std::memory_order_acquire) == kMagic;
+  return is_store ? header_of(file->data())->abi : 0;
+}
+
+namespace {
+
+// Whoever looks without being asked to look at everybody does not even open what others than these made.
+bool is_near(const std::string& file) {
+  struct stat info {};
+  if (::lstat((std::string(kShmDirectory) + "/" + file).c_str(), &info) != 0 || !S_ISREG(info.st_mode)) {
+    return false;
+  }
+  static const std::vector<gid_t> kGroups = [] {
+    std::vector<gid_t> groups(static_cast<std::size_t>(std::max(::getgroups(0, nullptr), 0)));
+    groups.resize(static_cast<std::size_t>(std::max(::getgroups(static_cast<int>(groups.size()), groups.data()), 0)));
+    groups.push_back(::getegid());
+    return groups;
+  }();
+  return info.st_uid == 0 || info.st_uid == ::geteuid() ||
+         std::find(kGroups.begin(), kGroups.end(), info.st_gid) != kGroups.end();
+}
+
+}  // namespace
+
+std::vector<std::string> list_nodes(Nodes which) {
   constexpr std::string_view kPrefix = "indurop.";
+  constexpr std::string_view kLock = ".lock";
   std::vector<std::string> nodes;
+  std::vector<std::string> locks;
   const auto close = [](DIR* directory) { ::closedir(directory); };
   const std::unique_ptr<DIR, decltype(close)> directory(::opendir(kShmDirectory), close);
   while (directory != nullptr) {
@@ -52,11 +85,23 @@ std::vector<std::string> list_nodes() {
     if (entry == nullptr) {
       break;
     }
-    const std::string_view name = entry->d_name;
-    if (name.starts_with(kPrefix) && valid_node_name(name.substr(kPrefix.size()))) {
-      nodes.emplace_back(name.substr(kPrefix.size()));
+    std::string_view name = entry->d_name;
+    if (!name.starts_with(kPrefix) || (which == Nodes::Near && !is_near(entry->d_name))) {
+      continue;
+    }
+    name.remove_prefix(kPrefix.size());
+    const bool is_lock = name.ends_with(kLock);
+    name.remove_suffix(is_lock ? kLock.size() : 0);
+    if (valid_node_name(name)) {
+      (is_lock ? locks : nodes).emplace_back(name);
     }
   }
+  std::sort(nodes.begin(), nodes.end());
+  std::vector<std::string> bare;  // the store is not there yet, or not any more
+  std::copy_if(locks.begin(), locks.end(), std::back_inserter(bare), [&](const std::string& node) {
+    return !std::binary_search(nodes.begin(), nodes.end(), node) && running_node(node) != 0;
+  });
+  nodes.insert(nodes.end(), bare.begin(), bare.end());
   std::sort(nodes.begin(), nodes.end());
   return nodes;
 }

@@ -210,15 +210,20 @@ bool check_ring(RingHeader& ring, std::uint32_t value_size) noexcept {
 }
 
 void read_slow(RingHeader& ring, void* to, std::uint32_t offset, std::uint32_t length) noexcept {
+  read_slow(ring, ring.value_size, to, offset, length);
+}
+
+void read_slow(RingHeader& ring, std::uint32_t value_size, void* to, std::uint32_t offset,
+               std::uint32_t length) noexcept {
   // Ends: without the lock nobody commits for long, and with a holder that is stopped or dead nobody commits at all.
-  while (!try_read(ring, ring.value_size, offset, to, length)) {
+  while (!try_read(ring, value_size, offset, to, length)) {
     const rt::LockResult result = rt::lock_within(ring.lock);
     if (result == rt::LockResult::OwnerDied) {
       mark_all_dirty(ring);
     }
     if (rt::is_locked(result)) {
       const std::uint64_t now = ring.seq.load(std::memory_order_relaxed);
-      detail::copy_from_shared(to, detail::slot(&ring, now, ring.slot_stride) + offset, length);
+      detail::copy_from_shared(to, detail::slot(&ring, now, abi::slot_stride(value_size)) + offset, length);
       rt::unlock(ring.lock);
       return;
     }

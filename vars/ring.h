@@ -46,5 +46,8 @@ bool try_read(const abi::RingHeader& ring, std::uint32_t value_size, std::uint32
               std::uint32_t length) noexcept;
 // Always succeeds: asks writers to wait through the lock. Needs writable memory.
 void read_slow(abi::RingHeader& ring, void* to, std::uint32_t offset, std::uint32_t length) noexcept;
+// `value_size` is the caller's, as in try_read().
+void read_slow(abi::RingHeader& ring, std::uint32_t value_size, void* to, std::uint32_t offset,
+               std::uint32_t length) noexcept;
 
 }  // namespace indurop::vars

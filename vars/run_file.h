@@ -28,6 +28,7 @@ class RunFile {
   [[nodiscard]] void* data() const noexcept { return file_.data(); }  // page aligned
   [[nodiscard]] std::size_t size() const noexcept { return file_.size(); }
   void prefault() const noexcept { file_.prefault(); }
+  [[nodiscard]] ShmFile::Named named() const noexcept { return file_.named(); }
 
  private:
   explicit RunFile(ShmFile&& file) noexcept : file_(std::move(file)) {}

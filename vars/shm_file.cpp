@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "rt/lost_pages.h"
 #include "vars/os_error.h"
 
 namespace indurop::vars {
@@ -72,12 +73,40 @@ int allocate(int file, std::size_t size) noexcept {
   return error;
 }
 
+int open_file(const std::string& name, Mode mode) noexcept {
+  const int flags = (mode == Mode::ReadWrite ? O_RDWR : O_RDONLY) | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
+  return ::open(path_of(name).c_str(), flags);
+}
+
+Status inspect(const Descriptor& file, struct stat& info) noexcept {
+  if (file.get() < 0) {
+    return os_error(errno, "open shared memory");
+  }
+  if (::fstat(file.get(), &info) != 0) {
+    return os_error(errno, "inspect shared memory");
+  }
+  if (!S_ISREG(info.st_mode) || info.st_size <= 0) {
+    return Error{Errc::Corrupt, 0, "shared memory file is empty or not a regular file"};
+  }
+  // What create() made has all its memory. A file of holes may claim any size without costing its maker anything.
+  constexpr off_t kBlock = 512;
+  if (info.st_blocks * kBlock < info.st_size) {
+    return Error{Errc::Corrupt, 0, "shared memory file has holes"};
+  }
+  return {};
+}
+
 }  // namespace
 
 struct ShmFile::Impl {
-  Impl(MemoryMap&& mapped, const struct stat& status, Mode access)
-      : memory(std::move(mapped)), info(status), mode(access) {}
+  Impl(MemoryMap&& mapped, const struct stat& status, Mode access, const std::string& name)
+      : memory(std::move(mapped)),
+        guard(memory.getBaseAddress(), static_cast<std::size_t>(status.st_size), access == Mode::ReadWrite, name),
+        info(status),
+        mode(access),
+        final_path(path_of(name)) {}
   MemoryMap memory;
+  rt::GuardedMapping guard;
   struct stat info;
   Mode mode;
   std::string unpublished;  // temporary path, empty if the file has its name
@@ -120,23 +149,16 @@ std::uint64_t store_number(const std::string& node) noexcept {
 }
 
 Result<ShmFile> ShmFile::open(const std::string& name, Mode mode) {
-  const int flags = (mode == Mode::ReadWrite ? O_RDWR : O_RDONLY) | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
-  const Descriptor file(::open(path_of(name).c_str(), flags));
-  if (file.get() < 0) {
-    return os_error(errno, "open shared memory");
-  }
+  const Descriptor file(open_file(name, mode));
   struct stat info {};
-  if (::fstat(file.get(), &info) != 0) {
-    return os_error(errno, "inspect shared memory");
-  }
-  if (!S_ISREG(info.st_mode) || info.st_size <= 0) {
-    return Error{Errc::Corrupt, 0, "shared memory file is empty or not a regular file"};
+  if (const Status good = inspect(file, info); !good) {
+    return good.error();
   }
   auto mapped = map(file.get(), static_cast<std::size_t>(info.st_size), mode);
   if (!mapped) {
     return mapped.error();
   }
-  return ShmFile(std::make_unique<Impl>(std::move(mapped.value()), info, mode));
+  return ShmFile(std::make_unique<Impl>(std::move(mapped.value()), info, mode, name));
 }
 
 Result<ShmFile> ShmFile::create(const std::string& name, std::size_t size) {
@@ -167,10 +189,32 @@ Result<ShmFile> ShmFile::create(const std::string& name, std::size_t size) {
     ::unlink(temporary.c_str());
     return mapped.error();
   }
-  auto impl = std::make_unique<Impl>(std::move(mapped.value()), info, Mode::ReadWrite);
+  auto impl = std::make_unique<Impl>(std::move(mapped.value()), info, Mode::ReadWrite, name);
   impl->unpublished = temporary;
-  impl->final_path = path_of(name);
   return ShmFile(std::move(impl));
+}
+
+Result<ShmCopy> ShmCopy::of(const std::string& name) {
+  const Descriptor file(open_file(name, Mode::ReadOnly));
+  struct stat info {};
+  if (const Status good = inspect(file, info); !good) {
+    return good.error();
+  }
+  ShmCopy copy;
+  const auto size = static_cast<std::size_t>(info.st_size);
+  if (constexpr std::size_t kMost = std::size_t{64} << 20U; size > kMost) {
+    return Error{Errc::Corrupt, 0, "shared memory file is larger than any of its kind"};
+  }
+  copy.words_.resize((size + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
+  while (copy.bytes_ < size) {
+    const ssize_t got = ::pread(file.get(), reinterpret_cast<char*>(copy.words_.data()) + copy.bytes_,
+                                size - copy.bytes_, static_cast<off_t>(copy.bytes_));
+    if (got <= 0) {
+      break;  // it was cut meanwhile
+    }
+    copy.bytes_ += static_cast<std::size_t>(got);
+  }
+  return copy;
 }
 
 Status ShmFile::publish() noexcept {
@@ -209,6 +253,19 @@ bool ShmFile::trusted() const noexcept {
     return false;
   }
   return info.st_uid == ::geteuid() || info.st_uid == 0 || (::geteuid() != 0 && info.st_gid == ::getegid());
+}
+
+bool ShmFile::lost() const noexcept {
+  return impl_->guard.lost();
+}
+
+ShmFile::Named ShmFile::named() const noexcept {
+  struct stat now {};
+  if (::lstat(impl_->final_path.c_str(), &now) != 0 || now.st_dev != impl_->info.st_dev ||
+      now.st_ino != impl_->info.st_ino) {
+    return Named::Gone;
+  }
+  return now.st_size < impl_->info.st_size ? Named::Cut : Named::Whole;
 }
 
 void ShmFile::prefault() const noexcept {

@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace indurop::vars {
 
@@ -36,8 +37,8 @@ inline constexpr mode_t kShmMode = 0664;
 
 class ShmFile {
  public:
-  // Maps an existing file whole. Errors: NotFound, PermissionDenied, Corrupt (empty, or not a regular file),
-  // NoSpace (limit of locked memory), System.
+  // Maps an existing file whole. A file that is cut meanwhile ends nobody: see lost(). Errors: NotFound,
+  // PermissionDenied, Corrupt (empty, or not a regular file), NoSpace (limit of locked memory), System.
   static Result<ShmFile> open(const std::string& name, Mode mode);
 
   // A zeroed file of exactly `size` bytes, all of it really there, mapped read-write, not yet visible under its name.
@@ -59,6 +60,11 @@ class ShmFile {
   [[nodiscard]] Mode mode() const noexcept;
   // False if somebody of another user and group could have made or changed the file.
   [[nodiscard]] bool trusted() const noexcept;
+  // It was cut by somebody who may write it, and what is read now may be zeros. Real-time safe.
+  [[nodiscard]] bool lost() const noexcept;
+  // What lies under its name. Not real-time safe.
+  enum class Named { Whole, Cut, Gone };  // Gone: nothing, or another file
+  [[nodiscard]] Named named() const noexcept;
   // Makes every page present now, so that no access pays for it later. Not real-time safe.
   void prefault() const noexcept;
 
@@ -66,6 +72,19 @@ class ShmFile {
   struct Impl;
   explicit ShmFile(std::unique_ptr<Impl> impl) noexcept;
   std::unique_ptr<Impl> impl_;
+};
+
+// What a file held when it was looked at: nobody can change it afterwards. For whoever looks once.
+class ShmCopy {
+ public:
+  // Errors: as of ShmFile::open().
+  static Result<ShmCopy> of(const std::string& name);
+  [[nodiscard]] const std::byte* data() const noexcept { return reinterpret_cast<const std::byte*>(words_.data()); }
+  [[nodiscard]] std::size_t size() const noexcept { return bytes_; }
+
+ private:
+  std::vector<std::uint64_t> words_;
+  std::size_t bytes_ = 0;
 };
 
 // Another one whenever another store of this node takes the place of the one before; 0: there is none.

@@ -17,6 +17,7 @@
 
 #include "rt/clock.h"
 #include "vars/block.h"
+#include "vars/node_lock.h"
 #include "vars/process.h"
 #include "vars/ring.h"
 #include "vars/scalar.h"
@@ -209,6 +210,9 @@ Result<Store> Store::attach(const std::string& node, Mode mode) {
     if (index && header.state.load(std::memory_order_acquire) == BlockState::Ready) {
       return Store(std::make_unique<Impl>(std::move(file.value()), std::move(index.value()), Origin::Attached));
     }
+    if (running_node(node) == 0) {
+      break;  // there is nobody who would complete it, or replace it
+    }
     std::this_thread::sleep_for(kSwapWait);
   }
   return Error{Errc::Busy, 0, "store is being replaced by a newer one"};
@@ -239,7 +243,13 @@ const schema::Schema& Store::schema() const noexcept {
   return impl_->index.schema;
 }
 bool Store::retired() const noexcept {
-  return impl_->header().state.load(std::memory_order_acquire) == BlockState::Retired;
+  return impl_->header().state.load(std::memory_order_acquire) == BlockState::Retired || lost();
+}
+bool Store::lost() const noexcept {
+  return impl_->file.lost() || impl_->header().magic.load(std::memory_order_relaxed) != kMagic;
+}
+ShmFile::Named Store::named() const noexcept {
+  return impl_->file.named();
 }
 
 const DirectoryEntry* Store::find(std::uint64_t name_hash) const noexcept {
@@ -259,27 +269,28 @@ void* Store::entry(std::uint64_t name_hash, std::uint64_t type_hash) const noexc
 }
 
 Status Store::read(const DirectoryEntry& variable, std::uint32_t offset, std::span<std::uint8_t> to) const noexcept {
+  constexpr Error kLost{Errc::Dead, 0, "the store was cut by somebody who may write it"};
   if (!impl_->contains(variable, offset, to.size())) {
     return Error{Errc::OutOfRange, 0, "part of a variable to read"};
   }
   if (variable.kind == abi::Kind::Scalar) {
     read_scalar(impl_->file.data() + variable.offset, variable.value_size, offset, to);
-    return {};
+    return lost() ? Status(kLost) : Status();
   }
   const auto length = static_cast<std::uint32_t>(to.size());
   const abi::RingHeader& ring = impl_->ring(variable);
   if (try_read(ring, variable.value_size, offset, to.data(), length)) {
-    return {};
+    return lost() ? Status(kLost) : Status();
   }
   if (impl_->file.mode() == Mode::ReadWrite) {
-    read_slow(impl_->ring(variable), to.data(), offset, length);
-    return {};
+    read_slow(impl_->ring(variable), variable.value_size, to.data(), offset, length);
+    return lost() ? Status(kLost) : Status();
   }
   const std::int64_t limit = rt::now_ns() + kReadLimitNs;
   while (rt::now_ns() < limit) {
     ::sched_yield();
     if (try_read(ring, variable.value_size, offset, to.data(), length)) {
-      return {};
+      return lost() ? Status(kLost) : Status();
     }
   }
   return Error{Errc::Timeout, 0, "read a variable that is written without a pause"};

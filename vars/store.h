@@ -53,7 +53,10 @@ class Store {
   [[nodiscard]] Origin origin() const noexcept;
   [[nodiscard]] const BlockHeader& header() const noexcept;
   [[nodiscard]] const schema::Schema& schema() const noexcept;  // parsed from the block
-  [[nodiscard]] bool retired() const noexcept;                  // a newer block has taken the name: attach again
+  [[nodiscard]] bool retired() const noexcept;  // a newer block has taken the name, or it was cut: attach again
+  // Somebody who may write the block cut it or emptied it: values are missing. Real-time safe.
+  [[nodiscard]] bool lost() const noexcept;
+  [[nodiscard]] ShmFile::Named named() const noexcept;  // what lies under its name; not real-time safe
 
   // Entry of a variable, null if absent. `type_hash` 0 accepts any type. Real-time safe.
   [[nodiscard]] void* entry(std::uint64_t name_hash, std::uint64_t type_hash) const noexcept;
@@ -62,7 +65,7 @@ class Store {
 
   // One consistent version of a variable's bytes. If writers keep overtaking the copy, a read-write store makes them
   // wait by taking the lock; a read-only one cannot, and tries for 50 ms, yielding the processor.
-  // Errors: OutOfRange, Timeout (read-only: the variable is written without a pause).
+  // Errors: OutOfRange, Dead (lost()), Timeout (read-only: the variable is written without a pause).
   Status read(const DirectoryEntry& variable, std::uint32_t offset, std::span<std::uint8_t> to) const noexcept;
   // One commit, of the whole value or a part of it.
   // Errors: OutOfRange, Busy (lock not free in 5 ms: its holder is stopped), PermissionDenied (read-only).
@@ -104,12 +107,18 @@ class Store {
   std::unique_ptr<Impl> impl_;
 };
 
-// Names of nodes that have a block on this machine, sorted.
-std::vector<std::string> list_nodes();
+// Names of nodes that have a block on this machine or run without one, because somebody removed it; sorted.
+enum class Nodes {
+  Near,  // of this user, of root, and of those whose group this user is in
+  All,
+};
+std::vector<std::string> list_nodes(Nodes which = Nodes::Near);
 
 // Last heartbeat of a node, without a look at what its store holds. Errors: NotFound (no node, or it has
 // not beaten yet), PermissionDenied, Busy, VersionMismatch, Corrupt.
 Result<rt::MonoTime> last_beat(const std::string& node);
+// Number of the format of a node's store, abi::kVersion of who made it; 0: there is no store.
+std::uint32_t store_format(const std::string& node);
 // Removes every shared-memory file of a node. Errors: Busy while the node runs.
 Status remove_node(const std::string& node);
 

@@ -31,4 +31,13 @@ Status lock_file_when_free(int file, FileLock kind) noexcept {
   return lock(file, operation_of(kind));
 }
 
+// There is no other way to ask: whoever wants the lock at this very moment has to try again.
+bool is_locked(int file) noexcept {
+  const bool is_free = ::flock(file, LOCK_SH | LOCK_NB) == 0;
+  if (is_free) {
+    ::flock(file, LOCK_UN);
+  }
+  return !is_free && errno == EWOULDBLOCK;
+}
+
 }  // namespace indurop::rt

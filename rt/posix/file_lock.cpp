@@ -30,4 +30,11 @@ Status lock_file_when_free(int file, FileLock kind) noexcept {
   return lock(file, F_OFD_SETLKW, kind);
 }
 
+bool is_locked(int file) noexcept {
+  struct flock whole {};
+  whole.l_type = F_RDLCK;
+  whole.l_whence = SEEK_SET;
+  return ::fcntl(file, F_OFD_GETLK, &whole) == 0 && whole.l_type != F_UNLCK;
+}
+
 }  // namespace indurop::rt
