@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -143,8 +144,17 @@ struct Facts {
   // The same of all modules of a core and a time.
   [[nodiscard]] const HoleFact* hole_within(std::int32_t core, std::int64_t from_ns, std::int64_t to_ns) const noexcept;
   [[nodiscard]] std::uint64_t tick_at(std::int64_t time_ns) const noexcept;
+  // Whole basic periods in so long; 0 if one of both makes no sense. What the facts come from may be damaged.
+  [[nodiscard]] std::uint64_t ticks_in(std::int64_t ns) const noexcept {
+    return basic_period_ns > 0 && ns > 0 ? static_cast<std::uint64_t>(ns / basic_period_ns) : 0;
+  }
+  // In every so many ticks the module runs, 1 at least.
+  [[nodiscard]] std::uint64_t ticks_between_runs(const ModuleFact& module) const noexcept {
+    return std::max<std::uint64_t>(ticks_in(module.period_ns), 1);
+  }
   [[nodiscard]] std::int64_t release_of(std::uint64_t number) const noexcept {
-    return epoch_ns + static_cast<std::int64_t>(number) * basic_period_ns;
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(epoch_ns) +
+                                     number * static_cast<std::uint64_t>(basic_period_ns));
   }
 };
 

@@ -67,8 +67,8 @@ std::vector<const RunFact*> Lateness::neighbours(const RunFact& run) const {
   std::uint64_t macro = 1;
   for (const ModuleFact& module : facts_.modules) {
     if (module.period_ns > 0 && facts_.basic_period_ns > 0 && macro < kLongestMacro) {
-      macro = std::lcm(
-          macro, static_cast<std::uint64_t>(std::max<std::int64_t>(module.period_ns / facts_.basic_period_ns, 1)));
+      const std::uint64_t every = facts_.ticks_between_runs(module);
+      macro = every < kLongestMacro ? std::lcm(macro, every) : kLongestMacro;
     }
   }
   std::vector<const RunFact*> all;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <iterator>
+#include <span>
 
 #include "scheduler/words.h"
 
@@ -15,12 +17,21 @@ std::string text_of(const char (&text)[N]) {
   return {text, ::strnlen(text, N)};
 }
 
+// `count` objects of the block if all of them lie inside of `size` bytes, else none.
+template <class T>
+std::span<const T> inside(const scheduler::RunBlock& block, std::uint64_t size, std::uint64_t offset,
+                          std::uint64_t count) {
+  const bool good =
+      offset >= sizeof block && offset % alignof(T) == 0 && offset <= size && count <= (size - offset) / sizeof(T);
+  return good ? std::span(block.at<T>(offset), count) : std::span<const T>();
+}
+
 // Entries that are whole before and after the copy, oldest first.
 template <class Entry, class Take>
-void each(const Entry* ring, std::uint64_t capacity, std::uint64_t next, Take take) {
-  const std::uint64_t count = std::min(capacity, next);
+void each(std::span<const Entry> ring, std::uint64_t next, Take take) {
+  const std::uint64_t count = std::min<std::uint64_t>(ring.size(), next);
   for (std::uint64_t number = next - count; number < next; ++number) {
-    const Entry& entry = ring[number % capacity];
+    const Entry& entry = ring[number % ring.size()];
     if (entry.sequence.load(std::memory_order_acquire) != number + 1) {
       continue;
     }
@@ -56,38 +67,74 @@ ModuleFact fact_of(const scheduler::ModuleRecord& record) {
 
 }  // namespace
 
-Facts facts_of(const scheduler::RunBlock& block, bool with_runs) {
+void make_sound(Facts& facts) noexcept {
+  static constexpr std::int64_t kFar = std::int64_t{1} << 60U;
+  constexpr std::int64_t kLongestPeriod = 1'000'000'000'000;
+  std::int64_t& basic = facts.basic_period_ns;
+  basic = basic < 0 || basic > kLongestPeriod ? 0 : basic;
+  const std::uint64_t last = static_cast<std::uint64_t>(kFar / std::max<std::int64_t>(basic, 1));
+  const auto times = [](auto&... all) { ((all = std::clamp<std::int64_t>(all, -kFar, kFar)), ...); };
+  const auto durations = [](auto&... all) { ((all = std::clamp<std::int64_t>(all, 0, kFar)), ...); };
+  const auto ticks = [last](auto&... all) { ((all = std::min(all, last)), ...); };
+  times(facts.epoch_ns, facts.now_ns, facts.kernel_from_ns, facts.kernel_to_ns);
+  durations(facts.lease_ns);
+  ticks(facts.tick, facts.first_tick);
+  for (ModuleFact& module : facts.modules) {
+    durations(module.period_ns, module.offset_ns, module.deadline_ns);
+    ticks(module.fault_tick);
+  }
+  for (RunFact& run : facts.runs) {
+    times(run.release_ns, run.start_ns, run.end_ns);
+    ticks(run.tick);
+  }
+  for (OverrunFact& overrun : facts.overruns) {
+    times(overrun.own_ns);
+    ticks(overrun.tick);
+  }
+  for (KernelFact& fact : facts.kernel) {
+    times(fact.from_ns, fact.to_ns, fact.waited_ns, fact.stolen_ns);
+  }
+  for (BoardFact& board : facts.boards) {
+    times(board.heard_ns);
+  }
+}
+
+Facts facts_of(const scheduler::RunBlock& block, std::uint64_t size, bool with_runs) {
+  // Each number is taken once, then looked at: it may change meanwhile.
+  const auto modules = inside<scheduler::ModuleRecord>(block, size, block.modules_offset, block.module_count);
+  const auto overruns =
+      inside<scheduler::OverrunEntry>(block, size, block.overrun_log_offset, block.overrun_log_capacity);
+  const auto slots = inside<scheduler::SlotEntry>(block, size, block.slot_log_offset, block.slot_log_capacity);
   Facts facts;
   facts.node = text_of(block.node_name);
   facts.is_virtual = block.virtual_ns.load() != 0;
   facts.realtime = block.obtained.fifo != 0;
-  facts.basic_period_ns = block.basic_period_ns;
+  facts.basic_period_ns = std::max<std::int64_t>(block.basic_period_ns, 0);
   facts.epoch_ns = block.epoch_ns;
   facts.tick = block.tick.load();
   facts.lost_ticks = block.lost_ticks.load();
   facts.stop_reason = text_of(block.stop_reason);
-  for (std::uint32_t i = 0; i < block.module_count; ++i) {
-    facts.modules.push_back(fact_of(block.modules()[i]));
-  }
-  each(block.at<scheduler::OverrunEntry>(block.overrun_log_offset), block.overrun_log_capacity,
-       block.overrun_log_next.load(std::memory_order_acquire), [&](const scheduler::OverrunEntry& entry) {
-         const OverrunFact fact{entry.module, entry.tick, entry.own_ns, entry.started != 0};
-         return [&facts, fact] { facts.overruns.push_back(fact); };
-       });
+  std::transform(modules.begin(), modules.end(), std::back_inserter(facts.modules), fact_of);
+  each(overruns, block.overrun_log_next.load(std::memory_order_acquire), [&](const scheduler::OverrunEntry& entry) {
+    const OverrunFact fact{entry.module, entry.tick, entry.own_ns, entry.started != 0};
+    return [&facts, fact] { facts.overruns.push_back(fact); };
+  });
+  std::erase_if(facts.overruns, [&](const OverrunFact& one) { return one.module >= facts.modules.size(); });
   if (!with_runs) {
+    make_sound(facts);
     return facts;
   }
   const std::uint64_t next = block.slot_log_next.load(std::memory_order_acquire);
-  each(block.at<scheduler::SlotEntry>(block.slot_log_offset), block.slot_log_capacity, next,
-       [&](const scheduler::SlotEntry& entry) {
-         const RunFact fact{entry.module, entry.tick, entry.release_ns, entry.start_ns, entry.end_ns, false};
-         return [&facts, fact] { facts.runs.push_back(fact); };
-       });
+  each(slots, next, [&](const scheduler::SlotEntry& entry) {
+    const RunFact fact{entry.module, entry.tick, entry.release_ns, entry.start_ns, entry.end_ns, false};
+    return [&facts, fact] { facts.runs.push_back(fact); };
+  });
   std::erase_if(facts.runs, [&](const RunFact& run) { return run.module >= facts.modules.size(); });
   // Of the first tick in the log some runs may be gone already.
-  if (next > block.slot_log_capacity && !facts.runs.empty()) {
+  if (next > slots.size() && !facts.runs.empty()) {
     facts.first_tick = facts.runs.front().tick + 1;
   }
+  make_sound(facts);
   for (RunFact& run : facts.runs) {
     const ModuleFact& module = facts.modules[run.module];
     run.faulted = module.faults > 0 && module.fault_tick == run.tick && !module.fault.empty();

@@ -104,8 +104,8 @@ class Question {
     if (module_.period_ns <= 0 || facts_.basic_period_ns <= 0) {
       return {};
     }
-    const auto every = static_cast<std::uint64_t>(module_.period_ns / facts_.basic_period_ns);
-    const auto first = static_cast<std::uint64_t>(module_.offset_ns / facts_.basic_period_ns);
+    const std::uint64_t every = facts_.ticks_between_runs(module_);
+    const std::uint64_t first = facts_.ticks_in(module_.offset_ns);
     if (tick_ >= first && (tick_ - first) % every == 0) {
       return {};
     }
@@ -149,8 +149,7 @@ class Question {
   [[nodiscard]] Answer after_fault() const {
     const RunFact* before = last_before(tick_);
     // A run in which a process died may have no end, and its death is seen a little later.
-    const auto every =
-        static_cast<std::uint64_t>(std::max<std::int64_t>(module_.period_ns / facts_.basic_period_ns, 1));
+    const std::uint64_t every = facts_.ticks_between_runs(module_);
     const std::uint64_t seen = tick_ + (module_.type == "process" ? every : 0);
     const bool newest = module_.faults > 0 && module_.fault_tick <= seen && !module_.fault.empty() &&
                         (before == nullptr || before->tick <= module_.fault_tick) &&
@@ -328,8 +327,8 @@ class Question {
 };
 
 bool due(const Facts& facts, const ModuleFact& module, std::uint64_t tick) {
-  const auto every = static_cast<std::uint64_t>(std::max<std::int64_t>(module.period_ns / facts.basic_period_ns, 1));
-  const auto first = static_cast<std::uint64_t>(module.offset_ns / facts.basic_period_ns);
+  const std::uint64_t every = facts.ticks_between_runs(module);
+  const std::uint64_t first = facts.ticks_in(module.offset_ns);
   return tick >= first && (tick - first) % every == 0;
 }
 
@@ -361,7 +360,9 @@ std::uint64_t last_trouble(const Facts& facts, const std::string& module) {
   std::sort(ran.begin(), ran.end());
   const Known ends(facts, index);
   // The tick that has just begun may be under way, and a run that still has time be to come.
-  for (std::uint64_t tick = facts.tick - 1; known->operation == "periodic" && tick-- > facts.first_tick;) {
+  constexpr std::uint64_t kMostTicks = 10'000'000;  // behind that nothing is known, or the number is damaged
+  const std::uint64_t oldest = std::max(facts.first_tick, facts.tick - std::min(facts.tick, kMostTicks));
+  for (std::uint64_t tick = facts.tick - 1; known->operation == "periodic" && tick-- > oldest;) {
     const bool over = facts.release_of(tick) + limit <= facts.now_ns;
     const bool told = ends.at(tick) && facts.hole_around(index, tick) == nullptr;
     if (over && told && due(facts, *known, tick) && !std::binary_search(ran.begin(), ran.end(), tick)) {

@@ -155,12 +155,12 @@ class Old {
     if (since < 0) {
       return not_known("the schedule had hardly begun");
     }
-    auto due = static_cast<std::uint64_t>((since / every * every + module.offset_ns) / facts_.basic_period_ns);
+    std::uint64_t due = facts_.ticks_in(since / every * every + module.offset_ns);
     // What is known often ends with the node: then its last run counts, not one that would have come.
     const bool at_the_end = at_ns_ <= facts_.release_of(facts_.tick) + 2 * every;
     if (at_the_end && facts_.tick > 0 && due >= facts_.tick) {
-      const auto step = static_cast<std::uint64_t>(std::max<std::int64_t>(every / facts_.basic_period_ns, 1));
-      const auto first = static_cast<std::uint64_t>(module.offset_ns / facts_.basic_period_ns);
+      const std::uint64_t step = facts_.ticks_between_runs(module);
+      const std::uint64_t first = facts_.ticks_in(module.offset_ns);
       due = facts_.tick > first ? first + (facts_.tick - 1 - first) / step * step : first;
     }
     // What a process left is known before its node has noted that the run is over.
@@ -183,7 +183,7 @@ class Old {
   }
 
   [[nodiscard]] std::uint64_t next_due(const RunFact& run, const ModuleFact& module) const {
-    return run.tick + static_cast<std::uint64_t>(std::max<std::int64_t>(module.period_ns / facts_.basic_period_ns, 1));
+    return run.tick + facts_.ticks_between_runs(module);
   }
 
   const Facts& facts_;

@@ -35,7 +35,12 @@ recording::View view(const std::string& text) {
 Result<Recorder, Problem> Recorder::create_one_of(const std::string& prefix, const About& about,
                                                   const vars::Store& store, tape::Follower follower,
                                                   const std::vector<std::string>& globs, std::vector<bool>& matched) {
-  if (follower.header().layout_hash != store.header().layout_hash) {
+  const bool same =
+      std::ranges::equal(follower.variables(), store.directory(), [](const auto& taped, const auto& entry) {
+        return taped.name_hash == entry.name_hash && taped.size == entry.value_size;
+      });
+  // The header of a store that was cut says nothing any more; its tape may still be whole.
+  if (!same || (!store.lost() && follower.header().layout_hash != store.header().layout_hash)) {
     return Problem{"the node's variables have just changed: try again"};
   }
   Recorder recorder(prefix, store, std::move(follower), about);

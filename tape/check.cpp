@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 namespace indurop::tape {
 namespace {
@@ -11,30 +12,32 @@ bool fits(std::uint64_t offset, std::uint64_t bytes, std::uint64_t total) noexce
   return offset % sizeof(std::uint64_t) == 0 && offset <= total && bytes <= total - offset;
 }
 
-bool good(const TapeTrack& track, std::span<const std::byte> memory) noexcept {
-  const std::uint64_t items = std::uint64_t{track.only_read} + track.both + track.only_written;
-  if (!std::has_single_bit(track.words) || track.words > memory.size() || track.words < kMarks ||
-      !fits(track.data_offset, track.words * sizeof(std::uint64_t), memory.size()) ||
-      !fits(track.items_offset, items * sizeof(std::uint32_t), memory.size())) {
+template <class T>
+bool copy_table(std::span<const std::byte> memory, std::uint64_t offset, std::uint64_t count, std::vector<T>& to) {
+  if (!fits(offset, count * sizeof(T), memory.size())) {
     return false;
   }
-  const auto* const indices = reinterpret_cast<const std::uint32_t*>(memory.data() + track.items_offset);
-  return std::all_of(indices, indices + items,
-                     [&](std::uint32_t i) { return i < header_of(memory.data()).variable_count; });
+  to.resize(count);
+  if (count != 0) {
+    std::memcpy(to.data(), memory.data() + offset, count * sizeof(T));
+  }
+  return true;
+}
+
+// False if it does not add up.
+bool copy_track(const TapeTrack& from, std::span<const std::byte> memory, std::size_t variables,
+                TapeIndex::Track& track) {
+  track = {from.data_offset, from.words, from.module, from.only_read, {}};
+  const std::uint64_t items = std::uint64_t{track.only_read} + from.both + from.only_written;
+  return std::has_single_bit(track.words) && track.words <= memory.size() && track.words >= kMarks &&
+         fits(track.data_offset, track.words * sizeof(std::uint64_t), memory.size()) &&
+         copy_table(memory, from.items_offset, items, track.items) && track.only_read <= track.items.size() &&
+         std::all_of(track.items.begin(), track.items.end(), [&](std::uint32_t i) { return i < variables; });
 }
 
 }  // namespace
 
-std::span<const TapeVariable> variables_of(const std::byte* memory) noexcept {
-  return {reinterpret_cast<const TapeVariable*>(memory + header_of(memory).variables_offset),
-          header_of(memory).variable_count};
-}
-
-std::span<const TapeTrack> tracks_of(const std::byte* memory) noexcept {
-  return {reinterpret_cast<const TapeTrack*>(memory + header_of(memory).tracks_offset), header_of(memory).track_count};
-}
-
-Status check_tape(std::span<const std::byte> memory) {
+Result<TapeIndex> index_tape(std::span<const std::byte> memory) {
   if (memory.size() < sizeof(TapeHeader) ||
       header_of(memory.data()).magic.load(std::memory_order_acquire) != kTapeMagic) {
     return Error{Errc::Corrupt, 0, "not a tape"};
@@ -44,16 +47,21 @@ Status check_tape(std::span<const std::byte> memory) {
     return Error{Errc::VersionMismatch, 0, "the tape of another release"};
   }
   const Error wrong{Errc::Corrupt, 0, "the tape does not add up"};
-  if (!fits(head.variables_offset, head.variable_count * sizeof(TapeVariable), memory.size()) ||
-      !fits(head.tracks_offset, head.track_count * sizeof(TapeTrack), memory.size())) {
+  TapeIndex index;
+  const std::uint64_t tracks = index.tracks_offset = head.tracks_offset;
+  const std::uint64_t count = head.track_count;
+  const auto leads_inside = [&](const TapeVariable& v) { return fits(v.first_offset, v.size, memory.size()); };
+  if (!copy_table(memory, head.variables_offset, head.variable_count, index.variables) ||
+      !std::all_of(index.variables.begin(), index.variables.end(), leads_inside) ||
+      !fits(tracks, count * sizeof(TapeTrack), memory.size()) || tracks % alignof(TapeTrack) != 0) {
     return wrong;
   }
-  const auto variables = variables_of(memory.data());
-  const auto tracks = tracks_of(memory.data());
-  const bool ok = std::all_of(variables.begin(), variables.end(),
-                              [&](const TapeVariable& v) { return fits(v.first_offset, v.size, memory.size()); }) &&
-                  std::all_of(tracks.begin(), tracks.end(), [&](const TapeTrack& t) { return good(t, memory); });
-  return ok ? Status() : wrong;
+  for (const TapeTrack& one : std::span(reinterpret_cast<const TapeTrack*>(memory.data() + tracks), count)) {
+    if (!copy_track(one, memory, index.variables.size(), index.tracks.emplace_back())) {
+      return wrong;
+    }
+  }
+  return index;
 }
 
 }  // namespace indurop::tape

@@ -24,10 +24,11 @@ Result<Follower> Follower::open(const std::string& node, bool from_start) {
   if (!file) {
     return file.error();
   }
-  if (const Status good = check_tape({file->data(), file->size()}); !good) {
-    return good.error();
+  auto index = index_tape({file->data(), file->size()});
+  if (!index) {
+    return index.error();
   }
-  Follower follower(std::move(file).value());
+  Follower follower(std::move(file).value(), std::move(index).value());
   follower.find_tracks();
   for (Place& place : follower.places_) {
     const std::uint64_t head = place.shared->head.load(std::memory_order_acquire);
@@ -41,10 +42,10 @@ const TapeHeader& Follower::header() const noexcept {
 }
 
 void Follower::find_tracks() {
-  variables_ = variables_of(file_.data());
-  for (const TapeTrack& track : tracks_of(file_.data())) {
+  const auto* shared = reinterpret_cast<const TapeTrack*>(file_.data() + index_.tracks_offset);
+  for (const TapeIndex::Track& track : index_.tracks) {
     Place place;
-    place.shared = &track;
+    place.shared = shared++;
     place.words = reinterpret_cast<const std::uint64_t*>(file_.data() + track.data_offset);
     place.mask = track.words - 1;
     place.module = track.module;
@@ -53,15 +54,14 @@ void Follower::find_tracks() {
 }
 
 std::span<const std::uint8_t> Follower::first_value(std::uint32_t variable) const noexcept {
-  const TapeVariable& known = variables_[variable];
+  const TapeVariable& known = index_.variables[variable];
   return {reinterpret_cast<const std::uint8_t*>(file_.data() + known.first_offset), known.size};
 }
 
 Follower::Items Follower::items_of(std::size_t track) const noexcept {
-  const TapeTrack& shared = *places_[track].shared;
-  const auto* const all = reinterpret_cast<const std::uint32_t*>(file_.data() + shared.items_offset);
-  const std::size_t written = std::size_t{shared.both} + shared.only_written;
-  return {{all, shared.only_read}, {all + shared.only_read, written}};
+  const TapeIndex::Track& known = index_.tracks[track];
+  const std::span<const std::uint32_t> all(known.items);
+  return {all.first(known.only_read), all.subspan(known.only_read)};
 }
 
 // Where the oldest run begins that is surely still there.
@@ -95,7 +95,7 @@ void Follower::point_to(const std::vector<std::pair<EntryHead, std::size_t>>& fo
     if (entry.kind == EntryKind::Told) {
       run.told.push_back({static_cast<std::int64_t>(run.words[place]), {at + sizeof(std::uint64_t), entry.which}});
     } else {
-      run.values.push_back({entry.kind, entry.which, {at, variables_[entry.which].size}});
+      run.values.push_back({entry.kind, entry.which, {at, index_.variables[entry.which].size}});
     }
   }
 }
@@ -115,11 +115,11 @@ Follower::Reading Follower::read_run(const Place& place, std::uint64_t head, Run
     const EntryHead entry = head_of(run.words[begin]);
     const bool is_run = entry.kind == EntryKind::Run;
     const bool is_value = !is_run && entry.kind != EntryKind::Clock && entry.kind != EntryKind::Told;
-    if (is_value && entry.which >= variables_.size()) {
+    if (is_value && entry.which >= index_.variables.size()) {
       return Reading::Corrupt;
     }
     const std::uint64_t words = is_run                          ? kRunWords
-                                : is_value                      ? words_of(variables_[entry.which].size)
+                                : is_value                      ? words_of(index_.variables[entry.which].size)
                                 : entry.kind == EntryKind::Told ? 1 + words_of(entry.which)
                                                                 : 1;
     if (at + 1 + words > head || words > place.mask) {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "tape/check.h"
 #include "tape/layout.h"
 #include "vars/shm_file.h"
 
@@ -46,7 +47,7 @@ class Follower {
   static Result<Follower> open(const std::string& node, bool from_start);
 
   [[nodiscard]] const TapeHeader& header() const noexcept;
-  [[nodiscard]] std::span<const TapeVariable> variables() const noexcept { return variables_; }
+  [[nodiscard]] std::span<const TapeVariable> variables() const noexcept { return index_.variables; }
   // Before any module was started.
   [[nodiscard]] std::span<const std::uint8_t> first_value(std::uint32_t variable) const noexcept;
   [[nodiscard]] std::size_t tracks() const noexcept { return places_.size(); }
@@ -77,7 +78,7 @@ class Follower {
   };
   enum class Reading { Whole, Overtaken, Corrupt };
 
-  explicit Follower(vars::ShmFile&& file) : file_(std::move(file)) {}
+  Follower(vars::ShmFile&& file, TapeIndex&& index) : file_(std::move(file)), index_(std::move(index)) {}
   void find_tracks();
   void point_to(const std::vector<std::pair<EntryHead, std::size_t>>& found, Run& run) const;
   Reading read_run(const Place& place, std::uint64_t head, Run& run, std::uint64_t& length) const;
@@ -86,7 +87,7 @@ class Follower {
   static bool copy(const Place& place, std::uint64_t from, std::uint64_t count, std::vector<std::uint64_t>& to);
 
   vars::ShmFile file_;
-  std::span<const TapeVariable> variables_;
+  TapeIndex index_;
   std::vector<Place> places_;
 };
 

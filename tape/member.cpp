@@ -14,7 +14,7 @@ Result<Member> Member::open(const std::string& node, std::uint32_t module, const
     return file.error();
   }
   std::byte* const memory = file->data();
-  if (const Status good = check_tape({memory, file->size()}); !good) {
+  if (const auto good = index_tape({memory, file->size()}); !good) {
     return good.error();
   }
   if (header_of(memory).layout_hash != store.header().layout_hash) {

@@ -20,7 +20,7 @@ namespace {
 using explain::Facts;
 
 void add_mirror(const std::string& node, Facts& facts) {
-  const auto file = vars::ShmFile::open(vars::mirror_file(node), vars::Mode::ReadOnly);
+  const auto file = vars::ShmCopy::of(vars::mirror_file(node));
   const mirror::MirrorBlock* block =
       file ? mirror::mirror_block_in({file.value().data(), file.value().size()}) : nullptr;
   if (block != nullptr) {
@@ -66,7 +66,7 @@ void add_tape(const std::string& node, const vars::Store& store, const std::stri
 }
 
 Facts of_memory(const std::string& node, const RunView& run, bool with_runs, std::int64_t now_ns) {
-  Facts facts = explain::facts_of(run.block(), with_runs);
+  Facts facts = explain::facts_of(run.block(), run.size(), with_runs);
   if (facts.stop_reason.empty() && !run.node_alive()) {
     facts.stop_reason = "its process died in the middle of its work";
   }
@@ -97,6 +97,7 @@ Facts facts_here(const ChosenRun& chosen, const std::string& variable) {
     add_forces(*store, facts);
     add_tape(chosen.node, *store, variable, facts);
   }
+  explain::make_sound(facts);
   return facts;
 }
 

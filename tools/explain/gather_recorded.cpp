@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "explain/facts_json.h"
+#include "explain/run_facts.h"
 #include "recorder/run_words.h"
 #include "recorder/sources.h"
 #include "tools/explain/gather.h"
@@ -41,6 +42,7 @@ class Recorded {
       conclude();
     }
     add_config(config_, facts_);
+    explain::make_sound(facts_);
     return std::move(facts_);
   }
 

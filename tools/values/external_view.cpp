@@ -12,7 +12,7 @@ namespace indurop::tools {
 
 std::optional<ExternalView> view_external(const std::string& node) {
   constexpr auto kRelaxed = std::memory_order_relaxed;
-  const auto file = vars::ShmFile::open(vars::external_file(node), vars::Mode::ReadOnly);
+  const auto file = vars::ShmCopy::of(vars::external_file(node));
   if (!file || file.value().size() < sizeof(mirror::ExternalBlock)) {
     return std::nullopt;
   }

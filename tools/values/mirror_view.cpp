@@ -65,7 +65,7 @@ std::string lead_of(const MirrorView& view, const std::string& board) {
 }  // namespace
 
 std::optional<MirrorView> view_mirror(const std::string& node) {
-  const auto file = vars::ShmFile::open(vars::mirror_file(node), vars::Mode::ReadOnly);
+  const auto file = vars::ShmCopy::of(vars::mirror_file(node));
   const mirror::MirrorBlock* block =
       file ? mirror::mirror_block_in({file.value().data(), file.value().size()}) : nullptr;
   if (block == nullptr) {

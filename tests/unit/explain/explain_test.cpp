@@ -3,7 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+#include <random>
+
 #include "explain/facts_json.h"
+#include "explain/run_facts.h"
 
 namespace indurop::explain {
 namespace {
@@ -304,6 +308,42 @@ TEST(Explain, Who_forces_a_value_and_who_wrote_it_last) {
   const std::vector<Facts> plant{facts};
   EXPECT_EQ(why_old(plant, 0, "x", 100 * kMs).culprit, "bob");
   EXPECT_EQ(who_changed(facts, "z", 100 * kMs).cause, Cause::NotKnown);
+}
+
+// Facts come from memory that anybody may have written, and from files.
+TEST(Explain, Numbers_that_make_no_sense_are_answered_too) {
+  std::mt19937_64 random(36);
+  const auto number = [&random] {
+    constexpr std::array<std::int64_t, 12> kBad{0,         1,         -1,        2,        kMs - 1,  1000147,
+                                                INT32_MAX, INT64_MAX, INT64_MIN, -1000147, 60 * kMs, INT64_MAX / 2};
+    return kBad[random() % kBad.size()];
+  };
+  const auto once = [&random] { return random() % 3 == 0; };
+  for (int round = 0; round < 3000; ++round) {
+    Facts facts = reader("silent", 5 * kMs);
+    facts.runs.resize(50);
+    facts.modules.push_back(periodic("slow", 10 * kMs));
+    facts.variables.push_back({"z", {"slow"}, {}, 0, 0});
+    for (std::int64_t* const one : {&facts.basic_period_ns, &facts.epoch_ns, &facts.now_ns, &facts.lease_ns}) {
+      *one = once() ? number() : *one;
+    }
+    facts.tick = once() ? static_cast<std::uint64_t>(number()) : facts.tick;
+    facts.first_tick = once() ? static_cast<std::uint64_t>(number()) : facts.first_tick;
+    for (ModuleFact& module : facts.modules) {
+      for (std::int64_t* const one : {&module.period_ns, &module.offset_ns, &module.deadline_ns}) {
+        *one = once() ? number() : *one;
+      }
+    }
+    make_sound(facts);
+    const std::uint64_t at = once() ? random() % 100'000 : 42;
+    for (const char* module : {"writer", "slow"}) {
+      EXPECT_FALSE(why_late(facts, module, at).text.empty() && last_trouble(facts, module) == 7);
+    }
+    for (const char* variable : {"x", "y", "z"}) {
+      EXPECT_FALSE(why_old({&facts, 1}, 0, variable, static_cast<std::int64_t>(at)).text.empty());
+    }
+    EXPECT_FALSE(why_gone({&facts, 1}, 0, "other").text.empty());
+  }
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ void add_kernel(Facts& facts, const Injection& injection, std::int32_t its_core,
 
 Facts facts_after(const scheduler::RunBlock& block, const std::vector<Task>& tasks, const Injection& injection,
                   std::int64_t due_ns) {
-  Facts facts = facts_of(block, true);
+  Facts facts = facts_of(block, block.total_size, true);
   facts.is_virtual = false;
   facts.realtime = true;
   add_kernel(facts, injection, tasks[injection.module].core, due_ns);

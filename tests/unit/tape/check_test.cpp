@@ -20,9 +20,9 @@ TEST(Check, Refuses_what_is_no_tape) {
   auto file = vars::ShmFile::open(vars::tape_file(plant.node()), vars::Mode::ReadWrite);
   ASSERT_TRUE(file.ok());
   auto& header = *reinterpret_cast<TapeHeader*>(file->data());
-  EXPECT_TRUE(check_tape({file->data(), file->size()}).ok());
-  EXPECT_EQ(check_tape({file->data(), 16}).error().code, Errc::Corrupt);
-  EXPECT_EQ(check_tape({file->data(), file->size() - 4096}).error().code, Errc::Corrupt);
+  EXPECT_TRUE(index_tape({file->data(), file->size()}).ok());
+  EXPECT_EQ(index_tape({file->data(), 16}).error().code, Errc::Corrupt);
+  EXPECT_EQ(index_tape({file->data(), file->size() - 4096}).error().code, Errc::Corrupt);
   header.abi = 99;
   EXPECT_EQ(Follower::open(plant.node(), true).error().code, Errc::VersionMismatch);
   EXPECT_EQ(Follower::open("nobody-here", true).error().code, Errc::NotFound);
