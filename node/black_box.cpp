@@ -89,17 +89,10 @@ std::string text_of(const char (&text)[N]) {
   return {text, ::strnlen(text, N)};
 }
 
-// Empty if the block makes no sense any more.
 std::string facts_of_crashed(const std::string& node, const scheduler::RunBlock& run, std::size_t size) {
-  const bool sound = run.total_size <= size && run.modules_offset >= sizeof run &&
-                     run.modules_offset + run.module_count * sizeof(scheduler::ModuleRecord) <= size &&
-                     run.overrun_log_offset + run.overrun_log_capacity * sizeof(scheduler::OverrunEntry) <= size;
-  if (!sound) {
-    return {};
-  }
-  explain::Facts facts = explain::facts_of(run, false);
+  explain::Facts facts = explain::facts_of(run, size, false);
   explain::add_kernel(node, facts);
-  const auto file = vars::ShmFile::open(vars::mirror_file(node), vars::Mode::ReadOnly);
+  const auto file = vars::ShmCopy::of(vars::mirror_file(node));
   if (const auto* boards = file ? mirror::mirror_block_in({file->data(), file->size()}) : nullptr; boards != nullptr) {
     explain::add_boards(*boards, facts);
   }
@@ -193,6 +186,11 @@ void BlackBox::look(rt::MonoTime now) {
   }
 }
 
+void BlackBox::keep_at_end(std::string why) {
+  wish_ = std::move(why);
+  due_ = rt::MonoClock::now();
+}
+
 void BlackBox::end() {
   if (prepared_.tape && (due_ != rt::MonoTime{} || (faults() != kept_ && rt::MonoClock::now() >= next_))) {
     keep();
@@ -251,7 +249,8 @@ void BlackBox::keep() {
   due_ = {};
   const bool faulted = faults() != kept_;
   kept_ = faults();
-  const std::string reason = faulted || wish_.empty() ? newest_fault() : wish_;
+  const std::string fault = faulted || wish_.empty() ? newest_fault() : "";
+  const std::string reason = fault.empty() ? wish_ : fault;
   wish_.clear();
   if (writer_.joinable()) {
     writer_.join();

@@ -34,6 +34,8 @@ class BlackBox {
 
   // Again and again, on one normal thread. At most one box a minute for faults of this node, and one for overruns.
   void look(rt::MonoTime now);
+  // end() keeps what led to this.
+  void keep_at_end(std::string why);
   // The run is over: a fault not yet kept is.
   void end();
 

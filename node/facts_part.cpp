@@ -11,7 +11,7 @@ namespace indurop::node {
 
 std::string facts_text(const Options& options, const Prepared& prepared, const mirror::MirrorBlock* boards,
                        const std::string& stop_reason) {
-  explain::Facts facts = explain::facts_of(prepared.run(), false);
+  explain::Facts facts = explain::facts_of(prepared.run(), prepared.run().total_size, false);
   if (boards != nullptr) {
     explain::add_boards(*boards, facts);
   }

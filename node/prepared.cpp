@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/prepared.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <utility>
 
@@ -11,6 +13,8 @@
 #include "node/setup.h"
 #include "node/tape_part.h"
 #include "rt/clock.h"
+#include "rt/file_lock.h"
+#include "rt/thread.h"
 #include "vars/custody.h"
 #include "vars/node_lock.h"
 #include "vars/process.h"
@@ -39,7 +43,9 @@ void forget_old_nodes() {
 
 Ending no_memory(const char* what, const Error& error, const Console& console) {
   console.error("cannot make {}: {}{}", what, describe(error),
-                error.code == Errc::NoSpace ? "; free space in /dev/shm (`indurop clean`, `df /dev/shm`)" : "");
+                error.sys_errno == EFBIG      ? "; the limit of file sizes is too small (`ulimit -f`)"
+                : error.code == Errc::NoSpace ? "; free space in /dev/shm (`indurop clean`, `df /dev/shm`)"
+                                              : "");
   return Ending{kFailed};
 }
 
@@ -60,6 +66,34 @@ void begin_run(scheduler::RunBlock& run, const scheduler::RunBlockSetup& setup, 
   scheduler::init_run_block(run, setup);
 }
 
+// Nodes that start at the same moment, as those of agents do when a plant is switched, choose their cores one after the
+// other: each is to see what the one before it has taken. The lock is that of the folder, which everybody may open; who
+// holds it for long holds up nobody for longer than this.
+class CoreChoice {
+ public:
+  explicit CoreChoice(bool is_needed) noexcept
+      : folder_(!is_needed ? -1 : ::open(vars::kShmDirectory, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    constexpr std::chrono::seconds kPatience{1};
+    constexpr std::chrono::milliseconds kPause{2};
+    const rt::MonoTime end = rt::MonoClock::now() + kPatience;
+    while (folder_ >= 0 && rt::lock_file(folder_, rt::FileLock::Exclusive).error().code == Errc::Busy &&
+           rt::MonoClock::now() < end) {
+      rt::sleep_until(rt::MonoClock::now() + kPause);
+    }
+  }
+  CoreChoice(const CoreChoice&) = delete;
+  CoreChoice& operator=(const CoreChoice&) = delete;
+  ~CoreChoice() { end(); }
+  void end() noexcept {
+    if (folder_ >= 0) {
+      ::close(std::exchange(folder_, -1));
+    }
+  }
+
+ private:
+  int folder_;
+};
+
 auto setup_of(const Options& options, const Checked& checked, const Rights& rights) {
   auto setup = make_run_setup(checked.config, checked.check, options.node,
                               {rights.core, rights.realtime() || options.simulation.on});
@@ -72,14 +106,21 @@ auto setup_of(const Options& options, const Checked& checked, const Rights& righ
 }  // namespace
 
 ClaimedName::ClaimedName(std::string node, vars::NodeLock lock) : node_(std::move(node)), lock_(std::move(lock)) {
-  const auto known = vars::list_nodes();
-  leave_nothing_ = std::find(known.begin(), known.end(), node_) == known.end();
+  leave_nothing_ = !vars::owner_of(node_).has_value();
 }
 
 ClaimedName::ClaimedName(ClaimedName&& other) noexcept
     : node_(std::move(other.node_)),
       lock_(std::move(other.lock_)),
       leave_nothing_(std::exchange(other.leave_nothing_, false)) {}
+
+bool ClaimedName::hold() {
+  if (lock_->named(node_)) {
+    return true;
+  }
+  (void)lock_->make_again(node_);  // fails while somebody looks at it: at the next look
+  return false;
+}
 
 ClaimedName::~ClaimedName() {
   lock_.reset();
@@ -116,16 +157,17 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
   if (auto ending = interruption(signals)) {
     return *std::move(ending);
   }
-  auto rights = options.simulation.on ? Result<Rights, Ending>(simulated_rights(options, checked.config))
-                                      : obtain_rights(options, checked.config, console);
-  if (!rights) {
-    return std::move(rights).error();
-  }
   if (!options.simulation.on) {
     keep_box_of_crash(options.node, console);
   }
   const bool previous_run_ended_well = ended_well(options.node);
   forget_old_nodes();
+  CoreChoice choice(!options.simulation.on);
+  auto rights = options.simulation.on ? Result<Rights, Ending>(simulated_rights(options, checked.config))
+                                      : obtain_rights(options, checked.config, console);
+  if (!rights) {
+    return std::move(rights).error();
+  }
   auto made = vars::Store::create(options.node, checked.check.schema);
   if (!made) {
     return no_memory("the shared variables", made.error(), console);
@@ -138,6 +180,7 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
   }
   auto& run = *static_cast<scheduler::RunBlock*>(file->data());
   begin_run(run, setup, rights->obtained);
+  choice.end();
   if (!checked.mirror) {
     (void)vars::remove_shm_file(vars::mirror_file(options.node));  // of an earlier run as a board
   }

@@ -32,6 +32,8 @@ class ClaimedName {
   ClaimedName& operator=(ClaimedName&&) = delete;
   ~ClaimedName();
   void keep() noexcept { leave_nothing_ = false; }
+  // Takes the name again if somebody removed the file of its lock. False: it had to.
+  bool hold();
 
  private:
   ClaimedName(std::string node, vars::NodeLock lock);

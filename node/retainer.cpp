@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "node/ending.h"
 #include "rt/clock.h"
 #include "vars/layout.h"
 
@@ -74,8 +75,7 @@ bool Retainer::stop(Console& console) {
   }
   const Status saved = file_.save(store_);
   if (!saved) {
-    console.error("retained variables could not be saved: {}: {}", saved.error().where,
-                  std::strerror(saved.error().sys_errno));
+    console.error("retained variables could not be saved: {}", describe(saved.error()));
   } else if (failed_.load() != 0) {
     console.warning("an earlier save of the retained variables failed; the last one succeeded");
   }

@@ -34,7 +34,7 @@ std::span<const char> cold_code() noexcept {
 
 // Real-time nodes that run on this host and have their tick on the core.
 std::ptrdiff_t ticks_on(int core) {
-  const std::vector<std::string> names = vars::list_nodes();
+  const std::vector<std::string> names = vars::list_nodes(vars::Nodes::All);
   return std::count_if(names.begin(), names.end(), [core](const std::string& name) {
     const auto run = vars::RunFile::open(name, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
     const pid_t holder = vars::running_node(name);

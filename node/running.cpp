@@ -47,6 +47,7 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
       kernel_(make_kernel()),
       mirror_(options, checked, prepared, console),
       engine_(run_, tasks_, engine_settings(), hooks(), kernel_),
+      memory_(options.node, prepared, engine_, console),
       phases_(checked.config, run_, loaded.libraries, console, signals, plain_hooks(), kernel_),
       normal_threads_(checked.config, run_, loaded.libraries, plain_hooks(), kernel_),
       processes_(checked.config, run_, options.node, prepared.rights.realtime(), console, *prepared.failsafe,
@@ -320,12 +321,19 @@ Ending Running::supervise() {
       ending = {kFailed, processes_.reason()};
       break;
     }
+    if (std::string why = memory_.look(now); !why.empty()) {
+      ending = {kFailed, std::move(why)};
+      break;
+    }
     commands_.look(now);
     forces_.look(*prepared_.store, console_);
     if (black_box_) {
       black_box_->look(now);
     }
     console_.report(kernel_.now(), false);
+  }
+  if (std::string why = memory_.look(rt::MonoClock::now()); !why.empty()) {  // that may have ended the schedule
+    ending = {kFailed, std::move(why)};
   }
   if (const std::uint32_t order = stop_order_.load(std::memory_order_acquire); order != 0) {
     const scheduler::ModuleRecord& module = run_.modules()[order - 1];
@@ -339,10 +347,23 @@ Ending Running::supervise() {
   return ending;
 }
 
+// Memory was lost: what is still there gets the values that are declared for faults, and what led to it is kept.
+void Running::secure() {
+  for (std::uint32_t i = 0; i < checked_.config.modules.size(); ++i) {
+    prepared_.failsafe->apply(i);
+  }
+  if (black_box_) {
+    black_box_->keep_at_end(memory_.look(rt::MonoClock::now()));
+  }
+}
+
 bool Running::stop(const std::string& why) {
   run_.state.store(scheduler::NodeState::Stopping);
   engine_.request_stop();
   engine_.join();
+  if (memory_.lost()) {
+    secure();
+  }
   if (black_box_) {
     black_box_->end();
   }

@@ -14,6 +14,7 @@
 #include "node/hang_watch.h"
 #include "node/kernel_watch.h"
 #include "node/loaded.h"
+#include "node/memory_watch.h"
 #include "node/module_commands.h"
 #include "node/normal_threads.h"
 #include "node/phases.h"
@@ -47,6 +48,7 @@ class Running {
   scheduler::Kernel& make_kernel();
   rt::MonoTime attend_processes();
   bool await_processes(rt::MonoTime until);
+  void secure();
   int pass();
   scheduler::Hooks hooks();
   void change_batch(std::uint64_t tick) noexcept;  // values that somebody wants changed in one tick
@@ -69,6 +71,7 @@ class Running {
   ForceWatch forces_;
   BoardMirror mirror_;
   scheduler::Engine engine_;
+  MemoryWatch memory_;
   std::optional<HangWatch> hang_watch_;  // of a simulation
   Phases phases_;
   NormalThreads normal_threads_;

@@ -14,6 +14,7 @@
 #include <filesystem>
 
 #include "rt/clock.h"
+#include "rt/lost_pages.h"
 #include "rt/machine.h"
 #include "rt/thread.h"
 #include "runtime/host.h"
@@ -30,7 +31,17 @@ using scheduler::RunBlock;
 
 constexpr std::int64_t kIdleNs = 100'000'000;  // how often a waiting process looks after its node
 constexpr unsigned kIdlesPerThoroughLook = 10;
+constexpr int kExitFailed = 1;
 constexpr int kExitSchemaMismatch = 8;
+
+// The node that this process belongs to has lost its memory, and ends too. In a signal handler.
+void end_without_memory(void* /*context*/, const char* file) {
+  constexpr std::string_view kSaid = ": somebody cut this shared memory of the node; this program ends\n";
+  (void)!::write(STDERR_FILENO, "indurop: error: ", 16);
+  (void)!::write(STDERR_FILENO, file, std::strlen(file));
+  (void)!::write(STDERR_FILENO, kSaid.data(), kSaid.size());
+  ::_exit(kExitFailed);
+}
 
 bool process_exists(std::int32_t pid) noexcept {
   return pid > 0 && (::kill(pid, 0) == 0 || errno == EPERM);
@@ -97,6 +108,7 @@ Enrolment::Outcome Enrolment::enrol(Again again) {
     return {Errc::InvalidArgument,
             fmt::format("INDUROP_NODE is '{}', which is not a valid node name ([A-Za-z0-9_-], at most 40)", node_)};
   }
+  rt::on_lost_page(&end_without_memory, nullptr);
   auto mapping = RunMapping::open(node_);
   if (!mapping) {
     const Errc code = mapping.error().code;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mirror/frames/plane_topics.h"
+#include "rt/lost_pages.h"
 
 namespace indurop::mirror {
 namespace {
@@ -24,6 +25,7 @@ class Reader final : public Subscription {
  private:
   static void on_data(dds::Handle reader, void* self) {
     auto& into = *static_cast<Reader*>(self);
+    rt::let_lost_pages_in();  // a thread of DDS, which writes into shared memory here
     dds::take_all<indurop_wire_Frame>(reader, [&into](const indurop_wire_Frame& frame, const dds::SampleInfo& info) {
       if (info.valid) {
         into.listener_.frame_came(frame, into.stream_);
@@ -72,6 +74,7 @@ Plane::Opened DdsPlane::exchange_beacons(BeaconListener& listener) {
 }
 
 void DdsPlane::on_beacon(dds::Handle reader, void* listener) {
+  rt::let_lost_pages_in();
   dds::take_all<indurop_wire_Beacon>(reader, [&](const indurop_wire_Beacon& beacon, const dds::SampleInfo& info) {
     if (info.valid) {
       static_cast<BeaconListener*>(listener)->beacon_came(beacon);
