@@ -11,7 +11,7 @@
 
 #include "rt/clock.h"
 #include "schema/leaf.h"
-#include "vars/process.h"
+#include "vars/node_lock.h"
 #include "vars/shm_file.h"
 
 namespace indurop::alarms {
@@ -75,9 +75,8 @@ bool AlarmWatch::attach() {
     }
     values_.assign(alarms_.size(), {});
   }
-  const vars::BlockHeader& header = store_->header();
-  return vars::process_alive(header.node_pid.load(std::memory_order_relaxed),
-                             header.node_start_time.load(std::memory_order_relaxed));
+  const pid_t pid = vars::running_node(node_);
+  return pid != 0 && pid == store_->header().node_pid.load(std::memory_order_relaxed);
 }
 
 std::string AlarmWatch::look(const std::optional<std::vector<ModuleNow>>& modules) {

@@ -372,7 +372,7 @@ BoardProcess::Health BoardProcess::health(const std::vector<std::string>& boards
   if (std::string faulted = fault(); !faulted.empty()) {
     return {std::move(faulted), {}};
   }
-  const auto file = vars::ShmFile::open(vars::mirror_file(board_), vars::Mode::ReadOnly);
+  const auto file = vars::ShmCopy::of(vars::mirror_file(board_));
   const mirror::MirrorBlock* mirror =
       file ? mirror::mirror_block_in({file.value().data(), file.value().size()}) : nullptr;
   if (mirror == nullptr) {

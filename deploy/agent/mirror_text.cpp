@@ -12,7 +12,7 @@ namespace indurop::deploy {
 std::string mirror_text(const std::string& board) {
   using base::Json;
   Json variables = Json::array();
-  const auto file = vars::ShmFile::open(vars::mirror_file(board), vars::Mode::ReadOnly);
+  const auto file = vars::ShmCopy::of(vars::mirror_file(board));
   const mirror::MirrorBlock* block =
       file ? mirror::mirror_block_in({file.value().data(), file.value().size()}) : nullptr;
   if (block != nullptr && vars::running_node(board) > 0) {

@@ -95,7 +95,7 @@ std::string Board::state() const {
 }
 
 std::vector<std::string> Boards::here() const {
-  std::vector<std::string> all = vars::list_nodes();
+  std::vector<std::string> all = vars::list_nodes(only_.empty() ? vars::Nodes::Near : vars::Nodes::All);
   std::erase_if(all, [](const std::string& name) { return name.starts_with(tools::far_store_prefix()); });
   if (!only_.empty()) {
     std::erase_if(all, [this](const std::string& name) { return name != only_; });

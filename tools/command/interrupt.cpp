@@ -37,6 +37,7 @@ void catch_interrupts() {
   struct sigaction ignore {};
   ignore.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &ignore, nullptr);
+  sigaction(SIGXFSZ, &ignore, nullptr);  // a write beyond the limit of file sizes fails, and somebody says so
 }
 
 bool interrupted() noexcept {

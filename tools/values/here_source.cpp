@@ -5,7 +5,7 @@
 
 #include "rt/clock.h"
 #include "tools/command/units.h"
-#include "vars/process.h"
+#include "vars/node_lock.h"
 #include "vars/shm_file.h"
 
 namespace indurop::tools {
@@ -33,9 +33,8 @@ std::string HereSource::absence(const vars::Store* store) {
   const vars::BlockHeader& header = store->header();
   const std::int64_t beat = header.heartbeat_ns.load(std::memory_order_relaxed);
   last_beat_ns_ = beat != 0 ? beat : last_beat_ns_;
-  const bool alive = vars::process_alive(header.node_pid.load(std::memory_order_relaxed),
-                                         header.node_start_time.load(std::memory_order_relaxed));
-  return alive ? std::string() : since(beat);
+  const pid_t pid = vars::running_node(node_);
+  return pid != 0 && pid == header.node_pid.load(std::memory_order_relaxed) ? std::string() : since(beat);
 }
 
 Result<void, Failure> HereSource::set(vars::Store& store, const std::string& name, const vars::DirectoryEntry& entry,

@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
@@ -18,11 +19,16 @@
 #include "tools/values/remote_source.h"
 #include "tools/values/starting_node.h"
 #include "vars/node_lock.h"
-#include "vars/process.h"
 #include "vars/shm_file.h"
 
 namespace indurop::tools {
 namespace {
+
+// The store is that of the process that runs the node.
+bool store_alive(const std::string& node, const vars::BlockHeader& header) {
+  const pid_t pid = vars::running_node(node);
+  return pid != 0 && pid == header.node_pid.load(std::memory_order_relaxed);
+}
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -40,10 +46,10 @@ Result<std::string, Failure> named_node(const std::string& name, const char* ori
         kUsage, fmt::format("'{}' ({}) is not a valid node name: 1 to 40 of A-Z a-z 0-9 _ -", printable(name), origin)};
   }
   while_starting([&] { return vars::running_node(name) != 0; });
-  const auto names = vars::list_nodes();
-  if (contains(names, name)) {
+  if (contains(vars::list_nodes(vars::Nodes::All), name)) {
     return name;
   }
+  const auto names = vars::list_nodes();
   const auto running = running_nodes();
   return Failure{
       kUnreachable,
@@ -122,17 +128,46 @@ Result<std::string, Failure> choose_node(const std::string& asked) {
   return Failure{kUsage, fmt::format("there are several nodes; say which with --node: {}", fmt::join(names, ", "))};
 }
 
+namespace {
+
+// Which formats differ: " (format of its store 4, here 5)".
+std::string formats_of(const std::string& node) {
+  std::vector<std::string> differing;
+  const auto compare = [&](const char* what, std::uint32_t found, std::uint32_t known) {
+    if (found != 0 && found != known) {
+      differing.push_back(fmt::format("format of its {} {}, here {}", what, found, known));
+    }
+  };
+  compare("store", vars::store_format(node), abi::kVersion);
+  constexpr std::size_t kHead = offsetof(scheduler::RunBlock, module_count);
+  const auto run = vars::RunFile::open(node, vars::Mode::ReadOnly, scheduler::kRunMagic, kHead);
+  compare("run block", run ? static_cast<const scheduler::RunBlock*>(run->data())->abi : 0, scheduler::kRunAbi);
+  return differing.empty() ? std::string() : fmt::format(" ({})", fmt::join(differing, "; "));
+}
+
+}  // namespace
+
 std::string explain_open_error(const Error& error, const std::string& node, bool for_writing) {
   switch (error.code) {
     case Errc::NotFound:
+      if (const pid_t pid = vars::running_node(node); pid != 0) {
+        return fmt::format(
+            "node '{}' runs (pid {}), but its files in /dev/shm were removed or are not there yet. If it stays so: "
+            "indurop stop --node {}, and start it again",
+            node, pid, node);
+      }
       return fmt::format("node '{}' is gone. Start it again: indurop run module.xml --node {}", node, node);
     case Errc::PermissionDenied:
       return fmt::format("no permission to {} node '{}': run as the user it belongs to (ls -l /dev/shm/indurop.{})",
                          for_writing ? "change values of" : "look at", node, node);
     case Errc::VersionMismatch:
       return fmt::format(
-          "node '{}' was started by another version of InduRoP: use that version's `indurop`, or restart the node",
-          node);
+          "node '{}' was started by another version of InduRoP{}: use that version's `indurop`, or "
+          "restart the node",
+          node, formats_of(node));
+    case Errc::Dead:
+      return fmt::format("the shared memory of node '{}' was cut by somebody who may write it: its values are lost",
+                         node);
     case Errc::Corrupt:
       return fmt::format("the shared memory of node '{}' is damaged ({}). If it does not run: indurop clean --node {}",
                          node, error.where, node);
@@ -172,7 +207,7 @@ Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode, const
   auto store = context.values->attach();
   // One that starts under a name that was used before still shows what the former left.
   while_starting([&] {
-    if (store.ok() && store_alive(store->header())) {
+    if (store.ok() && store_alive(*node, store->header())) {
       return true;
     }
     store = context.values->attach();
@@ -208,13 +243,8 @@ Result<ChosenRun, Failure> open_run(const std::string& asked) {
   return ChosenRun{std::move(node).value(), std::move(run).value()};
 }
 
-bool store_alive(const vars::BlockHeader& header) {
-  return vars::process_alive(header.node_pid.load(std::memory_order_relaxed),
-                             header.node_start_time.load(std::memory_order_relaxed));
-}
-
-std::string store_absence(const vars::BlockHeader& header) {
-  if (store_alive(header)) {
+std::string store_absence(const std::string& node, const vars::BlockHeader& header) {
+  if (store_alive(node, header)) {
     return {};
   }
   const std::int64_t beat = header.heartbeat_ns.load(std::memory_order_relaxed);

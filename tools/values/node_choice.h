@@ -30,8 +30,7 @@ struct ChosenRun {
 Result<ChosenRun, Failure> open_run(const std::string& asked);
 
 // "not running, last seen 3.2 s ago", for a store whose node is gone; empty if it runs.
-std::string store_absence(const vars::BlockHeader& header);
-bool store_alive(const vars::BlockHeader& header);
+std::string store_absence(const std::string& node, const vars::BlockHeader& header);
 
 // Text and exit code for an error met when opening a node's memory.
 std::string explain_open_error(const Error& error, const std::string& node, bool for_writing);

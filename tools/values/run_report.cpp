@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <chrono>
 
 #include "config/xml/reader.h"
 #include "deploy/words/deployment_words.h"
 #include "rt/clock.h"
 #include "tools/command/units.h"
+#include "vars/node_lock.h"
 #include "vars/store.h"
 
 namespace indurop::tools {
@@ -25,7 +29,21 @@ std::vector<std::string> nodes_on(std::int32_t core, const std::string& but) {
   return names;
 }
 
+// It does nothing any more, although its process is there: its supervisor beats every 10 ms.
+bool is_hung(const std::string& node, bool alive, scheduler::NodeState state) {
+  constexpr std::chrono::seconds kLongest{5};
+  const auto beat = alive && state == scheduler::NodeState::Running ? vars::last_beat(node) : Error{Errc::NotFound};
+  return beat && rt::MonoClock::now() - *beat > kLongest;
+}
+
 }  // namespace
+
+void set_owner(NodeReport& report) {
+  if (const auto owner = vars::owner_of(report.node)) {
+    report.owner = vars::user_name(*owner);
+    report.foreign = *owner != ::geteuid();
+  }
+}
 
 NodeReport report_of(const std::string& node, const RunView& run) {
   constexpr auto kRelaxed = std::memory_order_relaxed;
@@ -36,6 +54,10 @@ NodeReport report_of(const std::string& node, const RunView& run) {
   const auto state = block.state.load(kRelaxed);
   const bool ended = state == scheduler::NodeState::Stopped || state == scheduler::NodeState::Failed;
   report.state = report.alive || ended ? to_text(state) : "killed";
+  if (run.here()) {
+    set_owner(report);
+    report.state = is_hung(node, report.alive, state) ? kHung : report.state;
+  }
   report.pid = block.node_pid.load(kRelaxed);
   report.config_file = fixed_text(block.config_file);
   report.deployment = fixed_text(block.deployment);
@@ -74,7 +96,7 @@ std::string rt_text(const scheduler::Obtained& rt) {
 std::vector<std::string> header_lines(const NodeReport& report, const Output& output) {
   std::vector<std::string> lines;
   std::string first = output.paint(Style::Bold, report.node) + "  " +
-                      output.paint(report.alive ? Style::Good : Style::Bad, report.state);
+                      output.paint(report.alive && !report.hung() ? Style::Good : Style::Bad, report.state);
   if (report.alive) {
     first += fmt::format("  pid {}", report.pid);
     if (report.uptime_ns > 0) {
@@ -143,7 +165,8 @@ JsonValue json_of(const NodeReport& report) {
             {"same_core", JsonValue(report.same_core)},
             {"preempt_rt", report.rt.preempt_rt != 0},
             {"throttle_permille", report.rt.throttle_permille},
-            {"why", fixed_text(report.rt.why)}}}};
+            {"why", fixed_text(report.rt.why)}}},
+          {"owner", report.owner.empty() ? JsonValue() : JsonValue(report.owner)}};
 }
 
 }  // namespace indurop::tools

@@ -11,10 +11,12 @@
 
 namespace indurop::tools {
 
+inline constexpr const char* kHung = "hung";
+
 struct NodeReport {
   std::string node;
   bool alive = false;
-  std::string state;  // "running", or "not running" after a kill
+  std::string state;  // "running", "hung" if its process does nothing any more, "killed" after a kill
   std::int32_t pid = 0;
   std::string config_file;
   std::string deployment;  // empty: none
@@ -30,7 +32,13 @@ struct NodeReport {
   scheduler::Obtained rt{};
   std::vector<std::string> same_core;  // other real-time nodes of this host with their tick on this one's core
   scheduler::Summary lateness;
+  std::string owner;     // user whose store it is; empty: of another machine
+  bool foreign = false;  // who is not this one
+  [[nodiscard]] bool hung() const { return state == kHung; }
 };
+
+// From what lies in shared memory under the report's name.
+void set_owner(NodeReport& report);
 
 NodeReport report_of(const std::string& node, const RunView& run);
 // Two or three lines: state, figures, real-time rights.

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "rt/clock.h"
-#include "vars/process.h"
+#include "vars/node_lock.h"
 
 namespace indurop::tools {
 namespace {
@@ -85,7 +85,11 @@ Result<RunView> RunView::open(const std::string& node, vars::Mode mode) {
     return opened.error();
   }
   const auto mapping = std::make_shared<const vars::RunFile>(std::move(opened).value());
-  return checked({mapping, mapping->data()}, mapping->size());
+  auto view = checked({mapping, mapping->data()}, mapping->size());
+  if (view) {
+    view->node_ = node;
+  }
+  return view;
 }
 
 Result<RunView> RunView::from_image(std::string_view bytes, bool alive, std::int64_t now_ns) {
@@ -119,9 +123,12 @@ std::int64_t RunView::now_ns() const noexcept {
   return elsewhere_ ? elsewhere_->now_ns : rt::now_ns();
 }
 
-bool RunView::node_alive() const noexcept {
-  return elsewhere_ ? elsewhere_->alive
-                    : vars::process_alive(block_->node_pid.load(std::memory_order_relaxed), block_->node_start_time);
+bool RunView::node_alive() const {
+  if (elsewhere_) {
+    return elsewhere_->alive;
+  }
+  const pid_t pid = vars::running_node(node_);
+  return pid != 0 && pid == block_->node_pid.load(std::memory_order_relaxed);
 }
 
 std::vector<SlotSample> RunView::slot_log(std::uint64_t most) const {

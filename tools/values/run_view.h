@@ -58,13 +58,15 @@ class RunView {
   static Result<RunView> from_image(std::string_view bytes, bool alive, std::int64_t now_ns);
 
   [[nodiscard]] const scheduler::RunBlock& block() const noexcept { return *block_; }
+  [[nodiscard]] std::uint64_t size() const noexcept { return checked_.total; }  // bytes of the block
   [[nodiscard]] std::uint32_t module_count() const noexcept { return checked_.module_count; }
   [[nodiscard]] const scheduler::ModuleRecord& module(std::uint32_t index) const noexcept;
   // Opened read-write: to place orders in (scheduler/module_command.h), nothing else.
   [[nodiscard]] scheduler::ModuleRecord& module_to_command(std::uint32_t index) noexcept;
   // Name for an index found in a log; "?" if it leads nowhere.
   [[nodiscard]] std::string module_name(std::int64_t index) const;
-  [[nodiscard]] bool node_alive() const noexcept;
+  // The run of the process that holds the node's lock.
+  [[nodiscard]] bool node_alive() const;
   [[nodiscard]] bool here() const noexcept { return !elsewhere_; }  // a node of this machine
   [[nodiscard]] std::int64_t now_ns() const noexcept;               // CLOCK_MONOTONIC of its machine
 
@@ -97,6 +99,7 @@ class RunView {
   static bool check(const scheduler::RunBlock& block, std::uint64_t file_size, Checked& out) noexcept;
 
   std::shared_ptr<void> memory_;
+  std::string node_;  // empty: elsewhere
   const scheduler::RunBlock* block_;
   Checked checked_;
   std::optional<Elsewhere> elsewhere_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/values/starting_node.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -42,8 +43,12 @@ bool becomes_node(const std::filesystem::path& process) {
   return name == "indurop\n" && text_of(process / "cmdline").find(std::string_view("\0run\0", 5)) != std::string::npos;
 }
 
-// Its /dev/shm is ours. Of another user's process nobody can say.
+// Its /dev/shm is ours. What another user starts is not waited for: it may be named like a node only to hold us up.
 bool sees_our_files(const std::filesystem::path& process) {
+  struct stat info {};
+  if (::stat(process.c_str(), &info) != 0 || (info.st_uid != ::geteuid() && info.st_uid != 0)) {
+    return false;
+  }
   std::error_code error;
   const auto theirs = std::filesystem::read_symlink(process / "ns/mnt", error);
   return !error && theirs == std::filesystem::read_symlink("/proc/self/ns/mnt", error);

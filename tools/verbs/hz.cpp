@@ -162,7 +162,7 @@ int hz(Context& context, const Options& options) {
     if (!context.out.flush() || timed_out || (reports > 0 && ++done >= reports)) {
       return kOk;
     }
-    if (context.values->here() && (store->retired() || !store_absence(store->header()).empty())) {
+    if (context.values->here() && (store->retired() || !store_absence(context.node, store->header()).empty())) {
       context.out.error(fmt::format("node '{}' does not run any more", context.node));
       return kUnreachable;
     }

@@ -11,6 +11,7 @@
 #include "tools/values/node_choice.h"
 #include "tools/values/run_report.h"
 #include "tools/verbs/verbs.h"
+#include "vars/node_lock.h"
 
 namespace indurop::tools {
 namespace {
@@ -23,7 +24,9 @@ std::vector<Cell> row(const NodeReport& report) {
   const std::string period =
       report.basic_period_ns > 0 ? base::format_duration(base::Nanos(report.basic_period_ns)) : "-";
   return {Cell(report.node, Style::Bold),
-          Cell(report.state, report.alive ? Style::Good : Style::Dim),
+          Cell(report.state, !report.alive   ? Style::Dim
+                             : report.hung() ? Style::Bad
+                                             : Style::Good),
           {report.alive ? std::to_string(report.pid) : "-", report.alive ? JsonValue(report.pid) : JsonValue()},
           {report.uptime_ns > 0 ? human_age(report.uptime_ns) : "-", report.uptime_ns},
           number(report.modules),
@@ -33,6 +36,7 @@ std::vector<Cell> row(const NodeReport& report) {
           number(report.overruns, Style::Warn),
           number(report.faults, Style::Bad),
           {report.rt.fifo != 0 ? "yes" : "no", report.rt.fifo != 0, report.rt.fifo != 0 ? Style::None : Style::Warn},
+          Cell(report.owner, report.foreign ? Style::Warn : Style::None),
           Cell(report.config_file)};
 }
 
@@ -41,12 +45,12 @@ NodeReport without_run_block(const std::string& node, const Error& error) {
   NodeReport report;
   report.node = node;
   report.state = error.code == Errc::NotFound ? "not running" : to_string(error.code);
-  const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
-  if (store.ok() && store_alive(store.value().header())) {
+  report.pid = vars::running_node(node);
+  if (report.pid != 0) {
     report.alive = true;
-    report.state = "starting";
-    report.pid = store.value().header().node_pid.load(std::memory_order_relaxed);
+    report.state = error.code == Errc::NotFound && !vars::owner_of(node) ? "files removed" : "starting";
   }
+  set_owner(report);
   return report;
 }
 
@@ -63,9 +67,11 @@ int nodes(Context& context, bool names_only, bool all) {
                {"OVERRUNS", "overruns", kRight},
                {"FAULTS", "faults", kRight},
                {"FIFO", "fifo"},
+               {"OWNER", "owner"},
                {"CONFIGURATION", "config_file"}});
   std::vector<NodeReport> ended;
-  for (const std::string& node : vars::list_nodes()) {
+  const auto listed = vars::list_nodes(all ? vars::Nodes::All : vars::Nodes::Near);
+  for (const std::string& node : listed) {
     if (names_only) {
       context.out.line(node);
       continue;
@@ -89,6 +95,9 @@ int nodes(Context& context, bool names_only, bool all) {
   if (table.empty()) {
     context.out.note("no node runs on this machine");
   }
+  if (const std::size_t others = vars::list_nodes(vars::Nodes::All).size() - listed.size(); others > 0) {
+    context.out.note(fmt::format("{} of other users, left out: shown by --all", others));
+  }
   print_table(context, table, JsonValue::object(), "nodes");
   if (!all && !ended.empty()) {
     std::vector<std::string> names;
@@ -103,7 +112,7 @@ int nodes(Context& context, bool names_only, bool all) {
 Action declare(base::Options& app, Context& context) {
   auto names = std::make_shared<bool>(false);
   auto all = std::make_shared<bool>(false);
-  app.flag("--all", *all, "Also nodes that do not run and left values behind");
+  app.flag("--all", *all, "Also nodes that do not run and left values behind, and those of other users");
   app.flag("--names", *names, "Print nothing but the names");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [names, all](Context& c) { return nodes(c, *names, *all); };
@@ -114,6 +123,7 @@ Action declare(base::Options& app, Context& context) {
 const Verb kNodesVerb{
     "nodes", "A running node", "List the nodes that run on this machine (also: indurop ps)",
     "Nodes that ended and left values behind are listed with --all; indurop clean removes what they left.\n"
+    "Nodes of users who are neither root nor share a group with you are listed with --all only.\n"
     "Examples:\n"
     "  indurop nodes\n"
     "  indurop nodes --all -o json\n",

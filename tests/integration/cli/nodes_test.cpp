@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <random>
 #include <string>
 #include <thread>
@@ -149,6 +151,35 @@ TEST_F(CommandLine, Nodes_of_one_host_take_different_cores) {
   EXPECT_THAT(third.out, HasSubstr("shares core 0 with"));
 }
 
+TEST_F(CommandLine, Nodes_that_start_at_once_share_the_cores_evenly) {
+  const std::string config = std::string(PLC_EXAMPLE) + "/module.xml";
+  for (int round = 0; round < 5; ++round) {
+    std::vector<std::unique_ptr<Program>> nodes;
+    for (const char* name : {"a", "b", "c", "d"}) {
+      nodes.push_back(std::make_unique<Program>(indurop_command({"run", config, "-q", "--node", name}), background()));
+    }
+    std::map<int, int> on_core;
+    bool pinned = true;
+    for (const char* name : {"a", "b", "c", "d"}) {
+      ASSERT_TRUE(wait_until([&] {
+        return indurop({"status", "--node", name, "-o", "json"}).json()["state"] == "running";
+      }));
+      const auto rt = indurop({"status", "--node", name, "-o", "json"}).json()["rt"];
+      pinned = pinned && rt["pinned"].get<bool>();
+      ++on_core[rt["core"].get<int>()];
+    }
+    for (const auto& node : nodes) {
+      node->signal(SIGTERM);
+      EXPECT_EQ(node->wait(), 0) << node->out();
+    }
+    if (!pinned || std::thread::hardware_concurrency() != 2) {
+      GTEST_SKIP() << "needs real-time rights and two cores";
+    }
+    EXPECT_EQ(on_core[0], 2) << "round " << round;
+    EXPECT_EQ(on_core[1], 2) << "round " << round;
+  }
+}
+
 TEST_F(CommandLine, Nodes_of_another_user_do_not_block_the_default_name) {
   constexpr uid_t kNobody = 65534;
   if (geteuid() != 0) {
@@ -207,6 +238,44 @@ TEST_F(WithNode, Damage_anywhere_in_the_run_block_never_crashes_a_reader) {
     }
   }
   close(file);
+}
+
+TEST_F(WithNode, One_that_does_nothing_any_more_is_hung) {
+  node_->signal(SIGSTOP);
+  EXPECT_TRUE(wait_until([] { return indurop({"nodes", "-o", "json"}).json()["nodes"][0]["state"] == "hung"; }));
+  EXPECT_THAT(indurop({"status"}).out, StartsWith("local  hung  pid "));
+  node_->signal(SIGCONT);
+  EXPECT_TRUE(wait_until([] { return indurop({"nodes", "-o", "json"}).json()["nodes"][0]["state"] == "running"; }));
+}
+
+TEST_F(CommandLine, Nodes_of_strangers_are_left_out_unless_asked_for) {
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "needs root to become another user";
+  }
+  Program node(fake_node("theirs"), {.variables = background().variables, .user = 65534, .one_output = true});
+  if (!node.prints("ready")) {
+    GTEST_SKIP() << "the build directory is closed to others";
+  }
+  const auto listed = indurop({"nodes"});
+  EXPECT_THAT(listed.out, Not(HasSubstr("theirs")));
+  EXPECT_THAT(listed.err, HasSubstr("1 of other users, left out: shown by --all"));
+  const auto all = indurop({"nodes", "--all", "-o", "json"}).json()["nodes"];
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0]["node"], "theirs");
+  EXPECT_EQ(all[0]["owner"], "nobody");
+  EXPECT_EQ(indurop({"get", "gain", "--node", "theirs"}).out, "1\n");
+  EXPECT_THAT(indurop({"nodes"}, {.user = 65534}).out, HasSubstr("theirs"));
+}
+
+TEST_F(WithNode, A_store_of_another_version_is_told_with_its_format) {
+  kill_node();
+  const int file = open("/dev/shm/indurop.local", O_RDWR | O_CLOEXEC);
+  const std::uint32_t other = 3;
+  ASSERT_EQ(pwrite(file, &other, sizeof other, 8), 4);
+  close(file);
+  const auto sut = indurop({"get", "gain"});
+  EXPECT_EQ(sut.code, 8);
+  EXPECT_THAT(sut.err, HasSubstr("format of its store 3, here "));
 }
 
 TEST_F(WithNode, Memory_closed_to_others_is_explained) {

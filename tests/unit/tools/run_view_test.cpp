@@ -17,7 +17,7 @@
 #include "runtime/message_ring.h"
 #include "scheduler/run_block_setup.h"
 #include "scheduler/statistics.h"
-#include "vars/process.h"
+#include "vars/node_lock.h"
 #include "vars/run_file.h"
 
 namespace indurop::tools {
@@ -86,12 +86,16 @@ TEST_F(RunViewTest, Entry_being_written_is_left_out) {
 
 TEST_F(RunViewTest, Knows_whether_the_node_lives) {
   block_->node_pid.store(getpid());
-  block_->node_start_time = vars::process_start_time(getpid());
   const auto sut = RunView::open(node_);
   ASSERT_TRUE(sut.ok());
+  EXPECT_FALSE(sut.value().node_alive()) << "what a block says of itself does not count";
+  pid_t holder = 0;
+  const auto lock = vars::NodeLock::acquire(node_, holder);
+  ASSERT_TRUE(lock.ok());
   EXPECT_TRUE(sut.value().node_alive());
-  block_->node_start_time += 1;  // the number was given to another process
+  block_->node_pid.store(getppid());  // a run of another process
   EXPECT_FALSE(sut.value().node_alive());
+  EXPECT_TRUE(vars::remove_shm_file(vars::lock_file(node_)).ok());
 }
 
 TEST_F(RunViewTest, Missing_and_foreign_files_are_named_errors) {
