@@ -175,9 +175,10 @@ bool AgentState::has_sound(const std::string& digest, const std::string& name) {
   if (!damage) {
     return true;
   }
+  // What cannot be read now may be right; it stays until another one takes its place.
   std::error_code error;
-  fs::remove(file(digest), error);
-  tell(describe(*damage) + "; it is dropped");
+  const bool dropped = !damage->found.empty() && fs::remove(file(digest), error);
+  tell(describe(*damage) + (dropped ? "; it is dropped" : ""));
   return false;
 }
 

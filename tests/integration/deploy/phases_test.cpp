@@ -2,8 +2,6 @@
 // Boards and deployers killed in each phase of a deployment: in the end all boards run the same, and it is either what
 // was committed or, once one board has committed the next, that. (The trial: faults_test.cpp.)
 
-#include <fcntl.h>
-
 #include "base/read_file.h"
 #include "killed_fixture.h"
 
@@ -13,36 +11,33 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-// Whoever opens the file waits while this lives, as if the disk hung: the kernel first asks us to give the lease back.
-class HeldFile {
- public:
-  explicit HeldFile(const std::string& file) : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
-    ::signal(SIGIO, SIG_IGN);
-    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): only once the signal is ignored
-    held_ = file_ >= 0 && ::fcntl(file_, F_SETLEASE, F_WRLCK) == 0;
-  }
-  HeldFile(const HeldFile&) = delete;
-  HeldFile& operator=(const HeldFile&) = delete;
-  ~HeldFile() { release(); }
-  [[nodiscard]] bool ok() const noexcept { return held_; }
-  void release() noexcept {
-    if (file_ >= 0) {
-      ::close(file_);
-    }
-    file_ = -1;
-  }
-
- private:
-  int file_;
-  bool held_ = false;
-};
-
 class Phases : public Killed {
  protected:
-  Phases() { ::setenv("IRP_TEST_SLOW_UNTIL", path("go").c_str(), 1); }
-  ~Phases() override { ::unsetenv("IRP_TEST_SLOW_UNTIL"); }
+  Phases() {
+    ::setenv("IRP_TEST_SLOW_UNTIL", path("go").c_str(), 1);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    ::setenv("LD_PRELOAD", HELD_OPEN, 1);
+#endif
+    ::setenv("IRP_TEST_HELD", ("/" + board("b") + "/deployments/").c_str(), 1);
+    ::setenv("IRP_TEST_HELD_WHILE", path("hold").c_str(), 1);
+  }
+  ~Phases() override {
+    for (const char* name : {"IRP_TEST_SLOW_UNTIL", "LD_PRELOAD", "IRP_TEST_HELD", "IRP_TEST_HELD_WHILE"}) {
+      ::unsetenv(name);
+    }
+    let_b_check();
+  }
+  // Board b waits when it opens a file of a deployment, as if its disk hung: it does so in its check.
+  void hold_the_check() const {
+    std::ofstream(path("hold")) << "hold\n";
+  }
+  void let_b_check() const {
+    std::filesystem::remove(path("hold"));
+  }
   // Lets the module of `deploy_until_healthy` start.
-  void let_b_start() const { std::ofstream(path("go")) << "go\n"; }
+  void let_b_start() const {
+    std::ofstream(path("go")) << "go\n";
+  }
   // Where a deployment's files lie on a board.
   [[nodiscard]] std::filesystem::path installed(const std::string& name, const std::string& deployment) const {
     return folder() / "state" / board(name) / "deployments" / deployment.substr(0, 16);
@@ -67,15 +62,7 @@ class Phases : public Killed {
     }
     return 0;
   }
-  // A file that b opens when it checks `next_`, because it had that before, and `committed_` again since.
-  std::filesystem::path file_of_the_check() {
-    const Outcome before = deploy(next_);
-    EXPECT_EQ(before.code, 0) << before.err;
-    const Outcome again = deploy(path("v1.xml"));
-    EXPECT_EQ(again.code, 0) << again.err;
-    return before.code == 0 ? installed("b", before.json()["deployment"]) / "nap.sh" : "";
-  }
-  // Deploys `next_` until b checks, which lasts as long as its file is held, and a waits for it.
+  // Deploys `next_` until b checks, which lasts as long as it is held, and a waits for it.
   Program& deploy_until_checking() {
     Program& deployer = start_indurop({"deploy", next_, "--health", "500ms", "--timeout", "20s"});
     EXPECT_TRUE(wait_until([&] {
@@ -121,12 +108,6 @@ class Phases : public Killed {
   }
 };
 
-// NOLINTNEXTLINE(cppcoreguidelines-macro-usage,readability-identifier-naming): GTEST_SKIP() returns from the test
-#define NEEDS_LEASE(held)                                            \
-  if (!(held).ok()) {                                                \
-    GTEST_SKIP() << "this file system gives no leases on its files"; \
-  }
-
 TEST_F(Phases, A_board_killed_while_it_fetches_resumes_and_fetches_on) {
   Program& deployer = deploy_until_fetching();
   lose("a");
@@ -154,24 +135,28 @@ TEST_F(Phases, A_deployer_killed_while_boards_fetch_changes_nothing) {
 }
 
 TEST_F(Phases, A_board_killed_while_it_checks_resumes) {
-  HeldFile held(file_of_the_check().string());
-  NEEDS_LEASE(held);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
+#endif
+  hold_the_check();
   Program& deployer = deploy_until_checking();
   lose("b");
   const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(board("b") + ": it is not heard any more"));
-  held.release();
+  let_b_check();
   start_agent("b");
   EXPECT_TRUE(both_run_the_committed());
 }
 
 TEST_F(Phases, A_board_killed_while_it_is_prepared_resumes) {
-  HeldFile held(file_of_the_check().string());
-  NEEDS_LEASE(held);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
+#endif
+  hold_the_check();
   Program& deployer = deploy_until_checking();
   lose("a");
-  held.release();
+  let_b_check();
   const Outcome outcome = deployer.finish();
   EXPECT_THAT(outcome.code, AnyOf(1, 5)) << "b may have begun its trial when a is missed: " << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(board("a") + ": it is not heard any more"));
@@ -180,13 +165,15 @@ TEST_F(Phases, A_board_killed_while_it_is_prepared_resumes) {
 }
 
 TEST_F(Phases, A_deployer_killed_while_one_board_checks_and_the_other_is_prepared_changes_nothing) {
-  HeldFile held(file_of_the_check().string());
-  NEEDS_LEASE(held);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
+#endif
+  hold_the_check();
   Program& deployer = deploy_until_checking();
   deployer.signal(SIGKILL);
   (void)deployer.finish();
   EXPECT_TRUE(wait_until([&] { return runs("a", committed_); })) << "it does not wait for b";
-  held.release();
+  let_b_check();
   EXPECT_TRUE(both_run_the_committed());
   EXPECT_EQ(deploy(next_).code, 0) << "the next one finds the boards free";
 }
