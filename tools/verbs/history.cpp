@@ -19,7 +19,7 @@ namespace {
 struct Options {
   std::string board;
   deploy::LinkSettings link;
-  std::int64_t wait_ns = 1'000'000'000;
+  std::int64_t wait_ns = 3'000'000'000;  // less, if all are heard
 };
 
 struct Row {
@@ -121,7 +121,7 @@ Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   app.add("--board", "NAME", options->board, "Only what this board remembers");
   deploy::add_link_options(app, options->link);
-  add_time_option(app, "--wait", options->wait_ns, "Listen so long for boards (default: 1s)");
+  add_time_option(app, "--wait", options->wait_ns, "Listen at most so long for boards (default: 3s)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return history(c, *options); };
 }

@@ -24,7 +24,7 @@ struct Options {
   bool allow_missing = false;
 };
 
-constexpr std::int64_t kHearNs = 1'000'000'000;
+constexpr std::int64_t kHearNs = 3'000'000'000;  // less, if all are heard
 constexpr std::size_t kShortestId = 4;
 
 // The plant that is meant.
