@@ -30,6 +30,11 @@ std::string check_board(const Plant& plant, const std::string& board, bool runs_
       }
       break;
     case keys::KeyFault::Missing:
+      if (keys::reserved_name(board)) {
+        report.error(plant.security_place, "a board of a plant with keys cannot be called " + base::in_quotes(board) +
+                                               ", which is a word for a role; choose another name");
+        break;
+      }
       report.error(plant.security_place, whose + "; make them with indurop keys init or indurop keys add " + board +
                                              ", or copy them from where they were made");
       break;

@@ -127,6 +127,7 @@ bool Connection::requested(std::int64_t now_ns) {
     return refuse(std::move(head).error(), now_ns);
   }
   request_ = request_of(*head);
+  no_body_ = head->method == "HEAD";
   request_.from = address_;
   read_certificate();
   if (!head->field("upgrade").empty()) {
@@ -192,7 +193,7 @@ bool Connection::refuse(Reply reply, std::int64_t now_ns) {
 bool Connection::begin(Reply reply, std::int64_t now_ns) {
   reply.close = reply.close || request_.close || input_ended_;
   close_ = reply.close;
-  output_ += head_of(reply) + reply.body;
+  output_ += head_of(reply) + (no_body_ ? std::string() : reply.body);
   enter(Phase::Sending, kSendNs, now_ns);
   return true;
 }

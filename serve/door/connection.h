@@ -90,6 +90,7 @@ class Connection final : public Line {
   std::string output_;
   std::size_t sent_ = 0;  // of it
   bool close_ = false;    // after what is being sent
+  bool no_body_ = false;  // HEAD: of a reply the head alone is sent
   Request request_;
   std::size_t body_length_ = 0;
   Ticket ticket_ = 0;

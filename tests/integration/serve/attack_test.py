@@ -171,6 +171,10 @@ def test_a_name_that_is_not_ours_gets_nothing(setting):
         for kind, what, request in everything():
             if kind == "stream" or "/set" in what:
                 assert ask(server.port, request(f"Origin: {origin}", f"Authorization: Bearer {TOKEN}")) == 403, (origin, what)
+    with contextlib.closing(connect(server.port)) as connection:
+        connection.sendall(get("/").replace("GET", "HEAD", 1).encode())
+        received = b"".join(iter(lambda: connection.recv(4096), b""))
+        assert received.startswith(b"HTTP/1.1 405 ") and received.endswith(b"\r\n\r\n"), received
     for target in ("http://localhost/api/v1/status", "//evil.com/", "*", "status", "/api/v1/status HTTP/1.1\r\nX: y\r\n"):
         assert ask(server.port, get(target)) in (400, 404), target
 
@@ -296,6 +300,8 @@ def test_a_certificate_that_is_revoked_counts_no_more(setting):
     assert ask(server.port, order, certificate=deployer, tls=True) == 404, "it may, there is only no such board"
     stays = connect(server.port, certificate=deployer, tls=True)
     assert status_of(stays, get()) == 200
+    follows = connect(server.port, certificate=deployer, tls=True)
+    assert status_of(follows, upgrade()) == 101
     keys("revoke", "bob")
     assert ask(server.port, order, certificate=deployer, tls=True) == 401
     assert ask(server.port, upgrade(), certificate=deployer, tls=True) == 401
@@ -304,6 +310,11 @@ def test_a_certificate_that_is_revoked_counts_no_more(setting):
             pass
     assert status_of(stays, order) == 401, "nor on a connection from before"
     stays.close()
+    received = b""
+    while (part := follows.recv(65536)):
+        received += part
+    assert received.endswith(b"\x88\x02\x03\xf0"), received[-20:]  # its stream ends with 1008
+    follows.close()
     noted = wait_for(lambda: json.loads(subprocess.run(
         [setting.programs / "indurop", "log", "--audit", "-o", "json"], env=setting.environment, capture_output=True,
         text=True, check=True).stdout)["audit"], "a note")

@@ -99,6 +99,10 @@ TEST_F(Keys, No_board_is_made_of_a_word_that_means_a_role) {
   }
   EXPECT_THAT(sut.add("deployer", now + days(1)).error().text, HasSubstr("indurop keys add --deployer NAME"));
   EXPECT_FALSE(sut.add_viewer("deployer", now + days(1)));
+  config::ReadPlant read = config::read_plant_text(
+      "<plant name=\"cell\"><security>keys</security><board name=\"viewer\"></board></plant>", folder_ / "plant.xml");
+  EXPECT_THAT(config::lines(config::check_plant(read.plant, {}).diagnostics),
+              Contains(AllOf(HasSubstr("error: "), HasSubstr("a word for a role"))));
   EXPECT_EQ(how_to_add(Role::Viewer, "eve"), "indurop keys add --viewer eve");
   EXPECT_EQ(how_to_add(Role::Board, "drive"), "indurop keys add drive");
 }
