@@ -98,14 +98,15 @@ AlarmCounts counts_in(const base::Json& json) {
 
 std::string sentence_of(const AlarmCounts& counts) {
   std::vector<std::string> parts;
-  const auto add = [&parts](std::size_t count, const char* one, const char* several) {
+  const auto add = [&parts](std::size_t count, const char* what) {
     if (count > 0) {
-      parts.push_back(fmt::format("{} {}", count, count == 1 ? one : several));
+      const char* const alarms = !parts.empty() ? "" : count == 1 ? " alarm" : " alarms";
+      parts.push_back(fmt::format("{}{} {} {}", count, alarms, count == 1 ? "is" : "are", what));
     }
   };
-  add(counts.active, "alarm is active", "alarms are active");
-  add(counts.unacknowledged, "is not acknowledged", "are not acknowledged");
-  add(counts.shelved, "is shelved", "are shelved");
+  add(counts.active, "active");
+  add(counts.unacknowledged, "not acknowledged");
+  add(counts.shelved, "shelved");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

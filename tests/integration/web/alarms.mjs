@@ -50,7 +50,7 @@ await browser.run({
     await browser.judge(page, "alarms-phone");
     await page.close();
     const overview = await browser.open("overview", wide);
-    await sees(overview, "1 is not acknowledged, 1 is shelved");
+    await sees(overview, "1 alarm is not acknowledged, 1 is shelved");
     await browser.judge(overview, "alarms-overview");
     await overview.close();
   },

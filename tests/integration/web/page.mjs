@@ -338,12 +338,14 @@ await browser.run({
     await sees_no(robot, "moving");
     check(await robot.$$eval(".jog", (all) => all.length > 0 && all.every((one) => one.matches(":disabled"))), "a button can be pressed");
     await browser.judge(robot, "robot-stopped");
+    await page.bringToFront();  // a page that nobody sees asks nothing
     await page.evaluate(() => { location.hash = "#/alarms"; });
     await sees(page, "module Robot is stopped");
     await sees(page, "active, not acknowledged");
     await page.evaluate(() => { location.hash = "#/overview"; });
     await page.locator("::-p-aria(Start Robot)").click();
     await sees_no(page, "module Robot is stopped");
+    await robot.bringToFront();
     await sees_no(robot, "the robot cannot be moved");
     await robot.close();
     await page.close();

@@ -239,6 +239,7 @@ TEST_F(Alarms, Those_that_need_somebody_come_first) {
   }
   EXPECT_THAT(names, ElementsAre("high", "low", "seen"));
   EXPECT_EQ(sentence_of(book.counts()), "3 alarms are active, 2 are not acknowledged");
+  EXPECT_EQ(sentence_of({0, 1, 2, {}}), "1 alarm is not acknowledged, 2 are shelved");
 }
 
 TEST(AlarmCondition_, Waits_for_its_delay_and_for_its_end) {

@@ -43,13 +43,14 @@ async function effects_of(board: string, module: string): Promise<Effect[]> {
   const effects: Effect[] = [];
   const stop = written.find(({ name }) => last_of(name) === "EMERGENCY_STOP");
   if (stop) {
-    effects.push({ text: `${module} is the emergency stop: it writes ${stop.name}, which ${list_text((stop.readers ?? []).filter((one) => one !== module))} read. While it does not run, nobody notices that the emergency stop is pressed.`, bad: true });
+    const followers = (stop.readers ?? []).filter((one) => one !== module);
+    effects.push({ text: `${module} is the emergency stop: it writes ${stop.name}, read by ${list_text(followers) || "no module"}. While it does not run, a pressed emergency stop is not evaluated.`, bad: true });
   }
   effects.push(...await of_robots(board, module, written));
   const needed = written.filter(({ readers }) => readers?.some((one) => one !== module));
   const readers = [...new Set(needed.flatMap(({ readers: all }) => all ?? []))].filter((one) => one !== module).sort();
   effects.push({ text: readers.length > 0
-    ? `${list_text(readers)} ${readers.length === 1 ? "reads" : "read"} ${plural(needed.length, "variable")} of it, which keep their last values, or its fail-safe values.`
+    ? `${list_text(readers)} ${readers.length === 1 ? "reads" : "read"} ${plural(needed.length, "variable")} that it writes. They keep their last values, or get its fail-safe values.`
     : "No other module reads what it writes.", bad: false });
   return effects;
 }

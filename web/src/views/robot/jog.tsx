@@ -13,6 +13,7 @@ const FRAMES: [string, string][] = [
   ["tool", "Tool along itself"],
 ];
 const DIRECTIONS = ["x", "y", "z", "roll", "pitch", "yaw"];
+const BUSY = ["moving", "homing", "stopping"];
 const KEEPS = 3;  // times within what the server waits
 
 // One hand: what is held down, until it is let go or lost.
@@ -137,7 +138,7 @@ export function Jog({ board, scope, state, down, names, work_frames }: Props) {
   return (
     <section class="panel" aria-label="Moving by hand">
       <h2>By hand</h2>
-      {refused && !held && <p class="warn why">{refused}</p>}
+      {refused && !held && <p class={`why ${!down && BUSY.includes(state?.group ?? "") ? "quiet" : "warn"}`}>{refused}</p>}
       <fieldset disabled={!!down}>
       <div class="bar">
         <button type="button" class="stop" onClick={() => {

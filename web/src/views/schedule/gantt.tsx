@@ -12,6 +12,7 @@ const BAR_PX = 20;
 const AXIS_PX = 26;
 const LABEL_PX = 90;  // room a time needs on the axis
 const THINNEST_PX = 2;
+const PARTS = [10000, 5000, 4000, 2000, 1000, 500, 400, 200, 100, 50, 40, 20, 10, 8, 5, 4, 2];  // of a basic period
 
 interface Props {
   lanes: Lane[];
@@ -50,8 +51,7 @@ function Grid({ from_ns, to_ns, epoch_ns, basic_ns, macro_ns, x, height, width, 
 }
 
 function nice_step(least: number, most: number): number {
-  for (let parts = 100; parts > 1; parts = parts > 10 ? parts - 10 : parts - 1) if (most % parts === 0 && most / parts >= least) return most / parts;
-  return most;
+  return PARTS.map((parts) => most / parts).find((step) => Number.isInteger(step) && step >= least) ?? most;
 }
 
 function span_since(ns: number, step: number): string {
