@@ -88,13 +88,14 @@ void Arm::frames(const Joints& q, ChainFrames& frames) const noexcept {
   }
 }
 
-Jacobian Arm::jacobian(const Joints& q) const noexcept {
+Jacobian Arm::jacobian(const Joints& q, Pose& tool) const noexcept {
   if (delta_) {
+    tool = forward(q);
     Jacobian j = Jacobian::Zero();
     j.topLeftCorner<3, 3>() = delta_->moving(q.head<3>());
     if (count_ > 3) {
       const Vec3 down(0, 0, -1);  // what the tool turns about
-      j.block<3, 1>(0, 3) = down.cross(forward(q).position - delta_->position(q.head<3>()));
+      j.block<3, 1>(0, 3) = down.cross(tool.position - delta_->position(q.head<3>()));
       j.block<3, 1>(3, 3) = down;
     }
     return j;
@@ -116,14 +117,14 @@ Jacobian Arm::jacobian(const Joints& q) const noexcept {
     shift += rotation * (link.point - turn * link.point);
     rotation = rotation * turn;
   }
-  const Vec3 tool = rotation * home_.position + shift;
+  tool = {rotation * home_.position + shift, Quat(rotation) * home_.orientation};
   Jacobian j = Jacobian::Zero();
   for (std::size_t i = 0; i < link_count_; ++i) {
     const Link& link = links_[i];
     if (link.kind == AxisKind::Sliding) {
       j.block<3, 1>(0, link.axis) += link.ratio * directions[i];
     } else {
-      j.block<3, 1>(0, link.axis) += link.ratio * directions[i].cross(tool - points[i]);
+      j.block<3, 1>(0, link.axis) += link.ratio * directions[i].cross(tool.position - points[i]);
       j.block<3, 1>(3, link.axis) += link.ratio * directions[i];
     }
   }

@@ -90,7 +90,12 @@ class Arm {
   [[nodiscard]] int chain_length() const noexcept { return static_cast<int>(link_count_); }
   [[nodiscard]] const Link& link(int index) const noexcept { return links_[static_cast<std::size_t>(index)]; }
   // Of the tool's point, in the base's frame.
-  [[nodiscard]] Jacobian jacobian(const Joints& q) const noexcept;
+  [[nodiscard]] Jacobian jacobian(const Joints& q) const noexcept {
+    Pose tool;
+    return jacobian(q, tool);
+  }
+  // And where the tool is.
+  [[nodiscard]] Jacobian jacobian(const Joints& q, Pose& tool) const noexcept;
   // 0 in singular positions; of six axes with another sign on their other side.
   [[nodiscard]] double volume(const Joints& q) const noexcept;
   // First axis beyond its limits by more than `slack`, from 0; -1 if none. Values that are no number are beyond.

@@ -102,7 +102,8 @@ bool Group::tip_too_fast() const noexcept {
   TipSpeed tip(places_.arm());
   tip.begin(last);
   tip.note(commanded());
-  return tip.moved() > kReducedSpeed * period_;
+  // Nobody planned where a belt carries the arm to, and how axes move against each other there.
+  return (tracking_.on() ? tip.farthest() : tip.moved()) > kReducedSpeed * period_;
 }
 
 ErrorCode Group::axis_permit() const noexcept {

@@ -19,7 +19,6 @@ class TipSpeed {
 
   // Begins at these joint angles. Real-time safe, as all here.
   void begin(const Joints& q) noexcept {
-    q_ = q;
     at_ = where(q);
     moved_ = farthest_ = 0;
   }
@@ -30,15 +29,13 @@ class TipSpeed {
     const Vec3 end = next.end - at_.end;
     moved_ = std::max({moved_, tip.norm(), end.norm()});
     farthest_ = std::max(farthest_, moved_);
-    const Jacobian rates = arm_->jacobian(q_ + (q - q_) / 2);
     const Vec3 lever = (next.end - next.tip + at_.end - at_.tip) / 2;
     for (int i = 0; i < arm_->count(); ++i) {
-      const Twist part = (q[i] - q_[i]) * rates.col(i);
+      const Twist part = (next.q[i] - at_.q[i]) / 2 * (next.rates.col(i) + at_.rates.col(i));
       const Vec3 of_tip = part.head<3>();
       const Vec3 of_end = of_tip + part.tail<3>().cross(lever);
       farthest_ = std::max({farthest_, of_tip.norm(), of_end.norm(), (tip - of_tip).norm(), (end - of_end).norm()});
     }
-    q_ = q;
     at_ = next;
   }
   // m that the faster of both goes at most, from one to the next.
@@ -48,15 +45,17 @@ class TipSpeed {
 
  private:
   struct Place {
+    Joints q = Joints::Zero();
     Vec3 tip = Vec3::Zero(), end = Vec3::Zero();
+    Jacobian rates = Jacobian::Zero();  // of the tip
   };
   [[nodiscard]] Place where(const Joints& q) const noexcept {
-    const Pose tip = arm_->forward(q);
-    return {tip.position, arm_->end_of(tip)};
+    Pose tool;
+    const Jacobian rates = arm_->jacobian(q, tool);
+    return {q, tool.position, arm_->end_of(tool), rates};
   }
 
   const Arm* arm_;
-  Joints q_ = Joints::Zero();
   Place at_;
   double moved_ = 0;
   double farthest_ = 0;

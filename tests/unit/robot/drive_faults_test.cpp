@@ -150,12 +150,12 @@ class Run : public CommandCell {
     wanted_ = wanted;
     place_ = place;
     speed_of_set_points_ = wanted_speed;
-    tally.set_points = std::max(tally.set_points, wanted_speed);
-    tally.places = std::max(tally.places, speed);
     // That an axis does not follow shows only once it is far behind. It is said to be there when it loses its power.
     const bool behind = failed_ == Failure::Following;
     const bool jumps = behind && cell.in.drives[axis_].status != 0x27;
     const bool too_fast = (wanted_speed > kTooFast && !jumps) || (speed > kTooFast && !behind);
+    tally.set_points = std::max(tally.set_points, jumps ? 0 : wanted_speed);
+    tally.places = std::max(tally.places, behind ? 0 : speed);
     if (!limits.empty() || too_fast) {
       broken = fmt::format("{}set points {:.1f} mm/s, places {:.1f} mm/s, at {:.3f} s, {} s after it failed", limits,
                            wanted_speed, speed, time, since_);
