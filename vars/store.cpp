@@ -47,8 +47,7 @@ struct Store::Impl {
 namespace {
 
 constexpr std::int64_t kReadLimitNs = 50'000'000;
-constexpr std::chrono::milliseconds kSwapWait{1};
-constexpr int kSwapTries = 100;
+constexpr int kSwapTries = 100;  // a millisecond each
 
 const DirectoryEntry* search(const std::vector<DirectoryEntry>& directory, std::uint64_t name_hash) noexcept {
   const auto at =
@@ -213,7 +212,7 @@ Result<Store> Store::attach(const std::string& node, Mode mode) {
     if (running_node(node) == 0) {
       break;  // there is nobody who would complete it, or replace it
     }
-    std::this_thread::sleep_for(kSwapWait);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return Error{Errc::Busy, 0, "store is being replaced by a newer one"};
 }
@@ -262,38 +261,32 @@ std::span<const DirectoryEntry> Store::directory() const noexcept {
 
 void* Store::entry(std::uint64_t name_hash, std::uint64_t type_hash) const noexcept {
   const DirectoryEntry* found = find(name_hash);
-  if (found == nullptr || (type_hash != 0 && found->type_hash != type_hash)) {
-    return nullptr;
-  }
-  return impl_->file.data() + found->offset;
+  const bool fits = found != nullptr && (type_hash == 0 || found->type_hash == type_hash);
+  return fits ? impl_->file.data() + found->offset : nullptr;
 }
 
 Status Store::read(const DirectoryEntry& variable, std::uint32_t offset, std::span<std::uint8_t> to) const noexcept {
-  constexpr Error kLost{Errc::Dead, 0, "the store was cut by somebody who may write it"};
   if (!impl_->contains(variable, offset, to.size())) {
     return Error{Errc::OutOfRange, 0, "part of a variable to read"};
   }
+  const auto length = static_cast<std::uint32_t>(to.size());
+  abi::RingHeader& ring = impl_->ring(variable);
   if (variable.kind == abi::Kind::Scalar) {
     read_scalar(impl_->file.data() + variable.offset, variable.value_size, offset, to);
-    return lost() ? Status(kLost) : Status();
-  }
-  const auto length = static_cast<std::uint32_t>(to.size());
-  const abi::RingHeader& ring = impl_->ring(variable);
-  if (try_read(ring, variable.value_size, offset, to.data(), length)) {
-    return lost() ? Status(kLost) : Status();
-  }
-  if (impl_->file.mode() == Mode::ReadWrite) {
-    read_slow(impl_->ring(variable), variable.value_size, to.data(), offset, length);
-    return lost() ? Status(kLost) : Status();
-  }
-  const std::int64_t limit = rt::now_ns() + kReadLimitNs;
-  while (rt::now_ns() < limit) {
-    ::sched_yield();
-    if (try_read(ring, variable.value_size, offset, to.data(), length)) {
-      return lost() ? Status(kLost) : Status();
+  } else if (bool done = try_read(ring, variable.value_size, offset, to.data(), length); !done) {
+    if (impl_->file.mode() == Mode::ReadWrite) {
+      read_slow(ring, variable.value_size, to.data(), offset, length);
+      done = true;
+    }
+    for (const std::int64_t limit = rt::now_ns() + kReadLimitNs; !done && rt::now_ns() < limit;) {
+      ::sched_yield();
+      done = try_read(ring, variable.value_size, offset, to.data(), length);
+    }
+    if (!done) {
+      return Error{Errc::Timeout, 0, "read a variable that is written without a pause"};
     }
   }
-  return Error{Errc::Timeout, 0, "read a variable that is written without a pause"};
+  return lost() ? Status(Error{Errc::Dead, 0, "the store was cut by somebody who may write it"}) : Status();
 }
 
 Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept {
@@ -381,11 +374,8 @@ void Store::reset(bool keep_retained) noexcept {
     }
     abi::RingHeader& ring = impl_->ring(variable);
     if (auto* slot = static_cast<unsigned char*>(begin_write(ring, 0, variable.value_size)); slot != nullptr) {
-      if (initial.empty()) {
-        zero_slot(slot, variable.value_size);
-      } else {
-        detail::copy_to_shared(slot, initial.data(), initial.size());
-      }
+      initial.empty() ? zero_slot(slot, variable.value_size)
+                      : detail::copy_to_shared(slot, initial.data(), initial.size());
       commit(ring);
     }
   }

@@ -8,12 +8,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <span>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "rt/thread.h"
@@ -106,6 +109,41 @@ StackPages stack_pages() {
   later.value().join();
   std::fprintf(stderr, "resident %ld kB\n", resident);
   std::_Exit(resident > 0 && resident < 20 * kMegabyte ? 0 : 1);
+}
+
+// The same of threads that come, allocate, and go. A heap of one's own is 64 MB, and locked although nobody uses it.
+[[noreturn]] void allocate_in_threads() {
+  if (!lock_memory()) {
+    std::_Exit(2);
+  }
+  const long locked = status_kb("VmLck:");
+  std::vector<Thread> threads(4);
+  std::atomic<int> allocated{0};
+  long later = 0;
+  for (Thread& one : threads) {
+    auto started = Thread::start({"allocates", 0, -1}, [&allocated, &later] {
+      void* const block = std::malloc(100'000);
+      std::memset(block, 1, 100'000);
+      if (++allocated == 4) {
+        later = status_kb("VmLck:");
+      }
+      while (allocated.load() < 4) {
+        std::this_thread::yield();
+      }
+      std::free(block);
+    });
+    one = std::move(started).value();
+  }
+  threads.clear();
+  std::fprintf(stderr, "locked %ld kB, then %ld kB\n", locked, later);
+  std::_Exit(locked > 0 && later > 0 && later - locked < 60 * kMegabyte ? 0 : 1);
+}
+
+TEST(Machine, Threads_that_allocate_take_no_locked_heap_each) {
+  if (!may_lock()) {
+    GTEST_SKIP() << "memory cannot be locked: without root, without an unlimited memlock, or with a sanitizer";
+  }
+  EXPECT_EXIT(allocate_in_threads(), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(Machine, Stacks_nobody_uses_take_no_locked_memory) {
