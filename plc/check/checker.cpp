@@ -14,6 +14,7 @@
 #include "plc/check/object_checker.h"
 #include "plc/check/pou_checker.h"
 #include "plc/check/shared_names.h"
+#include "plc/check/stack_use.h"
 #include "plc/check/starts.h"
 #include "plc/check/task_checker.h"
 #include "plc/check/type_builder.h"
@@ -70,6 +71,7 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   check_bodies(context);
   use_starts(context);
   order_pous(context);
+  check_stack(context);
   plan_tasks(context);
   return program;
 }

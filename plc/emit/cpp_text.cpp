@@ -115,9 +115,12 @@ const Type& innermost(const Type& type) {
   return type.kind == Type::Kind::Array ? innermost(*type.element) : type;
 }
 
-// Instances of an array, row after row, those that are given something to begin with.
-std::string of_blocks(const Type& type, const ast::Initial& initial) {
-  std::string text = fmt::format("[] {{ {} blocks{{}}; ", cpp_type(type));
+// Assignments of values that an instance, or those of an array, begin with.
+std::string of_instances(const std::string& target, const Type& type, const ast::Initial& initial);
+
+// Row after row, those that are given something.
+std::string of_blocks(const std::string& target, const Type& type, const ast::Initial& initial) {
+  std::string text;
   std::uint64_t at = 0;
   for (const ast::Initial* one : initial_elements(initial, elements_of(type))) {
     std::string place;
@@ -126,14 +129,16 @@ std::string of_blocks(const Type& type, const ast::Initial& initial) {
       place.insert(0, fmt::format("[{}]", rest % dimension->count()));
       rest /= dimension->count();
     }
-    text += fmt::format("blocks{} = {}; ", place, cpp_initial(*type.element, one));
+    if (one != nullptr) {
+      text += of_instances(target + place, *type.element, *one);
+    }
   }
-  return text + "return blocks; }()";
+  return text;
 }
 
-// Values of inputs that an instance begins with.
-std::string of_block(const Type& type, const ast::Initial& initial) {
-  std::string text = fmt::format("[] {{ {} block; ", cpp_type(type));
+// Values of inputs.
+std::string of_block(const std::string& target, const Type& type, const ast::Initial& initial) {
+  std::string text;
   for (const ast::InitialElement& one : initial.elements) {
     const Type* field = nullptr;
     std::string name = one.field;
@@ -145,9 +150,15 @@ std::string of_block(const Type& type, const ast::Initial& initial) {
       field = type.pou->find(upper(one.field))->type;
       name = cpp_name(name);
     }
-    text += fmt::format("block.{} = {}; ", name, cpp_initial(*field, &one.value));
+    text += innermost(*field).kind == Type::Kind::Block
+                ? of_instances(target + "." + name, *field, one.value)
+                : fmt::format("{}.{} = {}; ", target, name, cpp_initial(*field, &one.value));
   }
-  return text + "return block; }()";
+  return text;
+}
+
+std::string of_instances(const std::string& target, const Type& type, const ast::Initial& initial) {
+  return type.kind == Type::Kind::Array ? of_blocks(target, type, initial) : of_block(target, type, initial);
 }
 
 }  // namespace
@@ -226,7 +237,9 @@ std::string cpp_constant(const Constant& value, const Type& type, bool exact) {
 std::string cpp_initial(const Type& type, const ast::Initial* initial) {
   const ast::Initial* const given = initial != nullptr ? initial : type.initial;
   if (innermost(type).kind == Type::Kind::Block && given != nullptr) {
-    return type.kind == Type::Kind::Block ? of_block(type, *given) : of_blocks(type, *given);
+    const char* const name = type.kind == Type::Kind::Block ? "block" : "blocks";
+    return fmt::format("[] {{ {} {}{{}}; {}return {}; }}()", cpp_type(type), name, of_instances(name, type, *given),
+                       name);
   }
   if (type.kind == Type::Kind::Pointer || innermost(type).kind == Type::Kind::Block) {
     return "{}";

@@ -108,7 +108,7 @@ class Emitter {
     for (const Global* global : globals_) {
       if (in_image(*global) && !is_word(*global)) {
         const std::string name = cpp_name(*global);
-        out_.line(fmt::format("iec::copy_value(shared.{}, {}.get());", name, proxy_of(*global)));
+        out_.line(fmt::format("iec::read_image(shared.{}, {});", name, proxy_of(*global)));
         copied = true;
       }
     }
@@ -116,7 +116,7 @@ class Emitter {
       if (word_bytes(*one.type) > 0) {
         continue;
       }
-      out_.line(fmt::format("iec::copy_value({}, ::{}.get());", one.cpp, one.shared_name));
+      out_.line(fmt::format("iec::read_image({}, ::{});", one.cpp, one.shared_name));
       if (!one.input) {
         out_.line(fmt::format("before_{} = {};", one.name, one.cpp));
       }

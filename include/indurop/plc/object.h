@@ -8,6 +8,7 @@
 #include <indurop/plc/pointer.h>
 #include <indurop/plc/scan.h>
 
+#include <cstdint>
 #include <type_traits>
 
 namespace indurop::iec {
@@ -93,6 +94,12 @@ class Call {
     if (inside_ >= kMost) [[unlikely]] {
       fail(place, "more than 100 calls of methods inside each other (recursion)");
     }
+    const auto here = reinterpret_cast<std::intptr_t>(this);
+    if (inside_ == 0) {
+      outermost = here;
+    } else if (outermost - here > kMostStack) [[unlikely]] {
+      fail(place, "calls of methods inside each other need more than 128 KiB of the stack (recursion)");
+    }
     ++inside_;
   }
   Call(const Call&) = delete;
@@ -100,6 +107,9 @@ class Call {
   ~Call() { --inside_; }
 
  private:
+  static constexpr std::intptr_t kMostStack = std::intptr_t{128} * 1024;
+  [[gnu::visibility("hidden")]] inline static std::intptr_t outermost = 0;  // each module has its own
+
   int& inside_;
 };
 

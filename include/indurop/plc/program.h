@@ -65,11 +65,54 @@ constexpr void copy_value(std::array<std::uint16_t, N>& to, const WideText<N>& f
   std::copy(from.data, from.data + N, to.begin());
 }
 
+namespace detail {
+
+// A value that is not on the stack, which a variable may be too large for. One thread, one value of the type at a time.
+template <class T>
+T& staging() noexcept {
+  static T value{};
+  return value;
+}
+
+}  // namespace detail
+
+// The whole shared variable, copied once and not over the stack.
+template <class T, class Shared>
+void read_image(T& to, const Shared& from) {
+  using Whole = typename Shared::whole_type;
+  using Tag = typename Shared::tag_type;
+  if constexpr (Tag::kKind == abi::Kind::Scalar) {
+    copy_value(to, from.get());
+  } else {
+    indurop::detail::record_access<Tag, indurop::detail::kRead>();
+    const auto read = [](void* value) {
+      abi::RingHeader* ring = indurop::detail::ring_of<Tag>();
+      const std::uint64_t seq = ring->seq.load(std::memory_order_acquire);
+      if (!indurop::detail::try_copy(ring, abi::slot_stride(Tag::kSize), seq, value, 0, sizeof(Whole))) [[unlikely]] {
+        indurop::detail::ring_read_again<Tag::kSize>(ring, value, 0, sizeof(Whole));
+      }
+    };
+    if constexpr (std::is_same_v<T, Whole>) {
+      read(&to);
+    } else {
+      Whole& whole = detail::staging<Whole>();
+      read(&whole);
+      copy_value(to, whole);
+    }
+  }
+}
+
 // Writes a shared variable, or a part of it, if the program changed it: what others wrote meanwhile stays.
 template <class Shared, class T>
 void write_changed(const Shared& to, const T& now, const T& before) {
-  if (!(now == before)) {
-    typename Shared::whole_type value{};
+  using Whole = typename Shared::whole_type;
+  if (now == before) {
+    return;
+  }
+  if constexpr (std::is_same_v<T, Whole>) {
+    to = now;
+  } else {
+    Whole& value = detail::staging<Whole>();
     copy_value(value, now);
     to = value;
   }
@@ -91,9 +134,33 @@ struct Elements<std::array<Own, N>, std::array<Shared, N>> {
   static constexpr std::size_t kCount = N * Elements<Own, Shared>::kCount;
 };
 
+// Writes those of `count` elements from `offset` on that differ from what they were, in one commit.
+template <class Tag, class Own, class Shared>
+void write_elements(std::uint32_t offset, const Own* now, const Own* before, std::size_t count) noexcept {
+  indurop::detail::record_access<Tag, indurop::detail::kRead | indurop::detail::kWrite>();
+  abi::RingHeader* ring = indurop::detail::ring_of<Tag>();
+  auto* const to = static_cast<unsigned char*>(indurop_begin_write(ring, offset, count * sizeof(Shared)));
+  if (to == nullptr) [[unlikely]] {
+    return;
+  }
+  const std::uint64_t seq = ring->seq.load(std::memory_order_relaxed);
+  const auto* const from = indurop::detail::slot(ring, seq, abi::slot_stride(Tag::kSize));
+  Shared& value = staging<Shared>();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = offset + i * sizeof(Shared);
+    if (now[i] == before[i]) {
+      indurop::detail::copy_to_shared(to + at, from + at, sizeof(Shared));
+    } else {
+      copy_value(value, now[i]);
+      indurop::detail::copy_to_shared(to + at, &value, sizeof(Shared));
+    }
+  }
+  indurop_commit_write(ring);
+}
+
 }  // namespace detail
 
-// Of an array the elements that the program changed, in one commit: others may have other writers.
+// Of an array the elements that the program changed: others may have other writers.
 template <class Shared, class T, std::size_t N>
 void write_changed(const Shared& to, const std::array<T, N>& now, const std::array<T, N>& before) {
   using All = detail::Elements<std::array<T, N>, typename Shared::whole_type>;
@@ -114,12 +181,8 @@ void write_changed(const Shared& to, const std::array<T, N>& now, const std::arr
     --last;
   }
   const auto offset = static_cast<std::uint32_t>(first * sizeof(Theirs));
-  indurop::detail::modify_each<typename Shared::tag_type, Theirs>(Shared::kOffset + to.place.bytes + offset,
-                                                                  last - first + 1, [&](std::size_t i, Theirs& value) {
-                                                                    if (!(mine[first + i] == old[first + i])) {
-                                                                      copy_value(value, mine[first + i]);
-                                                                    }
-                                                                  });
+  detail::write_elements<typename Shared::tag_type, Own, Theirs>(Shared::kOffset + to.place.bytes + offset,
+                                                                 mine + first, old + first, last - first + 1);
 }
 
 // A shared number as programs need it: of thousands, an indurop::Leaf each would take g++ longer than the program.
@@ -227,17 +290,21 @@ class Access {
  public:
   template <class Shared>
   void read(const Shared& from, T& variable) {
-    const T now = value_of(from);
-    if (known_ && !(now == seen_)) {
-      seen_ = now;
-      variable = now;
+    read_image(now_, from);
+    if (known_ && !(now_ == seen_)) {
+      seen_ = now_;
+      variable = now_;
     }
   }
   template <class Shared>
   void write(const Shared& to, const T& variable) {
-    const bool differs = Writable ? !known_ || !(variable == seen_) : !(variable == value_of(to));
+    if constexpr (!Writable) {
+      read_image(now_, to);
+    }
+    const bool differs = Writable ? !known_ || !(variable == seen_) : !(variable == now_);
     if (differs) {
-      typename Shared::whole_type value{};
+      using Whole = typename Shared::whole_type;
+      Whole& value = detail::staging<Whole>();
       copy_value(value, variable);
       to = value;
     }
@@ -246,12 +313,7 @@ class Access {
   }
 
  private:
-  template <class Shared>
-  static T value_of(const Shared& shared) {
-    T out{};
-    copy_value(out, shared.get());
-    return out;
-  }
+  T now_{};  // of the shared one
   T seen_{};
   bool known_ = false;
 };

@@ -132,9 +132,9 @@ constinit iec::SharedWords<std::uint16_t, 1, 1> words_2{table_2};
 void read_shared() {
   words_1.read();
   words_2.read();
-  iec::copy_value(shared.place, ::golden::place.get());
-  iec::copy_value(shared.list, ::golden::list.get());
-  iec::copy_value(shared.mode, ::golden::mode.get());
+  iec::read_image(shared.place, ::golden::place);
+  iec::read_image(shared.list, ::golden::list);
+  iec::read_image(shared.mode, ::golden::mode);
   before = shared;
 }
 

@@ -61,11 +61,11 @@ constinit iec::SharedWords<std::uint32_t, 1, 1> words_4{table_4};
 void read_shared() {
   words_2.read();
   words_4.read();
-  iec::copy_value(shared.I0, ::PLC_ROBOT::I0.get());
-  iec::copy_value(shared.O0, ::PLC_ROBOT::O0.get());
-  iec::copy_value(shared.PLC_ROBOT_I1, ::PLC_ROBOT::I1.get());
-  iec::copy_value(shared.PLC_ROBOT_ROBOT_MODULE_STATE, ::PLC_ROBOT::ROBOT_MODULE_STATE.get());
-  iec::copy_value(shared.PLC_ROBOT_ROBOT_MODULE_SERVICE, ::PLC_ROBOT::ROBOT_MODULE_SERVICE.get());
+  iec::read_image(shared.I0, ::PLC_ROBOT::I0);
+  iec::read_image(shared.O0, ::PLC_ROBOT::O0);
+  iec::read_image(shared.PLC_ROBOT_I1, ::PLC_ROBOT::I1);
+  iec::read_image(shared.PLC_ROBOT_ROBOT_MODULE_STATE, ::PLC_ROBOT::ROBOT_MODULE_STATE);
+  iec::read_image(shared.PLC_ROBOT_ROBOT_MODULE_SERVICE, ::PLC_ROBOT::ROBOT_MODULE_SERVICE);
   before = shared;
 }
 
@@ -143,7 +143,7 @@ constinit iec::SharedWords<std::uint32_t, 1, 1> words_4{table_4};
 void read_shared() {
   words_2.read();
   words_4.read();
-  iec::copy_value(shared.speed, ::PLC_ROBOT::speed.get());
+  iec::read_image(shared.speed, ::PLC_ROBOT::speed);
   before = shared;
 }
 
