@@ -52,9 +52,14 @@ Ending no_memory(const char* what, const Error& error, const Console& console) {
 // Values of the last run go on after a crash; an orderly new run begins with initial and retained ones.
 void begin_values(vars::Store& store, Retainer& retainer, bool previous_run_ended_well, Console& console) {
   if (store.origin() == vars::Origin::Fresh) {
-    retainer.load(console);
-  } else if (previous_run_ended_well) {
+    retainer.load(console, false);
+    return;
+  }
+  if (previous_run_ended_well) {
     store.reset(true);
+  }
+  if (store.origin() == vars::Origin::CarriedOver) {
+    retainer.load(console, true);
   }
 }
 

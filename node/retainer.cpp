@@ -27,11 +27,8 @@ Retainer::~Retainer() {
   thread_.join();
 }
 
-void Retainer::load(Console& console) {
-  if (!any_) {
-    return;
-  }
-  auto report = file_.load(store_);
+void Retainer::load(Console& console, bool only_changed) {
+  auto report = file_.load(store_, only_changed);
   if (!report) {
     console.error("retained variables could not be read: {}: {}; they start with their initial values",
                   report.error().where, std::strerror(report.error().sys_errno));
@@ -40,7 +37,10 @@ void Retainer::load(Console& console) {
   for (const std::string& note : report.value().notes) {
     console.warning("{}", note);
   }
-  if (report.value().restored > 0) {
+  for (const std::string& one : report.value().lost) {
+    console.warning("retained {}", one);
+  }
+  if (report.value().restored > 0 && !only_changed) {
     console.info("{} retained variables restored", report.value().restored);
   }
 }

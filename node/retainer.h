@@ -20,8 +20,9 @@ class Retainer {
   Retainer(const Retainer&) = delete;
   Retainer& operator=(const Retainer&) = delete;
 
-  // Values from the disk into a fresh store; says what was damaged.
-  void load(Console& console);
+  // Values from the disk into a fresh store, or into one with values of before those of which the type has changed;
+  // says what was damaged and what is lost.
+  void load(Console& console, bool only_changed);
   void start();
   // Last save. False if it failed, which it says on the console.
   [[nodiscard]] bool stop(Console& console);

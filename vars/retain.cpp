@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// File: FileHeader, then one record per variable: RecordHeader, name, value. A new copy replaces the older of the two
-// at once, so at any moment one complete copy exists under its name.
+// File: FileHeader, u32 length and text of the types (schema JSON), then one record per variable: RecordHeader, name,
+// value. A new copy replaces the older of the two at once, so at any moment one complete copy exists under its name.
 
 #include "vars/retain.h"
 
@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
@@ -17,6 +18,7 @@
 
 #include "base/read_file.h"
 #include "base/replace_file.h"
+#include "schema/carry.h"
 #include "vars/crc32c.h"
 #include "vars/os_error.h"
 #include "vars/shm_file.h"
@@ -28,8 +30,10 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint64_t kRetainMagic = 0x3154455255444e49ULL;  // "INDURET1"
-constexpr std::uint32_t kRetainVersion = 1;
+constexpr std::uint32_t kRetainVersion = 2;
+constexpr std::uint32_t kWithoutTypes = 1;  // is read, too
 constexpr std::array<const char*, 2> kNames{"retain.a", "retain.b"};
+constexpr const char* kLosses = "retain.lost";
 constexpr std::size_t kMostBytes = std::numeric_limits<std::size_t>::max() / 2;
 constexpr std::size_t kChecked = 16;  // the checksum covers everything from this offset on
 
@@ -64,7 +68,7 @@ std::string damage_of(std::span<const std::uint8_t> bytes) {
   if (header.magic != kRetainMagic) {
     return "not a file of retained values";
   }
-  if (header.version != kRetainVersion) {
+  if (header.version != kRetainVersion && header.version != kWithoutTypes) {
     return "written by another version of InduRoP";
   }
   if (header.payload_size != bytes.size() - sizeof(header)) {
@@ -96,28 +100,104 @@ bool next_record(std::span<const std::uint8_t>& rest, Record& record) {
   return true;
 }
 
-// Restores one variable, or says why not.
-std::string restore(Store& store, const Record& record) {
-  const DirectoryEntry* entry = store.find(record.header.name_hash);
-  if (entry == nullptr) {
-    return record.name + ": no longer declared, its retained value is dropped";
+// The types at the begin of `rest`, which they are taken off.
+schema::Schema take_types(std::span<const std::uint8_t>& rest) {
+  std::uint32_t length = 0;
+  if (rest.size() < sizeof length) {
+    return {};
   }
-  if ((entry->flags & kRetain) == 0) {
-    return record.name + ": no longer declared retain, starts with its initial value";
-  }
-  if (entry->type_hash != record.header.type_hash || entry->value_size != record.header.value_size) {
-    return record.name + ": its type has changed, starts with its initial value";
-  }
-  return store.write(*entry, 0, record.value).ok() ? "" : record.name + ": locked by another process, not restored";
+  std::memcpy(&length, rest.data(), sizeof length);
+  rest = rest.subspan(sizeof length);
+  length = static_cast<std::uint32_t>(std::min<std::size_t>(length, rest.size()));
+  auto types = schema::from_json({reinterpret_cast<const char*>(rest.data()), length});
+  rest = rest.subspan(length);
+  return types ? std::move(types).value() : schema::Schema{};  // of another version: only equal types are restored
 }
 
-Result<Bytes> collect(const Store& store) {
+// Of the retained variables what a later run needs to know.
+std::string types_of(const Store& store) {
+  schema::Schema out;
+  for (const DirectoryEntry& entry : store.directory()) {
+    if ((entry.flags & kRetain) != 0) {
+      const schema::Variable& variable = store.schema().variables[entry.schema_index];
+      schema::Variable& kept = out.variables.emplace_back();
+      kept.name = variable.name;
+      kept.type = variable.type;
+      kept.unit = variable.unit;
+      kept.kind = variable.kind;
+    }
+  }
+  return schema::to_json(out);
+}
+
+class Restorer {
+ public:
+  Restorer(Store& store, const schema::Schema& types, bool only_changed, RetainReport& report)
+      : store_(store), types_(types), only_changed_(only_changed), report_(report) {}
+
+  void restore(const Record& record) {
+    const DirectoryEntry* entry = store_.find(record.header.name_hash);
+    if (entry == nullptr) {
+      report_.lost.push_back(record.name + ": is no longer declared");
+      return;
+    }
+    if ((entry->flags & kRetain) == 0) {
+      report_.lost.push_back(record.name + ": is no longer declared retain, begins anew");
+      return;
+    }
+    const schema::Variable& variable = store_.schema().variables[entry->schema_index];
+    const schema::Variable* before = schema::find_variable(types_, record.name);
+    const bool equal = entry->type_hash == record.header.type_hash && entry->value_size == record.header.value_size;
+    if (equal && (before == nullptr || before->unit == variable.unit)) {
+      if (!only_changed_) {
+        write(record.name, *entry, record.value);
+      }
+    } else if (before == nullptr) {
+      report_.lost.push_back(record.name + ": its type has changed, begins anew");
+    } else {
+      carry(record, *entry, *before, variable);
+    }
+  }
+
+ private:
+  void carry(const Record& record, const DirectoryEntry& entry, const schema::Variable& before,
+             const schema::Variable& now) {
+    Bytes value(entry.value_size);
+    if (!store_.read(entry, 0, value).ok()) {
+      report_.lost.push_back(record.name + ": its type has changed, begins anew");
+      return;
+    }
+    auto lost = schema::carry_value(record.name, {before.type, before.unit}, record.value, {now.type, now.unit}, value);
+    report_.lost.insert(report_.lost.end(), lost.begin(), lost.end());
+    write(record.name, entry, value);
+  }
+
+  void write(const std::string& name, const DirectoryEntry& entry, std::span<const std::uint8_t> value) {
+    if (store_.write(entry, 0, value).ok()) {
+      ++report_.restored;
+    } else {
+      report_.notes.push_back(name + ": locked by another process, not restored");
+    }
+  }
+
+  Store& store_;
+  const schema::Schema& types_;
+  bool only_changed_;
+  RetainReport& report_;
+};
+
+Result<Bytes> collect(const Store& store, const std::string& types) {
   Bytes payload;
+  const auto length = static_cast<std::uint32_t>(types.size());
+  append(payload, &length, sizeof length);
+  append(payload, types.data(), types.size());
   Bytes value;
+  bool any = false;
   for (const DirectoryEntry& entry : store.directory()) {
     if ((entry.flags & kRetain) == 0) {
       continue;
     }
+    any = true;
     value.resize(entry.value_size);
     if (Status status = store.read(entry, 0, value); !status) {
       return status.error();
@@ -129,7 +209,7 @@ Result<Bytes> collect(const Store& store) {
     append(payload, name.data(), name.size());
     append(payload, value.data(), value.size());
   }
-  return payload;
+  return any ? payload : Bytes{};
 }
 
 Bytes encode(std::uint64_t sequence, const Bytes& payload) {
@@ -191,6 +271,7 @@ Status RetainFile::scan(std::vector<std::string>& notes) {
     if (newest_ < 0 || header.sequence > copy_.sequence) {
       newest_ = static_cast<int>(i);
       copy_.sequence = header.sequence;
+      copy_.version = header.version;
       copy_.payload.assign(bytes.begin() + sizeof(header), bytes.end());
     }
   }
@@ -198,21 +279,51 @@ Status RetainFile::scan(std::vector<std::string>& notes) {
   return {};
 }
 
-Result<RetainReport> RetainFile::load(Store& store) {
+Result<RetainReport> RetainFile::load(Store& store, bool only_changed) {
   RetainReport report;
   if (Status status = scan(report.notes); !status) {
     return status.error();
   }
   std::span<const std::uint8_t> rest(copy_.payload);
+  const schema::Schema types = copy_.version == kRetainVersion && !rest.empty() ? take_types(rest) : schema::Schema{};
+  Restorer restorer(store, types, only_changed, report);
   Record record;
   while (next_record(rest, record)) {
-    if (std::string note = restore(store, record); !note.empty()) {
-      report.notes.push_back(std::move(note));
-    } else {
-      ++report.restored;
-    }
+    restorer.restore(record);
   }
+  keep_losses(report);
   return report;
+}
+
+void RetainFile::keep_losses(RetainReport& report) const {
+  const std::filesystem::path losses = directory_ / kLosses;
+  std::error_code failure;
+  if (report.lost.empty()) {
+    std::filesystem::remove(losses, failure);
+    return;
+  }
+  const std::filesystem::path kept = directory_ / ("retain.before." + std::to_string(copy_.sequence));
+  std::filesystem::copy_file(directory_ / kNames[static_cast<std::size_t>(newest_)], kept,
+                             std::filesystem::copy_options::overwrite_existing, failure);
+  report.lost.push_back(failure ? kept.string() + ": cannot be written: " + failure.message()
+                                : "the values of before are kept in " + kept.string());
+  std::string text;
+  for (const std::string& one : report.lost) {
+    text += one + "\n";
+  }
+  static_cast<void>(base::replace_file(losses, text, base::Durable::No));  // it was said at the start
+}
+
+std::vector<std::string> RetainFile::losses() const {
+  std::vector<std::string> lines;
+  constexpr std::size_t kMostText = 1U << 20U;
+  const auto text = base::read_file(directory_ / kLosses, kMostText);
+  for (std::size_t from = 0; text && from < text->size();) {
+    const std::size_t end = std::min(text->find('\n', from), text->size());
+    lines.push_back(text->substr(from, end - from));
+    from = end + 1;
+  }
+  return lines;
 }
 
 Status RetainFile::save(const Store& store, bool* written) {
@@ -225,7 +336,11 @@ Status RetainFile::save(const Store& store, bool* written) {
       return status;
     }
   }
-  auto payload = collect(store);
+  if (types_layout_ != store.header().layout_hash) {
+    types_ = types_of(store);
+    types_layout_ = store.header().layout_hash;
+  }
+  auto payload = collect(store, types_);
   if (!payload) {
     return payload.error();
   }
@@ -239,7 +354,7 @@ Status RetainFile::save(const Store& store, bool* written) {
     return status;
   }
   newest_ = target;
-  copy_ = {sequence, std::move(payload.value())};
+  copy_ = {sequence, kRetainVersion, std::move(payload.value())};
   if (written != nullptr) {
     *written = true;
   }
@@ -266,7 +381,7 @@ Status RetainFile::write_copy(const std::filesystem::path& target, const Bytes& 
 Status RetainFile::erase() {
   scanned_ = false;
   bool found = false;
-  for (const char* name : kNames) {
+  for (const char* name : {kNames[0], kNames[1], kLosses}) {
     if (::unlink((directory_ / name).c_str()) == 0) {
       found = true;
     } else if (errno != ENOENT && errno != ENOTDIR) {

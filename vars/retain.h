@@ -22,7 +22,8 @@ std::filesystem::path state_directory(const std::string& node);
 
 struct RetainReport {
   std::size_t restored = 0;        // variables
-  std::vector<std::string> notes;  // one line each for people: what was found damaged, dropped or of another type
+  std::vector<std::string> notes;  // one line each for people: what was found damaged
+  std::vector<std::string> lost;   // the same: what has no place in the variables of today, and where it is kept
 };
 
 // The two files retain.a and retain.b in one directory. One object per directory at a time: the node lock sees to it.
@@ -30,10 +31,15 @@ class RetainFile {
  public:
   explicit RetainFile(std::filesystem::path directory);
 
-  // Writes the newest sound copy's values into the store's retain variables of the same name and type. Without any
-  // file nothing happens; a damaged copy is a note. Meant for a store of Origin::Fresh: an adopted one is newer.
+  // Writes the newest sound copy's values into the store's retain variables of the same name; of another type what
+  // fits (schema/carry.h). If something is lost, the file of before is kept as retain.before.N, and losses() are on the
+  // disk until a load without any. Without any file nothing happens; a damaged copy is a note. For a store of
+  // Origin::Fresh. With `only_changed` for one that is CarriedOver, where variables of the same type are newer.
   // Errors: PermissionDenied, System (a file exists but cannot be read).
-  Result<RetainReport> load(Store& store);
+  Result<RetainReport> load(Store& store, bool only_changed = false);
+
+  // What the last load has lost, one line each.
+  [[nodiscard]] std::vector<std::string> losses() const;
 
   // Puts the present values where the older copy was; does not touch the disk if they are what was saved last.
   // `written` (may be null) tells which. Errors: NoSpace, PermissionDenied, System; both older copies are kept then.
@@ -45,15 +51,19 @@ class RetainFile {
  private:
   struct Copy {
     std::uint64_t sequence = 0;
+    std::uint32_t version = 0;
     std::vector<std::uint8_t> payload;
   };
   Status scan(std::vector<std::string>& notes);
+  void keep_losses(RetainReport& report) const;
   Status write_copy(const std::filesystem::path& target, const std::vector<std::uint8_t>& bytes) const;
 
   std::filesystem::path directory_;
   bool scanned_ = false;
-  int newest_ = -1;  // 0: a, 1: b, -1: none is sound
-  Copy copy_;        // contents of the newest
+  int newest_ = -1;                 // 0: a, 1: b, -1: none is sound
+  Copy copy_;                       // contents of the newest
+  std::string types_;               // of the retained variables, as text
+  std::uint64_t types_layout_ = 0;  // of the store they are of
 };
 
 }  // namespace indurop::vars

@@ -12,6 +12,7 @@
 #include "plc/front/library_file.h"
 #include "tools/plc/plc_compiler.h"
 #include "tools/plc/plc_file.h"
+#include "tools/plc/plc_retained.h"
 #include "tools/plc/plc_sources.h"
 
 namespace indurop::tools {
@@ -218,7 +219,9 @@ bool write_modules(Context& context, const plc::CompileOptions& options, const p
     context.out.error(fmt::format("cannot make {}: {}", folder.string(), error.message()));
     return false;
   }
-  bool saved = save(context, folder / (compiled.name + ".glb"), compiled.glb);
+  const fs::path glb = folder / (compiled.name + ".glb");
+  print_diagnostics(context, retained_changes(glb, compiled.glb, options.glb_files));
+  bool saved = save(context, glb, compiled.glb);
   for (const plc::ModuleText& one : compiled.modules) {
     saved = saved && save(context, folder / (one.name + ".cpp"), one.cpp);
   }

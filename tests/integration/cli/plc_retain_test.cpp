@@ -46,5 +46,47 @@ TEST_F(PlcRetain, Counters_and_timers_go_on_where_they_were) {
   EXPECT_LT(value("main_t_ET"), passed + 60'000'000'000) << "the time without the node is none of its";
 }
 
+TEST_F(PlcRetain, Values_go_on_in_variables_of_another_type) {
+  const auto program = [](const std::string& variables, const std::string& body) {
+    put(file("keep.st"),
+        "TYPE Part : STRUCT n : INT; END_STRUCT; Mode : (Idle, Busy); END_TYPE\nPROGRAM main\nVAR RETAIN " + variables +
+            " END_VAR\n" + body + "END_PROGRAM\n");
+    const Outcome built = indurop({"plc", "build", file("keep.st"), "-o", file("keep")});
+    EXPECT_EQ(built.code, 0) << built.err;
+    put(file("keep/module.xml"), "<root>\n" + built.out + "</root>\n");
+    return built.err;
+  };
+  program(
+      "count : INT; text : STRING[5]; list : ARRAY[1..3] OF INT; part : Part; mode : Mode; large : DINT; gone : INT;",
+      "count := 7; text := 'abc'; list[2] := 5; part.n := 3; mode := Busy; large := 70000; gone := 1;\n");
+  run();
+  const std::string said = program(
+      "count : LINT; text : STRING[20]; list : ARRAY[1..9] OF DINT; part : Part; mode : Mode; large : INT;", ";\n");
+  EXPECT_THAT(said, HasSubstr("retained keep::main_gone: is no longer there"));
+  EXPECT_THAT(said,
+              HasSubstr("retained keep::main_large: was int32_t, is int16_t; a node keeps of its value what fits"));
+  EXPECT_THAT(said, Not(HasSubstr("main_part")));
+  for (const bool again : {false, true}) {
+    if (again) {  // from the files that the first run of the new version wrote
+      ASSERT_EQ(indurop({"clean", "--node", "keep"}).code, 0);
+    }
+    const Outcome ran = indurop({"run", file("keep/module.xml"), "--node", "keep", "--duration", "200ms"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(value("main_count"), 7);
+    EXPECT_EQ(indurop({"get", "--node", "keep", "--quiet", "main_text"}).out, "\"abc\"\n");
+    EXPECT_EQ(value("main_list[1]"), 5);
+    EXPECT_EQ(value("main_part.n"), 3);
+    EXPECT_EQ(indurop({"get", "--node", "keep", "--quiet", "main_mode"}).out, "Busy\n");
+    EXPECT_EQ(value("main_large"), 0);
+    const std::string status = indurop({"status", "--node", "keep"}).out;
+    for (const std::string& shown : {ran.err, status}) {
+      EXPECT_EQ(shown.find("keep::main_large: 70000 is no value of int16_t, begins anew") != std::string::npos, !again)
+          << shown;
+      EXPECT_EQ(shown.find("keep::main_gone: is no longer declared") != std::string::npos, !again) << shown;
+      EXPECT_EQ(shown.find("retain.before.") != std::string::npos, !again) << shown;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace indurop::test

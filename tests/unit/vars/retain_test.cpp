@@ -181,19 +181,64 @@ TEST_F(Retain, Damaged_copy_is_the_one_replaced) {
   EXPECT_EQ(get(), 5U);
 }
 
-TEST_F(Retain, Changed_declarations_are_told_one_by_one) {
+TEST_F(Retain, Values_of_a_changed_type_are_carried_and_losses_are_said) {
+  set(70'000);
+  ASSERT_TRUE(RetainFile(directory_).save(store_).ok());
+  schema::Schema changed = schema_with(schema::Base::Int64);
+  changed.variables[1] = variable("a::offsets", array_type(schema::Base::Float, 3), true);
+  const TestNode other("retain2");
+  auto wider = Store::create(other.name(), changed);
+  ASSERT_TRUE(wider.ok());
+  RetainFile sut(directory_);
+  const auto report = sut.load(*wider);
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->restored, 2U);
+  const std::string kept = (directory_ / "retain.before.1").string();
+  EXPECT_THAT(report->lost, ElementsAre("a::offsets: had 12 elements, has 3; 3 are kept from the first on",
+                                        "the values of before are kept in " + kept));
+  EXPECT_EQ(sut.losses(), report->lost) << "for those who look later";
+  EXPECT_EQ(contents(kept), contents(a()));
+  std::vector<std::uint8_t> value(8);
+  ASSERT_TRUE(wider->read(*wider->find(hash("a::count")), 0, value).ok());
+  EXPECT_EQ(value, bytes_of(std::int64_t{70'000}));
+  ASSERT_TRUE(sut.save(*wider).ok());
+  auto again = RetainFile(directory_).load(*wider);
+  ASSERT_TRUE(again.ok());
+  EXPECT_THAT(again->lost, IsEmpty());
+  EXPECT_THAT(sut.losses(), IsEmpty()) << "of the last start only";
+  EXPECT_TRUE(std::filesystem::exists(kept));
+}
+
+TEST_F(Retain, Of_a_store_with_newer_values_only_those_of_another_type_are_loaded) {
   save_two();
-  schema::Schema changed = schema_with(schema::Base::Int32);
+  schema::Schema changed = schema_with(schema::Base::UInt32);
+  changed.variables[1] = variable("a::offsets", array_type(schema::Base::Double, 20), true);
+  const TestNode other("retain4");
+  auto carried = Store::create(other.name(), changed);
+  ASSERT_TRUE(carried.ok());
+  ASSERT_TRUE(carried->write(*carried->find(hash("a::count")), 0, bytes_of(std::uint32_t{9})).ok());
+  ASSERT_TRUE(RetainFile(directory_).load(*carried, true).ok());
+  std::vector<std::uint8_t> count(4);
+  std::vector<std::uint8_t> offset(8);
+  ASSERT_TRUE(carried->read(*carried->find(hash("a::count")), 0, count).ok());
+  ASSERT_TRUE(carried->read(*carried->find(hash("a::offsets")), 16, offset).ok());
+  EXPECT_EQ(count, bytes_of(std::uint32_t{9}));
+  EXPECT_EQ(offset, bytes_of(1.0));
+}
+
+TEST_F(Retain, Variables_that_are_gone_are_told_one_by_one) {
+  save_two();
+  schema::Schema changed = schema_with(schema::Base::UInt32);
   changed.variables[1].retain = false;
-  changed.variables[2].retain = true;
+  changed.variables[0].unit = "mm";
   const TestNode other("retain2");
   auto store = Store::create(other.name(), changed);
   ASSERT_TRUE(store.ok());
   const auto report = RetainFile(directory_).load(*store);
   ASSERT_TRUE(report.ok());
-  EXPECT_EQ(report->restored, 0U);
-  EXPECT_THAT(report->notes, testing::UnorderedElementsAre(HasSubstr("a::count: its type has changed"),
-                                                           HasSubstr("a::offsets: no longer declared retain")));
+  EXPECT_THAT(report->lost, testing::UnorderedElementsAre(HasSubstr("a::count: its unit was '', is 'mm', begins anew"),
+                                                          HasSubstr("a::offsets: is no longer declared retain"),
+                                                          HasSubstr("retain.before.2")));
   schema::Schema less = schema_with(schema::Base::UInt32);
   less.variables.erase(less.variables.begin() + 1);
   auto smaller = Store::create(other.name(), less);
@@ -201,7 +246,25 @@ TEST_F(Retain, Changed_declarations_are_told_one_by_one) {
   const auto second = RetainFile(directory_).load(*smaller);
   ASSERT_TRUE(second.ok());
   EXPECT_EQ(second->restored, 1U);
-  EXPECT_THAT(second->notes, ElementsAre(HasSubstr("a::offsets: no longer declared, its retained value is dropped")));
+  EXPECT_THAT(second->lost, ElementsAre("a::offsets: is no longer declared", HasSubstr("retain.before.2")));
+}
+
+TEST_F(Retain, Files_without_types_are_read) {
+  save_two();
+  auto bytes = contents(b());
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 32, sizeof length);
+  bytes.erase(bytes.begin() + 32, bytes.begin() + 36 + length);
+  bytes[8] = 1;  // the version
+  const std::uint64_t payload = bytes.size() - 32;
+  std::memcpy(bytes.data() + 24, &payload, sizeof payload);
+  const std::uint32_t checksum = crc32c(std::span(bytes).subspan(16));
+  std::memcpy(bytes.data() + 12, &checksum, sizeof checksum);
+  replace(b(), bytes);
+  const RetainReport report = load();
+  EXPECT_EQ(report.restored, 2U);
+  EXPECT_THAT(report.notes, IsEmpty());
+  EXPECT_EQ(get(), 2U);
 }
 
 TEST_F(Retain, Full_disk_is_an_error_that_keeps_both_copies) {
