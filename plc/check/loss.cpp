@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "base/utf8.h"
 #include "plc/check/expression_checker.h"
 
 namespace indurop::plc {
@@ -63,7 +66,15 @@ void warn_of_loss(Context& context, const Expression& expression, const Type& ty
   const Constant* known = constant_of(expression);
   const auto* text = known != nullptr ? std::get_if<std::string>(known) : nullptr;
   if (text != nullptr && to.is(Elementary::String) && text->size() > to.length) {
-    context.warning(expression.at, fmt::format("the text has {} characters and is cut to {}", text->size(), to.length));
+    const auto letters = static_cast<std::size_t>(
+        std::count_if(text->begin(), text->end(), [](char c) { return !base::continues_utf8(c); }));
+    context.warning(
+        expression.at,
+        letters == text->size()
+            ? fmt::format("the text has {} characters and is cut to {}", letters, to.length)
+            : fmt::format("the text has {} letters, which are {} characters of a STRING (UTF-8), and is cut "
+                          "to {}; use STRING[{}], or WSTRING",
+                          letters, text->size(), to.length, text->size()));
   }
   warn_of_narrow(context, expression, type, to);
 }

@@ -77,7 +77,7 @@ bool take(std::string_view& text, char c) {
 }
 
 std::optional<std::int64_t> take_date(std::string_view& text) {
-  const auto year = take_number(text, 1970, 2200);
+  const auto year = take_number(text, 1677, 2262);
   const bool dash = take(text, '-');
   const auto month = take_number(text, 1, 12);
   const bool second_dash = take(text, '-');
@@ -90,7 +90,9 @@ std::optional<std::int64_t> take_date(std::string_view& text) {
   if (!date.ok()) {
     return std::nullopt;
   }
-  return std::chrono::sys_days(date).time_since_epoch().count() * kDay;
+  constexpr std::int64_t kMostDays = std::numeric_limits<std::int64_t>::max() / kDay;  // before and after 1970
+  const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
+  return days < -kMostDays || days > kMostDays ? std::nullopt : std::optional(days * kDay);
 }
 
 std::optional<std::int64_t> take_clock(std::string_view& text) {
@@ -165,14 +167,16 @@ TimeValue date_or_time(Elementary type, std::string_view text) {
   }
   const auto date = take_date(text);
   if (type == Elementary::Date) {
-    return date && text.empty() ? TimeValue{date, ""} : wrong("write a day of the years 1970 to 2200 as D#2024-01-31");
+    return date && text.empty() ? TimeValue{date, ""}
+                                : wrong("write a day from 1677-09-22 to 2262-04-11 as D#2024-01-31");
   }
   const bool dash = take(text, '-');
   const auto clock = take_clock(text);
   if (!date || !dash || !clock || !text.empty()) {
     return wrong("write year-month-day-hours:minutes:seconds, as DT#2024-01-31-12:30:15");
   }
-  return {*date + *clock, ""};
+  std::int64_t ns = 0;
+  return __builtin_add_overflow(*date, *clock, &ns) ? wrong("it is after 2262-04-11-23:47:16.8") : TimeValue{ns, ""};
 }
 
 }  // namespace indurop::plc::st

@@ -104,7 +104,7 @@ def some_value(rng, type_):
         return rng.choice((0, 10**9, 10**6 * rng.randint(-500, 5000), 1500, -1, 90 * 86400 * 10**9, rng.randint(0, 10**12)))
     if type_.kind == "tod":
         return rng.choice((0, 86400 * 10**9 - 1, 10**6 * rng.randint(0, 86399999)))
-    days = rng.choice((0, 1, 19782, rng.randint(0, 84000)))  # literals are from 1970 to 2200
+    days = rng.choice((0, 1, 19782, -1, -106751, 106750, rng.randint(-106751, 106750)))
     if type_.kind == "date":
         return days * 86400 * 10**9
     return days * 86400 * 10**9 + rng.choice((0, 10**6 * rng.randint(0, 86399999)))

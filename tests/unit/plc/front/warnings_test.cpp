@@ -23,6 +23,27 @@ constexpr const char* kBlock =
     "END_VAR\n"
     "open := on; n := n + 1;\nEND_FUNCTION_BLOCK\n";
 
+TEST(PlcWarnings, A_text_that_grows_beyond_its_length_in_UTF8) {
+  const std::string head = "PROGRAM Main VAR s : STRING[5]; END_VAR\n";
+  EXPECT_THAT(warnings(head + "s := 'Mot\xf6r'; END_PROGRAM"),  // Latin-1
+              HasSubstr("the text has 5 letters, which are 6 characters of a STRING (UTF-8), and is cut to 5; use "
+                        "STRING[6], or WSTRING"));
+  EXPECT_THAT(warnings(head + "s := 'Motors'; END_PROGRAM"), HasSubstr("the text has 6 characters and is cut to 5"));
+  EXPECT_THAT(warnings(head + "s := 'Mot\xf6'; END_PROGRAM"), Not(HasSubstr("cut")));
+}
+
+TEST(PlcWarnings, Dates_reach_from_1677_to_2262) {
+  const std::string head = "PROGRAM Main VAR d : DATE; t : DT; END_VAR\n";
+  EXPECT_THAT(warnings(head + "d := D#1677-09-22; d := D#2262-04-11; t := DT#2262-04-11-23:47:16; END_PROGRAM"),
+              Not(HasSubstr("error")));
+  EXPECT_THAT(warnings(head + "d := D#1677-09-21; END_PROGRAM"),
+              HasSubstr("write a day from 1677-09-22 to 2262-04-11"));
+  EXPECT_THAT(warnings(head + "d := D#2262-04-12; END_PROGRAM"),
+              HasSubstr("write a day from 1677-09-22 to 2262-04-11"));
+  EXPECT_THAT(warnings(head + "t := DT#2262-04-11-23:47:17; END_PROGRAM"),
+              HasSubstr("it is after 2262-04-11-23:47:16.8"));
+}
+
 TEST(PlcWarnings, An_output_that_is_never_written) {
   const std::string all =
       warnings(std::string(kBlock) + "PROGRAM Main VAR v : Valve; i : INT; END_VAR v(on := TRUE, n := i); END_PROGRAM");
