@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/inside_folder.h"
 #include "plc/model/elementary.h"
 #include "plc/plcopen/xml.h"
 #include "plc/st/lexer.h"
@@ -287,8 +288,13 @@ std::vector<std::string> files_of_project(std::string_view bytes, const Place& a
   for (std::string& one : out) {
     std::replace(one.begin(), one.end(), '\\', '/');
     one.insert(0, folder);
+    if (!base::lies_inside(one, folder.empty() ? "." : folder)) {
+      diagnostics.error(at, fmt::format("this project names {}, which lies outside of its folder; put it there", one));
+      one.clear();
+    }
   }
-  if (root && out.empty()) {
+  std::erase(out, "");
+  if (root && out.empty() && !diagnostics.failed()) {
     diagnostics.error(at, "this project names no .TcPOU, .TcDUT, .TcGVL, .TcIO or .TcTTO files");
   }
   return out;

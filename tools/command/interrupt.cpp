@@ -40,6 +40,19 @@ void catch_interrupts() {
   sigaction(SIGXFSZ, &ignore, nullptr);  // a write beyond the limit of file sizes fails, and somebody says so
 }
 
+EndsAtOnce::EndsAtOnce() noexcept {
+  const int caught = caught_signal.load(std::memory_order_relaxed);
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  if (caught != 0) {
+    std::raise(caught);  // it came before
+  }
+}
+
+EndsAtOnce::~EndsAtOnce() {
+  catch_interrupts();
+}
+
 bool interrupted() noexcept {
   return caught_signal.load(std::memory_order_relaxed) != 0;
 }

@@ -16,6 +16,16 @@ void catch_interrupts();
 // The next Ctrl-C ends the program.
 void take_interrupt() noexcept;
 
+// As long as one lives, SIGINT and SIGTERM end the program at once: for work that asks for no signal, however long it
+// takes, and leaves nothing to tidy up.
+class EndsAtOnce {
+ public:
+  EndsAtOnce() noexcept;
+  EndsAtOnce(const EndsAtOnce&) = delete;
+  EndsAtOnce& operator=(const EndsAtOnce&) = delete;
+  ~EndsAtOnce();
+};
+
 // Sleeps until CLOCK_MONOTONIC `deadline_ns` or a signal, or, if `fd` >= 0, until it can be read.
 enum class Woken { Deadline, Signal, Readable };
 Woken wait_until(std::int64_t deadline_ns, int fd = -1) noexcept;

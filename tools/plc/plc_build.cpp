@@ -10,6 +10,7 @@
 #include "base/replace_file.h"
 #include "plc/front/compiler.h"
 #include "plc/front/library_file.h"
+#include "tools/command/interrupt.h"
 #include "tools/plc/plc_compiler.h"
 #include "tools/plc/plc_file.h"
 #include "tools/plc/plc_retained.h"
@@ -134,7 +135,12 @@ bool build_modules(Context& context, const plc::CompileOptions& options, const p
 // Says what there is to say of it. Unlike a module a library may be without a PROGRAM.
 plc::Compiled compile(Context& context, plc::CompileOptions options, bool library) {
   options.library = library;
-  options.files = with_project_files(options.files);
+  const auto files = with_project_files(context, options.files);
+  if (!files) {
+    return {};
+  }
+  options.files = *files;
+  const EndsAtOnce ends;
   plc::Compiled compiled = plc::compile(options);
   print_diagnostics(context, compiled.diagnostics);
   return compiled;
@@ -190,7 +196,8 @@ int build_library(Context& context, const PlcRequest& request) {
   library.name = compiled.name;
   library.version = request.version;
   library.dialect = request.compile.dialect.value_or(compiled.dialect);
-  for (const std::string& one : with_project_files(request.compile.files)) {
+  const auto files = with_project_files(context, request.compile.files);
+  for (const std::string& one : files.value_or(std::vector<std::string>())) {
     if (one.ends_with(".plcproj")) {  // it only names files
       context.out.error(fmt::format("{} is a project, name its files instead", one));
       return kUsage;

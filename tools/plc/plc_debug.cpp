@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "base/program_folder.h"
@@ -15,6 +16,7 @@
 #include "base/spawn.h"
 #include "plc/front/compiler.h"
 #include "tools/command/child.h"
+#include "tools/command/interrupt.h"
 #include "tools/command/temporary_folder.h"
 #include "tools/plc/debug_link.h"
 #include "tools/plc/debug_session.h"
@@ -62,8 +64,14 @@ void end(pid_t process) {
 
 int debug(Context& context, Request& request) {
   request.compile.debug = true;
-  request.compile.files = with_project_files(request.compile.files);
+  const auto files = with_project_files(context, request.compile.files);
+  if (!files) {
+    return kCheckFailed;
+  }
+  request.compile.files = *files;
+  std::optional<EndsAtOnce> ends(std::in_place);
   const plc::Compiled compiled = plc::compile(request.compile);
+  ends.reset();
   print_diagnostics(context, compiled.diagnostics);
   if (!compiled.ok) {
     return kCheckFailed;

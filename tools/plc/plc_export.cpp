@@ -6,10 +6,14 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "base/replace_file.h"
+#include "plc/front/compiler.h"
 #include "plc/front/reader.h"
 #include "plc/plcopen/project_writer.h"
+#include "tools/command/interrupt.h"
 #include "tools/plc/plc_file.h"
 #include "tools/plc/plc_sources.h"
 
@@ -17,9 +21,8 @@ namespace indurop::tools {
 namespace {
 
 struct Request {
-  std::vector<std::string> files;
+  plc::CompileOptions compile;
   std::string output;
-  std::optional<plc::Dialect> dialect;
 };
 
 std::string now() {
@@ -27,26 +30,43 @@ std::string now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(seconds));
 }
 
-int export_plc(Context& context, const Request& request) {
+// What is wrong with the program as `check` finds it, then what the format lacks.
+std::optional<std::string> text_of(Context& context, const Request& request) {
+  const auto files = with_project_files(context, request.compile.files);
+  if (!files) {
+    return std::nullopt;
+  }
+  const EndsAtOnce ends;
+  plc::CompileOptions compile = request.compile;
+  compile.library = true;
+  compile.files = *files;
+  const plc::Compiled compiled = plc::compile(compile);
+  if (!compiled.ok) {
+    print_diagnostics(context, compiled.diagnostics);
+    return std::nullopt;
+  }
   plc::Diagnostics diagnostics;
-  const plc::ReadOptions reading{.in_editor = request.dialect == plc::Dialect::Codesys};
-  plc::plcopen::Document document =
-      plc::read_document(with_project_files(request.files), reading, &glb2idl::read_source_file, diagnostics);
-  document.project.dialect = request.dialect.value_or(document.project.dialect);
+  const plc::ReadOptions reading{.in_editor = compile.dialect == plc::Dialect::Codesys};
+  plc::plcopen::Document document = plc::read_document(*files, reading, &glb2idl::read_source_file, diagnostics);
+  document.project.dialect = compile.dialect.value_or(document.project.dialect);
   plc::plcopen::WriteOptions options;
-  options.name = std::filesystem::path(request.files.front()).stem().string();
+  options.name = std::filesystem::path(compile.files.front()).stem().string();
   options.created = now();
-  const std::string text =
-      diagnostics.failed() ? std::string() : plc::plcopen::write_project(document, options, diagnostics);
+  std::string text = diagnostics.failed() ? std::string() : plc::plcopen::write_project(document, options, diagnostics);
   print_diagnostics(context, diagnostics.list());
-  if (diagnostics.failed()) {
+  return diagnostics.failed() ? std::nullopt : std::optional(std::move(text));
+}
+
+int export_plc(Context& context, const Request& request) {
+  const std::optional<std::string> text = text_of(context, request);
+  if (!text) {
     return kCheckFailed;
   }
   if (request.output.empty()) {
-    context.out.write(text);
+    context.out.write(*text);
     return kOk;
   }
-  if (const auto saved = base::replace_file(request.output, text, base::Durable::No); !saved) {
+  if (const auto saved = base::replace_file(request.output, *text, base::Durable::No); !saved) {
     context.out.error(base::cannot_write(request.output, saved.error()));
     return kFailed;
   }
@@ -61,11 +81,8 @@ void add_plc_export(base::Options& app, const std::shared_ptr<Action>& chosen) {
   base::Options& made =
       app.command("export", "Write a program as PLCopen XML, which Beremiz, the OpenPLC editor and CODESYS import",
                   [request, chosen] { *chosen = [request](Context& c) { return export_plc(c, *request); }; });
-  made.add("files", "FILE", request->files,
-           "The program: .st, PLCopen .xml, OpenPLC's project.json, TwinCAT .plcproj or .TcPOU files")
-      .required();
+  add_plc_sources(made, request->compile);
   made.add("-o,--output", "FILE.xml", request->output, "Where to write it (default: to the terminal)");
-  add_plc_dialect(made, request->dialect);
 }
 
 }  // namespace indurop::tools

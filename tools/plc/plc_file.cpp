@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 
+#include "base/inside_folder.h"
 #include "base/read_file.h"
 
 namespace indurop::tools {
@@ -24,10 +25,11 @@ bool read_plc_file(Context& context, const std::string& file, std::string& bytes
   return true;
 }
 
-std::vector<std::string> with_project_files(const std::vector<std::string>& files) {
+std::optional<std::vector<std::string>> with_project_files(Context& context, const std::vector<std::string>& files) {
   namespace fs = std::filesystem;
   constexpr std::array<std::string_view, 5> kEndings{".dt", ".st", ".il", ".ld", ".fbd"};
   std::vector<std::string> out;
+  bool fine = true;
   for (const std::string& one : files) {
     out.push_back(one);
     if (fs::path(one).filename() != "project.json") {
@@ -43,10 +45,17 @@ std::vector<std::string> with_project_files(const std::vector<std::string>& file
       }
     }
     std::sort(found.begin(), found.end());
+    for (const std::string& file : found) {
+      if (!base::lies_inside(file, fs::path(one).parent_path())) {
+        context.out.error(
+            fmt::format("{}: this link leads out of the folder of {}; put the file itself there", file, one));
+        fine = false;
+      }
+    }
     std::copy_if(found.begin(), found.end(), std::back_inserter(out),
                  [&](const std::string& file) { return std::find(files.begin(), files.end(), file) == files.end(); });
   }
-  return out;
+  return fine ? std::optional(std::move(out)) : std::nullopt;
 }
 
 void print_diagnostics(Context& context, const std::vector<base::Diagnostic>& diagnostics) {

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "base/replace_file.h"
 #include "plc/front/reader.h"
 #include "plc/print/print.h"
+#include "tools/command/interrupt.h"
 #include "tools/plc/plc_file.h"
 #include "tools/plc/plc_sources.h"
 
@@ -28,15 +31,20 @@ std::string names_of(const plc::plcopen::Document& document) {
 }
 
 int print(Context& context, const Request& request) {
+  std::optional<EndsAtOnce> ends(std::in_place);
   plc::Diagnostics diagnostics;
   const plc::ReadOptions reading{.in_editor = request.dialect == plc::Dialect::Codesys};
-  plc::plcopen::Document document =
-      plc::read_document(with_project_files(request.files), reading, &glb2idl::read_source_file, diagnostics);
+  const auto files = with_project_files(context, request.files);
+  if (!files) {
+    return kCheckFailed;
+  }
+  plc::plcopen::Document document = plc::read_document(*files, reading, &glb2idl::read_source_file, diagnostics);
   const auto bodies = plc::printed_bodies(document, request.pou);
   const bool only_svg = !request.svg.empty();
   const std::string out = diagnostics.failed() ? std::string()
                           : only_svg           ? plc::print_svg(bodies, diagnostics)
                                                : plc::print_text(bodies, context.out.unicode(), diagnostics);
+  ends.reset();
   if (diagnostics.failed()) {
     print_diagnostics(context, diagnostics.list());
     return kCheckFailed;

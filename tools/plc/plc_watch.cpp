@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "plc/front/watch_plan.h"
 #include "plc/print/live.h"
 #include "tools/command/gentle.h"
+#include "tools/command/interrupt.h"
 #include "tools/command/rounds.h"
 #include "tools/command/screen.h"
 #include "tools/command/units.h"
@@ -93,8 +95,14 @@ class View {
 };
 
 int watch(Context& context, Request& request) {
-  request.compile.files = with_project_files(request.compile.files);
+  const auto files = with_project_files(context, request.compile.files);
+  if (!files) {
+    return kCheckFailed;
+  }
+  request.compile.files = *files;
+  std::optional<EndsAtOnce> ends(std::in_place);
   plc::WatchPlan plan = plc::watch_plan(request.compile);
+  ends.reset();
   if (!plan.ok) {
     print_diagnostics(context, plan.diagnostics);
     return kCheckFailed;

@@ -42,5 +42,45 @@ TEST_F(PlcBuild, Other_failures_of_the_compiler_are_shown) {
   EXPECT_THAT(result.err, Not(HasSubstr("internal error")));
 }
 
+TEST_F(PlcBuild, What_check_refuses_is_not_exported) {
+  put(file("wrong.st"), "PROGRAM main VAR x : INT; END_VAR x := y; END_PROGRAM\n");
+  const Outcome result = indurop({"plc", "export", file("wrong.st"), "-o", file("wrong.xml")});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_THAT(result.err, HasSubstr("'y' is not declared"));
+  EXPECT_FALSE(std::filesystem::exists(file("wrong.xml")));
+  EXPECT_EQ(indurop({"plc", "export", file("motor.st"), "-o", file("motor.xml")}).code, 0);
+}
+
+// A project of somebody else names, or is, what lies elsewhere: nothing of it is read or shown.
+TEST_F(PlcBuild, A_project_takes_no_files_from_outside_of_its_folder) {
+  namespace fs = std::filesystem;
+  fs::create_directories(file("foreign/pous"));
+  put(file("foreign/project.json"), R"({"meta": {}, "data": {"dataTypes": [], "pous": [], "configuration": {}}})");
+  put(file("secret"), "topsecret : word\n");
+  put(file("elsewhere.st"), "PROGRAM topsecret END_PROGRAM\n");
+  for (const char* target : {"secret", "elsewhere.st"}) {
+    fs::remove(file("foreign/pous/a.st"));
+    fs::create_symlink(file(target), file("foreign/pous/a.st"));
+    for (const char* verb : {"check", "build", "print", "export"}) {
+      const Outcome result = indurop({"plc", verb, file("foreign/project.json")});
+      EXPECT_EQ(result.code, 4) << verb;
+      EXPECT_THAT(result.err, HasSubstr("this link leads out of the folder of"));
+      EXPECT_THAT(result.err + result.out, Not(HasSubstr("topsecret")));
+    }
+  }
+  fs::remove(file("foreign/pous/a.st"));
+  fs::create_symlink(file("secret"), file("foreign/pous/a.st"));
+  const Outcome link = indurop({"plc", "check", file("foreign/pous/a.st")});
+  EXPECT_EQ(link.code, 4);
+  EXPECT_THAT(link.err, HasSubstr("this is a link to a file of another kind"));
+  EXPECT_THAT(link.err, Not(HasSubstr("topsecret")));
+  put(file("foreign/a.plcproj"),
+      R"(<Project><ItemGroup><Compile Include="..\elsewhere.TcPOU"/></ItemGroup></Project>)");
+  put(file("elsewhere.TcPOU"), "topsecret");
+  const Outcome named = indurop({"plc", "check", file("foreign/a.plcproj")});
+  EXPECT_EQ(named.code, 4);
+  EXPECT_THAT(named.err, HasSubstr("which lies outside of its folder"));
+}
+
 }  // namespace
 }  // namespace indurop::test
