@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "base/text.h"
 #include "glb2idl/checker.h"
 #include "glb2idl/parser.h"
 #include "glb2idl/text.h"
@@ -38,6 +39,9 @@ class Compiler {
       check_schemas();
     }
     out_.ok = !diagnostics_.failed();
+    if (out_.ok) {
+      note_arrays_of_texts();
+    }
     diagnostics_.finish();
     return std::move(out_);
   }
@@ -49,6 +53,35 @@ class Compiler {
       if (!schema::from_json(schema::to_json(schema_of(unit))).ok()) {
         diagnostics_.error(
             fmt::format("'{}' declares more than one module can carry, use arrays or split it", unit.path));
+      }
+    }
+  }
+
+  void note_arrays_of_texts() {
+    const auto is_one = [](const schema::Type& type) { return type.base == schema::Base::Text && !type.dims.empty(); };
+    for (const GlbFile& unit : out_.program.units) {
+      std::vector<std::string> names;
+      for (const Item& item : unit.items) {
+        const auto* variable = std::get_if<schema::Variable>(&item);
+        const auto* structure = std::get_if<Structure>(&item);
+        if (variable != nullptr && is_one(variable->type)) {
+          names.push_back(variable->name);
+        }
+        for (const schema::Field& field :
+             structure != nullptr ? structure->type.fields : std::vector<schema::Field>()) {
+          if (is_one(field.type)) {
+            names.push_back(structure->type.name + "." + field.name);
+          }
+        }
+      }
+      if (!names.empty()) {
+        out_.notes.push_back(
+            {base::Diagnostic::Severity::Note,
+             unit.path,
+             {},
+             fmt::format("fastddsgen 2.3 (Debian 12) makes programs that misread arrays of texts, with all "
+                         "that follows them: {}; for Fast DDS use an array of structs with one text each",
+                         base::enumerate(names))});
       }
     }
   }
@@ -73,6 +106,10 @@ class Compiler {
     }
     if (sources_.size() >= kMaxFiles || open_.size() >= kMaxIncludeDepth) {
       report(from, fmt::format("too many files: at most {}, and {} inside each other", kMaxFiles, kMaxIncludeDepth));
+      return std::nullopt;
+    }
+    if (got.identity != path && !got.identity.ends_with(kExtension) && path.ends_with(kExtension)) {
+      report(from, fmt::format("'{}' is a link to a file that is no .glb file, name that file", path));
       return std::nullopt;
     }
     const auto stem = stem_of(path, from);

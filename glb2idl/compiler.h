@@ -15,6 +15,7 @@ namespace indurop::glb2idl {
 struct Compilation {
   bool ok = false;
   std::vector<base::Diagnostic> diagnostics;  // all errors, as people read them: by file and place
+  std::vector<base::Diagnostic> notes;        // if ok: what compilers of others make wrong of the IDL
   std::vector<std::string> files;             // every file that was read, includes too
   Program program;                            // complete if ok
 };

@@ -64,6 +64,7 @@ int run(const Request& request) {
     print(compilation.diagnostics);
     return kFailed;
   }
+  print(compilation.notes);
   const RosPackages ros2 = request.ros2.empty() ? RosPackages{} : emit_ros2(compilation.program);
   if (!ros2.problems.empty()) {
     print(ros2.problems);

@@ -251,5 +251,27 @@ TEST(Emit, The_hidden_namespace_changes_with_the_content) {
   EXPECT_NE(emit_cpp(one.program)[0].text.find("namespace " + hidden(one) + " "), std::string::npos);
 }
 
+TEST(Checker, Arrays_of_texts_are_named_because_fastddsgen_misreads_them) {
+  const Compilation sut = compile_text(
+      "namespace a;\nchar names[3][16];\nstruct S { char labels[2][8]; char one[8]; };\n"
+      "S states[2];\nchar single[8];\n");
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_EQ(
+      base::to_text(sut.notes),
+      "in.glb: note: fastddsgen 2.3 (Debian 12) makes programs that misread arrays of texts, with all that follows "
+      "them: a::names and a::S.labels; for Fast DDS use an array of structs with one text each\n");
+  EXPECT_TRUE(compile_text("namespace a;\nchar single[8];\nint32_t n[3];\n").notes.empty());
+}
+
+TEST(Checker, A_link_to_a_file_that_is_no_glb_is_not_read) {
+  const Compilation sut = compile({"in.glb"}, [](const std::string& path) {
+    return path == "in.glb" ? ReadResult{"include \"other.glb\"\n", path, ""}
+                            : ReadResult{"topsecret word", "/etc/secret", ""};
+  });
+  EXPECT_FALSE(sut.ok);
+  EXPECT_THAT(messages(sut), HasSubstr("'other.glb' is a link to a file that is no .glb file"));
+  EXPECT_THAT(messages(sut), Not(HasSubstr("topsecret")));
+}
+
 }  // namespace
 }  // namespace indurop::glb2idl
