@@ -64,15 +64,17 @@ bool CallChecker::all_given(const Expression& call, const Pou& pou) {
     return one.section == ast::Section::Input && !one.declared->initial && !same_name(one.name, "EN");
   };
   if (with_names) {
-    const auto first = std::find_if(pou.variables.begin(), pou.variables.end(), needs_value);
-    if (actuals.empty() && call.resolved->enable == nullptr && first != pou.variables.end()) {
+    const auto& all = parameters_of(pou);
+    const auto first = std::find_if(all.begin(), all.end(), [&](const Variable* one) { return needs_value(*one); });
+    if (actuals.empty() && call.resolved->enable == nullptr && first != all.end()) {
       context_.warning(call.at, fmt::format("{} is called without a value for any input, so {} has that of its type; "
                                             "give it",
-                                            pou.name, first->name));
+                                            pou.name, (*first)->name));
     }
     return true;
   }
-  for (const Variable& one : pou.variables) {
+  for (const Variable* each : parameters_of(pou)) {
+    const Variable& one = *each;
     const bool given =
         std::any_of(actuals.begin(), actuals.end(), [&](const auto& actual) { return actual.parameter == &one; });
     if (needs_value(one) && !given) {

@@ -69,6 +69,8 @@ bool is_drawn_as(const Type& type, std::string_view drawn) {
 // Notes EN and ENO; false with an error if they cannot stand here.
 bool CallChecker::take_enable(Expression& call, bool allowed) {
   Resolved& out = ExpressionChecker::resolved(call);
+  out.enable = nullptr;  // the call may have been looked at before
+  out.enable_out = nullptr;
   bool fine = true;
   for (Argument& argument : call.arguments) {
     if (!is_enable(argument) && !is_enable_out(argument)) {
@@ -115,6 +117,7 @@ std::vector<const LibraryFunction*> CallChecker::overloads_of(const std::string&
 
 const Type* CallChecker::function(Expression& call, const Type* wanted, bool whole_side) {
   Expression& callee = call.operands[0];
+  leave_out_library(callee);
   bool said = false;
   if (const Pou* found = method_of(callee, said)) {
     return take_enable(call, whole_side) ? method(call, *found) : nullptr;
@@ -164,6 +167,7 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
 
 void CallChecker::statement(Expression& call) {
   Expression& callee = call.operands[0];
+  leave_out_library(callee);
   bool said = false;
   if (const Pou* found = method_of(callee, said)) {
     call.type = take_enable(call, true) ? method(call, *found) : nullptr;
@@ -238,6 +242,7 @@ void CallChecker::output_to(Argument& argument, const Type& type) {
 
 void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
   Resolved& out = ExpressionChecker::resolved(call);
+  out.actuals.clear();
   std::size_t position = 0;
   std::set<const LibraryParameter*> given;
   for (Argument& argument : call.arguments) {
@@ -285,7 +290,7 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
 std::vector<const Variable*> CallChecker::by_position(const Expression& call, const Pou& pou) {
   std::vector<const Variable*> inputs;
   std::vector<const Variable*> all;
-  for (const Variable* one : all_variables(pou)) {
+  for (const Variable* one : parameters_of(pou)) {
     if (same_name(one->name, "ENO")) {
       continue;
     }
@@ -304,6 +309,7 @@ std::vector<const Variable*> CallChecker::by_position(const Expression& call, co
 void CallChecker::user_block(Expression& call, const Pou& pou) {
   Resolved& out = ExpressionChecker::resolved(call);
   out.pou = &pou;
+  out.actuals.clear();
   const std::vector<const Variable*> inputs = by_position(call, pou);
   std::set<const Variable*> given;
   std::size_t position = 0;
@@ -318,7 +324,7 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
         argument.output || (argument.name.empty() && parameter != nullptr && is_parameter(*parameter, true));
     if (parameter == nullptr || !is_parameter(*parameter, argument.output)) {
       std::vector<std::string> known;
-      for (const Variable* one : all_variables(pou)) {
+      for (const Variable* one : parameters_of(pou)) {
         if (is_parameter(*one, argument.output)) {
           known.push_back(one->name);
         }
@@ -372,8 +378,9 @@ const Type* CallChecker::user_function(Expression& call, const Pou& pou) {
   // In the order of the declaration, with those that are not given.
   Resolved& out = ExpressionChecker::resolved(call);
   std::vector<Resolved::Actual> ordered;
-  for (const Variable& parameter : pou.variables) {
-    if (!is_parameter(parameter, false) && !is_parameter(parameter, true)) {
+  for (const Variable* each : parameters_of(pou)) {
+    const Variable& parameter = *each;
+    if (parameter.owner != &pou) {
       continue;
     }
     const auto found = std::find_if(out.actuals.begin(), out.actuals.end(),

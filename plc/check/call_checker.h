@@ -15,6 +15,8 @@ class CallChecker {
   explicit CallChecker(ExpressionChecker& expressions) : expressions_(expressions), context_(expressions.context_) {}
 
   // A call with a result. EN and ENO are allowed if it is the whole right side of an assignment.
+  // Standard.LEN becomes LEN, unless the program has something called Standard.
+  void leave_out_library(ast::Expression& callee) const;
   const Type* function(ast::Expression& call, const Type* wanted, bool whole_side);
   // A call as a statement: a function, or an instance of a function block.
   void statement(ast::Expression& call);

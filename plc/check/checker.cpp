@@ -7,8 +7,10 @@
 #include "plc/check/configured.h"
 #include "plc/check/constant_order.h"
 #include "plc/check/enable.h"
+#include "plc/check/foreign_types.h"
 #include "plc/check/global_table.h"
 #include "plc/check/identifier_checker.h"
+#include "plc/check/instance_sizes.h"
 #include "plc/check/instance_structs.h"
 #include "plc/check/namespaces.h"
 #include "plc/check/object_checker.h"
@@ -51,6 +53,7 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   program->space = std::move(options.space);
   program->library = options.library;
   program->infinite_division = options.infinite_division;
+  index_foreign(*program);
   Context context{*program, diagnostics};
   resolve_namespaces(program->project, diagnostics);
   make_instance_structs(program->project, diagnostics);
@@ -64,6 +67,9 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   declare_globals(context, false);
   apply_configured(context);
   declare_variables(context);
+  if (!measure_instances(context)) {
+    return program;
+  }
   declare_starts(context);
   resolve_accesses(context);
   check_objects(context);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -42,18 +43,9 @@ Elementary elementary_of(schema::Base base) noexcept {
   return Elementary::Dint;
 }
 
-const Type* known_type(const Program& program, const std::string& shared_name) {
-  for (const auto& [name, type] : program.type_names) {
-    if (type->shared_name == shared_name) {
-      return type;
-    }
-  }
-  return nullptr;
-}
-
 const Type* named(Context& context, const schema::Type& type) {
-  if (const Type* known = known_type(context.program, type.name)) {
-    return known;
+  if (const auto known = context.program.foreign_types.find(type.name); known != context.program.foreign_types.end()) {
+    return known->second;
   }
   Type made;
   made.kind = type.base == schema::Base::Enum ? Type::Kind::Enum : Type::Kind::Struct;
@@ -68,6 +60,7 @@ const Type* named(Context& context, const schema::Type& type) {
   }
   Type* added = context.program.types.add(std::move(made));
   context.program.named_types.push_back(added);
+  context.program.foreign_types.emplace(type.name, added);
   // The program's own type of this name is found first.
   std::string key = upper(added->name);
   if (context.program.type_names.contains(key)) {
@@ -77,25 +70,7 @@ const Type* named(Context& context, const schema::Type& type) {
   return added;
 }
 
-// Adds the types of this name in `type` and in what it is made of.
-void find_named(const schema::Type& type, std::string_view name, std::map<std::string, const schema::Type*>& found) {
-  if (same_name(type.name.substr(type.name.rfind(':') + 1), name)) {
-    found.emplace(type.name, &type);
-  }
-  for (const schema::Field& field : type.fields) {
-    find_named(field.type, name, found);
-  }
-}
-
 }  // namespace
-
-const Type* foreign_type_named(Context& context, std::string_view name) {
-  std::map<std::string, const schema::Type*> found;
-  for (const schema::Variable& one : context.program.foreign) {
-    find_named(one.type, name, found);
-  }
-  return found.size() == 1 ? named(context, *found.begin()->second) : nullptr;
-}
 
 const Type* foreign_type(Context& context, const schema::Type& type) {
   const Type* element = nullptr;
@@ -116,6 +91,89 @@ const Type* foreign_type(Context& context, const schema::Type& type) {
     array.dimensions.push_back({0, static_cast<std::int64_t>(count) - 1});
   }
   return context.program.types.add(std::move(array));
+}
+
+namespace {
+
+// "PRESS.MODE" of "press::Mode"
+std::string path_in_capitals(std::string_view full) {
+  std::string out;
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    const bool space = full.substr(i, 2) == "::";
+    out += space ? '.' : full[i];
+    i += space ? 1 : 0;
+  }
+  return upper(out);
+}
+
+// Under its whole name and its last one; null: several are called so.
+void remember(std::map<std::string, const schema::Type*>& names, const std::string& path, const schema::Type& type) {
+  for (const std::string& name : {path, path.substr(path.rfind('.') + 1)}) {
+    const auto [known, is_new] = names.emplace(name, &type);
+    if (!is_new && (known->second == nullptr || known->second->name != type.name)) {
+      known->second = nullptr;
+    }
+  }
+}
+
+void collect(ForeignNames& names, std::set<std::string>& seen, const schema::Type& type) {
+  if (type.name.empty() || !seen.insert(type.name).second) {
+    return;
+  }
+  const std::string path = path_in_capitals(type.name);
+  remember(names.types, path, type);
+  const std::string space = path.substr(0, path.rfind('.') == std::string::npos ? 0 : path.rfind('.') + 1);
+  for (const schema::Enumerator& one : type.enumerators) {
+    remember(names.values, space + upper(one.name), type);
+  }
+  for (const schema::Field& field : type.fields) {
+    collect(names, seen, field.type);
+  }
+}
+
+// Without the dimensions of the variable it was found in.
+const Type* single(Context& context, const schema::Type& type) {
+  schema::Type one = type;
+  one.dims.clear();
+  return foreign_type(context, one);
+}
+
+}  // namespace
+
+void index_foreign(Program& program) {
+  ForeignNames& names = program.foreign_names;
+  std::set<std::string> seen;
+  for (const schema::Variable& one : program.foreign) {
+    const std::string capitals = upper(one.name);
+    names.variables.emplace(capitals, &one);
+    names.last_names[capitals.substr(capitals.rfind(':') == std::string::npos ? 0 : capitals.rfind(':') + 1)].push_back(
+        &one);
+    for (std::size_t at = capitals.find("::"); at != std::string::npos; at = capitals.find("::", at + 2)) {
+      names.spaces.insert(capitals.substr(0, at));
+    }
+    collect(names, seen, one.type);
+  }
+}
+
+const Type* foreign_type_named(Context& context, std::string_view path) {
+  const ForeignNames& names = context.program.foreign_names;
+  const auto found = names.types.find(upper(path));
+  return found == names.types.end() || found->second == nullptr ? nullptr : single(context, *found->second);
+}
+
+const Type* foreign_enum_value(Context& context, std::string_view path, std::int64_t& value) {
+  const ForeignNames& names = context.program.foreign_names;
+  const auto found = names.values.find(upper(path));
+  if (found == names.values.end() || found->second == nullptr) {
+    return nullptr;
+  }
+  const std::string_view name = path.substr(path.rfind('.') + 1);
+  for (const schema::Enumerator& one : found->second->enumerators) {
+    if (same_name(one.name, name)) {
+      value = one.value;
+    }
+  }
+  return single(context, *found->second);
 }
 
 }  // namespace indurop::plc

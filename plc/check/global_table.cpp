@@ -44,16 +44,32 @@ unsigned bits_of_size(char size) noexcept {
   return bits_of(type_of({'I', size, {}}));
 }
 
+// "%IX0." of %IX0.3
+std::string area_of(ast::DirectAddress address) {
+  address.numbers.back() = 0;
+  std::string text = ast::to_string(address);
+  text.pop_back();
+  return text;
+}
+
 Global& add(Program& program, Global global) {
   Global& added = program.globals.emplace_back(std::move(global));
   program.global_names.emplace(upper(added.name), &added);
+  if (added.kind != Global::Kind::Foreign) {
+    program.shared_names.insert(upper(last_name(added.shared_name)));
+  } else if (added.foreign != nullptr) {
+    program.foreign_globals.emplace(added.foreign, &added);
+  }
+  if (const auto address = st::address_literal(added.address); address && !address->numbers.empty()) {
+    program.addresses.emplace(added.address, &added);
+    program.areas[area_of(*address)].emplace(address->numbers.back(), &added);
+  }
   return added;
 }
 
 Global* at_address(Program& program, const std::string& address) {
-  const auto found = std::find_if(program.globals.begin(), program.globals.end(),
-                                  [&](const Global& global) { return global.address == address; });
-  return found == program.globals.end() ? nullptr : &*found;
+  const auto found = program.addresses.find(address);
+  return found == program.addresses.end() ? nullptr : found->second;
 }
 
 // Not shared, because the other one has the name.
@@ -67,12 +83,7 @@ std::string free_name(const Program& program, std::string name) {
 // What is seen of a variable outside of the program: its name, unless that is taken there.
 std::string free_shared_name(const Program& program, const std::string& name) {
   std::string shared = name_of_shared(name);
-  const auto taken = [&] {
-    return std::any_of(program.globals.begin(), program.globals.end(), [&](const Global& one) {
-      return one.kind != Global::Kind::Foreign && same_name(last_name(one.shared_name), shared);
-    });
-  };
-  while (taken()) {
+  while (program.shared_names.contains(upper(shared))) {
     shared += "_value";
   }
   return shared;
@@ -119,6 +130,9 @@ void declare_one(Context& context, ast::Variable& variable, const Type& type) {
     context.known_errors.insert({nullptr, upper(variable.name)});
     return;
   }
+  if (!holds_instances(type) && !count_values(context, variable.at, type, global.initial)) {
+    return;
+  }
   if (variable.constant && !variable.initial) {
     context.error(variable.at, "a CONSTANT needs a value: name : INT := 5;");
   }
@@ -162,15 +176,16 @@ bool lies_at(const Type& type, const ast::DirectAddress& address) noexcept {
 
 // An array at an address that this one lies in.
 const Global* covering_array(const Program& program, const ast::DirectAddress& address) {
-  ast::DirectAddress begin = address;
-  for (; !begin.numbers.empty() && begin.numbers.back() >= 0; --begin.numbers.back()) {
-    const std::string text = ast::to_string(begin);
-    const auto found = std::find_if(program.globals.begin(), program.globals.end(),
-                                    [&](const Global& one) { return one.address == text; });
-    if (found != program.globals.end() && found->type->kind == Type::Kind::Array &&
-        lies_at(*found->type->element, address)) {
-      const auto offset = static_cast<std::uint64_t>(address.numbers.back() - begin.numbers.back());
-      return offset < parts_of(*found->type) ? &*found : nullptr;
+  const auto area = address.numbers.empty() ? program.areas.end() : program.areas.find(area_of(address));
+  if (area == program.areas.end()) {
+    return nullptr;
+  }
+  constexpr int kMost = 1000;  // single variables that may stand before it, and would be an error themselves
+  auto at = area->second.upper_bound(address.numbers.back());
+  for (int i = 0; i < kMost && at != area->second.begin(); ++i) {
+    const auto& [number, one] = *--at;
+    if (one->type->kind == Type::Kind::Array && lies_at(*one->type->element, address)) {
+      return static_cast<std::uint64_t>(address.numbers.back() - number) < one->type->parts ? one : nullptr;
     }
   }
   return nullptr;
@@ -184,24 +199,21 @@ const Global* overlapping(const Program& program, const ast::DirectAddress& addr
   if (type.kind != Type::Kind::Array || !lies_at(*type.element, address)) {
     return nullptr;
   }
-  const auto inside = [&](const Global& one) {
-    auto begin = st::address_literal(one.address);
-    if (!begin || begin->numbers.empty()) {
-      return false;
-    }
-    const int offset = std::exchange(begin->numbers.back(), address.numbers.back()) - address.numbers.back();
-    return offset > 0 && static_cast<std::uint64_t>(offset) < parts_of(type) &&
-           ast::to_string(*begin) == ast::to_string(address);
-  };
-  const auto found = std::find_if(program.globals.begin(), program.globals.end(), inside);
-  return found == program.globals.end() ? nullptr : &*found;
+  const auto area = program.areas.find(area_of(address));
+  if (area == program.areas.end()) {
+    return nullptr;
+  }
+  const auto found = area->second.upper_bound(address.numbers.back());
+  const bool inside =
+      found != area->second.end() && static_cast<std::uint64_t>(found->first - address.numbers.back()) < type.parts;
+  return inside ? found->second : nullptr;
 }
 
 }  // namespace
 
 void declare_global(Context& context, ast::Variable& variable) {
   const Type* type = build_type(context, variable.type);
-  if (type == nullptr) {
+  if (type == nullptr || !count_fields(context, variable.at, *type)) {
     context.known_errors.insert({nullptr, upper(variable.name)});
     return;
   }
@@ -286,36 +298,28 @@ Global& located_global(Context& context, const ast::DirectAddress& address, cons
 
 Global* foreign_global(Context& context, std::string_view full_name) {
   Program& program = context.program;
-  for (Global& global : program.globals) {
-    if (global.kind == Global::Kind::Foreign && same_name(global.shared_name, full_name)) {
-      return &global;
-    }
-  }
-  const auto found = std::find_if(program.foreign.begin(), program.foreign.end(),
-                                  [&](const schema::Variable& one) { return same_name(one.name, full_name); });
-  if (found == program.foreign.end()) {
+  const auto named = program.foreign_names.variables.find(upper(full_name));
+  if (named == program.foreign_names.variables.end()) {
     return nullptr;
+  }
+  const schema::Variable* found = named->second;
+  if (const auto known = program.foreign_globals.find(found); known != program.foreign_globals.end()) {
+    return known->second;
   }
   Global global;
   global.kind = Global::Kind::Foreign;
   global.name = found->name;
   global.shared_name = found->name;
-  global.foreign = &*found;
+  global.foreign = found;
   global.type = foreign_type(context, found->type);
   return &add(program, std::move(global));
 }
 
 Global* only_foreign_global(Context& context, std::string_view name) {
-  const schema::Variable* only = nullptr;
-  for (const schema::Variable& one : context.program.foreign) {
-    if (same_name(last_name(one.name), name)) {
-      if (only != nullptr) {
-        return nullptr;
-      }
-      only = &one;
-    }
-  }
-  return only == nullptr ? nullptr : foreign_global(context, only->name);
+  const auto& names = context.program.foreign_names.last_names;
+  const auto found = names.find(upper(name));
+  return found == names.end() || found->second.size() != 1 ? nullptr
+                                                           : foreign_global(context, found->second.front()->name);
 }
 
 Global* external_global(Context& context, const ast::Variable& variable, const Type& type) {
@@ -327,12 +331,9 @@ Global* external_global(Context& context, const ast::Variable& variable, const T
     }
     return known->second;
   }
-  std::vector<const schema::Variable*> found;
-  for (const schema::Variable& one : program.foreign) {
-    if (same_name(last_name(one.name), variable.name)) {
-      found.push_back(&one);
-    }
-  }
+  const auto named = program.foreign_names.last_names.find(upper(variable.name));
+  const auto found =
+      named == program.foreign_names.last_names.end() ? std::vector<const schema::Variable*>() : named->second;
   if (found.size() != 1) {
     context.error(variable.at,
                   found.empty()
@@ -355,22 +356,15 @@ Global* external_global(Context& context, const ast::Variable& variable, const T
 }
 
 bool is_namespace(const Program& program, std::string_view path) {
-  return std::any_of(program.foreign.begin(), program.foreign.end(), [&](const schema::Variable& one) {
-    return one.name.size() > path.size() + 2 && same_name(std::string_view(one.name).substr(0, path.size()), path) &&
-           one.name.compare(path.size(), 2, "::") == 0;
-  });
+  return program.foreign_names.spaces.contains(upper(path));
 }
 
 std::string suggest_shared(const Program& program, std::string_view name) {
-  std::string found;
-  for (const schema::Variable& one : program.foreign) {
-    if (same_name(last_name(one.name), name)) {
-      if (!found.empty()) {
-        return "";
-      }
-      found = one.name;
-    }
+  const auto named = program.foreign_names.last_names.find(upper(name));
+  if (named == program.foreign_names.last_names.end() || named->second.size() != 1) {
+    return "";
   }
+  std::string found = named->second.front()->name;
   for (std::size_t at = found.find("::"); at != std::string::npos; at = found.find("::")) {
     found.erase(at, 1);
     found[at] = '.';

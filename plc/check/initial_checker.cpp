@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "plc/check/expression_checker.h"
 #include "plc/check/value_tree.h"
 #include "plc/library/standard.h"
@@ -47,7 +50,7 @@ bool ExpressionChecker::array_initial(ast::Initial& initial, const Type& type) {
       repeat = constant(*element.count, "the number of repetitions").value_or(0);
     }
     fine = repeat >= 0 && this->initial(element.value, *type.element) && fine;
-    count += static_cast<std::uint64_t>(repeat);
+    count += static_cast<std::uint64_t>(std::clamp<std::int64_t>(repeat, 0, std::numeric_limits<std::int32_t>::max()));
   }
   if (fine && count > elements_of(type)) {
     context_.error(initial.at, fmt::format("{} values for {} elements, remove some", count, elements_of(type)));
@@ -64,11 +67,10 @@ bool ExpressionChecker::struct_initial(ast::Initial& initial, const Type& type) 
   }
   for (ast::InitialElement& element : initial.elements) {
     const Type* field_type = nullptr;
-    for (const Field& field : type.fields) {
-      if (same_name(field.name, element.field)) {
-        field_type = field.type;
-        element.field = field.name;
-      }
+    if (const auto found = type.field_names.find(upper(element.field)); found != type.field_names.end()) {
+      const Field& field = type.fields[found->second];
+      field_type = field.type;
+      element.field = field.name;
     }
     if (type.kind == Type::Kind::Block && type.block != nullptr) {
       if (const LibraryParameter* input = type.block->input(element.field)) {

@@ -27,28 +27,58 @@ class Finder {
     for (const ast::TypeDeclaration& one : project.types) {
       types_.emplace(upper(one.name), &one);
     }
-    std::size_t before = 0;
-    do {
-      before = instances_.size();
-      for (const ast::TypeDeclaration& one : project.types) {
-        look(one);
+    std::map<std::string, std::vector<const ast::TypeDeclaration*>> users;
+    std::vector<const ast::TypeDeclaration*> open;
+    for (const ast::TypeDeclaration& one : project.types) {
+      open.push_back(&one);
+      each_name(one.type, [&](const std::string& name) { users[name].push_back(&one); });
+    }
+    while (!open.empty()) {  // what holds one that was found is looked at again
+      const std::string name = upper(open.back()->name);
+      const bool is_new = look(*open.back());
+      open.pop_back();
+      if (const auto found = users.find(name); is_new && found != users.end()) {
+        open.insert(open.end(), found->second.begin(), found->second.end());
       }
-    } while (instances_.size() != before);
+    }
   }
 
   [[nodiscard]] bool is_found(const ast::TypeDeclaration& one) const { return found_.contains(&one); }
 
   // Of what it extends first.
-  [[nodiscard]] std::vector<ast::Variable> fields(const ast::TypeDeclaration& one) const {
-    std::vector<ast::Variable> out;
+  [[nodiscard]] std::vector<ast::Variable> fields(const ast::TypeDeclaration& one, Diagnostics& diagnostics) const {
+    std::vector<const ast::TypeDeclaration*> way;
     std::set<const ast::TypeDeclaration*> seen;
     for (const ast::TypeDeclaration* at = &one; at != nullptr && seen.insert(at).second; at = base(*at)) {
-      out.insert(out.begin(), at->type.fields.begin(), at->type.fields.end());
+      way.push_back(at);
+      if (way.size() > kMaxExtends) {
+        diagnostics.error(one.at,
+                          fmt::format("more than {} structures that extend each other, use fewer", kMaxExtends));
+        break;
+      }
+    }
+    std::vector<ast::Variable> out;
+    for (auto at = way.rbegin(); at != way.rend(); ++at) {
+      out.insert(out.end(), (*at)->type.fields.begin(), (*at)->type.fields.end());
     }
     return out;
   }
 
  private:
+  // Names of types whose instances lie in one of the type.
+  template <class Visit>
+  static void each_name(const ast::TypeSpec& spec, Visit visit) {
+    if (spec.kind == ast::TypeSpec::Kind::Named) {
+      visit(upper(spec.name));
+    }
+    if (spec.element && spec.kind != ast::TypeSpec::Kind::Pointer) {
+      each_name(*spec.element, visit);
+    }
+    for (const ast::Variable& field : spec.fields) {
+      each_name(field.type, visit);
+    }
+  }
+
   [[nodiscard]] const ast::TypeDeclaration* base(const ast::TypeDeclaration& one) const {
     const auto found = one.type.element ? types_.find(upper(one.type.element->name)) : types_.end();
     return found != types_.end() ? found->second : nullptr;
@@ -63,21 +93,20 @@ class Finder {
            (instances_.contains(name) || (!types_.contains(name) && find_block(spec.name) != nullptr));
   }
 
-  void look(const ast::TypeDeclaration& one) {
+  // Whether it is now known to hold instances, and was not before.
+  bool look(const ast::TypeDeclaration& one) {
     const ast::TypeSpec& spec = one.type;
     if (spec.kind != ast::TypeSpec::Kind::Struct) {
-      if (holds(spec)) {  // another name, an array
-        instances_.insert(upper(one.name));
-      }
-      return;
+      return holds(spec) && instances_.insert(upper(one.name)).second;  // another name, an array
     }
     const ast::TypeDeclaration* from = spec.element ? base(one) : nullptr;
     const bool inherits = from != nullptr && is_found(*from);
     if (!spec.overlaps && (inherits || std::any_of(spec.fields.begin(), spec.fields.end(),
                                                    [this](const ast::Variable& field) { return holds(field.type); }))) {
-      instances_.insert(upper(one.name));
-      found_.insert(&one);
+      const bool by_name = instances_.insert(upper(one.name)).second;
+      return found_.insert(&one).second || by_name;
     }
+    return false;
   }
 
   std::map<std::string, const ast::TypeDeclaration*> types_;
@@ -116,7 +145,7 @@ void make_instance_structs(Project& project, Diagnostics& diagnostics) {
     pou.name = one.name;
     pou.comment = one.comment;
     pou.scope = one.scope;
-    pou.variables = finder.fields(one);
+    pou.variables = finder.fields(one, diagnostics);
     begin_with(pou.variables, one, diagnostics);
     for (ast::Variable& field : pou.variables) {
       field.section = ast::Section::Local;

@@ -6,8 +6,10 @@
 #include <algorithm>
 
 #include "plc/check/expression_checker.h"
+#include "plc/check/foreign_types.h"
 #include "plc/check/global_table.h"
 #include "plc/library/standard.h"
+#include "plc/model/walk.h"
 
 namespace indurop::plc {
 namespace {
@@ -18,6 +20,24 @@ using Meaning = Resolved::Meaning;
 bool is_global_list(const Program& program, std::string_view name) {
   const auto& lists = program.project.global_lists;
   return std::any_of(lists.begin(), lists.end(), [&](const std::string& list) { return same_name(list, name); });
+}
+
+// The same for types of which one is the other with another value to begin with.
+std::string id_of(const Type& enumeration) {
+  return upper(enumeration.name) + '|' + enumeration.shared_name;
+}
+
+void index_enumerations(Program& program) {
+  for (; program.indexed_types < program.named_types.size(); ++program.indexed_types) {
+    const Type* type = program.named_types[program.indexed_types];
+    for (const EnumItem& item : type->items) {
+      const std::string capitals = upper(item.name);
+      const bool is_new = program.enum_values.try_emplace({id_of(*type), capitals}, type, item.value).second;
+      if (auto& all = program.enums_of_value[capitals]; is_new && all.size() < 2) {
+        all.push_back(type);
+      }
+    }
+  }
 }
 
 const Pou* innermost_pou(const Type& type) noexcept {
@@ -31,12 +51,14 @@ const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) 
   const std::string capitals = upper(expression.name);
   Program& program = context_.program;
   if (!expression.value_enum.empty()) {
-    const auto type = program.type_names.find(upper(expression.value_enum));
-    if (type == program.type_names.end() || type->second->kind != Type::Kind::Enum) {
+    const auto known = program.type_names.find(upper(expression.value_enum));
+    const Type* type =
+        known != program.type_names.end() ? known->second : foreign_type_named(context_, expression.value_enum);
+    if (type == nullptr || type->kind != Type::Kind::Enum) {
       context_.error(expression.at, fmt::format("there is no enumeration '{}'", expression.value_enum));
       return nullptr;
     }
-    return enum_value(expression, *type->second, expression.name);
+    return enum_value(expression, *type, expression.name);
   }
   const Pou* from = context_.pou == nullptr || !expression.of_this ? context_.pou : context_.pou->self();
   if (Variable* variable = from != nullptr ? from->find(capitals) : nullptr) {
@@ -116,26 +138,26 @@ Expression& ExpressionChecker::make_truth(Expression& expression) {
 // two that have it.
 const Type* ExpressionChecker::bare_enum_value(Expression& expression, const Type* wanted,
                                                std::pair<std::string, std::string>& both) {
-  const Type* found = nullptr;
-  bool several = false;
-  for (const Type* type : context_.program.named_types) {
-    for (const EnumItem& item : type->items) {
-      if (!same_name(item.name, expression.name)) {
-        continue;
-      }
-      if (wanted != nullptr && same_type(*type, *wanted)) {
-        expression.resolved->constant = Integer{item.value};
-        return type;
-      }
-      if (found != nullptr && !several) {
-        several = true;
-        both = {found->name, type->name};
-      }
-      found = found == nullptr ? type : found;
-      expression.resolved->constant = Integer{item.value};
+  Program& program = context_.program;
+  index_enumerations(program);
+  const std::string capitals = upper(expression.name);
+  if (wanted != nullptr && wanted->kind == Type::Kind::Enum) {
+    if (const auto known = program.enum_values.find({id_of(*wanted), capitals}); known != program.enum_values.end()) {
+      expression.resolved->constant = Integer{known->second.second};
+      return known->second.first;
     }
   }
-  return several ? nullptr : found;
+  const auto all = program.enums_of_value.find(capitals);
+  if (all == program.enums_of_value.end()) {
+    return nullptr;
+  }
+  const Type* first = all->second.front();
+  expression.resolved->constant = Integer{program.enum_values.at({id_of(*first), capitals}).second};
+  if (all->second.size() > 1) {
+    both = {first->name, all->second[1]->name};
+    return nullptr;
+  }
+  return first;
 }
 
 Global* ExpressionChecker::program_named(std::string_view name) {
@@ -164,6 +186,12 @@ Global* ExpressionChecker::program_named(std::string_view name) {
 }
 
 const Type* ExpressionChecker::enum_value(Expression& expression, const Type& type, std::string_view item) {
+  index_enumerations(context_.program);
+  const auto& values = context_.program.enum_values;
+  if (const auto found = values.find({id_of(type), upper(item)}); found != values.end()) {
+    resolved(expression).constant = Integer{found->second.second};
+    return &type;
+  }
   std::vector<std::string> known;
   for (const EnumItem& one : type.items) {
     if (same_name(one.name, item)) {
@@ -236,13 +264,19 @@ const Type* ExpressionChecker::member(Expression& expression) {
   if (type->kind == Type::Kind::Elementary && !type->is_text()) {
     return named_bit(expression, *type);
   }
+  if (const auto found = type->field_names.find(upper(expression.name)); found != type->field_names.end()) {
+    const Field& field = type->fields[found->second];
+    expression.name = field.member();
+    return field.type;
+  }
   std::vector<std::string> known;
   for (const Field& field : type->fields) {
-    if (same_name(field.name, expression.name) || field.member() == expression.name) {
-      expression.name = field.member();
+    if (field.member() == expression.name) {  // checked before
       return field.type;
     }
-    known.push_back(field.name);
+    if (!context_.diagnostics.full()) {
+      known.push_back(field.name);
+    }
   }
   context_.error(expression.at, fmt::format("{} has no member '{}'{}", with_article(*type), expression.name,
                                             did_you_mean(context_, expression.name, known)));
@@ -345,6 +379,17 @@ const Type* ExpressionChecker::namespace_member(Expression& expression, const st
     resolved(expression).meaning = Meaning::Namespace;
     resolved(expression).path = full;
     return nullptr;
+  }
+  const std::string dotted = ast::path_of(expression);  // press.Mode of press.Mode.PRESSING, press.PRESSING
+  if (const Type* type = foreign_type_named(context_, dotted); type != nullptr && type->kind == Type::Kind::Enum) {
+    resolved(expression).meaning = Meaning::Type;
+    expression.type = type;
+    return nullptr;
+  }
+  std::int64_t value = 0;
+  if (const Type* type = foreign_enum_value(context_, dotted, value)) {
+    resolved(expression).constant = Integer{value};
+    return type;
   }
   const std::string shared = suggest_shared(context_.program, expression.name);
   context_.error(expression.at, fmt::format("there is no shared variable '{}'{}", full,

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
+#include "plc/check/inheritance.h"
 #include "plc/check/starts.h"
 
 namespace indurop::plc {
@@ -31,16 +33,6 @@ std::string shown(const Pou& method) {
   return "METHOD " + method.name;
 }
 
-std::vector<const Variable*> parameters_of(const Pou& method) {
-  std::vector<const Variable*> out;
-  for (const Variable& one : method.variables) {
-    if (one.section == Section::Input || one.section == Section::Output || one.section == Section::InOut) {
-      out.push_back(&one);
-    }
-  }
-  return out;
-}
-
 bool same_exactly(const Type* a, const Type* b) noexcept {
   return a == b || (a != nullptr && b != nullptr && same_type(*a, *b) && same_range(*a, *b));
 }
@@ -50,8 +42,8 @@ std::string difference(const Pou& method, const Pou& other) {
   if (!same_exactly(method.result, other.result)) {
     return fmt::format("its result is {}", other.result != nullptr ? with_article(*other.result) : "none");
   }
-  const std::vector<const Variable*> own = parameters_of(method);
-  const std::vector<const Variable*> wanted = parameters_of(other);
+  const std::vector<const Variable*>& own = parameters_of(method);
+  const std::vector<const Variable*>& wanted = parameters_of(other);
   for (std::size_t i = 0; i < std::max(own.size(), wanted.size()); ++i) {
     if (i >= wanted.size()) {
       return fmt::format("it has no {}", own[i]->name);
@@ -64,14 +56,6 @@ std::string difference(const Pou& method, const Pou& other) {
     }
   }
   return "";
-}
-
-// All that an interface asks for, with what it extends.
-void collect(const Pou& interface, std::vector<const Pou*>& into) {
-  for (const Pou* one : interface.interfaces) {
-    collect(*one, into);
-  }
-  into.insert(into.end(), interface.methods.begin(), interface.methods.end());
 }
 
 class Declarer {
@@ -87,16 +71,6 @@ class Declarer {
               this->find(one, pou, "IMPLEMENTS names an INTERFACE", {Kind::Interface, Kind::Interface})) {
         add_interface(pou, *found, one.at);
       }
-    }
-  }
-
-  // A POU that extends itself, at any distance, extends nothing.
-  void break_circle(Pou& pou) {
-    std::vector<const Pou*> way;
-    if (leads_to(pou, pou, way)) {
-      context_.error(pou.tree->bases.front().at, fmt::format("{} extends itself, remove this EXTENDS", pou.name));
-      pou.base = nullptr;
-      pou.interfaces.clear();
     }
   }
 
@@ -172,18 +146,6 @@ class Declarer {
     context_.program.has_objects = true;
   }
 
-  static bool leads_to(const Pou& from, const Pou& to, std::vector<const Pou*>& way) {
-    if (std::find(way.begin(), way.end(), &from) != way.end()) {
-      return false;
-    }
-    way.push_back(&from);
-    std::vector<const Pou*> next = from.interfaces;
-    if (from.base != nullptr) {
-      next.push_back(from.base);
-    }
-    return std::any_of(next.begin(), next.end(), [&](const Pou* one) { return one == &to || leads_to(*one, to, way); });
-  }
-
   Context& context_;
 };
 
@@ -206,15 +168,13 @@ class ObjectChecker {
 
  private:
   void names(const Pou& method) {
-    for (const Pou* other : pou_.methods) {
-      if (other == &method) {
-        break;
-      }
-      const bool accessors =
-          other->tree->accessor != ast::Accessor::None && method.tree->accessor != ast::Accessor::None;
-      if (same_name(other->name, method.name) && (!accessors || other->tree->accessor == method.tree->accessor)) {
+    for (const ast::Accessor one : {ast::Accessor::None, ast::Accessor::Get, ast::Accessor::Set}) {
+      const auto known = pou_.method_names.find({one, upper(method.name)});
+      const bool accessors = one != ast::Accessor::None && method.tree->accessor != ast::Accessor::None;
+      if (known != pou_.method_names.end() && known->second->index < method.index &&
+          (!accessors || one == method.tree->accessor)) {
         context_.error(method.tree->at, fmt::format("'{}' is already declared at {}, rename one of them", method.name,
-                                                    to_string(other->tree->at)));
+                                                    to_string(known->second->tree->at)));
       }
     }
     if (const Variable* same = pou_.find(upper(method.name))) {
@@ -294,11 +254,12 @@ class ObjectChecker {
     }
   }
 
+  // All that its interfaces ask for.
   std::vector<const Pou*> wanted() const {
     std::vector<const Pou*> out;
-    for (const Pou* at = &pou_; at != nullptr; at = at->base) {
-      for (const Pou* one : at->interfaces) {
-        collect(*one, out);
+    for (const Pou* one : pou_.ancestors) {
+      if (one->tree->kind == Kind::Interface) {
+        out.insert(out.end(), one->methods.begin(), one->methods.end());
       }
     }
     return out;
@@ -306,11 +267,13 @@ class ObjectChecker {
 
   // One error for all that miss.
   void complete() {
+    constexpr std::size_t kShown = 100;
     std::string missing;
+    std::set<std::string> known;
     const auto miss = [&](const Pou& one) {
       const std::string text = fmt::format("{} of {}", shown(one), one.owner->name);
-      if (missing.find(text) == std::string::npos) {
-        missing += (missing.empty() ? "" : ", ") + text;
+      if (known.size() <= kShown && known.insert(text).second) {
+        missing += (missing.empty() ? "" : ", ") + (known.size() <= kShown ? text : "...");
       }
     };
     for (const Pou* one : wanted()) {
@@ -347,9 +310,7 @@ class ObjectChecker {
         context_.error(at, fmt::format("{} is of {}, which everybody may call, declare it as PUBLIC", shown(*found),
                                        one->owner->name));
       }
-      for (Pou* own : found->owner->methods) {
-        own->called_unseen = own->called_unseen || own == found;
-      }
+      found->owner->method_names.at({found->tree->accessor, upper(found->name)})->called_unseen = true;
     }
   }
 
@@ -364,9 +325,7 @@ void declare_objects(Context& context) {
   for (Pou& pou : context.program.pous) {
     declarer.declare(pou);
   }
-  for (Pou& pou : context.program.pous) {
-    declarer.break_circle(pou);
-  }
+  resolve_inheritance(context);
   for (Pou& pou : context.program.pous) {
     if (pou.base != nullptr) {
       pou.holds.insert(pou.base);

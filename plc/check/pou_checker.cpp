@@ -45,7 +45,7 @@ class VariableDeclarer {
       return;
     }
     const Type* type = build_type(context_, declared.type);
-    if (type == nullptr) {
+    if (type == nullptr || !count_fields(context_, declared.at, *type)) {
       remember(declared, nullptr);  // known, so that its uses are no further errors
       return;
     }
@@ -67,6 +67,9 @@ class VariableDeclarer {
     } else if (declared.initial && expressions_.initial(*declared.initial, *type) && declared.constant &&
                declared.section == Section::Local) {  // VAR_INPUT CONSTANT is given by the caller
       remember_constant(*made, declared);
+    }
+    if (context_.diagnostics.errors() == before) {
+      static_cast<void>(count_values(context_, declared.at, *type, declared.initial ? &*declared.initial : nullptr));
     }
     use_types(*type);
   }
@@ -186,51 +189,24 @@ class VariableDeclarer {
   ExpressionChecker expressions_;
 };
 
-class PouOrder {
- public:
-  explicit PouOrder(Context& context) : context_(context) {}
-
-  void visit(const Pou& pou) {
-    if (std::find(open_.begin(), open_.end(), &pou) != open_.end()) {
-      std::string way;
-      for (auto i = std::find(open_.begin(), open_.end(), &pou); i != open_.end(); ++i) {
-        way += (*i)->title() + " -> ";
-      }
-      context_.error(pou.tree->at,
-                     fmt::format("recursion is not possible: {}{}, remove one of the calls", way, pou.title()));
-      return;
-    }
-    if (!done_.insert(&pou).second) {
-      return;
-    }
-    open_.push_back(&pou);
-    for (const Pou& other : context_.program.pous) {  // in the order of the text
-      if (pou.holds.contains(&other) || pou.calls.contains(&other)) {
-        visit(other);
-      }
-    }
-    open_.pop_back();
-    context_.program.order.push_back(&pou);
-  }
-
- private:
-  Context& context_;
-  std::set<const Pou*> done_;
-  std::vector<const Pou*> open_;
-};
-
 Pou& add(Context& context, ast::Pou& tree) {
   Pou& pou = context.program.pous.emplace_back();
+  pou.index = context.program.pous.size() - 1;
   pou.tree = &tree;
   pou.name = tree.name;
   return pou;
+}
+
+void add_method(Pou& owner, Pou& method) {
+  owner.methods.push_back(&method);
+  owner.method_names.try_emplace({method.tree->accessor, upper(method.name)}, &method);
 }
 
 void declare_methods(Context& context, Pou& pou) {
   for (ast::Pou& tree : pou.tree->methods) {
     Pou& method = add(context, tree);
     method.owner = &pou;
-    pou.methods.push_back(&method);
+    add_method(pou, method);
     pou.uses.insert(&method);
     context.program.has_objects = true;
   }
@@ -315,7 +291,7 @@ Pou& declare_further(Context& context, ast::Pou& tree) {
 void declare_method(Context& context, Pou& owner, ast::Pou& tree) {
   Pou& method = add(context, tree);
   method.owner = &owner;
-  owner.methods.push_back(&method);
+  add_method(owner, method);
   owner.uses.insert(&method);
   declare_variables_of(context, method);
   check_open_initials(context);
@@ -384,13 +360,6 @@ void check_bodies(Context& context) {
   context.pou = nullptr;
   if (!context.diagnostics.failed()) {
     warn_about_uncalled(context);
-  }
-}
-
-void order_pous(Context& context) {
-  PouOrder order(context);
-  for (const Pou& pou : context.program.pous) {
-    order.visit(pou);
   }
 }
 

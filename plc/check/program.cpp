@@ -31,31 +31,40 @@ std::vector<const Variable*> all_variables(const Pou& pou) {
   return out;
 }
 
+const std::vector<const Variable*>& parameters_of(const Pou& pou) {
+  if (!pou.parameters) {
+    pou.parameters = pou.base != nullptr ? parameters_of(*pou.base) : std::vector<const Variable*>();
+    for (const Variable& one : pou.variables) {
+      if (one.section == ast::Section::Input || one.section == ast::Section::Output ||
+          one.section == ast::Section::InOut) {
+        pou.parameters->push_back(&one);
+      }
+    }
+  }
+  return *pou.parameters;
+}
+
 const Pou* find_method(const Pou& pou, std::string_view name, ast::Accessor accessor) {
+  const std::pair key(accessor, upper(name));
   for (const Pou* at = &pou; at != nullptr; at = at->base) {
-    const auto found = std::find_if(at->methods.begin(), at->methods.end(), [&](const Pou* one) {
-      return one->tree->accessor == accessor && same_name(one->name, name);
-    });
-    if (found != at->methods.end()) {
-      return *found;
+    if (const auto found = at->method_names.find(key); found != at->method_names.end()) {
+      return found->second;
     }
   }
   if (pou.tree->kind != ast::Pou::Kind::Interface && !pou.tree->is_abstract) {
     return nullptr;
   }
-  for (const Pou* at = &pou; at != nullptr; at = at->base) {
-    for (const Pou* one : at->interfaces) {
-      if (const Pou* found = find_method(*one, name, accessor)) {
-        return found;
-      }
+  for (auto at = pou.ancestors.rbegin(); at != pou.ancestors.rend(); ++at) {
+    const bool is_interface = (*at)->tree->kind == ast::Pou::Kind::Interface;
+    if (const auto found = (*at)->method_names.find(key); is_interface && found != (*at)->method_names.end()) {
+      return found->second;
     }
   }
   return nullptr;
 }
 
 bool is_a(const Pou& pou, const Pou& other) noexcept {
-  return &pou == &other || (pou.base != nullptr && is_a(*pou.base, other)) ||
-         std::any_of(pou.interfaces.begin(), pou.interfaces.end(), [&](const Pou* one) { return is_a(*one, other); });
+  return &pou == &other || std::find(pou.ancestors.begin(), pou.ancestors.end(), &other) != pou.ancestors.end();
 }
 
 }  // namespace indurop::plc

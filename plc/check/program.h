@@ -21,6 +21,7 @@
 
 namespace indurop::plc {
 
+struct LibraryBlock;
 struct LibraryFunction;
 struct LibraryParameter;
 
@@ -90,15 +91,24 @@ struct Pou {
   std::map<std::string, ast::Expression> given;  // "INSTANCE.PARAMETER", a VAR_IN_OUT, in the last call checked
 
   Global* instance = nullptr;  // of a program that others use by its name: that one
+  std::size_t index = 0;       // in `pous` of the program
+
+  // Of an instance, when all variables are known; see instance_sizes.h
+  std::uint64_t variables_inside = 0;     // with those of inner instances, each of an array; saturates
+  bool holds_places = false;              // AT %I*
+  const LibraryBlock* forgets = nullptr;  // one of which only inputs and outputs are kept over a restart
 
   // Object orientation
-  Pou* owner = nullptr;                // of a method: whose instances it works on
-  const Pou* base = nullptr;           // EXTENDS of a function block or class
-  std::vector<const Pou*> interfaces;  // IMPLEMENTS; of an interface: EXTENDS
-  std::vector<Pou*> methods;           // and accessors of properties, its own
-  bool is_object = false;              // has methods, or something to do with such ones
-  const Pou* replaces = nullptr;       // of a method: the inherited one it overrides
-  bool called_unseen = false;          // of a method: a call may not say that it is this one
+  Pou* owner = nullptr;                                                 // of a method: whose instances it works on
+  const Pou* base = nullptr;                                            // EXTENDS of a function block or class
+  std::vector<const Pou*> interfaces;                                   // IMPLEMENTS; of an interface: EXTENDS
+  std::vector<Pou*> methods;                                            // and accessors of properties, its own
+  std::map<std::pair<ast::Accessor, std::string>, Pou*> method_names;   // the first of each name, in capitals
+  mutable std::optional<std::vector<const Variable*>> parameters = {};  // see parameters_of()
+  std::vector<const Pou*> ancestors;  // all that it extends and implements, each once, behind its own ancestors
+  bool is_object = false;             // has methods, or something to do with such ones
+  const Pou* replaces = nullptr;      // of a method: the inherited one it overrides
+  bool called_unseen = false;         // of a method: a call may not say that it is this one
 
   // A variable of it, else of the instance it works on, else an inherited one.
   [[nodiscard]] Variable* find(const std::string& capitals) const;
@@ -114,6 +124,8 @@ struct Pou {
   }
 };
 
+// Inputs, outputs and VAR_IN_OUT, inherited ones first. Requires that all are declared.
+[[nodiscard]] const std::vector<const Variable*>& parameters_of(const Pou& pou);
 // Inherited ones first.
 [[nodiscard]] std::vector<const Variable*> all_variables(const Pou& pou);
 // What a call of an instance means: its own method, else the inherited one; of interfaces and abstract function blocks
@@ -187,6 +199,16 @@ struct ConnectedPin {
   const ast::Initial* value = nullptr;
 };
 
+// Types of .glb files and values of their enumerations by their names, in capitals: "PRESS.MODE" and "MODE". Null:
+// several have the name.
+struct ForeignNames {
+  std::map<std::string, const schema::Variable*> variables;  // "PRESS::MODE"
+  std::map<std::string, std::vector<const schema::Variable*>> last_names;
+  std::set<std::string> spaces;
+  std::map<std::string, const schema::Type*> types;
+  std::map<std::string, const schema::Type*> values;
+};
+
 struct TaskProgram {
   std::string instance;
   const Pou* pou = nullptr;
@@ -209,10 +231,21 @@ struct Program {
   Project project;  // the trees that everything below refers to
   TypeTable types;
   std::vector<schema::Variable> foreign;
-  std::deque<Type*> named_types;  // of the project, each behind those it contains
+  ForeignNames foreign_names;                                  // of them
+  std::map<const schema::Variable*, Global*> foreign_globals;  // of those that are used
+  std::map<std::string, const Type*> foreign_types;            // that are used, by their whole names
+  std::map<std::pair<std::string, std::string>, std::pair<const Type*, std::int64_t>> enum_values;  // by type and name
+  std::map<std::string, std::vector<const Type*>> enums_of_value;  // the first two that have it
+  std::size_t indexed_types = 0;                                   // of `named_types`, in these two
+  std::deque<Type*> named_types;                                   // of the project, each behind those it contains
+  std::uint64_t fields = 0;                                        // of all types and variables, see kMaxFields
+  std::uint64_t values = 0;                                        // that variables begin with, see count_values()
   std::map<std::string, const Type*> type_names;
   std::deque<Global> globals;
   std::map<std::string, Global*> global_names;
+  std::set<std::string> shared_names;                   // of those that are no Foreign, without namespace, in capitals
+  std::map<std::string, Global*> addresses;             // "%IX0.0"
+  std::map<std::string, std::map<int, Global*>> areas;  // "%IX0." and the last number: those at addresses
   std::deque<Pou> pous;
   std::map<std::string, Pou*> pou_names;
   std::map<std::string, const ast::Pou*> generic_functions;  // with inputs such as ANY_NUM, in capitals

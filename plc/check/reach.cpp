@@ -5,9 +5,12 @@ namespace indurop::plc {
 namespace {
 
 void reach(const Pou& pou, std::set<const Pou*>& found) {
-  if (found.insert(&pou).second) {
-    for (const Pou* other : pou.uses) {
-      reach(*other, found);
+  std::vector<const Pou*> open{&pou};
+  while (!open.empty()) {
+    const Pou* one = open.back();
+    open.pop_back();
+    if (found.insert(one).second) {
+      open.insert(open.end(), one->uses.begin(), one->uses.end());
     }
   }
 }

@@ -18,6 +18,7 @@ using ast::Section;
 namespace {
 
 constexpr std::size_t kGiven = 2;  // bInitRetains, bInCopyCode
+constexpr std::uint64_t kMaxEach = 10'000;
 
 Expression member_of(Expression object, std::string_view name) {
   Expression out = make::wrapped(Expression::Kind::Member, std::move(object));
@@ -102,10 +103,16 @@ bool StartStatements::needs(const Pou& pou) {
 }
 
 bool StartStatements::needs_start(const Pou& pou) {
-  return (pou.base != nullptr && needs_start(*pou.base)) ||
-         std::any_of(pou.variables.begin(), pou.variables.end(), [&](const Variable& one) {
-           return lasts(one) && (one.declared->late.has_value() || started(one.type) != nullptr);
-         });
+  const auto known = needs_start_.find(&pou);
+  if (known != needs_start_.end()) {
+    return known->second;
+  }
+  const bool found = (pou.base != nullptr && needs_start(*pou.base)) ||
+                     std::any_of(pou.variables.begin(), pou.variables.end(), [&](const Variable& one) {
+                       return lasts(one) && (one.declared->late.has_value() || started(one.type) != nullptr);
+                     });
+  needs_start_[&pou] = found;
+  return found;
 }
 
 bool StartStatements::lasts(const Variable& one) {
@@ -126,6 +133,10 @@ void StartStatements::elements(ast::Pou* method, const std::vector<ast::StartArg
     instance(starts.empty() ? ast::StartArguments() : starts.front(), type, std::move(object), to);
   } else if (starts.size() > 1) {
     listed(starts, type, object, to);
+  } else if (method == nullptr && type.parts > kMaxEach) {
+    context_.error(object.at, fmt::format("more than {} instances that are started in each call, declare them where "
+                                          "they last",
+                                          kMaxEach));
   } else if (method == nullptr) {
     each(starts, type, make::wrapped(Expression::Kind::Index, std::move(object)), to);
   } else {

@@ -47,6 +47,7 @@ class StartStatements {
 
   Context& context_;
   std::map<const Pou*, bool> needs_;
+  std::map<const Pou*, bool> needs_start_;
 };
 
 }  // namespace indurop::plc

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -27,6 +28,7 @@ class Starter {
     for (std::size_t i = 0; i < count; ++i) {
       pou(context_.program.pous[i]);
     }
+    find_declarations();
     for (Global& one : context_.program.globals) {
       global(one);
     }
@@ -155,7 +157,8 @@ class Starter {
   }
 
   void global(Global& global) {
-    const ast::Variable* declared = declaration_of(global);
+    const auto known = declared_.find(upper(global.name));
+    const ast::Variable* declared = known != declared_.end() ? known->second : nullptr;
     if (declared != nullptr) {
       check_arguments(*declared, global.type, true);
     }
@@ -177,12 +180,11 @@ class Starter {
     context_.program.starts.emplace(&global, &declare_further(context_, tree));
   }
 
-  const ast::Variable* declaration_of(const Global& global) const {
+  void find_declarations() {
     const Project& project = context_.program.project;
-    const ast::Variable* found = nullptr;
     const auto look = [&](const std::vector<ast::Variable>& list) {
       for (const ast::Variable& one : list) {
-        found = same_name(one.name, global.name) ? &one : found;
+        declared_[upper(one.name)] = &one;
       }
     };
     look(project.globals);
@@ -192,12 +194,12 @@ class Starter {
         look(resource.globals);
       }
     }
-    return found;
   }
 
   Context& context_;
   StartStatements made_;
   std::set<const Pou*> done_;
+  std::map<std::string, const ast::Variable*> declared_;  // globals, by names in capitals
 };
 
 }  // namespace

@@ -302,14 +302,14 @@ void StatementChecker::case_statement(Statement& one) {
   if (whole && one.value->resolved->untyped) {
     adapt(*one.value, *type);
   }
-  std::vector<Used> outer = std::exchange(used_, {});
+  std::map<Integer, Used> outer = std::exchange(used_, {});
   for (ast::Branch& branch : one.branches) {
     for (ast::CaseLabel& label : branch.labels) {
       if (whole) {
         case_label(label, *type);
       }
     }
-    std::vector<Used> here = std::move(used_);
+    std::map<Integer, Used> here = std::exchange(used_, {});
     list(branch.body);
     used_ = std::move(here);
   }
@@ -336,14 +336,13 @@ void StatementChecker::case_label(ast::CaseLabel& label, const Type& type) {
                                         to_string(*high)));
     return;
   }
-  for (const Used& other : used_) {
-    if (used.low <= other.high && used.high >= other.low) {
-      context_.error(used.at,
-                     fmt::format("this value was already handled at {}, remove one of them", to_string(other.at)));
-      return;
-    }
+  const auto behind = used_.upper_bound(used.high);
+  if (behind != used_.begin() && std::prev(behind)->second.high >= used.low) {
+    context_.error(used.at, fmt::format("this value was already handled at {}, remove one of them",
+                                        to_string(std::prev(behind)->second.at)));
+    return;
   }
-  used_.push_back(used);
+  used_.emplace(used.low, used);
 }
 
 void StatementChecker::for_statement(Statement& one) {

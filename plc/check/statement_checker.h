@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "plc/check/expression_checker.h"
@@ -40,7 +41,7 @@ class StatementChecker {
   };
   Context& context_;
   ExpressionChecker expressions_;
-  std::vector<Used> used_;  // values of the CASE being checked
+  std::map<Integer, Used> used_;  // values of the CASE being checked, by the first of each range
   int loops_ = 0;
 };
 

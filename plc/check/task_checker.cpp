@@ -24,6 +24,13 @@ class TaskPlanner {
   void configuration(const Configuration& configuration) {
     for (const Resource& resource : configuration.resources) {
       resource_ = &resource;
+      tasks_ += resource.tasks.size();
+      instances_ += resource.programs.size();
+      if (tasks_ > kMostTasks || instances_ > kMostInstances) {
+        context_.error(resource.at,
+                       fmt::format("more than {} tasks or {} instances of programs", kMostTasks, kMostInstances));
+        return;
+      }
       for (const Task& task : resource.tasks) {
         declare(task, name_of(
                           configuration, task.name, [](const Resource& one) -> auto& { return one.tasks; }));
@@ -153,7 +160,12 @@ class TaskPlanner {
 
   std::vector<TaskPlan>& tasks() { return context_.program.tasks; }
 
+  static constexpr std::size_t kMostTasks = 1000;
+  static constexpr std::size_t kMostInstances = 2000;
+
   Context& context_;
+  std::size_t tasks_ = 0;
+  std::size_t instances_ = 0;
   std::set<const Pou*> mentioned_;
   std::set<std::string> names_;
   const Resource* resource_ = nullptr;
@@ -162,20 +174,26 @@ class TaskPlanner {
 
 // What cannot be a shared variable lives in one module.
 void check_private_globals(Context& context) {
+  std::map<const Global*, std::vector<std::string>> users_of;
+  for (const TaskPlan& task : context.program.tasks) {
+    std::set<const Global*> used;
+    for (const TaskProgram& one : task.programs) {
+      used.insert(one.pou->instance);
+    }
+    for (const Pou* pou : reached_by(task)) {
+      for (const auto& [global, use] : pou->globals) {
+        used.insert(global);
+      }
+    }
+    for (const Global* one : used) {
+      users_of[one].push_back(task.name);
+    }
+  }
   for (const Global& global : context.program.globals) {
     if (global.kind != Global::Kind::Private) {
       continue;
     }
-    std::vector<std::string> users;
-    for (const TaskPlan& task : context.program.tasks) {
-      const auto pous = reached_by(task);
-      const bool runs = std::any_of(task.programs.begin(), task.programs.end(),
-                                    [&](const TaskProgram& one) { return one.pou->instance == &global; });
-      if (runs ||
-          std::any_of(pous.begin(), pous.end(), [&](const Pou* pou) { return pou->globals.contains(&global); })) {
-        users.push_back(task.name);
-      }
-    }
+    const std::vector<std::string>& users = users_of[&global];
     const Pou* pou = global.type->pou;
     if (users.size() > 1 && pou != nullptr && pou->instance == &global) {
       context.error(global.at,
@@ -193,13 +211,14 @@ void check_private_globals(Context& context) {
 
 // A program that others use by its name is one.
 void check_named_programs(Context& context) {
-  for (const Pou& pou : context.program.pous) {
-    std::size_t count = 0;
-    for (const TaskPlan& task : context.program.tasks) {
-      count += static_cast<std::size_t>(std::count_if(task.programs.begin(), task.programs.end(),
-                                                      [&](const TaskProgram& one) { return one.pou == &pou; }));
+  std::map<const Pou*, std::size_t> instances;
+  for (const TaskPlan& task : context.program.tasks) {
+    for (const TaskProgram& one : task.programs) {
+      ++instances[one.pou];
     }
-    if (pou.instance != nullptr && count > 1) {
+  }
+  for (const Pou& pou : context.program.pous) {
+    if (pou.instance != nullptr && instances[&pou] > 1) {
       context.error(pou.tree->at, fmt::format("{} has several instances, so its name does not say which one others "
                                               "mean; declare what they use as VAR_GLOBAL",
                                               pou.name));

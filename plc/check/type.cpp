@@ -12,6 +12,11 @@
 namespace indurop::plc {
 namespace {
 
+std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) noexcept {
+  std::uint64_t sum = 0;
+  return __builtin_add_overflow(a, b, &sum) ? std::numeric_limits<std::uint64_t>::max() : sum;
+}
+
 bool same_bounds(const Type& a, const Type& b) noexcept {
   return std::equal(a.dimensions.begin(), a.dimensions.end(), b.dimensions.begin(), b.dimensions.end(),
                     [](const Bounds& x, const Bounds& y) { return x.low == y.low && x.high == y.high; });
@@ -119,13 +124,7 @@ bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept {
 }
 
 bool is_private(const Type& type) noexcept {
-  if (type.kind == Type::Kind::Array) {
-    return is_private(*type.element);
-  }
-  return type.kind == Type::Kind::Block || type.kind == Type::Kind::Pointer || type.kind == Type::Kind::Interface ||
-         type.overlaps || std::any_of(type.fields.begin(), type.fields.end(), [](const Field& field) {
-           return is_private(*field.type);
-         });
+  return type.is_private;
 }
 
 const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept {
@@ -156,13 +155,13 @@ std::uint64_t parts_of(const Type& type) noexcept {
       return 1;
     case Type::Kind::Struct:
       for (const Field& field : type.fields) {
-        if (__builtin_add_overflow(sum, parts_of(*field.type), &sum)) {
+        if (__builtin_add_overflow(sum, field.type->parts, &sum)) {
           return kMost;
         }
       }
       return sum;
     case Type::Kind::Array:
-      sum = parts_of(*type.element);
+      sum = type.element->parts;
       for (const Bounds& one : type.dimensions) {
         if (__builtin_mul_overflow(sum, one.count(), &sum)) {
           return kMost;
@@ -205,7 +204,40 @@ const Type* TypeTable::text(Elementary of, std::size_t length) {
   return known;
 }
 
+namespace {
+
+void measure(Type& type) noexcept {
+  type.parts = parts_of(type);
+  type.is_private = type.kind == Type::Kind::Block || type.kind == Type::Kind::Pointer ||
+                    type.kind == Type::Kind::Interface || type.overlaps;
+  if (type.kind == Type::Kind::Array) {
+    type.is_private = type.element->is_private;
+    type.fields_inside = type.element->fields_inside;
+    type.depth = type.element->depth + 1;
+    type.pointers = type.element->pointers;
+  }
+  if (type.kind == Type::Kind::Pointer) {
+    type.pointers = 1 + (type.element != nullptr ? type.element->pointers : 0);
+  }
+  if (type.kind == Type::Kind::Struct) {
+    type.fields_inside = 1;
+    type.depth = 0;
+    type.is_private = type.is_private || type.fields.empty();
+  }
+  for (std::size_t i = 0; i < type.fields.size(); ++i) {
+    const Field& field = type.fields[i];
+    type.field_names.try_emplace(upper(field.name), i);
+    type.is_private = type.is_private || field.type->is_private;
+    type.fields_inside = saturating_sum(type.fields_inside, field.type->fields_inside);
+    type.depth = std::max(type.depth, field.type->depth);
+  }
+  type.depth += type.kind == Type::Kind::Struct ? 1 : 0;
+}
+
+}  // namespace
+
 Type* TypeTable::add(Type type) {
+  measure(type);
   has_pointers_ = has_pointers_ || type.kind == Type::Kind::Pointer;
   has_aliases_ = has_aliases_ || has_pointers_ || type.overlaps;
   return &types_.emplace_back(std::move(type));

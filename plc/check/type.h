@@ -65,6 +65,15 @@ struct Type {
   std::string shared_name;                // Struct, Enum of a .glb file: "knu::Robot::Point"
   std::string glb_name = {};              // Struct, Enum of the project: its name in the .glb
 
+  // Known when the table has it. Elements of arrays count in `parts` only; what a pointer leads to counts nowhere.
+  std::uint64_t parts = 1;                              // elementary values, a text as its words; saturates
+  std::uint64_t fields_inside = 1;                      // fields of structures, with those of inner ones; saturates
+  std::size_t depth = 0;                                // structures and arrays inside each other
+  std::size_t pointers = 0;                             // that lead to each other
+  bool is_private = false;                              // see is_private()
+  std::map<std::string, std::size_t> field_names = {};  // Struct: in capitals, the place in `fields`
+  mutable std::optional<std::uint64_t> default_values = {};  // see values_of(); set when first asked for
+
   [[nodiscard]] bool is(Elementary type) const noexcept { return kind == Kind::Elementary && elementary == type; }
   [[nodiscard]] bool is_reference() const noexcept {
     return kind == Kind::Pointer && pointer == ast::PointerKind::ReferenceTo;
@@ -90,8 +99,13 @@ struct Type {
 [[nodiscard]] const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept;
 // Whether function blocks, interfaces, pointers or unions are in it, which no other module can share.
 [[nodiscard]] bool is_private(const Type& type) noexcept;
-// Number of elementary values, those of arrays counted; saturates.
+// Number of elementary values, those of arrays counted; saturates. The types inside are in the table.
 [[nodiscard]] std::uint64_t parts_of(const Type& type) noexcept;
+
+// More than these is an error of the program, so that no pass over a type takes long or runs out of stack.
+inline constexpr std::size_t kMaxTypeNesting = 64;         // structures and arrays inside each other
+inline constexpr std::uint64_t kMaxFieldsInside = 20'000;  // of one structure
+inline constexpr std::uint64_t kMaxFields = 4'000'000;     // of all types and variables together
 
 // Smallest and largest value of an integer or bit string type.
 struct IntegerLimits {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "plc/check/expression_checker.h"
 #include "plc/check/foreign_types.h"
@@ -20,11 +21,13 @@ bool is_whole(Elementary type) noexcept {
   return is_int(type) || (is_bit(type) && type != Elementary::Bool);
 }
 
-// Of extensions of editors, which are not part of the programs they export.
 std::string whose(const std::string& name) {
   const std::string capitals = upper(name);
   if (capitals == "ANY" || capitals.starts_with("ANY_")) {
     return "; types of every kind are for inputs of functions, write a function block for each type you use";
+  }
+  if (capitals.starts_with("MC_")) {
+    return "; the function blocks of PLCopen Motion Control are in motion.st of share/indurop/plc, name that file too";
   }
   if (capitals.starts_with("PYTHON_")) {
     return "; it is Python or C code of Beremiz, write a module of its own for that, with shared variables between";
@@ -108,6 +111,14 @@ class TypeBuilder {
     if (found != context_.program.type_names.end()) {
       return found->second;
     }
+    if (const Type* foreign = foreign_type_named(context_, spec.name)) {
+      return foreign;
+    }
+    const std::string_view in_standard = name_in_standard(spec.name);
+    if (!in_standard.empty() && find_block(in_standard) != nullptr) {
+      spec.name = std::string(in_standard);
+      return named(spec);
+    }
     if (const LibraryBlock* block = find_block(spec.name)) {
       Type type;
       type.kind = Type::Kind::Block;
@@ -117,12 +128,15 @@ class TypeBuilder {
       context_.program.type_names.emplace(upper(spec.name), added);
       return added;
     }
-    if (const Type* foreign = foreign_type_named(context_, spec.name)) {
-      return foreign;
+    if (context_.diagnostics.full()) {  // it only counts
+      context_.error(spec.at, fmt::format("there is no type and no function block '{}'", spec.name));
+      return nullptr;
     }
     std::vector<std::string> known;
+    bool has_motion = false;
     for (const auto& [one, type] : context_.program.type_names) {
       known.push_back(type->name);
+      has_motion = has_motion || one.starts_with("MC_");
     }
     for (const LibraryBlock& block : library_blocks()) {
       known.push_back(block.name);
@@ -131,6 +145,7 @@ class TypeBuilder {
       known.emplace_back(name_of(static_cast<Elementary>(i)));
     }
     std::string hint = why_left_out(context_.program.project, spec.name);
+    hint = hint.empty() && !has_motion && upper(spec.name).starts_with("MC_") ? whose(spec.name) : hint;
     hint = hint.empty() ? did_you_mean(context_, spec.name, known) : hint;
     context_.error(spec.at, fmt::format("there is no type and no function block '{}'{}", spec.name,
                                         hint.empty() ? whose(spec.name) : hint));
@@ -153,6 +168,10 @@ class TypeBuilder {
       return nullptr;
     }
     Type* added = context_.program.types.add(std::move(type));
+    if (added->pointers > kMaxTypeNesting) {
+      context_.error(spec.at, fmt::format("more than {} pointers that lead to each other, use fewer", kMaxTypeNesting));
+      return nullptr;
+    }
     if (later) {
       context_.program.open_pointers.emplace_back(added, spec.element.get());
     }
@@ -195,7 +214,8 @@ class TypeBuilder {
       context_.error(spec.at, fmt::format("more than {} elements, use a smaller array", kMaxParts));
       return nullptr;
     }
-    return context_.program.types.add(std::move(type));
+    const Type* added = context_.program.types.add(std::move(type));
+    return added->depth <= kMaxTypeNesting || is_limited(spec.at, *added) ? added : nullptr;
   }
 
   std::optional<Bounds> range(ast::Dimension& dimension, std::string_view what) {
@@ -243,10 +263,13 @@ class TypeBuilder {
     type.kind = Type::Kind::Struct;
     type.overlaps = spec.overlaps;
     type.name = name;
-    bool fine = !spec.element || inherit(spec, type);
+    bool fine = context_.program.fields <= kMaxFields && (!spec.element || inherit(spec, type));
+    std::set<std::string> names;
+    for (const Field& field : type.fields) {
+      names.insert(upper(field.name));
+    }
     for (ast::Variable& field : spec.fields) {
-      const auto same = [&](const Field& other) { return same_name(other.name, field.name); };
-      if (std::any_of(type.fields.begin(), type.fields.end(), same)) {
+      if (!names.insert(upper(field.name)).second) {
         context_.error(field.at, fmt::format("the field '{}' is declared twice, rename one of them", field.name));
       }
       const Type* one = build(field.type, "");
@@ -266,7 +289,10 @@ class TypeBuilder {
       const bool valid = !field.initial || expressions_.initial(*field.initial, *one);
       type.fields.push_back({field.name, one, valid && field.initial ? &*field.initial : nullptr, field.comment});
     }
-    if (type.fields.empty() && fine) {
+    if (type.fields.empty() && fine && context_.codesys()) {
+      context_.warning(spec.at,
+                       fmt::format("{} has no fields; variables of it, or that contain it, are not shared", name));
+    } else if (type.fields.empty() && fine) {
       context_.error(spec.at, "a STRUCT needs at least one field");
       fine = false;
     }
@@ -274,8 +300,28 @@ class TypeBuilder {
       return nullptr;
     }
     Type* added = context_.program.types.add(std::move(type));
+    if (!is_limited(spec.at, *added)) {
+      return nullptr;
+    }
     context_.program.named_types.push_back(added);
     return added;
+  }
+
+  // Else an error.
+  bool is_limited(const Place& at, const Type& type) {
+    if (type.depth > kMaxTypeNesting) {
+      context_.error(at,
+                     fmt::format("structures and arrays more than {} levels deep, make them flatter", kMaxTypeNesting));
+    } else if (type.fields_inside > kMaxFieldsInside) {
+      context_.error(at, fmt::format("{} has more than {} fields with those of its inner structures, use arrays",
+                                     type.name, kMaxFieldsInside));
+    } else if (type.parts > kMaxParts) {
+      context_.error(at,
+                     fmt::format("{} has more than {} elements in its arrays, use smaller ones", type.name, kMaxParts));
+    } else {
+      return count_fields(context_, at, type);
+    }
+    return false;
   }
 
   // Fields of the STRUCT it extends come first.
@@ -298,14 +344,14 @@ class TypeBuilder {
     type.name = name.empty() ? free_type_name() : name;
     std::int64_t next = 0;
     bool fine = true;
+    std::set<std::string> names;
     for (ast::EnumValue& one : spec.values) {
       if (one.value) {
         const auto number = expressions_.constant(*one.value, "the value of an enumeration");
         fine = fine && number.has_value();
         next = number.value_or(next);
       }
-      const auto same = [&](const EnumItem& other) { return same_name(other.name, one.name); };
-      if (std::any_of(type.items.begin(), type.items.end(), same)) {
+      if (!names.insert(upper(one.name)).second) {
         context_.error(one.at, fmt::format("the value '{}' is declared twice, rename one of them", one.name));
       }
       if (!fits(Integer{next}, *context_.elementary(type.elementary))) {

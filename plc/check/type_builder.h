@@ -16,5 +16,10 @@ inline constexpr const char* kOpenArray =
 void declare_types(Context& context);
 // The type of a declaration, with the name it gets; null after an error.
 const Type* build_type(Context& context, ast::TypeSpec& spec, const std::string& name = "");
+// Counts the fields of a type, or of a variable of it, for the whole program; false beyond the limit, with an error the
+// first time.
+bool count_fields(Context& context, const Place& at, const Type& type);
+// The same of the values that a variable begins with.
+bool count_values(Context& context, const Place& at, const Type& type, const ast::Initial* initial);
 
 }  // namespace indurop::plc

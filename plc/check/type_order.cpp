@@ -44,36 +44,57 @@ class TypeOrder {
 
   void run() {
     for (ast::TypeDeclaration& one : context_.program.project.types) {
-      declare(one);
+      begin(one);
+      while (!open_.empty()) {  // no recursion: names of types may lead to each other thousands of times
+        step();
+      }
     }
   }
 
  private:
-  void declare(ast::TypeDeclaration& one) {
-    if (!done_.insert(&one).second) {
-      return;
-    }
-    open_.push_back(&one);
+  // A declaration that waits for those it needs.
+  struct Open {
+    ast::TypeDeclaration* one = nullptr;
     std::vector<std::string> needed;
-    collect_names(one.type, needed);
-    for (const std::string& name : needed) {
-      const auto found = declared_.find(name);
+    std::size_t next = 0;
+  };
+
+  void begin(ast::TypeDeclaration& one) {
+    if (done_.insert(&one).second) {
+      open_.push_back({&one, {}, 0});
+      waiting_.insert(&one);
+      collect_names(one.type, open_.back().needed);
+    }
+  }
+
+  void step() {
+    Open& top = open_.back();
+    ast::TypeDeclaration& one = *top.one;
+    while (top.next < top.needed.size()) {
+      const auto found = declared_.find(top.needed[top.next++]);
       if (found == declared_.end()) {
         continue;
       }
-      if (std::find(open_.begin(), open_.end(), found->second) != open_.end()) {
+      if (waiting_.contains(found->second)) {
         context_.error(one.at,
                        fmt::format("the type '{}' contains itself, use an array with indices instead", one.name));
-        open_.pop_back();
+        end(one);
         return;
       }
-      declare(*found->second);
+      if (!done_.contains(found->second)) {
+        begin(*found->second);
+        return;
+      }
     }
-    open_.pop_back();
-    const Type* type = build_named(one);
-    if (type != nullptr) {
+    end(one);
+    if (const Type* type = build_named(one)) {
       context_.program.type_names.emplace(upper(one.name), type);
     }
+  }
+
+  void end(const ast::TypeDeclaration& one) {
+    waiting_.erase(&one);
+    open_.pop_back();
   }
 
   const Type* build_named(ast::TypeDeclaration& one) {
@@ -87,22 +108,28 @@ class TypeOrder {
     }
     // TYPE Speed : INT := 5; is a type of its own, because INT begins with 0.
     auto& named = context_.program.named_types;
-    const auto found = std::find(named.begin(), named.end(), type);
-    Type* own = found != named.end() && type->name == one.name ? *found : context_.program.types.add(*type);
+    const bool is_new = !named.empty() && named.back() == type && type->name == one.name;
+    Type* own = is_new ? named.back() : context_.program.types.add(*type);
     own->initial = &*one.initial;
+    own->default_values.reset();
     return own;
   }
 
   Context& context_;
   std::map<std::string, ast::TypeDeclaration*> declared_;
   std::set<const ast::TypeDeclaration*> done_;
-  std::vector<const ast::TypeDeclaration*> open_;
+  std::vector<Open> open_;                         // each is needed by the one before it
+  std::set<const ast::TypeDeclaration*> waiting_;  // those of them
 };
 
-// TYPE P : POINTER TO P; such a type has no end.
+// TYPE P : POINTER TO P; such a type has no end, and one behind too many pointers counts as if it had none.
 bool leads_to_itself(const Type& pointer) noexcept {
   const Type* at = pointer.element;
+  std::size_t depth = 0;
   while (at != nullptr && at != &pointer && (at->kind == Type::Kind::Pointer || at->kind == Type::Kind::Array)) {
+    if (++depth > kMaxTypeNesting) {
+      return true;
+    }
     at = at->element;
   }
   return at == &pointer;
@@ -127,6 +154,8 @@ void declare_types(Context& context) {
   context.program.types_known = true;
   for (const auto& [pointer, spec] : context.program.open_pointers) {
     pointer->element = build_type(context, *spec, "");
+  }
+  for (const auto& [pointer, spec] : context.program.open_pointers) {
     if (leads_to_itself(*pointer)) {
       context.error(spec->at, fmt::format("a pointer to '{}' leads to itself, put a STRUCT between", spec->name));
     }

@@ -9,8 +9,11 @@
 
 #include "plc/check/call_checker.h"
 #include "plc/check/expression_checker.h"
+#include "plc/check/foreign_types.h"
 #include "plc/check/global_table.h"
 #include "plc/library/standard.h"
+#include "plc/model/make.h"
+#include "plc/model/walk.h"
 
 namespace indurop::plc {
 
@@ -33,6 +36,11 @@ const Type* ExpressionChecker::unknown(Expression& expression, const Type* wante
   }
   if (Global* shared = only_foreign_global(context_, expression.name)) {
     return global(expression, *shared);
+  }
+  std::int64_t value = 0;
+  if (const Type* type = foreign_enum_value(context_, expression.name, value)) {
+    expression.resolved->constant = Integer{value};
+    return type;
   }
   const auto pou = context_.program.pou_names.find(upper(expression.name));
   const bool is_function =
@@ -73,6 +81,19 @@ void ExpressionChecker::no_member(const Expression& expression, const Type& bloc
                                             did_you_mean(context_, expression.name, known)));
 }
 
+void CallChecker::leave_out_library(Expression& callee) const {
+  const std::string path = callee.kind == Expression::Kind::Member ? ast::path_of(callee) : "";
+  const std::string name(name_in_standard(path));
+  const std::string space = upper(path.substr(0, path.find('.')));
+  const Program& program = context_.program;
+  if (name.empty() || find_functions(name).empty() || program.global_names.contains(space) ||
+      program.pou_names.contains(space) || program.type_names.contains(space) ||
+      (context_.pou != nullptr && context_.pou->find(space) != nullptr)) {
+    return;
+  }
+  callee = make::name(callee.at, name);
+}
+
 // Why the name is none.
 void CallChecker::no_function(const Expression& call) {
   const Expression& callee = call.operands[0];
@@ -104,6 +125,16 @@ void CallChecker::no_function(const Expression& call) {
   }
   if (const std::string why = why_left_out(context_.program.project, callee.name); !why.empty()) {
     context_.error(call.at, fmt::format("there is no function '{}'{}", callee.name, why));
+    return;
+  }
+  if (const LibraryBlock* block = find_block(callee.name)) {
+    context_.error(call.at, fmt::format("{0} is a function block: declare an instance of it, call that, and use its "
+                                        "outputs: VAR x : {0}; END_VAR x(...);",
+                                        block->name));
+    return;
+  }
+  if (context_.diagnostics.full()) {  // it only counts
+    context_.error(call.at, fmt::format("there is no function '{}'", callee.name));
     return;
   }
   std::vector<std::string> known;

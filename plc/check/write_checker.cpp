@@ -189,7 +189,13 @@ void ExpressionChecker::note_write(const Expression& expression) {
   }
   const Resolved& root = *root_of(expression).resolved;
   for (const auto& [variable, at] : context_.loop_variables) {
-    if (variable == root.variable || variable == root.global) {
+    const bool changed = variable == root.variable || variable == root.global;
+    if (changed && context_.codesys()) {
+      context_.warning(expression.at,
+                       fmt::format("this changes the variable of the FOR at {}, and with it how often the "
+                                   "loop runs",
+                                   to_string(at)));
+    } else if (changed) {
       context_.error(expression.at, fmt::format("this is the variable of the FOR at {}, which must not be changed "
                                                 "inside; leave the loop with EXIT, or use WHILE",
                                                 to_string(at)));

@@ -155,9 +155,11 @@ class Emitter {
     const GlobalUse& use = use_.globals.at(&global);
     const bool whole = use.writes.contains("");
     for (const std::string& path : use.writes) {
-      const bool covered = std::any_of(use.writes.begin(), use.writes.end(), [&](const std::string& other) {
-        return other != path && path.starts_with(other + ".");
-      });
+      bool covered = false;  // a struct around it is written
+      for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0 && !covered;
+           dot = path.rfind('.', dot - 1)) {
+        covered = use.writes.contains(path.substr(0, dot));
+      }
       if (covered || (whole && !path.empty())) {
         continue;
       }

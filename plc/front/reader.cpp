@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iterator>
+#include <map>
+#include <set>
 
 #include "plc/front/actions.h"
 #include "plc/front/builtin.h"
@@ -141,34 +144,42 @@ void leave_out(Project& project, Diagnostics& diagnostics) {
   std::erase_if(project.pous, [](const ast::Pou& pou) { return pou.c_code.has_value(); });
 }
 
-// The variable whose type was left out; null: there is none.
-const ast::Variable* missing_variable(const Project& project, const ast::Pou& pou) {
-  const auto found = std::find_if(pou.variables.begin(), pou.variables.end(), [&](const ast::Variable& one) {
-    const ast::TypeSpec* type = &one.type;
-    while (type->element != nullptr) {
-      type = type->element.get();
-    }
-    return type->kind == ast::TypeSpec::Kind::Named && !why_left_out(project, type->name).empty();
-  });
-  return found == pou.variables.end() ? nullptr : &*found;
-}
-
 // Function blocks with instances of what was left out go the same way, as python_gear of Beremiz.
 void leave_out_users(Project& project, Diagnostics& diagnostics) {
-  for (bool again = !project.left_out.empty(); again;) {
-    again = false;
-    for (auto pou = project.pous.begin(); pou != project.pous.end(); ++pou) {
-      const ast::Variable* missing =
-          pou->kind == ast::Pou::Kind::FunctionBlock ? missing_variable(project, *pou) : nullptr;
-      if (missing != nullptr) {
-        diagnostics.warning(missing->at, fmt::format("{} is left out too, because of this variable", pou->name));
-        project.left_out.push_back({missing->at, pou->name});
-        project.pous.erase(pou);
-        again = true;
-        break;
+  std::map<std::string, std::vector<std::pair<const ast::Pou*, const ast::Variable*>>> users;
+  std::vector<std::string> open;
+  for (const ast::NameAt& one : project.left_out) {
+    open.push_back(upper(one.name));
+  }
+  if (open.empty()) {
+    return;
+  }
+  for (const ast::Pou& pou : project.pous) {
+    for (const ast::Variable& one : pou.variables) {
+      const ast::TypeSpec* type = &one.type;
+      while (type->element != nullptr) {
+        type = type->element.get();
+      }
+      if (pou.kind == ast::Pou::Kind::FunctionBlock && type->kind == ast::TypeSpec::Kind::Named) {
+        users[upper(type->name)].emplace_back(&pou, &one);
       }
     }
   }
+  std::set<std::string> gone;
+  while (!open.empty()) {
+    const std::string name = std::move(open.back());
+    open.pop_back();
+    for (const auto& [pou, variable] : users[name]) {
+      if (gone.insert(upper(pou->name)).second) {
+        diagnostics.warning(variable->at, fmt::format("{} is left out too, because of this variable", pou->name));
+        project.left_out.push_back({variable->at, pou->name});
+        open.push_back(upper(pou->name));
+      }
+    }
+  }
+  std::erase_if(project.pous, [&](const ast::Pou& pou) {
+    return pou.kind == ast::Pou::Kind::FunctionBlock && gone.contains(upper(pou.name));
+  });
 }
 
 class FileReader {
@@ -254,6 +265,8 @@ class FileReader {
     return type != types.end() ? &*type : nullptr;
   }
 
+  static std::string ending_of(const std::string& file) { return std::filesystem::path(file).extension().string(); }
+
   static Place place_of(const std::string& file) {
     Place at;
     at.file = std::make_shared<const std::string>(file);
@@ -264,6 +277,11 @@ class FileReader {
     auto got = read_(file);
     if (!got.text) {
       diagnostics_.error(place_of(file), fmt::format("cannot read the file: {}", got.why));
+      out_.incomplete = true;
+      return std::nullopt;
+    }
+    if (!got.identity.empty() && !same_name(ending_of(got.identity), ending_of(file))) {
+      diagnostics_.error(place_of(file), "this is a link to a file of another kind, which is not read; name that file");
       out_.incomplete = true;
       return std::nullopt;
     }

@@ -294,4 +294,11 @@ const LibraryBlock* find_block(std::string_view name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+std::string_view name_in_standard(std::string_view path) noexcept {
+  const std::size_t dot = path.find('.');
+  const bool known = dot != std::string_view::npos &&
+                     (same_name(path.substr(0, dot), "Standard") || same_name(path.substr(0, dot), "Tc2_Standard"));
+  return known ? path.substr(dot + 1) : std::string_view();
+}
+
 }  // namespace indurop::plc

@@ -69,4 +69,7 @@ struct LibraryBlock {
 // "std::int16_t", "iec::Time". Requires another type than STRING and WSTRING, whose C++ type depends on its length.
 [[nodiscard]] std::string_view cpp_type(Elementary type) noexcept;
 
+// "LEN" of "Standard.LEN", as projects of CODESYS and TwinCAT may name the library; "" of other names.
+[[nodiscard]] std::string_view name_in_standard(std::string_view path) noexcept;
+
 }  // namespace indurop::plc

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "plc/model/make.h"
+#include "plc/model/walk.h"
 
 namespace indurop::plc::lower {
 
@@ -14,6 +15,14 @@ using ast::Expression;
 void Accumulator::load(Expression value) {
   value_ = std::move(value);
   used_ = false;
+}
+
+void Accumulator::combine(Expression value) {
+  constexpr std::size_t kDeepest = 100;
+  load(std::move(value));
+  if (ast::depth_of(*value_) > kDeepest) {
+    hold();
+  }
 }
 
 void Accumulator::load_joint(const Place& at, const std::string& variable) {

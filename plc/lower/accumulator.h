@@ -18,6 +18,8 @@ class Accumulator {
 
   [[nodiscard]] bool loaded() const noexcept { return value_.has_value(); }
   void load(ast::Expression value);
+  // What was computed from what was loaded. What becomes too deep for the passes behind is held in a variable.
+  void combine(ast::Expression value);
   // What the variable holds, which is used already.
   void load_joint(const Place& at, const std::string& variable);
   // Empty afterwards.

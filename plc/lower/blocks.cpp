@@ -73,7 +73,7 @@ void BlockLowering::block(const Element& element) {
   for (const Pin& pin : element.inputs) {
     if (is_enable(pin) && (!pin.connections.empty() || !pin.expression.empty())) {
       ast::Expression power = code_.input(element, pin);
-      enable = code_.temporary("en", std::to_string(element.id), make::type(element.at, Elementary::Bool));
+      enable = code_.temporary("en", key_of(element), make::type(element.at, Elementary::Bool));
       code_.add(make::assign(make::name(element.at, enable), std::move(power)));
     }
   }
@@ -178,8 +178,8 @@ void BlockLowering::function(const Element& element, const std::string& enable) 
     return;
   }
   if (standard && gives_bool(element.type)) {
-    const std::string name =
-        code_.temporary("p", fmt::format("{}_{}", element.id, result->name), make::type(element.at, Elementary::Bool));
+    const std::string name = code_.temporary("p", fmt::format("{}_{}", key_of(element), result->name),
+                                             make::type(element.at, Elementary::Bool));
     ast::Expression power =
         enable.empty() ? std::move(call) : make::both(make::name(element.at, enable), std::move(call));
     code_.add(make::assign(make::name(element.at, name), std::move(power)));
@@ -198,7 +198,7 @@ void BlockLowering::further_outputs(const Element& element, const Pin* result, s
       continue;
     }
     const std::string name =
-        code_.temporary("o", fmt::format("{}_{}", element.id, pin.name), output_type(element, pin));
+        code_.temporary("o", fmt::format("{}_{}", key_of(element), pin.name), output_type(element, pin));
     ast::Argument output = make::argument(pin.name, make::name(pin.at, name));
     output.output = true;
     arguments.push_back(std::move(output));

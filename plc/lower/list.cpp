@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <utility>
 
 #include "plc/lower/accumulator.h"
 #include "plc/lower/list_operators.h"
@@ -115,7 +114,7 @@ class ListLowering {
     }
     if (word.is("NOT")) {
       if (loaded(word)) {
-        accumulator_.load(make::negation(*accumulator_.take()));
+        accumulator_.combine(make::negation(*accumulator_.take()));
       }
       return accumulator_.loaded();
     }
@@ -164,7 +163,6 @@ class ListLowering {
   const Expression& use() {
     return accumulator_.use(!in_.at_end() && !in_.next_is({"LD", "LDN"}) && !in_.peek(1).is(":"));
   }
-
   bool store(const Token& word) {
     auto target = designators_.designator();
     if (!target || !loaded(word)) {
@@ -229,7 +227,7 @@ class ListLowering {
     }
     auto value = operand();
     if (value) {
-      apply(op, negated, std::move(*value));
+      apply(in_.place(word), op, negated, std::move(*value));
     }
     return value.has_value();
   }
@@ -243,9 +241,11 @@ class ListLowering {
     return depth == 0;
   }
 
-  void apply(Operator op, bool negated, Expression operand) {
-    accumulator_.load(
-        make::binary(op, *accumulator_.take(), negated ? make::negation(std::move(operand)) : std::move(operand)));
+  void apply(const Place& at, Operator op, bool negated, Expression operand) {
+    operand = negated ? make::negation(std::move(operand)) : std::move(operand);
+    Expression made = make::binary(op, *accumulator_.take(), std::move(operand));
+    made.at = at;
+    accumulator_.combine(std::move(made));
   }
 
   bool close() {
@@ -261,7 +261,7 @@ class ListLowering {
     open_.pop_back();
     Expression inner = *accumulator_.take();
     accumulator_.load(std::move(*open.before));
-    apply(open.op, open.negated, std::move(inner));
+    apply(open.at, open.op, open.negated, std::move(inner));
     return true;
   }
 
@@ -358,7 +358,7 @@ class ListLowering {
         }
       }
     }
-    accumulator_.load(make::call(at, make::name(at, std::string(word.text)), std::move(arguments)));
+    accumulator_.combine(make::call(at, make::name(at, std::string(word.text)), std::move(arguments)));
     return true;
   }
 

@@ -7,12 +7,15 @@
 
 #include "plc/library/standard.h"
 #include "plc/model/make.h"
+#include "plc/model/walk.h"
 #include "plc/st/parser.h"
 
 namespace indurop::plc::lower {
 namespace {
 
 using Kind = Element::Kind;
+
+constexpr std::size_t kDeepest = 64;  // operators inside each other
 
 // MAX(300, 1): nothing can change it.
 bool is_fixed(const ast::Expression& expression) {
@@ -32,7 +35,38 @@ bool is_fixed(const ast::Expression& expression) {
   }
 }
 
+// One behind the other, but not deeper than later passes bear.
+ast::Expression any_of(std::vector<ast::Expression> values) {
+  while (values.size() > 1) {
+    std::vector<ast::Expression> out;
+    for (std::size_t i = 0; i < values.size(); i += kDeepest) {
+      ast::Expression one = std::move(values[i]);
+      for (std::size_t k = i + 1; k < std::min(values.size(), i + kDeepest); ++k) {
+        one = make::either(std::move(one), std::move(values[k]));
+      }
+      out.push_back(std::move(one));
+    }
+    values = std::move(out);
+  }
+  return std::move(values.front());
+}
+
 }  // namespace
+
+std::string key_of(const Element& element) {
+  constexpr std::size_t kLongest = 32;
+  std::string out = std::to_string(element.id);
+  bool apart = true;  // a '_' comes before the next letter
+  for (const char c : element.instance.empty() ? element.text + element.type : element.instance) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (letter && out.size() < kLongest) {
+      out += apart ? "_" : "";
+      out += c;
+    }
+    apart = !letter;
+  }
+  return out;
+}
 
 std::optional<ast::Expression> NetworkCode::parse(std::string_view text, const Place& at) {
   if (text.empty()) {
@@ -49,16 +83,14 @@ Value NetworkCode::input_value(const Element& element, const Pin& pin, bool guar
   } else if (pin.connections.size() == 1) {
     all = value_of(pin.connections.front(), guarded);
   } else {
-    all.expression = make::truth(pin.at, false);
-    bool first = true;
+    std::vector<ast::Expression> values;
     for (const Connection& connection : pin.connections) {
-      ast::Expression one = value_of(connection, false).expression;
-      all.expression = first ? std::move(one) : make::either(std::move(all.expression), std::move(one));
-      first = false;
+      values.push_back(value_of(connection, false).expression);
     }
+    all.expression = values.empty() ? make::truth(pin.at, false) : any_of(std::move(values));
   }
   if (pin.edge != ast::Edge::None) {
-    all.expression = edge(std::move(all.expression), pin.edge, fmt::format("{}_{}", element.id, pin.name));
+    all.expression = edge(std::move(all.expression), pin.edge, fmt::format("{}_{}", key_of(element), pin.name));
   }
   if (pin.negated) {
     all.expression = make::negation(std::move(all.expression));
@@ -135,14 +167,20 @@ void NetworkCode::define(const Element& element, const Pin* pin, ast::Expression
 }
 
 void NetworkCode::defer(const Element& element, const Pin& pin, ast::Expression value, std::string guard) {
-  outputs_[{&element, &pin}] = {{std::move(value), std::move(guard)}, true, lowered_.body.size()};
+  const bool deep = ast::depth_of(value) > kDeepest;
+  Output& made = outputs_[{&element, &pin}];
+  made = {{std::move(value), std::move(guard)}, true, lowered_.body.size()};
+  if (deep) {
+    keep({&element, &pin}, made);
+  }
 }
 
 // The value as it was where the function stands: the statement goes there, not to the end.
 void NetworkCode::keep(const Key& key, Output& output) {
   const Place at = output.value.expression.at;
-  const std::string name = temporary(
-      "t", fmt::format("{}_{}", key.first->id, key.second == nullptr ? "" : key.second->name), make::inferred_type(at));
+  const std::string name =
+      temporary("t", fmt::format("{}_{}", key_of(*key.first), key.second == nullptr ? "" : key.second->name),
+                make::inferred_type(at));
   ast::Statement statement = make::assign(make::name(at, name), std::move(output.value.expression));
   if (!output.value.guard.empty()) {
     ast::Body body;
@@ -193,7 +231,7 @@ ast::Expression NetworkCode::power(const Element& element, ast::Expression value
     show(FlowPoint::Kind::Power, {&element, nullptr}, value);
     return value;
   }
-  const std::string name = temporary("p", std::to_string(element.id), make::type(element.at, Elementary::Bool));
+  const std::string name = temporary("p", key_of(element), make::type(element.at, Elementary::Bool));
   add(make::assign(make::name(element.at, name), std::move(value)));
   show(FlowPoint::Kind::Power, {&element, nullptr}, make::name(element.at, name));
   return make::name(element.at, name);

@@ -21,6 +21,9 @@ struct Value {
   std::string guard;
 };
 
+// What the variables of an element are called after it: its number and what is written in it, "5_start".
+[[nodiscard]] std::string key_of(const Element& element);
+
 class NetworkCode {
  public:
   NetworkCode(const Sheet& sheet, const NetworkOptions& options, Diagnostics& diagnostics)

@@ -92,7 +92,7 @@ class NetworkLowering {
     }
     variable->as_truth = true;
     if (element.edge != ast::Edge::None) {
-      variable = code_.edge(std::move(*variable), element.edge, std::to_string(element.id));
+      variable = code_.edge(std::move(*variable), element.edge, key_of(element));
     } else if (element.negated) {
       variable = make::negation(std::move(*variable));
     }
@@ -114,7 +114,7 @@ class NetworkLowering {
     code_.define(element, nullptr, power);
     ast::Expression value = power;
     if (element.edge != ast::Edge::None) {
-      value = code_.edge(std::move(value), element.edge, std::to_string(element.id));
+      value = code_.edge(std::move(value), element.edge, key_of(element));
     }
     code_.store(std::move(*target), {std::move(value), {}}, element.storage, element.negated);
   }

@@ -305,9 +305,34 @@ class PouLowering {
 
   Lowered action(Body& body, const std::string& prefix) {
     lowered_actions_.insert(&body);
+    if (!may_copy(body)) {
+      return {};
+    }
+    ++depth_;
     Lowered code = lower(body, what_of(body), prefix);
+    --depth_;
     stays_inside(code);
     return code;
+  }
+
+  // An action stands wherever it is called.
+  bool may_copy(const Body& body) {
+    constexpr std::size_t kMostInside = 32;
+    constexpr std::size_t kMost = std::size_t{16} << 20U;
+    constexpr std::size_t kElement = 100;  // counts as so many bytes
+    if (depth_ >= kMostInside) {
+      diagnostics_.error(
+          body.at, fmt::format("more than {} actions call each other, make function blocks of some", kMostInside));
+      return false;
+    }
+    const bool before = project_.copied_actions <= kMost;
+    project_.copied_actions += before ? kElement + body.text.size() + kElement * body.diagram.elements.size() : 0;
+    if (before && project_.copied_actions > kMost) {
+      diagnostics_.error(body.at,
+                         "actions are copied to where they are called, and these copies become more than 16 MiB; "
+                         "make function blocks of some");
+    }
+    return project_.copied_actions <= kMost;
   }
 
   void stays_inside(const Lowered& code) {
@@ -343,6 +368,7 @@ class PouLowering {
   const ReadOptions& read_options_;
   Project& project_;
   ast::Pou& pou_;
+  std::size_t depth_ = 0;  // of actions in each other
   Diagnostics& diagnostics_;
   std::string what_;
   InnerCharts charts_;

@@ -13,6 +13,9 @@
 
 namespace indurop::plc {
 
+// More of them in one line are an error: what is inherited is copied.
+inline constexpr std::size_t kMaxExtends = 64;
+
 // TASK fast (INTERVAL := T#10ms, PRIORITY := 1)
 inline constexpr std::int64_t kDefaultIntervalNs = 10'000'000;
 
@@ -86,6 +89,7 @@ struct Project {
   std::vector<ast::NameAt> left_out;      // POUs with C code, and where that stands
   bool incomplete = false;                // something that is not supported was left out, so that names may miss
   Dialect dialect = Dialect::Iec;         // of the editor that wrote it, as far as the files say
+  std::size_t copied_actions = 0;         // bytes of actions that were copied to where they are called, about
   std::vector<std::string> global_lists;  // names through which globals may be reached: Io.Blocked, as CODESYS has it
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/model/walk.h"
 
+#include <algorithm>
+
 namespace indurop::plc::ast {
 namespace {
 
@@ -57,6 +59,17 @@ std::string path_of(const Expression& expression) {
   }
   const std::string before = expression.kind == Expression::Kind::Member ? path_of(expression.operands[0]) : "";
   return before.empty() ? "" : before + "." + expression.name;
+}
+
+std::size_t depth_of(const Expression& expression) {
+  std::size_t deepest = 0;
+  for (const Expression& one : expression.operands) {
+    deepest = std::max(deepest, depth_of(one));
+  }
+  for (const Argument& one : expression.arguments) {
+    deepest = one.value ? std::max(deepest, depth_of(*one.value)) : deepest;
+  }
+  return deepest + 1;
 }
 
 }  // namespace indurop::plc::ast

@@ -21,4 +21,7 @@ void each_expression(Initial& initial, const Visit& visit);
 // "A.B" of names behind each other, "" of anything else.
 [[nodiscard]] std::string path_of(const Expression& expression);
 
+// Operators, calls and indices inside each other.
+[[nodiscard]] std::size_t depth_of(const Expression& expression);
+
 }  // namespace indurop::plc::ast

@@ -41,12 +41,14 @@ class Reader {
   Chart read() {
     collect();
     for (Transition& transition : chart_.transitions) {
+      passed_.clear();
       before(*transition.element, transition.from);
       if (transition.from.empty()) {
         diagnostics_.error(transition.element->at, "no step leads to this transition; draw a line from one");
       }
     }
     for (const Element& element : diagram_.elements) {
+      passed_.clear();
       if (element.kind == Kind::Step) {
         into(element, steps_.at(&element));
         for (const ActionLine& line : element.actions) {
@@ -75,9 +77,14 @@ class Reader {
   void begins_once() {
     std::vector<std::size_t> chart_of(chart_.steps.size());
     std::iota(chart_of.begin(), chart_of.end(), std::size_t{0});
-    const auto join = [&](std::size_t a, std::size_t b) {
-      std::replace(chart_of.begin(), chart_of.end(), std::size_t{chart_of[b]}, std::size_t{chart_of[a]});
+    const auto find = [&](std::size_t i) {
+      while (chart_of[i] != i) {
+        chart_of[i] = chart_of[chart_of[i]];
+        i = chart_of[i];
+      }
+      return i;
     };
+    const auto join = [&](std::size_t a, std::size_t b) { chart_of[find(b)] = find(a); };
     for (const Transition& transition : chart_.transitions) {
       for (const auto* steps : {&transition.from, &transition.to}) {
         for (const std::size_t step : *steps) {
@@ -87,7 +94,7 @@ class Reader {
     }
     std::unordered_map<std::size_t, std::size_t> begins;  // of each chart
     for (std::size_t i = 0; i < chart_.steps.size(); ++i) {
-      if (chart_.steps[i].initial && ++begins[chart_of[i]] == 2) {
+      if (chart_.steps[i].initial && ++begins[find(i)] == 2) {
         diagnostics_.error(chart_.steps[i].element->at,
                            "this chart has two initial steps; it begins in one, unless they are charts of their own");
       }
@@ -140,11 +147,22 @@ class Reader {
     return count;
   }
 
+  // Whether the lines around the element are still to be followed.
+  bool enter(const Element& element) {
+    constexpr std::size_t kMost = 500;
+    if (depth_ >= kMost) {
+      diagnostics_.error(element.at, fmt::format("more than {} branches behind each other without a step", kMost));
+      return false;
+    }
+    return passed_.insert(&element).second;
+  }
+
   // Steps before a transition: one, or all those of a simultaneous convergence.
   void before(const Element& element, std::vector<std::size_t>& into) {
-    if (!passed_.insert(&element).second) {
+    if (!enter(element)) {
       return;  // a circle without a step: reported as a transition without one
     }
+    ++depth_;
     each_source(element, index_, diagnostics_, [&](const Element& from) {
       switch (from.kind) {
         case Kind::Step:
@@ -167,14 +185,15 @@ class Reader {
           }
       }
     });
-    passed_.erase(&element);
+    --depth_;
   }
 
   // Transitions that lead into `element` get the step.
   void into(const Element& element, std::size_t step) {
-    if (!passed_.insert(&element).second) {
+    if (!enter(element)) {
       return;
     }
+    ++depth_;
     each_source(element, index_, diagnostics_, [&](const Element& from) {
       switch (from.kind) {
         case Kind::Transition: {
@@ -198,7 +217,7 @@ class Reader {
                              fmt::format("{} stands before it, where a transition must be", title_of(from)));
       }
     });
-    passed_.erase(&element);
+    --depth_;
   }
 
   void jump(const Element& element) {
@@ -235,7 +254,8 @@ class Reader {
   std::unordered_map<const Element*, std::size_t> steps_;
   std::unordered_map<const Element*, std::size_t> numbers_;  // of transitions
   std::unordered_map<std::string, std::size_t> names_;
-  std::unordered_set<const Element*> passed_;
+  std::unordered_set<const Element*> passed_;  // in the search that goes on
+  std::size_t depth_ = 0;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@ using Active = std::vector<bool>;  // by step
 
 // Charts with more situations than this are looked at in part only.
 constexpr std::size_t kMostSituations = 5'000;
+constexpr std::size_t kMostSteps = 50'000'000;  // looked at in all of them
 
 class Walk {
  public:
@@ -26,10 +27,11 @@ class Walk {
       first[i] = chart_.steps[i].initial;
     }
     enter(first);
-    for (; !left_.empty() && seen_.size() < kMostSituations; left_.pop_front()) {
+    for (; !left_.empty() && seen_.size() < kMostSituations && looked_at_ < kMostSteps; left_.pop_front()) {
       for (const Transition& transition : chart_.transitions) {
         fire(transition, left_.front());
       }
+      looked_at_ += chart_.transitions.size();
     }
   }
 
@@ -38,11 +40,12 @@ class Walk {
   [[nodiscard]] bool twice(std::size_t step) const { return twice_[step]; }
 
  private:
-  void fire(const Transition& transition, Active now) {
-    const auto active = [&](std::size_t step) { return static_cast<bool>(now[step]); };
+  void fire(const Transition& transition, const Active& before) {
+    const auto active = [&](std::size_t step) { return static_cast<bool>(before[step]); };
     if (!std::all_of(transition.from.begin(), transition.from.end(), active)) {
       return;
     }
+    Active now = before;
     for (const std::size_t step : transition.from) {
       now[step] = false;
     }
@@ -54,6 +57,7 @@ class Walk {
   }
 
   void enter(Active situation) {
+    looked_at_ += situation.size();
     for (std::size_t i = 0; i < situation.size(); ++i) {
       reached_[i] = reached_[i] || situation[i];
     }
@@ -67,6 +71,7 @@ class Walk {
   Active twice_;
   std::set<Active> seen_;
   std::deque<Active> left_;
+  std::size_t looked_at_ = 0;
 };
 
 }  // namespace

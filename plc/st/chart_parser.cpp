@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <iterator>
 #include <utility>
@@ -18,8 +20,22 @@ bool ChartParser::at_chart() const {
   return in_.peek().is("INITIAL_STEP") || (in_.peek().is("STEP") && in_.peek(2).is(":"));
 }
 
-// An operator of the list and its operand; in Structured Text none follows a name.
+// An operator of the list and its operand; in Structured Text none follows a name. Or a formal call on lines of its
+// own, behind which no ';' stands but an operator.
 bool ChartParser::at_instruction_list() const {
+  if (in_.peek().kind == TokenKind::Word && in_.peek(1).is("(")) {
+    constexpr std::size_t kLongest = 1000;
+    std::size_t behind = 2;
+    for (int depth = 1; depth > 0 && behind < kLongest && in_.peek(behind).kind != TokenKind::End; ++behind) {
+      depth += in_.peek(behind).is("(") ? 1 : in_.peek(behind).is(")") ? -1 : 0;
+    }
+    const Token& word = in_.peek(behind);
+    constexpr std::array<std::string_view, 26> kOperators{
+        "LD",  "LDN", "ST",  "STN", "S",  "R",  "AND", "ANDN", "OR", "ORN", "XOR",  "XORN", "ADD",
+        "SUB", "MUL", "DIV", "MOD", "GT", "GE", "EQ",  "NE",   "LE", "LT",  "JMPC", "CALC", "RETC"};
+    return word.line > in_.peek(behind - 1).line && in_.peek(behind + 1).line == word.line &&
+           std::any_of(kOperators.begin(), kOperators.end(), [&](std::string_view one) { return word.is(one); });
+  }
   const Token& operand = in_.peek(1);
   return in_.next_is({"LD", "LDN", "CAL", "CALC", "CALCN"}) &&
          (operand.kind == TokenKind::Word || operand.kind == TokenKind::Number || operand.kind == TokenKind::Typed ||

@@ -180,10 +180,10 @@ Literal character(Elementary type, std::string_view quoted, std::string_view who
 Literal number_literal(std::string_view text) {
   if (const std::size_t hash = text.find('#'); hash != std::string_view::npos) {
     const std::string_view base = text.substr(0, hash);
-    if (base != "2" && base != "8" && base != "16") {
-      return wrong(fmt::format("there are no numbers of base {}, use 2#, 8# or 16#", base));
+    if (base != "2" && base != "8" && base != "10" && base != "16") {
+      return wrong(fmt::format("there are no numbers of base {}, use 2#, 8#, 10# or 16#", base));
     }
-    return integer(text.substr(hash + 1), base == "2" ? 2 : base == "8" ? 8 : 16, text);
+    return integer(text.substr(hash + 1), base == "2" ? 2 : base == "8" ? 8 : base == "10" ? 10 : 16, text);
   }
   const bool has_exponent = text.find_first_of("eE") != std::string_view::npos;
   return text.find('.') != std::string_view::npos || has_exponent ? real(text) : integer(text, 10, text);

@@ -191,9 +191,19 @@ void ProjectParser::space(Project& out) {
   if (in_.peek().is("INTERNAL") && in_.peek(1).kind == TokenKind::Word) {
     in_.take();
   }
+  constexpr std::ptrdiff_t kDeepest = 32;
   const ast::Scope around = scope_;
   std::vector<ast::NameAt> path;
-  if (names(path, "a namespace")) {
+  const bool named = names(path, "a namespace");
+  const std::string whole = scope_.space + "." + (named ? path.front().name : "");
+  if (std::count(whole.begin(), whole.end(), '.') > kDeepest) {
+    in_.error(word, fmt::format("more than {} namespaces inside each other, use fewer", kDeepest));
+    while (!in_.at_end()) {
+      in_.take();
+    }
+    return;
+  }
+  if (named) {
     scope_.space += (scope_.space.empty() ? "" : ".") + path.front().name;
   }
   in_.accept(";");
@@ -223,8 +233,14 @@ void ProjectParser::uses(ast::Pou& out) {
 }
 
 void ProjectParser::using_directive(std::vector<ast::NameAt>& to) {
-  in_.take();
+  constexpr std::size_t kMost = 100;
+  const Token& word = in_.take();
   static_cast<void>(names(to, "a namespace") && in_.expect_end("behind USING"));
+  if (to.size() > kMost) {
+    in_.error(word,
+              fmt::format("more than {} namespaces are used here, write their names where they are needed", kMost));
+    to.resize(kMost);
+  }
 }
 
 // First, Second.Inner

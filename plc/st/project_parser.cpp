@@ -97,16 +97,15 @@ bool ProjectParser::element(Project& out) {
 }
 
 // Whether ACTIONs stand in this POU or behind it.
-bool ProjectParser::has_actions(std::string_view end) const {
-  for (std::size_t ahead = 0; in_.peek(ahead).kind != TokenKind::End; ++ahead) {
-    if (in_.peek(ahead).is("ACTION")) {
-      return true;
-    }
-    if (in_.peek(ahead).is(end)) {
-      return in_.peek(ahead + 1).is("ACTION") || (in_.peek(ahead + 1).is(";") && in_.peek(ahead + 2).is("ACTION"));
-    }
+bool ProjectParser::has_actions(std::string_view end) {
+  std::size_t& next = next_end_[std::string(end)];  // the text behind each POU is not searched again
+  next = std::max(next, in_.position());
+  const auto ahead = [&](std::size_t more) -> const Token& { return in_.peek(next - in_.position() + more); };
+  while (ahead(0).kind != TokenKind::End && !ahead(0).is("ACTION") && !ahead(0).is(end)) {
+    ++next;
   }
-  return false;
+  return ahead(0).is("ACTION") ||
+         (ahead(0).is(end) && (ahead(1).is("ACTION") || (ahead(1).is(";") && ahead(2).is("ACTION"))));
 }
 
 bool ProjectParser::name(std::string& to, std::string_view what) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "plc/model/project.h"
@@ -57,7 +58,7 @@ class ProjectParser {
   void code(ast::Pou& out, std::string_view end);
   void object(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
 
-  [[nodiscard]] bool has_actions(std::string_view end) const;
+  [[nodiscard]] bool has_actions(std::string_view end);
   [[nodiscard]] bool name(std::string& to, std::string_view what);
 
   TokenReader& in_;
@@ -69,7 +70,8 @@ class ProjectParser {
   std::vector<WrittenBody> written_;
   std::vector<Access> accesses_;  // of its programs
   bool in_editor_;
-  ast::Scope scope_;  // the namespace around what is read
+  ast::Scope scope_;                             // the namespace around what is read
+  std::map<std::string, std::size_t> next_end_;  // of END_PROGRAM and so on: that word or ACTION, whichever comes next
 };
 
 }  // namespace indurop::plc::st
