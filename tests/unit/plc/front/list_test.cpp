@@ -79,5 +79,17 @@ TEST(PlcList, A_call_does_not_change_what_was_loaded_before) {
   EXPECT_LT(cpp.find("_il1 = t.q;"), cpp.find("t(scan"));
 }
 
+TEST(PlcList, An_error_stands_at_the_operator) {
+  EXPECT_THAT(wrong(list("TON", "INT", "LD a\nADD b\nST a")), HasSubstr("in.st:4:1: error: Main: ADD does not take"));
+  EXPECT_THAT(wrong(list("TON", "INT", "LD a\nADD 1\nAND b\nST a")),
+              HasSubstr("in.st:5:1: error: Main: AND, OR and XOR"));
+}
+
+TEST(PlcList, A_formal_call_may_come_first) {
+  EXPECT_EQ(wrong(list("TON", "INT", "LIMIT(MN := 0, IN := a, MX := 5)\nST a")), "");
+  EXPECT_EQ(wrong(list("TON", "INT", "LIMIT(\n  MN := 0,\n  IN := a,\n  MX := 5\n)\nADD 1\nST a")), "");
+  EXPECT_EQ(wrong(list("TON", "INT", "fb(IN := b);\nIF b THEN a := 1; END_IF;")), "");
+}
+
 }  // namespace
 }  // namespace indurop::plc

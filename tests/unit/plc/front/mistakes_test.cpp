@@ -347,5 +347,38 @@ TEST(PlcMistakes, A_value_in_the_place_of_an_input_that_was_given_by_name) {
   EXPECT_THAT(wrong(text), HasSubstr("b is given twice, remove one of them"));
 }
 
+TEST(PlcMistakes, What_is_missing_or_misused_is_named) {
+  const auto main = [](const std::string& variables, const std::string& body) {
+    return "PROGRAM Main VAR i : INT; b : BOOL; " + variables + " END_VAR " + body + " END_PROGRAM";
+  };
+  EXPECT_THAT(wrong(main("p : MC_Power;", "p();")),
+              HasSubstr("are in motion.st of share/indurop/plc, name that file too"));
+  EXPECT_THAT(wrong(main("", "b := TON(IN := b, PT := T#1s);")),
+              HasSubstr("TON is a function block: declare an instance"));
+  EXPECT_THAT(wrong(main("", "b := TON(IN := b, PT := T#1s);")), Not(HasSubstr("TAN")));
+}
+
+TEST(PlcMistakes, Of_CODESYS_is_taken_what_it_takes) {
+  CompileOptions options;
+  options.files = {"in.st"};
+  options.name = "sut";
+  options.dialect = Dialect::Codesys;
+  const auto said = [&](const std::string& text) {
+    const Compiled made = compile(options, [&](const std::string& name) {
+      return glb2idl::ReadResult{text, name, ""};
+    });
+    return (made.ok ? "fine\n" : "refused\n") + messages(made);
+  };
+  EXPECT_THAT(said("PROGRAM Main VAR i : INT; s : STRING; t : Standard.TON; END_VAR i := 10#500 + Standard.LEN(s); "
+                   "t(IN := TRUE); i := 2 ** 3; END_PROGRAM"),
+              HasSubstr("fine"));
+  EXPECT_THAT(said("TYPE Nothing : STRUCT END_STRUCT END_TYPE PROGRAM Main VAR n, m : Nothing; END_VAR n := m; "
+                   "END_PROGRAM"),
+              ::testing::AllOf(HasSubstr("fine"), HasSubstr("Nothing has no fields")));
+  EXPECT_THAT(said("PROGRAM Main VAR i : INT; END_VAR FOR i := 1 TO 9 DO IF i = 5 THEN i := 9; END_IF; END_FOR; "
+                   "END_PROGRAM"),
+              ::testing::AllOf(HasSubstr("fine"), HasSubstr("this changes the variable of the FOR at in.st:1:38")));
+}
+
 }  // namespace
 }  // namespace indurop::plc
