@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "rt/copy_text.h"
+#include "rt/guard_text.h"
 #include "rt/lost_pages.h"
 
 namespace indurop::scheduler {
@@ -13,23 +14,6 @@ namespace {
 
 // A simulated run has used up its budget.
 class TooLong : public std::exception {};
-
-const char* signal_text(int number) noexcept {
-  switch (number) {
-    case SIGSEGV:
-      return "SIGSEGV (invalid memory access)";
-    case SIGBUS:
-      return "SIGBUS (access beyond a mapping)";
-    case SIGFPE:
-      return "SIGFPE (division by zero or overflow)";
-    case SIGILL:
-      return "SIGILL (illegal instruction)";
-    case SIGABRT:
-      return "SIGABRT (abort or failed assertion)";
-    default:
-      return "signal";
-  }
-}
 
 }  // namespace
 
@@ -188,14 +172,10 @@ void Runner::contain_jump() noexcept {
     end == start ? std::snprintf(text, sizeof text, "did not return")
                  : std::snprintf(text, sizeof text, "did not return within %lld us",
                                  static_cast<long long>((end - start) / 1000));
-  } else if (guard_.signal_number() == SIGSEGV && stack_.overflowed_at(guard_.fault_address())) {
-    std::snprintf(text, sizeof text, "stack overflow: the module's thread has %zu KiB of stack", stack_.bytes / 1024);
   } else if (guard_.signal_number() == SIGBUS && rt::is_guarded(guard_.fault_address())) {
     std::snprintf(text, sizeof text, "the node's shared memory was cut while it ran");
-  } else if (guard_.signal_number() == SIGSEGV || guard_.signal_number() == SIGBUS) {
-    std::snprintf(text, sizeof text, "%s at address %p", signal_text(guard_.signal_number()), guard_.fault_address());
   } else {
-    std::snprintf(text, sizeof text, "%s", signal_text(guard_.signal_number()));
+    rt::describe_fault(guard_, stack_, text, sizeof text);
   }
   contain(kind, text);
 }
