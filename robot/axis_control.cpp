@@ -9,9 +9,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kPowerTime = 3;    // s a drive may take to get power or to leave a fault
-constexpr double kLetGoTime = 0.5;  // s it is waited for to give it up; one that keeps it has it
-constexpr double kHomeTime = 120;   // s
+constexpr double kHomeTime = 120;  // s
 
 std::int32_t counts(double value) noexcept {
   constexpr double kMost = std::numeric_limits<std::int32_t>::max();
@@ -53,6 +51,10 @@ void AxisControl::sense(const DriveIn& in, double seconds) noexcept {
     placed_anew_ = true;
     if (moved) {
       fail(ErrorCode::Drive, 1);
+    } else if (state_ == AxisState::Standstill && want_power_) {
+      const Drive::State drive = Drive::state_of(in.status);
+      const bool fault = drive == Drive::State::Fault || drive == Drive::State::FaultReaction;
+      fail(fault ? ErrorCode::Drive : ErrorCode::Power, 1);  // PLCopen: it comes back with a reset only
     } else if (state_ != AxisState::ErrorStop) {
       state_ = AxisState::Disabled;
       release_stop();
@@ -73,7 +75,10 @@ void AxisControl::finish(Owner& owner, ErrorCode code) noexcept {
   }
   if (owner.ticket == kRequest) {
     (code == ErrorCode::Ok ? report_.done : report_.aborted) = report_.acknowledged;
+  } else if (owner.ticket != kNobody && owner.ticket == power_ && code == ErrorCode::Ok) {
+    table_->holds(owner.ticket);
   } else if (owner.ticket != kNobody) {
+    power_ = owner.ticket == power_ ? kNobody : power_;
     table_->end(owner.ticket, code);
   }
   owner = {};
@@ -121,33 +126,6 @@ void AxisControl::home() noexcept {
   drive_.home(true);
 }
 
-void AxisControl::wait_for_power(double seconds) noexcept {
-  waited_ += seconds;
-  if (letting_go_) {
-    letting_go_ = drive_.enabled() && waited_ <= kLetGoTime;
-    want_power_ = !letting_go_;
-  } else if (drive_.enabled()) {
-    finish(admin_, ErrorCode::Ok);
-  } else if (waited_ > kPowerTime) {
-    want_power_ = false;
-    finish(admin_, drive_.faulty() ? ErrorCode::Drive : ErrorCode::Power);
-  }
-}
-
-// PLCopen: an axis that is still braking is not reset.
-void AxisControl::wait_for_reset(double seconds) noexcept {
-  if (!motion_.at_rest()) {
-    return;
-  }
-  if (state_ == AxisState::ErrorStop || drive_.faulty()) {
-    reset();
-  }
-  waited_ += seconds;
-  if (!drive_.faulty() || waited_ > kPowerTime) {
-    finish(admin_, drive_.faulty() ? ErrorCode::Drive : ErrorCode::Ok);
-  }
-}
-
 void AxisControl::move_home(double seconds) noexcept {
   waited_ += seconds;
   const bool failed = drive_.home_failed() || waited_ > kHomeTime;
@@ -181,6 +159,7 @@ void AxisControl::guard_limits(double seconds) noexcept {
 
 void AxisControl::move(double seconds) noexcept {
   look_at_commands();
+  keep_power();
   if (admin_.service == AxisService::PowerOn) {
     wait_for_power(seconds);
   }
@@ -239,7 +218,11 @@ void AxisControl::follow(const LineState& state) noexcept {
 }
 
 void AxisControl::fail(ErrorCode code, double hardness) noexcept {
-  finish(admin_, code);
+  if (admin_.ticket == power_) {
+    admin_ = {};  // goes on once it has been reset
+  } else if (admin_.service != AxisService::Reset) {
+    finish(admin_, code);
+  }
   finish(motion_owner_, code);
   finish(super_, code);
   abort_queue();
@@ -252,19 +235,9 @@ void AxisControl::fail(ErrorCode code, double hardness) noexcept {
   state_ = AxisState::ErrorStop;
 }
 
-void AxisControl::reset() noexcept {
-  drive_.reset();
-  want_power_ = want_power_ && drive_.enabled();  // power comes back on request only
-  if (state_ == AxisState::ErrorStop) {
-    report_.error = ErrorCode::Ok;
-  }
-  if (state_ == AxisState::ErrorStop || in_group()) {
-    state_ = drive_.enabled() ? AxisState::Standstill : AxisState::Disabled;
-  }
-}
-
 DriveOut AxisControl::command(const DriveIn& in, bool quick_stop) noexcept {
-  drive_.step(in, quick_stop ? Drive::Want::QuickStop : want_power_ ? Drive::Want::On : Drive::Want::Off);
+  quick_stopped_ = quick_stop && state_ == AxisState::ErrorStop;
+  drive_.step(in, quick_stopped_ ? Drive::Want::QuickStop : want_power_ ? Drive::Want::On : Drive::Want::Off);
   DriveOut out;
   out.control = drive_.control();
   out.mode = drive_.mode();

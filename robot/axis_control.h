@@ -83,6 +83,15 @@ class AxisControl {
   }
   void set_factors(double acceleration, double jerk) noexcept;
   void power(bool on) noexcept { want_power_ = on; }
+  // The group gives up power. An axis keeps it that moves by itself, or for which a command holds it (axis_power.cpp).
+  void give_up_power() noexcept { want_power_ = want_power_ && (holds_power() || busy()); }
+  // The command that held power has lost its Execute.
+  [[nodiscard]] bool power_falls() const noexcept { return power_ != kNobody && !holds_power(); }
+  // In an emergency no axis is reset, and while the group stops for an error it waits.
+  void set_stops(bool emergency, bool group_stops) noexcept {
+    emergency_ = emergency;
+    group_stops_ = group_stops;
+  }
   // Homes on the group's behalf.
   void home() noexcept;
   // Comes to rest by itself and stays in ErrorStop until reset().
@@ -133,7 +142,15 @@ class AxisControl {
   static bool is_profile(AxisService service) noexcept;    // by a table of times
   void order(int ticket, const Command& command) noexcept;
   void ignore(int ticket, const Command& command) noexcept;
+  // Power and reset (axis_power.cpp).
   void administer(int ticket, const Command& command) noexcept;
+  void keep_power() noexcept;
+  void interrupt_power() noexcept;
+  void take_power(int ticket) noexcept;
+  void give_power(int ticket) noexcept;
+  [[nodiscard]] bool holds_power() const noexcept { return power_ != kNobody && table_->execute(power_); }
+  void wait_for_power(double seconds) noexcept;
+  void wait_for_reset(double seconds) noexcept;
   void stop_for(int ticket, const Command& command) noexcept;
   void set_position(int ticket, const Command& command) noexcept;
   void queue(int ticket, const Command& command) noexcept;
@@ -216,8 +233,6 @@ class AxisControl {
 
   void finish(Owner& owner, ErrorCode code) noexcept;
   void move_home(double seconds) noexcept;
-  void wait_for_power(double seconds) noexcept;
-  void wait_for_reset(double seconds) noexcept;
   void guard_limits(double seconds) noexcept;
   void note_velocity() noexcept;
   [[nodiscard]] LineLimits limits(double hardness) const noexcept;
@@ -260,9 +275,13 @@ class AxisControl {
   double origin_ = 0;  // of the positions that single axes are told, from the drive's
   double acceleration_factor_ = 1, jerk_factor_ = 1;
   CommandTable* table_ = nullptr;
-  Owner admin_;         // of power and reset
-  Owner motion_owner_;  // of the motion on its way
-  Owner super_;         // of what is on top of it
+  Owner admin_;          // of power and reset
+  int power_ = kNobody;  // the command that holds power as long as it has its Execute
+  bool emergency_ = false;
+  bool group_stops_ = false;
+  bool quick_stopped_ = false;  // its drive is about to lose power, whatever it says
+  Owner motion_owner_;          // of the motion on its way
+  Owner super_;                 // of what is on top of it
   Owner probing_;
   AxisProbe probe_;
   bool probe_windowed_ = false;

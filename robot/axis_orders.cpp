@@ -81,30 +81,6 @@ void AxisControl::ignore(int ticket, const Command& /*command*/) noexcept {
   finish(owner, ErrorCode::Ok);
 }
 
-void AxisControl::administer(int ticket, const Command& command) noexcept {
-  const AxisService service = service_of(command);
-  finish(admin_, ErrorCode::Aborted);
-  admin_ = {ticket, service};
-  waited_ = 0;
-  if (ticket != kRequest) {
-    table_->active(ticket);
-  }
-  switch (service) {
-    case AxisService::PowerOn:
-      letting_go_ = drive_.enabled() && !want_power_;
-      state_ == AxisState::ErrorStop ? finish(admin_, ErrorCode::State) : void(want_power_ = !letting_go_);
-      break;
-    case AxisService::PowerOff:
-      release_stop();
-      halt();
-      break;
-    default:
-      if (state_ != AxisState::ErrorStop && !drive_.faulty()) {
-        finish(admin_, ErrorCode::Ok);  // there is nothing to reset
-      }
-  }
-}
-
 void AxisControl::stop_for(int ticket, const Command& command) noexcept {
   Owner owner{ticket, AxisService::Stop};
   Order how;

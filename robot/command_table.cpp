@@ -88,7 +88,8 @@ void CommandTable::tell(int ticket, CommandState state, ErrorCode error) noexcep
     CommandAnswer& answer = answers_[static_cast<std::size_t>(place)];
     answer.state = state;
     answer.error = error;
-    answer.reached = answer.reached && state == CommandState::Active;
+    // What took over as it was reached is told of in the same period.
+    answer.reached = answer.reached && (state == CommandState::Active || state == CommandState::Aborted);
   }
 }
 

@@ -72,6 +72,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "the belt's place is not told, jumps or goes too quickly; see to its encoder, then track it anew";
     case ErrorCode::NoTorque:
       return "the axis cannot push with a torque: rated_torque, masses in the URDF, or the drive's mode 10 is missing";
+    case ErrorCode::Planner:
+      return "a thread of the robot task crashed; start the task again, and report what the module's fault says";
   }
   return "unknown error";
 }

@@ -99,21 +99,28 @@ void Group::sense(const Inputs& in) noexcept {
     axes_[at(i)].sense(in.drives[at(i)], period_);
   }
   emergency_ = in.emergency;
+  for (AxisControl& a : axes()) {
+    a.set_stops(emergency_, to_error_);
+  }
   sense_belts(in);
 }
 
 // What may end a motion from outside: the emergency stop, drives, axes that do not follow.
 void Group::watch(const Inputs& in) noexcept {
-  if (in.emergency && error_ != ErrorCode::Emergency && commands_motion()) {
+  if (in.emergency && !stopped_for_emergency() && commands_motion()) {
     trip(ErrorCode::Emergency, 0, parts_.settings.emergency_factor);
     return;
   }
-  if (!powered() || to_error_) {
+  if (!powered()) {
+    fail_axes_behind();
+    return;
+  }
+  if (to_error_) {
     return;
   }
   for (int i = 0; i < count(); ++i) {
     const Drive::State drive = Drive::state_of(in.drives[at(i)].status);
-    if (drive != Drive::State::OperationEnabled) {
+    if (drive != Drive::State::OperationEnabled || axes_[at(i)].power_falls()) {
       const bool fault = drive == Drive::State::Fault || drive == Drive::State::FaultReaction;
       trip(fault ? ErrorCode::Drive : ErrorCode::Power, i + 1, 1);
       return;

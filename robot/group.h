@@ -169,7 +169,10 @@ class Group final : public Controller, private MotionPort {
   void sense(const Inputs& in) noexcept;
   void set_pace(const Inputs& in) noexcept;  // group_commands.cpp
   void watch(const Inputs& in) noexcept;
+  [[nodiscard]] bool stopped_for_emergency() const noexcept;
   [[nodiscard]] int axis_behind() const noexcept;
+  [[nodiscard]] bool is_behind(const AxisControl& a) const noexcept;  // group_axes.cpp
+  void fail_axes_behind() noexcept;
   // Stops and reset (group_stops.cpp).
   void trip(ErrorCode code, int axis, double hardness) noexcept;
   void fall_off(ErrorCode code, int axis) noexcept;
@@ -193,8 +196,10 @@ class Group final : public Controller, private MotionPort {
   void run_enabling() noexcept;
   void run_homing() noexcept;
   void run_motion(Signals& signals) noexcept;
-  void begin_next(bool more) noexcept;  // group_plans.cpp
-  void take_plan() noexcept;            // group_plans.cpp
+  void begin_next(bool more) noexcept;                          // group_plans.cpp
+  void take_plan() noexcept;                                    // group_plans.cpp
+  void break_down(const char* what, const char* how) noexcept;  // group_plans.cpp
+  void report_break_down(Outputs& out) noexcept;                // group_plans.cpp
   void forget_plans() noexcept;
   void follow_path() noexcept;
   static constexpr int kWhy = 120;
@@ -360,6 +365,9 @@ class Group final : public Controller, private MotionPort {
   std::uint32_t done_ = 0;
   Pose last_pose_;
   Twist last_moved_ = Twist::Zero();
+  // A thread has crashed: why the task ends, and how long it has stood since then.
+  char broken_[2 * kWhy] = "";
+  double broken_for_ = 0;  // s
   Joints last_command_ = Joints::Zero();
   Joints last_speed_ = Joints::Zero();
   bool emergency_ = false;

@@ -35,16 +35,31 @@ void Group::move_axes() noexcept {
   }
 }
 
+// Axes that were reset one by one are stopped again.
+bool Group::stopped_for_emergency() const noexcept {
+  return error_ == ErrorCode::Emergency &&
+         (to_error_ || std::all_of(axes().begin(), axes().end(),
+                                   [](const AxisControl& a) { return a.state() == AxisState::ErrorStop; }));
+}
+
+bool Group::is_behind(const AxisControl& a) const noexcept {
+  const double behind = std::abs(a.commanded().position - a.measured());
+  return a.state() != AxisState::Homing && !a.pushes() && behind > a.unit() * parts_.settings.following_limit;
+}
+
 // The first axis that is too far from its set point; -1: none.
 int Group::axis_behind() const noexcept {
-  for (int i = 0; i < count(); ++i) {
-    const AxisControl& a = axes_[at(i)];
-    const double behind = std::abs(a.commanded().position - a.measured());
-    if (a.state() != AxisState::Homing && !a.pushes() && behind > a.unit() * parts_.settings.following_limit) {
-      return i;
+  const auto found = std::find_if(axes().begin(), axes().end(), [this](const AxisControl& a) { return is_behind(a); });
+  return found == axes().end() ? -1 : static_cast<int>(found - axes().begin());
+}
+
+// Axes that move by themselves while the group has no power: the others go on.
+void Group::fail_axes_behind() noexcept {
+  for (AxisControl& a : axes()) {
+    if (a.state() != AxisState::ErrorStop && is_behind(a)) {
+      a.fail(ErrorCode::Following, 1);
     }
   }
-  return -1;
 }
 
 }  // namespace indurop::robot

@@ -2,6 +2,7 @@
 // From what was commanded to paths: what is planned next, and what becomes of a plan.
 
 #include <algorithm>
+#include <cstdio>
 
 #include "robot/group.h"
 
@@ -53,11 +54,30 @@ void Group::take_plan() noexcept {
   if (plan == nullptr) {
     return;
   }
-  if (plan->fault.ok()) {
+  if (plan->fault.code == ErrorCode::Planner) {
+    break_down("the thread that plans motions", desk_.crash());
+  } else if (plan->fault.ok()) {
     follower_.add(plan->segment, plan->blend);
   } else {
     motion_failed(plan->fault, plan->segment.source, plan->segment.ticket);
   }
+}
+
+// What the thread wrote last may be anything, so the task ends: at rest, and without power. The tick has its own data.
+void Group::break_down(const char* what, const char* how) noexcept {
+  if (broken_[0] == '\0') {
+    std::snprintf(broken_, sizeof broken_, "%s crashed: %s", what, how);
+    trip(ErrorCode::Planner, 0, 1);
+  }
+}
+
+void Group::report_break_down(Outputs& out) noexcept {
+  constexpr double kMost = 1;  // s; a drive that keeps its power has it
+  const bool stands = broken_[0] != '\0' && state_ != GroupState::Stopping;
+  const bool power =
+      std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.drive().enabled(); });
+  broken_for_ += stands ? period_ : 0;
+  out.broken = stands && (!power || broken_for_ > kMost) ? broken_ : nullptr;
 }
 
 }  // namespace indurop::robot

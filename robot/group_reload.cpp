@@ -35,7 +35,9 @@ void Group::run_reload(Signals& signals) noexcept {
     return;
   }
   reloading_ = false;
-  if (wanted && loader_.program() == nullptr) {
+  if (loader_.crash()[0] != '\0') {
+    break_down("the thread that reads jobs", loader_.crash());
+  } else if (wanted && loader_.program() == nullptr) {
     job_.say(loader_.why());
     finish_service(ErrorCode::Line);
   } else if (wanted && !may_reload()) {

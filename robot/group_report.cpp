@@ -32,6 +32,7 @@ void Group::report(Outputs& out) noexcept {
     out.axes[i].push = contact_.residual()[static_cast<int>(i)];
   }
   out.commands = table_.answers();
+  report_break_down(out);
   report_product();
   report_motion(out);
 }

@@ -178,7 +178,7 @@ ErrorCode Group::disable() noexcept {
     return ErrorCode::Ok;
   }
   for (AxisControl& a : axes()) {
-    a.power(false);
+    a.give_up_power();
   }
   finish_service(ErrorCode::Ok);
   return ErrorCode::Ok;

@@ -23,6 +23,7 @@ bool keeps_path(ErrorCode code) noexcept {
     case ErrorCode::Drive:
     case ErrorCode::Power:
     case ErrorCode::Following:
+    case ErrorCode::Planner:
       return true;
     default:
       return false;
@@ -145,13 +146,13 @@ void Group::run_stopping() noexcept {
       a.rest();
       a.fail(error_, 1);
     }
-    quick_stop_ = error_ == ErrorCode::Emergency;
+    quick_stop_ = error_ == ErrorCode::Emergency || error_ == ErrorCode::Planner;
   } else if (to_disabled_) {
     state_ = GroupState::Disabled;
     come_to_standby();
     state_ = GroupState::Disabled;
     for (AxisControl& a : axes()) {
-      a.power(false);
+      a.give_up_power();
     }
     finish_service(ErrorCode::Ok);
   } else if (stop_ != CommandTable::kNone && table_.execute(stop_)) {
@@ -225,7 +226,7 @@ ErrorCode Group::reset() noexcept {
     come_to_standby();
   } else {
     for (AxisControl& a : axes()) {
-      a.power(false);
+      a.give_up_power();
     }
   }
   finish_service(ErrorCode::Ok);

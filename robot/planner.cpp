@@ -8,7 +8,6 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kSpacing = 0.01;      // m between places that are looked at
 constexpr int kFewest = 24;            // places
 constexpr double kJump = radians(60);  // between places next to each other: the arm would have to turn over
 constexpr double kSlowest = 1e-9;      // m/s, and parts of full speed: below it is no motion
@@ -47,7 +46,7 @@ Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimi
   }
 }
 
-Fault Planner::resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) const noexcept {
+Fault Planner::resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) noexcept {
   const Target& target = command.target;
   if (!finite(target)) {
     return {ErrorCode::Value};
@@ -62,10 +61,32 @@ Fault Planner::resolve(const MoveCommand& command, const Joints& near, Joints& j
   if (command.move != Move::Joint && !places_.inverse().closed_form()) {
     return {};  // what goes on from place to place comes to its end by itself
   }
-  const auto found = target.known != nullptr ? places_.inverse().nearest(*target.known, near, target.posture)
-                                             : places_.inverse().nearest(pose, near, target.posture);
+  const Inverse& inverse = places_.inverse();
+  const auto found = target.known != nullptr ? inverse.nearest(*target.known, near, target.posture)
+                     : inverse.closed_form() ? inverse.nearest(pose, near, target.posture)
+                                             : search(target, near);
   joints = found.solution.q;
   return {code_of(found.reach)};
+}
+
+// Of an arm without a closed form, where nobody has searched before: beside a point, or a pose that a block says. An
+// axis that the pose leaves open stays where it is, if it can.
+Inverse::Result Planner::search(const Target& target, const Joints& near) noexcept {
+  const Inverse& inverse = places_.inverse();
+  Search how{32, 96};
+  how.held = target.held != 0 ? target.held : redundant_axes(places_.arm());
+  const Joints& from = target.held != 0 ? target.joints : near;
+  Solutions found = inverse.search(target.pose, from, how);
+  work_ += how.most;
+  if (found.count == 0 && target.held == 0 && how.held != 0) {
+    how.held = 0;
+    found = inverse.search(target.pose, from, how);
+    work_ += how.most;
+  }
+  if (found.count == 0) {
+    return {found.reach, {}};
+  }
+  return inverse.nearest(found, near, target.posture);
 }
 
 void Planner::begin(const Joints& from, double acceleration) noexcept {
@@ -79,6 +100,9 @@ void Planner::begin(const Joints& from, double acceleration) noexcept {
   next_ = 1;
   windows_ = noted_ = rehearsals_ = 0;
   unseen_ = false;
+  constexpr int kStepByStep = 4;
+  work_ = 0;
+  weight_ = places_.inverse().closed_form() ? 1 : kStepByStep;
   searches_ = 1;
   stage_ = Stage::Done;
 }
@@ -136,89 +160,6 @@ Fault Planner::check_joint_way() const noexcept {
   return {};
 }
 
-Fault Planner::make_circle(const Vec3& mid) noexcept {
-  const Vec3 a = mid - segment_.start.position;
-  const Vec3 b = segment_.end.position - segment_.start.position;
-  const Vec3 normal = a.cross(b);
-  const double area = normal.squaredNorm();
-  if (area < 1e-6 * a.squaredNorm() * b.squaredNorm() || area <= 0) {
-    return {ErrorCode::Circle};
-  }
-  segment_.center =
-      segment_.start.position + (a.squaredNorm() * b.cross(normal) - b.squaredNorm() * a.cross(normal)) / (2 * area);
-  segment_.radius_x = segment_.start.position - segment_.center;
-  // The normal is such that the way from start through mid to end turns left about it.
-  segment_.radius_y = normal.normalized().cross(segment_.radius_x);
-  const Vec3 last = segment_.end.position - segment_.center;
-  segment_.angle = std::atan2(segment_.radius_y.dot(last), segment_.radius_x.dot(last));
-  if (segment_.angle <= 0) {
-    segment_.angle += 2 * kPi;
-  }
-  segment_.way = segment_.angle * segment_.radius_x.norm();
-  return {};
-}
-
-void Planner::measure_joint_motion(double speed) noexcept {
-  const Joints change = segment_.to - segment_.from;
-  segment_.length = change.cwiseAbs().cwiseQuotient(joints_.velocity).maxCoeff();
-  if (segment_.length <= 0) {
-    return;
-  }
-  segment_.speed = speed;
-  segment_.limits = {speed, HUGE_VAL, HUGE_VAL};
-  for (int i = 0; i < kAxes; ++i) {
-    const double rate = std::abs(change[i]) / segment_.length;
-    segment_.limits.acceleration = std::min(segment_.limits.acceleration, shared(joints_.acceleration[i], rate));
-    segment_.limits.jerk = std::min(segment_.limits.jerk, shared(joints_.jerk[i], rate));
-  }
-  constexpr int kPlaces = 64;
-  TipSpeed tip(places_.arm());
-  tip.begin(segment_.from);
-  for (int i = 1; i <= kPlaces; ++i) {
-    tip.note(segment_.joints_at(segment_.length * i / kPlaces));
-  }
-  segment_.tip_speed = tip.farthest() * kPlaces / segment_.length;
-}
-
-// Of a motion of the tool, at the places that were looked at.
-void Planner::measure_tip() noexcept {
-  TipSpeed tip(places_.arm());
-  tip.begin(samples_[0]);
-  for (int i = 1; i <= count_; ++i) {
-    tip.note(samples_[static_cast<std::size_t>(i)]);
-  }
-  segment_.tip_speed = tip.farthest() * count_ / segment_.length;
-}
-
-void Planner::measure_tool_motion(const MoveCommand& command) noexcept {
-  Segment& s = segment_;
-  s.turn = rotation_between(s.start.orientation, s.end.orientation);
-  const double angle = s.turn.norm();
-  s.length = std::max(s.way / tool_.velocity, angle / tool_.turn_velocity);
-  if (s.length <= 1e-9) {
-    s.length = 0;
-    s.to = s.from;  // joint angles of the target may be another way to hold the tool there
-    return;
-  }
-  const double pace = s.way / s.length;
-  const double turning = angle / s.length;
-  s.limits.velocity = command.speed;
-  if (command.tool_speed > 0) {
-    s.limits.velocity = std::min(1.0, shared(command.tool_speed, pace));
-  }
-  double acceleration = tool_.acceleration;
-  if (s.move == Move::Circle) {
-    // Half of the acceleration holds the tool on the circle.
-    const double bend = pace * pace / s.radius_x.norm();
-    s.limits.velocity = std::min(s.limits.velocity, std::sqrt(shared(acceleration / 2, bend)));
-    acceleration /= 2;
-  }
-  s.limits.acceleration = std::min(shared(acceleration, pace), shared(tool_.turn_acceleration, turning));
-  s.limits.jerk = std::min(shared(tool_.jerk, pace), shared(tool_.turn_jerk, turning));
-  s.most = s.limits;
-  begin_look(kSpacing, kMost / 2);
-}
-
 // `spacing`: m between places.
 void Planner::begin_look(double spacing, int most) noexcept {
   Segment& s = segment_;
@@ -257,7 +198,7 @@ Fault Planner::check_next() noexcept {
 
 // From one place to another one, by as many others as it takes to stay in the same posture: beside a singular position
 // joints turn far on a short way, and the nearest of what comes behind it is often another one.
-Fault Planner::walk(double from, const Joints& start, double to, Joints& q) const noexcept {
+Fault Planner::walk(double from, const Joints& start, double to, Joints& q) noexcept {
   constexpr double kSure = radians(30);
   constexpr double kAtLimit = radians(1);
   const double finest = 1e-6 * segment_.length;
@@ -265,6 +206,10 @@ Fault Planner::walk(double from, const Joints& start, double to, Joints& q) cons
   double side = volume(start);
   for (double width = to - from; from < to;) {
     const double place = from + 1.001 * width >= to ? to : from + width;
+    work_ += weight_;
+    if (work_ > kMostWork) {
+      return {ErrorCode::Singular};
+    }
     if (const Reach reach = places_.on(segment_, place, before, q); reach != Reach::Ok) {
       return {code_of(reach)};
     }
@@ -362,12 +307,12 @@ Fault Planner::check(int places) noexcept {
         }
         break;
       case Stage::Search:
-        places -= search_.work();
-        search();
+        places -= search();
         break;
       case Stage::RehearseTiming:
       case Stage::RehearseProfile:
         --places;
+        work_ += weight_;
         rehearse();
         break;
       case Stage::Effort:

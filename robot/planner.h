@@ -18,6 +18,9 @@ namespace indurop::robot {
 
 class Planner {
  public:
+  // Places that are looked at until a motion is refused: 50 ms of an ordinary processor.
+  static constexpr int kMostWork = 16000;
+
   Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool);
 
   // Begins with a motion that starts at `from`. Real-time safe, as all here, unless something could be touched. Errors:
@@ -32,6 +35,8 @@ class Planner {
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
   // Complete when done().
   [[nodiscard]] const Segment& segment() const noexcept { return segment_; }
+  // How much work that was, in places: the same on every machine.
+  [[nodiscard]] int work() const noexcept { return work_; }
 
   // For other bodies. Nothing is being planned.
   [[nodiscard]] ClearWay& clear_way() noexcept { return clear_; }
@@ -56,17 +61,22 @@ class Planner {
   Fault clear(int& places) noexcept;
   bool joints_on_way(double place, const Joints& near, Joints& q) const noexcept;
   [[nodiscard]] bool clear(const Segment& first, const Blend& blend, const Segment& second) noexcept;
-  void search() noexcept;
+  int search() noexcept;  // returns the places that were looked at
   void rehearse() noexcept;
   void rehearse_timing() noexcept;
   void rehearse_profile() noexcept;
+  void begin_rehearsal(double duration) noexcept;
   void end_rehearsal() noexcept;
   void end_look() noexcept;
+  // How long it takes at least, by the tool, and as it is planned.
+  [[nodiscard]] double least() const noexcept;
+  [[nodiscard]] double taken() const noexcept;
   [[nodiscard]] bool crawls() const noexcept;
   [[nodiscard]] double rehearsal_step() const noexcept;
-  Fault resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) const noexcept;
+  Fault resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) noexcept;
+  Inverse::Result search(const Target& target, const Joints& near) noexcept;
   Fault check_next() noexcept;
-  Fault walk(double from, const Joints& start, double to, Joints& q) const noexcept;
+  Fault walk(double from, const Joints& start, double to, Joints& q) noexcept;
   [[nodiscard]] Fault check_joint_way() const noexcept;
   Fault look_closer() noexcept;
   [[nodiscard]] double volume(const Joints& q) const noexcept;
@@ -101,6 +111,11 @@ class Planner {
   int rehearsals_ = 0;
   int searches_ = 0;
   bool unseen_ = false;  // the last rehearsal did not come to an end
+  // What was done for it, in places; one of an arm without a closed form is some. It is refused before kMostWork or not
+  // at all, but for what would touch and for torques, which are always looked at.
+  int work_ = 0;
+  double most_factor_ = 1;  // of what is rehearsed: what takes so many times as long is refused
+  int weight_ = 1;
   Stage stage_ = Stage::Done;
   // Stretches that are looked at closer before the path is known.
   struct Window {

@@ -13,14 +13,22 @@ constexpr double kStep = 0.002;      // s between instants of a motion that are 
 constexpr double kFineStep = 0.001;  // of chains, whose corners may be narrow, and near singular positions
 constexpr double kNearlyOne = 1.02;
 constexpr int kMostSearches = 3;  // what is lost by going slower everywhere is worth another one
-constexpr int kMostRehearsals = 6;
+constexpr int kMostRehearsals = 3;
+// Times slower in a place than was searched for: of 2000 random ones past singular positions no other search made it
+// up.
+constexpr double kHopeless = 35;
+// Likewise, after so much work; and after it was made slower for the same reason.
+constexpr int kLate = 2 * Planner::kMostWork;
+constexpr double kDoubtful = 6, kDoubtfulAgain = 1.3;
 constexpr double kNotFound = 1.1;  // after all of them: what happens there is too narrow to be seen
 
 }  // namespace
 
-void Planner::search() noexcept {
+int Planner::search() noexcept {
+  const int places = search_.work();
+  work_ += places * weight_;
   if (!search_.done()) {
-    return;
+    return places;
   }
   const PathTiming& found = search_.timing();
   if (found.known()) {
@@ -29,22 +37,28 @@ void Planner::search() noexcept {
   } else {
     rehearse_profile();
   }
+  return places;
 }
 
 void Planner::rehearse_timing() noexcept {
-  rehearsal_.begin(segment_.from, segment_.timing.duration(), rehearsal_step(), true);
   stage_ = Stage::RehearseTiming;
+  begin_rehearsal(segment_.timing.duration());
 }
 
 // Where joint speeds change abruptly, not only the places but the motion itself is looked at, at one speed too.
 void Planner::rehearse_profile() noexcept {
   profile_ = Profile::to_position({}, segment_.length, 0, segment_.limits);
   if (rehearsal_step() < kStep) {
-    rehearsal_.begin(segment_.from, profile_.duration(), rehearsal_step(), false);
     stage_ = Stage::RehearseProfile;
+    begin_rehearsal(profile_.duration());
   } else {
     end_look();
   }
+}
+
+void Planner::begin_rehearsal(double duration) noexcept {
+  rehearsal_.begin(segment_.from, duration, rehearsal_step(), stage_ == Stage::RehearseTiming);
+  most_factor_ = std::max(kNearlyOne, least() / (kSlowestPace * duration));
 }
 
 double Planner::rehearsal_step() const noexcept {
@@ -53,11 +67,21 @@ double Planner::rehearsal_step() const noexcept {
 }
 
 void Planner::rehearse() noexcept {
-  const double time = rehearsal_.time();
   const bool timing = stage_ == Stage::RehearseTiming;
-  const bool seen = rehearsal_.look(segment_, timing ? segment_.timing.at(time).place : profile_.at(time).position);
+  const auto place_at = [&](double t) { return timing ? segment_.timing.at(t).place : profile_.at(t).position; };
+  if (const double far = rehearsal_.far_time(); far >= 0) {
+    work_ += weight_;
+    rehearsal_.skip(segment_, place_at(far));
+  }
+  const double time = rehearsal_.time();
+  const bool seen = rehearsal_.look(segment_, place_at(time));
   if (timing && seen && searches_ < kMostSearches) {
     search_.note(time, rehearsal_.last_factor());
+  }
+  if (seen && rehearsal_.factor() > (timing && searches_ < kMostSearches ? kHopeless : most_factor_)) {
+    unseen_ = true;  // whatever comes behind that
+    stage_ = Stage::Done;
+    return;
   }
   if (timing && !seen) {
     segment_.timing = {};
@@ -70,6 +94,11 @@ void Planner::rehearse() noexcept {
 // What was too fast is gone through once more, since what lies between two instants shows when it is slower.
 void Planner::end_rehearsal() noexcept {
   const double slower = rehearsal_.factor();
+  if (work_ > kLate && slower > (rehearsals_ > 0 ? kDoubtfulAgain : kDoubtful)) {
+    unseen_ = true;
+    stage_ = Stage::Done;
+    return;
+  }
   if (stage_ == Stage::RehearseTiming && slower > kNearlyOne && searches_ < kMostSearches) {
     ++searches_;
     search_.refine();
@@ -116,18 +145,20 @@ void Planner::end_look() noexcept {
   stage_ = effort_.done() ? Stage::Done : Stage::Effort;
 }
 
+double Planner::least() const noexcept {
+  const Segment& s = segment_;
+  return s.chain != nullptr ? s.chain->at_speed() : Profile::to_position({}, s.length, 0, s.most).duration();
+}
+
+double Planner::taken() const noexcept {
+  const Segment& s = segment_;
+  return s.timing.known() ? s.timing.duration() : Profile::to_position({}, s.length, 0, s.limits).duration();
+}
+
 // Whether all of it takes so much longer than it would by the tool's speed that nobody waits for it: what is seen in
 // places only, a singular position that is nearly met, shows in the rehearsal; or does not, however slow it is.
 bool Planner::crawls() const noexcept {
-  if (unseen_) {
-    return true;
-  }
-  const Segment& s = segment_;
-  const double least =
-      s.chain != nullptr ? s.chain->at_speed() : Profile::to_position({}, s.length, 0, s.most).duration();
-  const double taken =
-      s.timing.known() ? s.timing.duration() : Profile::to_position({}, s.length, 0, s.limits).duration();
-  return taken * kSlowestPace > least;
+  return unseen_ || taken() * kSlowestPace > least();
 }
 
 }  // namespace indurop::robot

@@ -26,6 +26,7 @@ PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, cons
       due_(settings.plan_time / std::chrono::duration<double>(settings.period).count()),
       in_tick_(settings.plan_in_tick),
       learned_(settings.learned),
+      guarded_(settings.guarded),
       planner_(places, joints, tool) {
   in_tick_ = in_tick_ || !begin_ordinary_thread(thread_, "robot-plan", kStack, enter, this);  // else the tick plans
 }
@@ -43,8 +44,24 @@ void* PlanningDesk::enter(void* desk) noexcept {
   return nullptr;
 }
 
-// It looks for work by itself: waking it would be a system call of the tick.
+// After a crash it goes on, to say so of all that is asked for.
 void PlanningDesk::run() noexcept {
+  const auto loop = [](void* desk) noexcept { static_cast<PlanningDesk*>(desk)->look_for_work(); };
+  if (guarded_ == nullptr) {
+    look_for_work();
+    return;
+  }
+  while (!guarded_(loop, this, crash_, sizeof crash_)) {
+    crashed_ = true;
+    if (state_.load(std::memory_order_relaxed) == State::Working) {
+      work();
+      state_.store(State::Made, std::memory_order_release);
+    }
+  }
+}
+
+// By itself: waking it would be a system call of the tick.
+void PlanningDesk::look_for_work() noexcept {
   while (!ending_.load(std::memory_order_relaxed)) {
     State asked = State::Asked;
     if (state_.compare_exchange_strong(asked, State::Working, std::memory_order_acq_rel)) {
@@ -58,6 +75,10 @@ void PlanningDesk::run() noexcept {
 
 void PlanningDesk::work() noexcept {
   plan_.blend = {};
+  if (crashed_) {
+    plan_.fault = {ErrorCode::Planner};
+    return;
+  }
   plan_.fault = request_.chain != nullptr
                     ? planner_.begin(*request_.chain, request_.from, request_.command.acceleration)
                     : planner_.begin(request_.command, request_.from);

@@ -49,6 +49,8 @@ class PlanningDesk {
   [[nodiscard]] Planner& planner() noexcept { return planner_; }
   // Plans are soon to be asked for.
   void expect_work(bool soon) noexcept { soon_.store(soon, std::memory_order_relaxed); }
+  // Of a plan with ErrorCode::Planner: how the thread crashed.
+  [[nodiscard]] const char* crash() const noexcept { return crash_; }
 
  private:
   // What the request and the plan are: the tick's in Free, Asked and Made; the planning thread's in Working.
@@ -59,6 +61,7 @@ class PlanningDesk {
   void post() noexcept;
   void work() noexcept;
   void run() noexcept;
+  void look_for_work() noexcept;
   static void* enter(void* desk) noexcept;
 
   const Places& places_;
@@ -66,6 +69,7 @@ class PlanningDesk {
   double due_ = 0;  // periods
   bool in_tick_;
   bool (*learned_)(bool what) noexcept;
+  decltype(Settings::guarded) guarded_;
 
   // The tick's.
   bool asked_ = false;
@@ -82,6 +86,8 @@ class PlanningDesk {
   // The planning thread's.
   Planner planner_;
   Segment before_;
+  bool crashed_ = false;  // it plans nothing more
+  char crash_[96] = "";
   pthread_t thread_{};
 };
 

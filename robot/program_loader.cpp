@@ -22,7 +22,11 @@ FileNames names_of(const Settings& settings) {
 }  // namespace
 
 ProgramLoader::ProgramLoader(const Settings& settings, std::string urdf)
-    : names_(names_of(settings)), urdf_(std::move(urdf)), in_tick_(settings.plan_in_tick), learned_(settings.learned) {
+    : names_(names_of(settings)),
+      urdf_(std::move(urdf)),
+      in_tick_(settings.plan_in_tick),
+      learned_(settings.learned),
+      guarded_(settings.guarded) {
   constexpr std::size_t kStack = std::size_t{1} << 20U;
   in_tick_ = in_tick_ || !begin_ordinary_thread(thread_, "robot-load", kStack, enter, this);
 }
@@ -39,8 +43,22 @@ void* ProgramLoader::enter(void* loader) noexcept {
   return nullptr;
 }
 
-// It looks for work by itself: waking it would be a system call of the tick.
+// After a crash it reads nothing more, and says so of what is asked for.
 void ProgramLoader::run() noexcept {
+  const auto loop = [](void* loader) noexcept { static_cast<ProgramLoader*>(loader)->look_for_work(); };
+  if (guarded_ == nullptr) {
+    look_for_work();
+  } else if (!guarded_(loop, this, crash_, sizeof crash_)) {
+    static_cast<void>(program_.release());  // nobody knows what it is now
+    for (; !ending_.load(std::memory_order_relaxed); std::this_thread::sleep_for(kLooks)) {
+      State asked = State::Asked;
+      state_.compare_exchange_strong(asked, State::Made, std::memory_order_acq_rel);
+    }
+  }
+}
+
+// By itself: waking it would be a system call of the tick.
+void ProgramLoader::look_for_work() noexcept {
   for (; !ending_.load(std::memory_order_relaxed); std::this_thread::sleep_for(kLooks)) {
     const State state = state_.load(std::memory_order_acquire);
     if (state == State::Asked) {

@@ -33,6 +33,8 @@ class ProgramLoader {
   // It is made: what was read, or null and why().
   [[nodiscard]] Program* program() noexcept { return program_.get(); }
   [[nodiscard]] const char* why() const noexcept { return why_.c_str(); }
+  // It is made. The thread crashed, and how; else empty.
+  [[nodiscard]] const char* crash() const noexcept { return crash_; }
   // The variables are others than before, and `signals` has them ready.
   [[nodiscard]] bool other_signals() const noexcept { return other_signals_; }
   // It is made: the thread may destroy what is left there.
@@ -44,17 +46,20 @@ class ProgramLoader {
 
   void read() noexcept;
   void run() noexcept;
+  void look_for_work() noexcept;
   static void* enter(void* loader) noexcept;
 
   FileNames names_;
   std::string urdf_;
   bool in_tick_;
   bool (*learned_)(bool what) noexcept;
+  decltype(Settings::guarded) guarded_;
   Signals* signals_ = nullptr;
   const std::vector<std::string>* present_ = nullptr;
   std::unique_ptr<Program> program_;
   std::string why_;
   bool other_signals_ = false;
+  char crash_[96] = "";
   std::atomic<State> state_{State::Free};
   std::atomic<bool> ending_{false};
   pthread_t thread_{};

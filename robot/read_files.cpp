@@ -218,21 +218,6 @@ Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
   return errors;
 }
 
-// Where a joint motion ends has to be known before anything moves, if that takes a search.
-Diagnostics check_offsets(const JobBook& book, const Inverse& inverse) {
-  Diagnostics errors;
-  for (const Job& job : book.jobs) {
-    for (const Step& step : job.steps) {
-      if (step.op == Op::Move && step.move == Move::Joint && step.formula >= 0 && !inverse.closed_form()) {
-        errors.push_back(
-            error(job.file, {static_cast<int>(step.line), 1},
-                  "MOVJ to an OFFSET needs an arm with a closed form; go there by MOVL, or give it a POINT"));
-      }
-    }
-  }
-  return errors;
-}
-
 // They are no danger: lines run at full speed then.
 Diagnostics check_speeds(const JobBook& book, double most) {
   Diagnostics warnings;
@@ -300,7 +285,6 @@ ReadFiles read_files(const FileNames& names) {
       take_over(place_frames(read.book, read.model->arm), read.errors);
     }
     const bool placed = read.errors.empty();
-    take_over(check_offsets(read.book, inverse), read.errors);
     take_over(check_points(read.book, read.model->arm), read.errors);
     sort_out(solve_points(read.book, read.model->arm, placed), read);
     sort_out(check_calls(read.book), read);

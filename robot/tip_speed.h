@@ -38,6 +38,8 @@ class TipSpeed {
     }
     at_ = next;
   }
+  // What is in between does not count.
+  void go_on_from(const Joints& q) noexcept { at_ = where(q); }
   // m that the faster of both goes at most, from one to the next.
   [[nodiscard]] double moved() const noexcept { return moved_; }
   // The same, also if one axis stood on the way, whichever it is, or all others did.

@@ -5,6 +5,7 @@
 
 #include <indurop/files.h>
 #include <indurop/generated.h>
+#include <indurop/guarded.h>
 #include <indurop/robot/controller.h>
 
 #include <chrono>
@@ -272,6 +273,7 @@ void start() {
   settings.period = irp::period();
   settings.plan_in_tick = time_stands();
   settings.learned = [](bool what) noexcept { return irp::learned(what ? 1 : 0) != 0; };
+  settings.guarded = &irp::guarded;
   std::vector<std::string> errors;
   robot::take_properties([](const char* name) { return irp::property(name, ""); }, settings, errors);
   plcRobot = robot::Controller::load(settings, errors);
@@ -309,6 +311,9 @@ void run() {
   write_axis_states();
   write_answers();
   write_tool();
+  if (out.broken != nullptr) {
+    throw std::runtime_error(out.broken);  // the drives have no power any more
+  }
 }
 
 INDUROP_MODULE(run = &::run, start = &::start, name = "Robot", description = "robot task")

@@ -90,7 +90,7 @@ struct CommandAnswer {
   std::uint32_t number = 0;
   CommandState state = CommandState::None;
   ErrorCode error = ErrorCode::Ok;
-  bool reached = false;  // of motions without an end: has the velocity, is in gear
+  bool reached = false;  // of motions without an end: has the velocity, is in gear; or had, as the next took over
 };
 
 using CamTables = std::array<CamTable, kCams>;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -247,6 +248,8 @@ struct Outputs {
   bool may_move = true;                     // as far as the mode and its enabling switch are concerned
   std::uint32_t tool = 0;                   // held now; 0: none
   const char* tool_name = "";               // lives as long as the controller
+  // Why the task cannot go on, once its drives have no power: the module is to end. Null: it can.
+  const char* broken = nullptr;
 };
 
 // What the task is made of; the module reads it from its properties.
@@ -290,6 +293,9 @@ struct Settings {
   // What the tick learns of the thread that plans beside it, and what is to count instead: a replay learns it again
   // from the recording (irp::learned()). Real-time safe. Null: it counts.
   bool (*learned)(bool what) noexcept = nullptr;
+  // Calls work(with) on a thread of the controller. False: it crashed, and `why` says how (irp::guarded()). Null: a
+  // crash ends the process.
+  bool (*guarded)(void (*work)(void*) noexcept, void* with, char* why, std::size_t size) noexcept = nullptr;
   // Of an emergency stop: 0 or 1 (IEC 60204-1).
   StopCategory emergency_category = StopCategory::Category1;
 };

@@ -128,7 +128,8 @@ enum class ErrorCode : std::uint32_t {
   Collision,     // the target or the way there is too near to a zone, or to the arm itself
   Contact,       // something pushes against the arm
   Belt,          // the place of a belt is not told, jumps or goes too quickly
-  NoTorque       // the torque of an axis cannot be told: no masses, no rated torque, or its drive has no such mode
+  NoTorque,      // the torque of an axis cannot be told: no masses, no rated torque, or its drive has no such mode
+  Planner        // a thread of the robot task crashed; the task ends once the drives have no power
 };
 
 // How the robot is run (ISO 10218-1), as a key switch says.

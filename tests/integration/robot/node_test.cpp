@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The robot task in a node, with six simulated drives and the emergency stop, asked as a PLC program would ask.
-#include <nlohmann/json.hpp>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "node_fixture.h"
@@ -68,7 +72,18 @@ class RobotNode : public NodeTest {
     return all;
   }
 
-  void run_blocks(const std::string& name);
+  void run_blocks(const std::string& name, int priority = 3);
+  // Its number; 0: there is none.
+  static pid_t thread_called(pid_t process, const std::string& name) {
+    for (const auto& each : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+      std::ifstream file(each.path() / "comm");
+      std::string text;
+      if (std::getline(file, text) && text == name) {
+        return static_cast<pid_t>(std::stol(each.path().filename()));
+      }
+    }
+    return 0;
+  }
 
   void begin(const std::string& job) {
     start_and_wait(modules(job));
@@ -117,6 +132,31 @@ TEST_F(RobotNode, Drives_take_power_and_a_job_moves_them) {
   set("PLC_ROBOT::I4", "1");
   EXPECT_TRUE(wait_until([&] { return state() == 1 && number("PLC_ROBOT::O8") == 0; }));
   EXPECT_EQ(number("PLC_ROBOT::ROBOT_MODULE_STATE.MotionDone"), 1);
+}
+
+// A fault in a thread of the task: the arm comes to rest and loses its power, then the module ends with the reason, and
+// the others go on.
+TEST_F(RobotNode, A_crash_of_its_planning_thread_stops_the_arm_and_not_the_node) {
+  SKIP_CRASHES_UNDER_TSAN();
+  begin("POINT A = JOINT 60 10 -10 0 40 -20\nPOINT B = JOINT -60 10 -10 0 40 -20\nLOOP\nMOVJ A\nMOVJ B\nEND\n");
+  ASSERT_EQ(serve("eOpCode: 1"), 0);
+  const int wanted = next_request();
+  set("PLC_ROBOT::ROBOT_MODULE_SERVICE", "{eOpCode: 11, nJob: 1, nRequest: " + std::to_string(wanted) + "}");
+  ASSERT_TRUE(wait_until([&] { return joint(1) > 10; }));
+  const pid_t pid = run()->node_pid.load();
+  const pid_t thread = thread_called(pid, "robot-plan");
+  ASSERT_GT(thread, 0);
+  ASSERT_EQ(::syscall(SYS_tgkill, pid, thread, SIGSEGV), 0);
+  ASSERT_TRUE(wait_until([&] { return module("robot").state.load() == scheduler::ModuleState::Faulted; }));
+  EXPECT_CONTAINS(std::string(module("robot").last_fault), "the thread that plans motions crashed: SIGSEGV");
+  EXPECT_EQ(state(), 5);
+  EXPECT_EQ(number("PLC_ROBOT::ROBOT_MODULE_STATE.nError"), 33);
+  for (const char axis : std::string("123456")) {
+    EXPECT_NE(static_cast<unsigned>(number(std::string("PLC_ROBOT::AXIS") + axis + "_IN.status")) & 0x6FU, 0x27U);
+  }
+  EXPECT_NEAR(number("PLC_ROBOT::ROBOT_ARM.tool_speed"), 0, 1e-6);
+  const std::uint64_t runs = module("io").runs.load();
+  EXPECT_TRUE(runs_reach("io", runs + 20)) << "the node goes on";
 }
 
 TEST_F(RobotNode, Where_it_stands_is_written_into_its_files) {
@@ -270,9 +310,10 @@ TEST_F(RobotNode, Single_axes_and_the_request_of_the_chapter) {
 }
 
 // Each ok_NAME of the program says whether the block did what it should.
-void RobotNode::run_blocks(const std::string& name) {
+void RobotNode::run_blocks(const std::string& name, int priority) {
   auto all = modules("TOOL gripper = POSE 0 0 120 RPY 0 0 0\n");
-  all.push_back({.file = std::string(BLOCKS_DIR) + "/" + name + ".so", .name = "plc", .period = "5ms", .priority = 3});
+  all.push_back(
+      {.file = std::string(BLOCKS_DIR) + "/" + name + ".so", .name = "plc", .period = "5ms", .priority = priority});
   const Outcome outcome = run_to_end(all, {"--sim", "--until", "90s"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(number(name + "::stage"), 100)
@@ -291,6 +332,11 @@ void RobotNode::run_blocks(const std::string& name) {
 
 TEST_F(RobotNode, Every_block_of_single_axes) {
   run_blocks("axis_blocks");
+}
+
+// Its first scan is before that of the robot, which does not carry out what stands there when it starts.
+TEST_F(RobotNode, Every_block_of_single_axes_before_the_robot) {
+  run_blocks("axis_blocks", 1);
 }
 
 TEST_F(RobotNode, Every_block_of_axes_that_follow_others) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <tuple>
 
 #include "group_cell.h"
 
@@ -59,6 +60,29 @@ TEST(ArmJobs, Seven_axes_stand_where_a_point_says) {
   const auto cell = run("iiwa14", "POINT A" + at + "20\nPOINT B = POSE 500 -100 600 RPY 180 0 180\nMOVJ A\nMOVL B\n");
   expect_at(*cell, {500, -100, 600});
   EXPECT_NEAR(cell->out.command[2], 20, 1e-6) << "a line holds it";
+}
+
+// Arms without a closed form have to search how they are held there.
+TEST(ArmJobs, Joint_motions_go_beside_a_point) {
+  for (const auto& [arm, point, place] : {std::tuple{"scara", "400 200 250 RPY 180 0 30", Vec3(400, 200, 250)},
+                                          {"offset_wrist", "350 100 300 RPY 180 0 0", Vec3(350, 100, 300)},
+                                          {"iiwa14", "500 100 600 RPY 180 0 180", Vec3(500, 100, 600)},
+                                          {"palletiser", "1600 200 400 RPY 180 0 20", Vec3(1600, 200, 400)},
+                                          {"gantry", "1500 300 900 RPY 180 0 45", Vec3(1500, 300, 900)}}) {
+    const auto cell = run(arm, std::string("POINT A = POSE ") + point + "\nMOVJ A OFFSET -30, 20, 40\n");
+    expect_at(*cell, place + Vec3(-30, 20, 40));
+  }
+}
+
+TEST(ArmJobs, A_joint_motion_beside_a_point_may_be_out_of_reach) {
+  Cell cell("POINT A = POSE 400 200 250 RPY 180 0 30\nMOVJ A\nMOVJ A OFFSET 900, 0, 0\n", 4, 0, true, Settings{},
+            urdf_of("scara"));
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.job = 1;
+  cell.ask(Service::JobStart);
+  ASSERT_TRUE(cell.until([&] { return cell.out.job.state == JobState::Failed; }, 20000));
+  EXPECT_EQ(cell.out.error, ErrorCode::Unreachable);
+  EXPECT_EQ(cell.out.job.line, 3U);
 }
 
 TEST(ArmJobs, A_rail_is_the_axis_that_a_pose_leaves_open) {

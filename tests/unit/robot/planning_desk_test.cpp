@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <random>
 #include <thread>
 
@@ -11,7 +12,7 @@
 namespace indurop::robot {
 namespace {
 
-class Planning_desk : public testing::TestWithParam<bool> {
+class Desk {
  protected:
   static Settings settings(bool in_tick) {
     Settings s;
@@ -43,8 +44,13 @@ class Planning_desk : public testing::TestWithParam<bool> {
   Arm arm = cell_arm();
   Inverse inverse{arm};
   Places places{arm, inverse};
+};
+
+class Planning_desk : public Desk, public testing::TestWithParam<bool> {
+ protected:
   PlanningDesk sut{places, cell_limits(), ToolLimits{}, settings(GetParam())};
 };
+class Planning_desk_of_a_crash : public Desk, public testing::Test {};
 
 // What the tick of a run learned of its thread, and a replay learns again, whichever thread it has.
 std::vector<bool>& told() {
@@ -136,6 +142,31 @@ TEST_P(Planning_desk, Never_gives_a_plan_that_was_forgotten) {
     const Plan* plan = wait(sut);
     ASSERT_NE(plan, nullptr);
     EXPECT_EQ(plan->segment.source, i);
+  }
+}
+
+// The thread crashes once, then goes on as it was told.
+bool crashes_first(void (*work)(void*) noexcept, void* with, char* why, std::size_t size) noexcept {
+  static thread_local bool crashed = false;
+  if (!crashed) {
+    crashed = true;
+    std::snprintf(why, size, "SIGSEGV in a test");
+    return false;
+  }
+  work(with);
+  return true;
+}
+
+TEST_F(Planning_desk_of_a_crash, Says_so_of_all_that_is_asked_for) {
+  Settings s = settings(false);
+  s.guarded = &crashes_first;
+  PlanningDesk desk(places, cell_limits(), ToolLimits{}, s);
+  for (int i = 0; i < 3; ++i) {
+    desk.ask(line(-0.1, 1));
+    const Plan* plan = wait(desk);
+    ASSERT_NE(plan, nullptr);
+    EXPECT_EQ(plan->fault.code, ErrorCode::Planner);
+    EXPECT_STREQ(desk.crash(), "SIGSEGV in a test");
   }
 }
 
