@@ -46,6 +46,7 @@ const Pou* innermost_pou(const Type& type) noexcept {
 
 }  // namespace
 
+// Long: one case for each kind of thing that has a name, in the order in which they hide each other.
 const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) {
   Resolved& out = resolved(expression);
   const std::string capitals = upper(expression.name);
