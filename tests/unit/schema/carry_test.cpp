@@ -3,14 +3,15 @@
 // computes what has to remain; it knows no bytes, offsets and layouts.
 #include "schema/carry.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <map>
 #include <random>
+#include <sstream>
 
 #include "tests/unit/glb2idl/compile_helper.h"
 
@@ -20,6 +21,15 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+
+template <class... Parts>
+std::string text_of(const Parts&... parts) {
+  std::ostringstream out;
+  constexpr int kAllDigits = 17;
+  out << std::setprecision(kAllDigits);
+  (out << ... << parts);
+  return out.str();
+}
 
 struct Number {
   const char* name;
@@ -69,7 +79,7 @@ class Random {
       made.kind = chance(50) ? Shape::Kind::Text : Shape::Kind::Enum;
       made.size = 2U + static_cast<std::size_t>(upto(9));
       for (int i = 0; made.kind == Shape::Kind::Enum && i <= upto(3) + 1; ++i) {
-        made.names.push_back(fmt::format("n{}_{}", names_, i));
+        made.names.push_back(text_of("n", names_, "_", i));
       }
       ++names_;
     } else if (choice == 4) {
@@ -81,7 +91,7 @@ class Random {
     } else {
       made.kind = Shape::Kind::Struct;
       for (int i = 0; i <= upto(3); ++i) {
-        made.parts.emplace_back(fmt::format("f{}", i), shape(depth - 1));
+        made.parts.emplace_back(text_of("f", i), shape(depth - 1));
       }
     }
     return made;
@@ -103,7 +113,7 @@ class Random {
         out.names.pop_back();
       }
       if (chance(40)) {
-        out.names.insert(out.names.begin(), fmt::format("n{}_new", names_++));
+        out.names.insert(out.names.begin(), text_of("n", names_++, "_new"));
       }
     }
     for (auto& [name, part] : out.parts) {
@@ -117,7 +127,7 @@ class Random {
         out.parts.pop_back();
       }
       if (chance(30)) {
-        out.parts.emplace_back(fmt::format("more{}", names_++), shape(0));
+        out.parts.emplace_back(text_of("more", names_++), shape(0));
       }
     }
     return out;
@@ -162,25 +172,25 @@ class Random {
 std::string declared(const Shape& shape, const std::string& name, std::string& before, int& types) {
   switch (shape.kind) {
     case Shape::Kind::Number:
-      return fmt::format("{} {}", kNumbers[static_cast<std::size_t>(shape.number)].name, name);
+      return text_of(kNumbers[static_cast<std::size_t>(shape.number)].name, " ", name);
     case Shape::Kind::Text:
-      return fmt::format("char {}[{}]", name, shape.size);
+      return text_of("char ", name, "[", shape.size, "]");
     case Shape::Kind::Array: {
       const Shape& element = shape.parts[0].second;
       const std::string inner = element.kind == Shape::Kind::Text ? "@@" : name;
       std::string text = declared(element, inner, before, types);
       if (element.kind == Shape::Kind::Text) {
-        return fmt::format("char {}[{}][{}]", name, shape.size, element.size);
+        return text_of("char ", name, "[", shape.size, "][", element.size, "]");
       }
-      return fmt::format("{}[{}]", text, shape.size);
+      return text_of(text, "[", shape.size, "]");
     }
     case Shape::Kind::Enum: {
       std::string items;
       for (const std::string& one : shape.names) {
         items += (items.empty() ? "" : ", ") + one;
       }
-      before += fmt::format("enum E{} {{ {} }};\n", types, items);
-      return fmt::format("E{} {}", types++, name);
+      before += text_of("enum E", types, " { ", items, " };\n");
+      return text_of("E", types++, " ", name);
     }
     case Shape::Kind::Struct:
       break;
@@ -189,8 +199,8 @@ std::string declared(const Shape& shape, const std::string& name, std::string& b
   for (const auto& [field, part] : shape.parts) {
     fields += declared(part, field, before, types) + "; ";
   }
-  before += fmt::format("struct S{} {{ {}}};\n", types, fields);
-  return fmt::format("S{} {}", types++, name);
+  before += text_of("struct S", types, " { ", fields, "};\n");
+  return text_of("S", types++, " ", name);
 }
 
 Type type_of(const Shape& shape) {
@@ -272,7 +282,7 @@ class Oracle {
     if (to.real) {
       const long double kept = to.bits == 32 ? static_cast<long double>(static_cast<float>(value)) : value;
       lost = lost || (kept != value);  // only whole numbers are rounded here
-      return {fmt::format("{}", static_cast<double>(kept)), {}};
+      return {text_of(static_cast<double>(kept)), {}};
     }
     const int bits = to.bits - (to.is_signed ? 1 : 0);
     const long double most = std::ldexp(1.0L, bits) - 1;
@@ -281,7 +291,7 @@ class Oracle {
       lost = true;
       return now;
     }
-    return {to.bits == 1 ? (value != 0 ? "true" : "false") : fmt::format("{:.0f}", value), {}};
+    return {to.bits == 1 ? (value != 0 ? "true" : "false") : text_of(static_cast<long long>(value)), {}};
   }
 };
 
