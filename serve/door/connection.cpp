@@ -33,7 +33,8 @@ Connection::~Connection() {
 }
 
 short Connection::events() const {
-  const bool sends = !output_.empty() || message_ != nullptr || wire_.waits_for_room() || asked_;
+  const bool asked = asked_ && phase_ == Phase::Stream;
+  const bool sends = !output_.empty() || message_ != nullptr || wire_.waits_for_room() || asked;
   return static_cast<short>((input_ended_ ? 0 : POLLIN) | (sends ? POLLOUT : 0));
 }
 

@@ -75,16 +75,17 @@ for (const protocol of [FoxgloveClient.SUPPORTED_SUBPROTOCOL, "foxglove.sdk.v1"]
   assert.deepEqual(joints[1], {x: 0, y: -12.5, z: 0});
   const ticks = seen.messages.filter(([topic]) => topic === "knu::Robot::tick");
   for (let i = 1; i < ticks.length; ++i) {
-    // The first one is sent at once, the second at the next turn, which may be in the same tick.
-    assert.ok(ticks[i][2].value > ticks[i - 1][2].value - (i === 1 ? 1 : 0), "the tick rises");
+    // Not more: where the machine is busy the node may have had no turn between two samples.
+    assert.ok(ticks[i][2].value >= ticks[i - 1][2].value, "the tick does not fall");
     assert.ok(ticks[i][1] > ticks[i - 1][1], "so does the time");
   }
+  assert.ok(ticks.at(-1)[2].value > ticks[0][2].value, "the tick rises");
   assert.ok(Math.abs(Number(ticks[0][1] / 1_000_000n) - Date.now()) < 60_000);
 }
 
 // What it does not serve is said; what is unsubscribed comes no more; an id is given once.
-let last = 0;
-const seen = await look("foxglove.websocket.v1", ({messages, statuses}) => messages.length > 60 && statuses.length > 0, (client, topics) => {
+const only_ticks = (messages) => messages.length > 60 && messages.slice(-40).every(([topic]) => topic === "knu::Robot::tick");
+const seen = await look("foxglove.websocket.v1", ({messages, statuses}) => only_ticks(messages) && statuses.length > 0, (client, topics) => {
   client.getParameters(["x"]);
   for (const [id, [topic]] of topics) {
     if (topic !== "knu::Robot::tick") {
@@ -92,9 +93,5 @@ const seen = await look("foxglove.websocket.v1", ({messages, statuses}) => messa
     }
   }
 });
-for (const [index, [topic]] of seen.messages.entries()) {
-  last = topic === "knu::Robot::tick" ? last : index;
-}
-assert.ok(last < 20, "what was on its way, then nothing");
 assert.match(seen.statuses[0].message, /'getParameters' is not served/);
 console.log(`foxglove: ${seen.channels.size} channels`);
