@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "keys/digest.h"
 #include "tools/plant/board_history.h"
-#include "tools/plant/board_texts.h"
 #include "tools/plant/run_deployment.h"
 #include "tools/verbs/verbs.h"
 
@@ -87,26 +85,6 @@ std::string choose_target(Context& context, deploy::DeployLink& link, const Boar
   return first.previous;
 }
 
-// The list of the target's files, as one of the boards has it, so that a board whose own is damaged gets it again.
-// Empty after an error.
-std::string fetch_package(Context& context, deploy::DeployLink& link, const BoardRoster& roster,
-                          const std::vector<std::string>& boards, std::uint64_t self, const std::string& target) {
-  std::vector<std::uint64_t> agents;
-  for (const std::string& board : boards) {
-    agents.push_back(roster.find(board)->report.agent);
-  }
-  for (const auto& [agent, text] : fetch_texts(link, self, target, agents)) {
-    if (keys::digest_of(text) == target) {
-      return text;
-    }
-  }
-  context.out.error(
-      fmt::format("no board has deployment {} any more as it was deployed (the SHA-256 of its package is "
-                  "{}); indurop deploy brings it again",
-                  deploy::shown_id(target), target));
-  return {};
-}
-
 int roll_back(Context& context, Options& options) {
   auto link = open_link(context, options.link);
   if (link == nullptr) {
@@ -140,25 +118,19 @@ int roll_back(Context& context, Options& options) {
   deployment.key = std::move(key).value();
   deployment.order.boards = std::move(present).value();
   const std::string target = choose_target(context, *link, roster, deployment.order.boards, options);
-  const std::string package =
-      target.empty() ? std::string{}
-                     : fetch_package(context, *link, roster, deployment.order.boards, options.link.self, target);
-  if (package.empty()) {
+  if (target.empty()) {
     return kFailed;
   }
   deployment.order.deployer = options.link.self;
   deployment.order.host = deploy::host_name();
   deployment.order.plant = plant;
   deployment.order.deployment = target;
-  deployment.order.size = package.size();
   deployment.order.generation = next_generation(roster);
   deployment.order.health_ns = options.health_ns;
   deployment.patience_ns = options.timeout_ns;
   deployment.title = fmt::format("plant {}, deployment {} again", plant, deploy::shown_id(target));
   deployment.head = {{"plant", plant}, {"deployment", target}, {"generation", deployment.order.generation}};
-  deployment.files = [&](const std::string& name) {
-    return name == target ? std::optional(deploy::BlobServer::Blob{{}, package}) : std::nullopt;
-  };
+  deployment.files = [](const std::string& /*name*/) { return std::nullopt; };
   return run_deployment(context, *link, roster, std::move(deployment));
 }
 
