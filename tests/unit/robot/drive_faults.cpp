@@ -53,6 +53,14 @@ std::string ArmSpec::urdf() const {
                     parts.size(), numbers(end), numbers(end_turn));
 }
 
+std::string joints_text(const ArmSpec& spec, const std::vector<double>& q) {
+  std::string text = "JOINT";
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    text += fmt::format(" {}", q[i] * (spec.parts[i].slides ? 1000 : 180 / kPi));
+  }
+  return text;
+}
+
 ArmSpec cell_spec() {
   return six_axes("cell", 0.30, 0.07, 0.10, 0.47, 0.25, 0.05, 0.22, 0.09, 0);
 }

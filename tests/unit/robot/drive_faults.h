@@ -31,6 +31,8 @@ struct ArmSpec {
   friend void PrintTo(const ArmSpec& spec, std::ostream* out) { *out << spec.name; }
 };
 
+// As a job writes it, of radians and metres.
+std::string joints_text(const ArmSpec& spec, const std::vector<double>& q);
 ArmSpec cell_spec();
 ArmSpec irb4600_spec();
 ArmSpec scara_spec();

@@ -40,14 +40,6 @@ Settings fine_counts(const ArmSpec& spec, double period_ms) {
   return settings;
 }
 
-std::string joints_text(const ArmSpec& spec, const std::vector<double>& q) {
-  std::string text = "JOINT";
-  for (std::size_t i = 0; i < q.size(); ++i) {
-    text += fmt::format(" {}", q[i] * (spec.parts[i].slides ? 1000 : 180 / kPi));
-  }
-  return text;
-}
-
 class Run : public CommandCell {
  public:
   Run(const ArmSpec& spec, unsigned seed, double period_ms, const std::string& text, bool long_tool)
@@ -213,6 +205,21 @@ std::string job_of(const ArmSpec& spec, Motion motion, std::mt19937& random) {
   return text;
 }
 
+// The tool rides on a product that passes it.
+bool begin_on_belt(Run& run) {
+  run.belt_told = true;
+  run.belt_speed = run.in(-0.15, 0.15);
+  run.until([] { return false; }, 0.6);
+  std::array<double, 8> from{};
+  std::copy(run.cell.out.machine.position.begin(), run.cell.out.machine.position.end(), from.begin());
+  Command& track = run.command(run.give(Service::TrackBelt, from));
+  track.option = 1;
+  run.step();
+  const auto go = run.give(Service::LinearAbsolute, {run.in(-50, 50), run.in(-50, 50), run.in(-50, 50)},
+                           run.in(20, 250), BufferMode::Aborting, CoordSystem::Product);
+  return run.until([&] { return run.speed() > 10 || run.ended(go); }, 3) && run.speed() > 10;
+}
+
 // Something that moves; false: it could not be begun.
 bool begin(Run& run, const ArmSpec& spec, Motion motion) {
   Cell& cell = run.cell;
@@ -269,19 +276,8 @@ bool begin(Run& run, const ArmSpec& spec, Motion motion) {
       }
       return true;
     }
-    default: {
-      run.belt_told = true;
-      run.belt_speed = run.in(-0.15, 0.15);
-      run.until([] { return false; }, 0.6);
-      std::array<double, 8> from{};
-      std::copy(cell.out.machine.position.begin(), cell.out.machine.position.end(), from.begin());
-      Command& track = run.command(run.give(Service::TrackBelt, from));
-      track.option = 1;
-      run.step();
-      const auto go = run.give(Service::LinearAbsolute, {run.in(-50, 50), run.in(-50, 50), run.in(-50, 50)},
-                               run.in(20, 250), BufferMode::Aborting, CoordSystem::Product);
-      return run.until([&] { return run.speed() > 10 || run.ended(go); }, 3) && run.speed() > 10;
-    }
+    default:
+      return begin_on_belt(run);
   }
 }
 
