@@ -17,13 +17,29 @@ int order_signal() noexcept {
   return SIGRTMIN + 1;
 }
 
-void on_fault(int number, siginfo_t* info, void* /*context*/) {
+// The handlers that ours replaced first, by their signal: a library has its own copy of this code, and its handlers come
+// after the node's. Handlers that are installed again keep what they knew, so two copies never call each other in turn.
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): likewise
+struct sigaction before[NSIG];
+bool replaced[NSIG];
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+
+// False: there is none. One that returns has dealt with the signal.
+bool call_before(int number, siginfo_t* info, void* context) {
+  if (before[number].sa_sigaction == nullptr) {
+    return false;
+  }
+  before[number].sa_sigaction(number, info, context);
+  return true;
+}
+
+void on_fault(int number, siginfo_t* info, void* context) {
   const bool survived = number == SIGBUS && replace_lost_page(info->si_addr);
   // A module does not go on with zeros in place of its values.
   if (t_guard != nullptr && t_guard->armed()) {
     t_guard->on_signal(number, info->si_addr);
   }
-  if (survived) {
+  if (survived || call_before(number, info, context)) {
     return;
   }
   // Our own fault or a thread we do not guard: die as usual, with a core dump.
@@ -33,10 +49,11 @@ void on_fault(int number, siginfo_t* info, void* /*context*/) {
   ::raise(number);
 }
 
-void on_order(int /*number*/, siginfo_t* /*info*/, void* /*context*/) {
+void on_order(int number, siginfo_t* info, void* context) {
   if (t_guard != nullptr && t_guard->armed()) {
     t_guard->on_signal(Guard::kOrder, nullptr);
   }
+  (void)call_before(number, info, context);
 }
 
 void install(int number, void (*handler)(int, siginfo_t*, void*), int more_flags) noexcept {
@@ -44,7 +61,11 @@ void install(int number, void (*handler)(int, siginfo_t*, void*), int more_flags
   action.sa_sigaction = handler;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK | more_flags;
   ::sigemptyset(&action.sa_mask);
-  ::sigaction(number, &action, nullptr);
+  struct sigaction old {};
+  ::sigaction(number, &action, &old);
+  if (!std::exchange(replaced[number], true) && (old.sa_flags & SA_SIGINFO) != 0 && old.sa_sigaction != handler) {
+    before[number] = old;
+  }
 }
 
 constexpr std::size_t kHandlerStackBytes = std::size_t{64} * 1024;
