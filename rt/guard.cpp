@@ -17,9 +17,9 @@ int order_signal() noexcept {
   return SIGRTMIN + 1;
 }
 
-// The handlers that ours replaced first, by their signal: a library has its own copy of this code, and its handlers come
-// after the node's. Handlers that are installed again keep what they knew, so two copies never call each other in turn.
-// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): likewise
+// The handlers that ours replaced first, by their signal: a library has its own copy of this code, and its handlers
+// come after the node's. Handlers that are installed again keep what they knew, so two copies never call each other in
+// turn. NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): likewise
 struct sigaction before[NSIG];
 bool replaced[NSIG];
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)

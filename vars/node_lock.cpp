@@ -124,11 +124,16 @@ bool belongs_to(pid_t pid, uid_t user) {
   return false;
 }
 
-// A name of the network namespace, which nobody can remove while the node runs.
+// A name of the network namespace, which nobody can remove while the node runs. Containers that share a network have
+// memory of their own each, and so nodes of the same name.
 sockaddr_un address_of(const std::string& node, socklen_t& length) noexcept {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const std::string name = block_file(node);
+  struct stat memory {};
+  (void)::stat("/dev/shm", &memory);
+  char device[24];
+  std::snprintf(device, sizeof device, ".%llx", static_cast<unsigned long long>(memory.st_dev));
+  const std::string name = block_file(node) + device;
   name.copy(address.sun_path + 1, sizeof address.sun_path - 1);
   length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
   return address;

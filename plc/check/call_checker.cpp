@@ -165,6 +165,7 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   return nullptr;
 }
 
+// Long: one case for each kind of thing that can be called, in the order in which names are looked for.
 void CallChecker::statement(Expression& call) {
   Expression& callee = call.operands[0];
   leave_out_library(callee);

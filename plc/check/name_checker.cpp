@@ -135,8 +135,7 @@ Expression& ExpressionChecker::make_truth(Expression& expression) {
   return expression;
 }
 
-// A value of the enumeration that is wanted, else of the only one that has it; null if there is none, and `both` names
-// two that have it.
+// A value of the enumeration that is wanted, else of the only one that has it. Null: none has it, or `both` do.
 const Type* ExpressionChecker::bare_enum_value(Expression& expression, const Type* wanted,
                                                std::pair<std::string, std::string>& both) {
   Program& program = context_.program;

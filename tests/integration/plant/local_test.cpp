@@ -179,7 +179,7 @@ TEST_F(Local, A_standby_keeps_the_loop_closed) {
       EXPECT_THAT(indurop({"get", "cell::torque", "--node", board("sensor")}).finish().err, Not(HasSubstr("fallback")))
           << "the value is the standby's";
       EXPECT_THAT(indurop({"status", "--node", board("sensor")}).finish().out,
-                  HasSubstr("leads 1 variable with a standby"));
+                  HasSubstr("leads 2 variables with a standby"));
       // Right after the change it may push the other way for a moment.
       EXPECT_TRUE(wait_until([&] { return torque("sensor") > 0 && torque("sensor") < 1; })) << torque("sensor");
     } else {
