@@ -132,6 +132,7 @@ await browser.run({
     await page.waitForSelector(".lock select");
     await page.select(".lock select", "all");
     await sees(page, "by tester");
+    await page.waitForFunction(() => document.querySelector("form.write input").value !== "");  // its present value
     await press(page, "Set");
     await sees(page, "its write lock is 'all' by tester: nothing may be written");
     await browser.judge(page, "variables-locked-phone");
