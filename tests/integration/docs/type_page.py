@@ -13,7 +13,7 @@ Which blocks of the page are typed is said behind the language:
     ```cpp file=src/a.cpp     the block is the new content of this file, in the folder where the first terminal is
     ```xml file=a.xml add=TEXT  the block goes before the first line of the file that has TEXT
 A command that does not reach its node (exit code 6) is typed again for some seconds: what it needs may still be starting.
-The top folder is empty but for `build`, the build tree. The page has processes, /dev/shm, /tmp/boards and network to itself."""
+The top folder is empty but for `build`, the build tree with a copy of its examples. The page has processes, /dev/shm, /tmp/boards and network to itself."""
 
 import ctypes
 import os
@@ -188,6 +188,15 @@ def mount(what, where, options):
         raise OSError(ctypes.get_errno(), f"mount {where}")
 
 
+def lay_build(build, place):
+    """The build tree, with a copy of the examples: what a page leaves there is gone the next time."""
+    place.mkdir()
+    for entry in build.iterdir():
+        if entry.name != "examples":
+            (place / entry.name).symlink_to(entry)
+    shutil.copytree(build / "examples", place / "examples", symlinks=True, ignore=shutil.ignore_patterns("CMakeFiles"))
+
+
 def main():
     alone(sys.argv)
     page, build, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
@@ -197,7 +206,7 @@ def main():
     subprocess.run(["ip", "link", "set", "lo", "up"], check=False)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    (folder / "build").symlink_to(build)
+    lay_build(build, folder / "build")
     environment = {**os.environ, "HOME": str(folder), "INDUROP_STATE_DIR": str(folder / "state"),
                    "PATH": f"{build}/bin:{os.environ['PATH']}", "CCACHE_DISABLE": "1"}
     environment.pop("INDUROP_PAGE_ALONE")

@@ -337,7 +337,10 @@ await browser.run({
     await sees(robot, "Module Robot is stopped: the robot cannot be moved. Start it on the overview.");
     await sees(robot, "does not run");
     await sees_no(robot, "moving");
-    check(await robot.$$eval(".jog", (all) => all.length > 0 && all.every((one) => one.matches(":disabled"))), "a button can be pressed");
+    await robot.waitForFunction(() => {  // no button can be pressed
+      const all = [...document.querySelectorAll(".jog")];
+      return all.length > 0 && all.every((one) => one.matches(":disabled"));
+    });
     await browser.judge(robot, "robot-stopped");
     await page.bringToFront();  // a page that nobody sees asks nothing
     await page.evaluate(() => { location.hash = "#/alarms"; });
