@@ -12,7 +12,8 @@ bool lies_inside(const std::filesystem::path& file, const std::filesystem::path&
   if (failed) {
     return false;
   }
-  const auto root = std::filesystem::weakly_canonical(std::filesystem::absolute(folder, failed) / "", failed);
+  const auto root =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(folder.empty() ? "." : folder, failed) / "", failed);
   if (failed) {
     return false;
   }

@@ -128,6 +128,11 @@ const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree,
         return nullptr;
       }
       known = known == nullptr ? type : common;
+      if (looked_at.kind == Expression::Kind::Call && looked_at.resolved->pou != nullptr && looked_at.type == type &&
+          !type->is_reference()) {  // else calls in calls would be looked at 2, 4, 8 times
+        looked_at.resolved->settled = true;
+        *argument.value = std::move(looked_at);
+      }
     }
   }
   return function_for(context_, tree, types, call.at);

@@ -93,7 +93,7 @@ const Type* ExpressionChecker::value(Expression& expression, const Type* wanted)
 }
 
 const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted) {
-  if (resolved(expression).cast) {
+  if (resolved(expression).cast || expression.resolved->settled) {
     return expression.type;
   }
   const Type* type = nullptr;
@@ -191,7 +191,7 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
 }
 
 const Type* ExpressionChecker::top_call(Expression& expression, const Type* wanted) {
-  if (!resolved(expression).cast) {
+  if (!resolved(expression).cast && !expression.resolved->settled) {
     const Type* type = CallChecker(*this).function(expression, wanted, true);
     expression.type = type;  // the call may have become another expression
     if (type != nullptr && type->is_reference() && expression.resolved->pou != nullptr) {

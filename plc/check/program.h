@@ -151,6 +151,7 @@ struct Resolved {
   enum class Intrinsic : std::uint8_t { None, Address, Size, IsValid, LowerBound, UpperBound };
   Intrinsic intrinsic = Intrinsic::None;      // ADR() and REF(), SIZEOF(), __ISVALIDREF()
   bool by_super = false;                      // of a method: exactly that one, whatever extends it
+  bool settled = false;                       // a call that is not looked at again, because what is around it was
   bool cast = false;                          // of its only argument, to the type of the call; made by the checker
   const LibraryFunction* function = nullptr;  // of the library; also what an operator stands for
   const Pou* pou = nullptr;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "plc/emit/cpp_text.h"
 #include "plc/model/elementary.h"
@@ -33,21 +34,15 @@ bool is_asked_for(const Pou& pou, const Pou& method) {
 }
 
 // What an interface asks for and the base has: C++ wants it here.
-void forward(const Pou& pou, const Pou& interface, std::vector<std::string>& done, TextWriter& out) {
-  for (const Pou* one : interface.interfaces) {
-    forward(pou, *one, done, out);
-  }
+void forward(const Pou& pou, const Pou& interface, std::set<std::string>& done, TextWriter& out) {
   for (const Pou* one : interface.methods) {
     const Pou* found = pou.base != nullptr ? find_method(*pou.base, one->name, one->tree->accessor) : nullptr;
-    const bool own = std::any_of(pou.methods.begin(), pou.methods.end(), [&](const Pou* other) {
-      return other->tree->accessor == one->tree->accessor && same_name(other->name, one->name);
-    });
+    const bool own = pou.method_names.contains({one->tree->accessor, upper(one->name)});
     const std::string name = method_name(*one);
     const bool has_code = found != nullptr && found->owner->is_block() && !found->tree->is_abstract;
-    if (own || !has_code || std::find(done.begin(), done.end(), name) != done.end()) {
+    if (own || !has_code || !done.insert(name).second) {
       continue;
     }
-    done.push_back(name);
     std::string arguments;
     for (const Variable& parameter : found->variables) {
       if (is_parameter(parameter)) {
@@ -131,9 +126,17 @@ void declare_methods(const Pou& pou, TextWriter& out) {
     out.line(fmt::format("{}{} {}({}){}{};", over ? "" : "virtual ", result_of(*method), method_name(*method),
                          parameters(*method), over ? " override" : "", method->tree->is_abstract ? " = 0" : ""));
   }
-  std::vector<std::string> done;
+  std::set<std::string> done;
+  std::set<const Pou*> asked;  // each once, whatever ways lead to it
   for (const Pou* one : pou.interfaces) {
-    forward(pou, *one, done, out);
+    for (const Pou* ancestor : one->ancestors) {
+      if (asked.insert(ancestor).second) {
+        forward(pou, *ancestor, done, out);
+      }
+    }
+    if (asked.insert(one).second) {
+      forward(pou, *one, done, out);
+    }
   }
 }
 

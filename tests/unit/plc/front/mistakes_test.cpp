@@ -377,7 +377,7 @@ TEST(PlcMistakes, Of_CODESYS_is_taken_what_it_takes) {
               ::testing::AllOf(HasSubstr("fine"), HasSubstr("Nothing has no fields")));
   EXPECT_THAT(said("PROGRAM Main VAR i : INT; END_VAR FOR i := 1 TO 9 DO IF i = 5 THEN i := 9; END_IF; END_FOR; "
                    "END_PROGRAM"),
-              ::testing::AllOf(HasSubstr("fine"), HasSubstr("this changes the variable of the FOR at in.st:1:38")));
+              ::testing::AllOf(HasSubstr("fine"), HasSubstr("this changes the variable of the FOR at in.st:1:35")));
 }
 
 }  // namespace

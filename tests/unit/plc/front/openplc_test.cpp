@@ -114,7 +114,7 @@ TEST(PlcOpenPlc, A_project_with_a_ladder) {
   ASSERT_TRUE(made.ok) << messages(made);
   const std::string text = written(made);
   EXPECT_THAT(text, HasSubstr("<period>20ms</period>"));
-  EXPECT_THAT(text, HasSubstr("(_p3 || _p4) && !stop")) << "branches meet";
+  EXPECT_THAT(text, HasSubstr("(_p3_start || _p4_motor) && !stop")) << "branches meet";
   EXPECT_THAT(text, HasSubstr("// network 1: Start"));
   EXPECT_THAT(text, HasSubstr("delay.pt = iec::Time{2000000000}"));
   EXPECT_THAT(text, HasSubstr("belt = true"));
