@@ -49,8 +49,8 @@ void AxisControl::administer(int ticket, const Command& command) noexcept {
       waited_ = 0;
       if (emergency_) {
         finish(admin_, ErrorCode::Emergency);
-      } else if (!failed) {
-        finish(admin_, ErrorCode::Ok);  // there is nothing to reset
+      } else if (!failed && !group_stops_) {
+        finish(admin_, ErrorCode::Ok);  // there is nothing to reset, and will not be when the group stands
       }
   }
 }

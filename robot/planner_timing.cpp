@@ -14,8 +14,7 @@ constexpr double kFineStep = 0.001;  // of chains, whose corners may be narrow, 
 constexpr double kNearlyOne = 1.02;
 constexpr int kMostSearches = 3;  // what is lost by going slower everywhere is worth another one
 constexpr int kMostRehearsals = 3;
-// Times slower in a place than was searched for: of 2000 random ones past singular positions no other search made it
-// up.
+// Times slower in a place than was searched for: another search does not make that up.
 constexpr double kHopeless = 35;
 // Likewise, after so much work; and after it was made slower for the same reason.
 constexpr int kLate = 2 * Planner::kMostWork;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kSure = 0.99;  // of the limits, between two instants
 constexpr int kFewest = 300;    // instants: jerk of short motions peaks between the knots of their timing
 constexpr int kMost = 1 << 20;
-constexpr int kLong = 8192;                           // instants; longer motions have calm stretches
+constexpr int kLong = kMost;                          // instants; longer motions have calm stretches
 constexpr int kFewSkipped = 16, kManySkipped = 1024;  // instants
 
 }  // namespace

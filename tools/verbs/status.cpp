@@ -135,7 +135,7 @@ const Verb kStatusVerb{
     "Examples:\n"
     "  indurop status\n"
     "  indurop status -w\n"
-    "  indurop status --check || echo 'somebody has to look'\n"
+    "  indurop status --check\n"
     "  indurop status --plant\n"
     "  indurop status --board control\n",
     &declare};
