@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 #include <set>
 #include <vector>
 
 #include "plc/check/places.h"
+#include "plc/check/saturating.h"
 #include "plc/check/value_tree.h"
 #include "plc/library/standard.h"
 
@@ -22,16 +22,6 @@ namespace {
 constexpr std::size_t kMaxNesting = 64;                     // instances inside each other
 constexpr std::uint64_t kMaxVariables = 1'000'000;          // in the instances of one
 constexpr std::uint64_t kMaxVariablesTogether = 4'000'000;  // in those of all programs and global variables
-
-std::uint64_t sum_of(std::uint64_t a, std::uint64_t b) noexcept {
-  std::uint64_t out = 0;
-  return __builtin_add_overflow(a, b, &out) ? std::numeric_limits<std::uint64_t>::max() : out;
-}
-
-std::uint64_t product_of(std::uint64_t a, std::uint64_t b) noexcept {
-  std::uint64_t out = 0;
-  return __builtin_mul_overflow(a, b, &out) ? std::numeric_limits<std::uint64_t>::max() : out;
-}
 
 // Of INTEGRAL and so on RETAIN keeps no memory.
 bool forgets(const LibraryBlock& block) {

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <vector>
 
+#include "plc/check/saturating.h"
 #include "plc/model/walk.h"
 
 namespace indurop::plc {
@@ -15,16 +15,6 @@ namespace {
 
 // A quarter of the stack: calls through interfaces are not seen here, and the compiler has temporaries of its own.
 constexpr std::uint64_t kMost = std::uint64_t{128} * 1024;
-
-std::uint64_t sum(std::uint64_t a, std::uint64_t b) noexcept {
-  std::uint64_t out = 0;
-  return __builtin_add_overflow(a, b, &out) ? std::numeric_limits<std::uint64_t>::max() : out;
-}
-
-std::uint64_t product(std::uint64_t a, std::uint64_t b) noexcept {
-  std::uint64_t out = 0;
-  return __builtin_mul_overflow(a, b, &out) ? std::numeric_limits<std::uint64_t>::max() : out;
-}
 
 // About as large as in C++.
 class Sizes {
@@ -66,7 +56,7 @@ class Sizes {
   std::uint64_t array(const Type& type) {
     std::uint64_t bytes = of(*type.element);
     for (const Bounds& one : type.dimensions) {
-      bytes = product(bytes, one.count());
+      bytes = product_of(bytes, one.count());
     }
     return bytes;
   }
@@ -74,7 +64,7 @@ class Sizes {
   std::uint64_t structure(const Type& type) {
     std::uint64_t bytes = 0;
     for (const Field& one : type.fields) {
-      bytes = type.overlaps ? std::max(bytes, of(*one.type)) : sum(bytes, of(*one.type));
+      bytes = type.overlaps ? std::max(bytes, of(*one.type)) : sum_of(bytes, of(*one.type));
     }
     return bytes;
   }
@@ -83,7 +73,7 @@ class Sizes {
     std::uint64_t bytes = 0;
     for (const Variable* one : all_variables(pou)) {
       if (one->type != nullptr && one->global == nullptr && one->section != ast::Section::Temp) {
-        bytes = sum(bytes, one->section == ast::Section::InOut ? sizeof(void*) : of(*one->type));
+        bytes = sum_of(bytes, one->section == ast::Section::InOut ? sizeof(void*) : of(*one->type));
       }
     }
     return bytes;
@@ -114,7 +104,7 @@ class StackChecker {
     std::vector<Part> parts = variables(pou);
     std::uint64_t own = temporaries(pou);
     for (const Part& one : parts) {
-      own = sum(own, one.bytes);
+      own = sum_of(own, one.bytes);
     }
     std::uint64_t below = 0;
     const Pou* deepest = nullptr;
@@ -124,7 +114,7 @@ class StackChecker {
         deepest = one;
       }
     }
-    const std::uint64_t all = sum(own, below);
+    const std::uint64_t all = sum_of(own, below);
     depth_[&pou] = std::min(all, kMost);  // said once
     if (all > kMost) {
       complain(pou, parts, own > kMost ? nullptr : deepest, all);
@@ -156,7 +146,7 @@ class StackChecker {
       std::uint64_t bytes = 0;
       ast::each_expression(one, [&](const ast::Expression& part) {
         if (part.kind == ast::Expression::Kind::Call && part.type != nullptr && part.type->is_text()) {
-          bytes = sum(bytes, sizes_.of(*part.type));
+          bytes = sum_of(bytes, sizes_.of(*part.type));
         }
       });
       most = std::max(most, bytes);

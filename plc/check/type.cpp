@@ -8,14 +8,10 @@
 #include <utility>
 
 #include "plc/check/program.h"
+#include "plc/check/saturating.h"
 
 namespace indurop::plc {
 namespace {
-
-std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) noexcept {
-  std::uint64_t sum = 0;
-  return __builtin_add_overflow(a, b, &sum) ? std::numeric_limits<std::uint64_t>::max() : sum;
-}
 
 bool same_bounds(const Type& a, const Type& b) noexcept {
   return std::equal(a.dimensions.begin(), a.dimensions.end(), b.dimensions.begin(), b.dimensions.end(),
@@ -228,7 +224,7 @@ void measure(Type& type) noexcept {
     const Field& field = type.fields[i];
     type.field_names.try_emplace(upper(field.name), i);
     type.is_private = type.is_private || field.type->is_private;
-    type.fields_inside = saturating_sum(type.fields_inside, field.type->fields_inside);
+    type.fields_inside = sum_of(type.fields_inside, field.type->fields_inside);
     type.depth = std::max(type.depth, field.type->depth);
   }
   type.depth += type.kind == Type::Kind::Struct ? 1 : 0;
