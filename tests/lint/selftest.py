@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import unittest
 
+import check_commits
 import check_format
 import check_functions
 import check_headers
@@ -346,6 +347,23 @@ class Readme(Sample):
         self.put("vars/store.h", HEAD)
         self.put("docs/a.md", "`vars/store.h`, `vars/store`, `vars/`, `build/bin/`, `a/b`, and `vars/stroe.h`\n")
         self.found(check_readme.check(self.root, None), "docs/a.md", "vars/stroe.h")
+
+
+class Commits(Sample):
+    def test_subjects_as_they_should_be(self):
+        self.assertEqual(check_commits.check([
+            ("a", "robot: wait for drives to switch off before enabling"), ("b", "page, status: show what is missing"),
+            ("c", "tools: pass the reason on"), ("d", "vars/retain: keep the old file")]), [])
+
+    def test_subjects_that_are_not(self):
+        for subject, what in ((f"robot: say {'x' * 72}", "the limit"), ("Drives are late", "not 'room: imperative'"),
+                              ("docs: options of new verbs", "'options'"), ("docs: added a page", "'added'"),
+                              ("docs: adding a page", "'adding'"), ("serve: HEAD has no body", "'HEAD'"),
+                              ("docs: add a page.", "full stop")):
+            self.found(check_commits.check([("a1b2", subject)]), "a1b2", what)
+
+    def test_a_clone_that_ends_before(self):
+        self.assertIsNone(check_commits.commits_of(self.root))
 
 
 class Run(Sample):
