@@ -9,7 +9,7 @@ PREFIX ?= /usr/local
 # those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(TEST_JOBS) $(if $(CI),--repeat until-pass:2)
 
-.PHONY: all with-tests demo test soak rt-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs install uninstall clean help
+.PHONY: all with-tests demo test quick soak rt-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs install uninstall clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -33,6 +33,9 @@ demo: ## install what is missing, build, run the chapter's example, a plant of t
 test: with-tests ## install what is missing, build, run all tests and lints
 	@$(CTEST) -LE 'tidy|soak|proof_long|million' -O $(CURDIR)/build/ctest.log --output-junit $(CURDIR)/build/ctest.xml; code=$$?; \
 	  python3 tests/lint/check_run.py build/ctest.xml build/ctest.log || code=1; exit $$code
+
+quick: with-tests ## unit and golden tests only
+	@$(CTEST) -L 'unit|golden'
 
 soak: T = 20m
 soak: with-tests ## a plant of three boards for T (T=20m, 2h): what grows; the store read 10^9 times; as root
