@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "serve/door/connection_limits.h"
 #include "serve/door/wrong_tokens.h"
