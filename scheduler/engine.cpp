@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// The story of a tick. Each core has one tick thread, which sleeps until the absolute time of the next tick; ticks it
+// missed are counted and not made up for. It runs the band at the top of its core itself and releases the other bands
+// that are due: threads with lower FIFO priorities, so that a quick band preempts a slow one. Where these priorities do
+// not give the order (several cores, data that flows), a band waits for its predecessors. Sporadic modules run after
+// everything periodic, or right after the base modules. A watchdog ends runs that exceed their budget.
 #include "scheduler/engine.h"
 
 #include <algorithm>
@@ -372,12 +377,8 @@ void Engine::watchdog_loop() noexcept {
 
 void Engine::join() noexcept {
   // A run that ended by itself (ticks) stops its bands too.
-  while (!finished()) {
-    if (!stop_.load(std::memory_order_acquire)) {
-      kernel_.sleep_until(kernel_.now() + std::chrono::nanoseconds(kWatchdogFastest));
-      continue;
-    }
-    break;
+  while (!finished() && !stop_.load(std::memory_order_acquire)) {
+    kernel_.sleep_until(kernel_.now() + std::chrono::nanoseconds(kWatchdogFastest));
   }
   stop_.store(true, std::memory_order_release);
   for (const auto& band : bands_) {

@@ -97,7 +97,7 @@ CamTable table_of(const std::vector<double>& x, const std::vector<double>& y) {
   return table;
 }
 
-TEST(Cams, Are_the_curves_of_a_dense_system) {
+TEST(CamTables, Are_the_curves_of_a_dense_system) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> gap(0.3, 2);
   std::uniform_real_distribution<double> place(-3, 3);
@@ -129,7 +129,7 @@ TEST(Cams, Are_the_curves_of_a_dense_system) {
   }
 }
 
-TEST(Cams, Have_no_jumps_of_speed_and_acceleration) {
+TEST(CamTables, Have_no_jumps_of_speed_and_acceleration) {
   Cam sut;
   ASSERT_EQ(sut.set(table_of({0, 1, 2.5, 4}, {0, 2, -1, 0.5}), true), ErrorCode::Ok);
   constexpr double kStep = 1e-3;
@@ -141,7 +141,7 @@ TEST(Cams, Have_no_jumps_of_speed_and_acceleration) {
   }
 }
 
-TEST(Cams, Of_wrong_tables_are_refused_and_change_nothing) {
+TEST(CamTables, Of_wrong_tables_are_refused_and_change_nothing) {
   Cam sut;
   ASSERT_EQ(sut.set(table_of({0, 1}, {0, 5}), false), ErrorCode::Ok);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -157,7 +157,7 @@ TEST(Cams, Of_wrong_tables_are_refused_and_change_nothing) {
   EXPECT_NEAR(sut.at(0.5), 2.5, 1e-12);
 }
 
-TEST(Cams, Know_how_far_they_go) {
+TEST(CamTables, Know_how_far_they_go) {
   Cam sut;
   ASSERT_EQ(sut.set(table_of({0, 1, 2}, {0, 10, 0}), false), ErrorCode::Ok);
   EXPECT_NEAR(sut.extent().first, 0, 1e-9);
