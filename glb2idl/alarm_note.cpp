@@ -14,13 +14,11 @@
 namespace indurop::glb2idl {
 namespace {
 
-using Kind = ast::Expression::Kind;
-
 constexpr const char* kUsage =
     "write @alarm(\"what is wrong\", high, 500ms) or @alarm(value > 80, \"too hot\", high, 2s)";
 
 std::optional<schema::Comparison> comparison_of(const ast::Expression& condition) {
-  if (condition.kind != Kind::Binary || condition.operands.size() != 2) {
+  if (condition.kind != ast::Expression::Kind::Binary || condition.operands.size() != 2) {
     return std::nullopt;
   }
   for (std::size_t i = 0; i <= static_cast<std::size_t>(schema::Comparison::GreaterEqual); ++i) {
@@ -33,7 +31,7 @@ std::optional<schema::Comparison> comparison_of(const ast::Expression& condition
 }
 
 bool is_word(const ast::Expression& expression) {
-  return expression.kind == Kind::Path && expression.path.parts.size() == 1;
+  return expression.kind == ast::Expression::Kind::Path && expression.path.parts.size() == 1;
 }
 
 bool is_limit(schema::Comparison comparison) {
@@ -56,7 +54,7 @@ class AlarmReader {
                                              schema::display_name(element_),
                                              element_.base == schema::Base::Struct ? ": write it at its fields" : ""));
     }
-    if (!rest.empty() && rest[0].value->kind == Kind::Binary) {
+    if (!rest.empty() && rest[0].value->kind == ast::Expression::Kind::Binary) {
       if (!read_condition(*rest[0].value)) {
         return std::nullopt;
       }

@@ -9,7 +9,6 @@
 namespace indurop::io {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15ULL;  // makes any seed a good one
 
 }  // namespace

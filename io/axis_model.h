@@ -6,10 +6,13 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 
 #include "config/model/io_config.h"
 
 namespace indurop::io {
+
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
 // What the loops are to follow at the end of one step.
 struct AxisReference {

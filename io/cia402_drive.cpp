@@ -10,7 +10,6 @@
 namespace indurop::io {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 constexpr double kStandingDegrees = 0.05;  // per second
 constexpr double kArrivedDegrees = 0.01;
 constexpr double kQuickStopShare = 0.8;  // of the torque, so that the loops keep some

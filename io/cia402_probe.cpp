@@ -6,7 +6,7 @@
 namespace indurop::io {
 namespace {
 
-constexpr unsigned kOn = 1U << 0U;
+constexpr unsigned kSwitchedOn = 1U << 0U;
 constexpr unsigned kEveryTime = 1U << 1U;
 constexpr unsigned kMark = 1U << 2U;
 constexpr unsigned kRise = 1U << 4U;
@@ -16,8 +16,8 @@ constexpr unsigned kFall = 1U << 5U;
 
 void TouchProbe::take(std::uint8_t function) noexcept {
   // Switched off, or one of its edges: what was stored of it is forgotten.
-  has_rise_ = has_rise_ && (function & kOn) != 0 && (function & kRise) != 0;
-  has_fall_ = has_fall_ && (function & kOn) != 0 && (function & kFall) != 0;
+  has_rise_ = has_rise_ && (function & kSwitchedOn) != 0 && (function & kRise) != 0;
+  has_fall_ = has_fall_ && (function & kSwitchedOn) != 0 && (function & kFall) != 0;
   function_ = function;
 }
 
@@ -34,7 +34,7 @@ void TouchProbe::store(double at, bool rising) noexcept {
 }
 
 void TouchProbe::step(const ProbeStep& step) noexcept {
-  if ((function_ & kOn) == 0 || step.before == step.now) {
+  if ((function_ & kSwitchedOn) == 0 || step.before == step.now) {
     return;
   }
   if ((function_ & kMark) != 0) {
@@ -54,7 +54,8 @@ void TouchProbe::step(const ProbeStep& step) noexcept {
 std::uint8_t TouchProbe::status() const noexcept {
   constexpr unsigned kStoredRise = 1U << 1U;
   constexpr unsigned kStoredFall = 1U << 2U;
-  return static_cast<std::uint8_t>((function_ & kOn) | (has_rise_ ? kStoredRise : 0U) | (has_fall_ ? kStoredFall : 0U));
+  return static_cast<std::uint8_t>((function_ & kSwitchedOn) | (has_rise_ ? kStoredRise : 0U) |
+                                   (has_fall_ ? kStoredFall : 0U));
 }
 
 }  // namespace indurop::io

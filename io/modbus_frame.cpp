@@ -9,9 +9,6 @@ namespace {
 
 using config::IoTable;
 
-constexpr unsigned kByte = 8;
-constexpr unsigned kByteMask = 0xFF;
-
 // Function codes.
 constexpr std::uint8_t kReadCoils = 1;
 constexpr std::uint8_t kReadDiscrete = 2;
@@ -24,7 +21,6 @@ constexpr std::uint8_t kWriteRegisters = 16;
 constexpr std::uint8_t kMaskRegister = 22;
 constexpr std::uint8_t kExchangeRegisters = 23;
 constexpr std::uint8_t kRefused = 0x80;  // added to the function
-constexpr unsigned kOn = 0xFF00;
 
 // Places in a request and in its answer.
 constexpr std::size_t kUnit = 0;
@@ -56,7 +52,7 @@ std::uint8_t writing_function(IoTable table, bool one) noexcept {
 }  // namespace
 
 void ModbusFrame::put_word(unsigned word) noexcept {
-  put(word >> kByte);
+  put(word >> kBitsPerByte);
   put(word & kByteMask);
 }
 
@@ -75,7 +71,7 @@ ModbusFrame::ModbusFrame(int unit, std::uint8_t function) noexcept {
 void ModbusFrame::expect_values(const ModbusRequest& request) noexcept {
   bits_ = config::is_bits(request.table);
   count_ = request.count;
-  answer_bytes_ = bits_ ? (request.count + kByte - 1U) / kByte : std::size_t{2} * request.count;
+  answer_bytes_ = bits_ ? (request.count + kBitsPerByte - 1U) / kBitsPerByte : std::size_t{2} * request.count;
 }
 
 void ModbusFrame::expect_echo(std::size_t size, std::size_t same) noexcept {
@@ -98,7 +94,7 @@ ModbusFrame ModbusFrame::writing(const ModbusRequest& request, std::span<const s
   ModbusFrame frame(request.unit, writing_function(request.table, one));
   frame.put_word(request.first);
   if (one) {
-    frame.put_word(is_bits ? (bits[0] != 0 ? kOn : 0) : registers[0]);
+    frame.put_word(is_bits ? (bits[0] != 0 ? kCoilOn : 0) : registers[0]);
     // Of one value only the address comes back for certain.
     frame.expect_echo(kEcho, kAddressEnd);
     return frame;
@@ -109,10 +105,10 @@ ModbusFrame ModbusFrame::writing(const ModbusRequest& request, std::span<const s
     frame.put_registers(registers.first(request.count));
     return frame;
   }
-  frame.put((request.count + kByte - 1U) / kByte);
-  for (std::size_t i = 0; i < request.count; i += kByte) {
+  frame.put((request.count + kBitsPerByte - 1U) / kBitsPerByte);
+  for (std::size_t i = 0; i < request.count; i += kBitsPerByte) {
     unsigned byte = 0;
-    for (std::size_t k = i; k < std::min<std::size_t>(request.count, i + kByte); ++k) {
+    for (std::size_t k = i; k < std::min<std::size_t>(request.count, i + kBitsPerByte); ++k) {
       byte |= (bits[k] != 0 ? 1U : 0U) << (k - i);
     }
     frame.put(byte);
@@ -171,10 +167,11 @@ void ModbusFrame::take(std::span<const std::uint8_t> answer, std::span<std::uint
                        std::span<std::uint16_t> registers) const noexcept {
   for (std::size_t i = 0; i < count_; ++i) {
     if (bits_) {
-      bits[i] = static_cast<std::uint8_t>(static_cast<unsigned>(answer[kData + i / kByte]) >> (i % kByte) & 1U);
+      bits[i] =
+          static_cast<std::uint8_t>(static_cast<unsigned>(answer[kData + i / kBitsPerByte]) >> (i % kBitsPerByte) & 1U);
     } else {
-      registers[i] =
-          static_cast<std::uint16_t>(static_cast<unsigned>(answer[kData + 2 * i]) << kByte | answer[kData + 2 * i + 1]);
+      registers[i] = static_cast<std::uint16_t>(static_cast<unsigned>(answer[kData + 2 * i]) << kBitsPerByte |
+                                                answer[kData + 2 * i + 1]);
     }
   }
 }

@@ -12,6 +12,10 @@
 
 namespace indurop::io {
 
+inline constexpr unsigned kBitsPerByte = 8;
+inline constexpr unsigned kByteMask = 0xFF;
+inline constexpr unsigned kCoilOn = 0xFF00;  // how a request writes one coil
+
 class ModbusFrame {
  public:
   enum class Fit {

@@ -20,8 +20,6 @@ using config::IoFraming;
 constexpr int kDataBits = 8;
 constexpr std::size_t kHeader = 6;  // of TCP: transaction, protocol, length
 constexpr std::size_t kCheck = 2;   // bytes of the check at the end of a serial frame
-constexpr unsigned kByte = 8;
-constexpr unsigned kByteMask = 0xFF;
 
 // CRC-16 of "MODBUS over serial line" 2.5.1.2.
 std::uint16_t check_of(std::span<const std::uint8_t> bytes) noexcept {
@@ -29,7 +27,7 @@ std::uint16_t check_of(std::span<const std::uint8_t> bytes) noexcept {
   unsigned check = 0xFFFF;
   for (const std::uint8_t byte : bytes) {
     check ^= byte;
-    for (unsigned bit = 0; bit < kByte; ++bit) {
+    for (unsigned bit = 0; bit < kBitsPerByte; ++bit) {
       check = (check & 1U) != 0 ? check >> 1U ^ kPolynomial : check >> 1U;
     }
   }
@@ -132,11 +130,11 @@ bool ModbusLink::send(const ModbusFrame& frame) {
   std::size_t size = serial ? 0 : kHeader;
   if (!serial) {
     ++transaction_;
-    const std::array<unsigned, kHeader> header{static_cast<unsigned>(transaction_) >> kByte,
+    const std::array<unsigned, kHeader> header{static_cast<unsigned>(transaction_) >> kBitsPerByte,
                                                transaction_ & kByteMask,
                                                0,
                                                0,
-                                               static_cast<unsigned>(request.size()) >> kByte,
+                                               static_cast<unsigned>(request.size()) >> kBitsPerByte,
                                                static_cast<unsigned>(request.size()) & kByteMask};
     std::transform(header.begin(), header.end(), buffer_.begin(),
                    [](unsigned byte) { return static_cast<std::uint8_t>(byte); });
@@ -146,7 +144,7 @@ bool ModbusLink::send(const ModbusFrame& frame) {
   if (serial) {
     const unsigned check = check_of(request);
     buffer_.at(size) = static_cast<std::uint8_t>(check & kByteMask);
-    buffer_.at(size + 1) = static_cast<std::uint8_t>(check >> kByte);
+    buffer_.at(size + 1) = static_cast<std::uint8_t>(check >> kBitsPerByte);
     size += kCheck;
   }
   const ssize_t sent = ::send(modbus_get_socket(context_.get()), buffer_.data(), size, MSG_NOSIGNAL);
@@ -168,8 +166,8 @@ std::span<const std::uint8_t> ModbusLink::unwrapped(std::size_t size) const noex
   if (has_serial_frames()) {
     return size < kCheck ? whole.first(0) : whole.first(size - kCheck);  // libmodbus has looked at the check
   }
-  const bool ours = size > kHeader && whole[0] == transaction_ >> kByte && whole[1] == (transaction_ & kByteMask) &&
-                    whole[2] == 0 && whole[3] == 0;
+  const bool ours = size > kHeader && whole[0] == transaction_ >> kBitsPerByte &&
+                    whole[1] == (transaction_ & kByteMask) && whole[2] == 0 && whole[3] == 0;
   return ours ? whole.subspan(kHeader) : whole.first(0);
 }
 

@@ -7,6 +7,7 @@
 
 #include <modbus/modbus.h>
 
+#include "io/modbus_frame.h"
 #include "io/modbus_plan.h"
 #include "io/wire.h"
 
@@ -16,9 +17,6 @@ namespace {
 using config::IoPoint;
 using config::IoTable;
 
-constexpr unsigned kByte = 8;
-constexpr unsigned kOn = 0xFF00;
-
 // Bytes of a request without its data, by what it does.
 constexpr std::size_t kTwoWords = 5;
 constexpr std::size_t kThreeWords = 7;
@@ -26,7 +24,7 @@ constexpr std::size_t kManyHead = 6;
 constexpr std::size_t kExchangeHead = 10;
 
 unsigned word_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
-  return static_cast<unsigned>(bytes[at]) << kByte | bytes[at + 1];
+  return static_cast<unsigned>(bytes[at]) << kBitsPerByte | bytes[at + 1];
 }
 
 std::uint32_t end_of(const IoPoint& point) noexcept {
@@ -123,7 +121,7 @@ ModbusPlaces::Access ModbusPlaces::access_of(std::span<const std::uint8_t> reque
   const auto writing = [&](IoTable table, std::size_t wanted, bool one, std::uint32_t most) -> Access {
     const Range asked = size >= wanted && (size == wanted || !one) ? range(table, 1, one, most) : Range{};
     const std::size_t bytes =
-        config::is_bits(table) ? (asked.count + kByte - 1U) / kByte : std::size_t{2} * asked.count;
+        config::is_bits(table) ? (asked.count + kBitsPerByte - 1U) / kBitsPerByte : std::size_t{2} * asked.count;
     const bool whole = one || (size > wanted - 1 && request[wanted - 1] == bytes && size == wanted + bytes);
     return asked.count > 0 && whole ? Access{{}, asked, 0} : kBadValue;
   };
@@ -138,7 +136,7 @@ ModbusPlaces::Access ModbusPlaces::access_of(std::span<const std::uint8_t> reque
       return reading(IoTable::Input, kMostReadRegisters);
     case MODBUS_FC_WRITE_SINGLE_COIL: {
       const unsigned value = size == kTwoWords ? word_at(request, kTwoWords - 2) : 1;
-      return value == 0 || value == kOn ? writing(IoTable::Coil, kTwoWords, true, 1) : kBadValue;
+      return value == 0 || value == kCoilOn ? writing(IoTable::Coil, kTwoWords, true, 1) : kBadValue;
     }
     case MODBUS_FC_WRITE_SINGLE_REGISTER:
       return writing(IoTable::Holding, kTwoWords, true, 1);

@@ -14,6 +14,8 @@
 
 #include <modbus/modbus.h>
 
+#include "io/modbus_frame.h"
+
 namespace indurop::io {
 namespace {
 
@@ -25,7 +27,6 @@ constexpr std::size_t kUnit = 6;
 constexpr std::size_t kLeast = 8;      // header, unit, function
 constexpr unsigned kAnyUnit = 0xFF;    // "MODBUS messaging on TCP/IP" 4.4.1.2: of a device that has no line behind it
 constexpr std::size_t kRequests = 64;  // of one client in one exchange: nobody keeps the others waiting
-constexpr unsigned kByte = 8;
 
 std::string address_of(const sockaddr_storage& peer, socklen_t size) {
   std::array<char, NI_MAXHOST> host{};
@@ -140,10 +141,10 @@ bool ModbusServer::answer(Client& client, std::span<const std::uint8_t> frame, s
 
 bool ModbusServer::serve(Client& client, std::span<Sample> inputs) {
   for (std::size_t done = 0; done < kRequests;) {
-    const std::size_t whole =
-        client.size < kHeader
-            ? kLeast
-            : kHeader + (static_cast<std::size_t>(client.bytes[kHeader - 2]) << kByte) + client.bytes[kHeader - 1];
+    const std::size_t whole = client.size < kHeader
+                                  ? kLeast
+                                  : kHeader + (static_cast<std::size_t>(client.bytes[kHeader - 2]) << kBitsPerByte) +
+                                        client.bytes[kHeader - 1];
     if (whole < kLeast || whole > kMostBytes || (client.size > 3 && (client.bytes[2] | client.bytes[3]) != 0)) {
       return false;  // no Modbus
     }

@@ -9,18 +9,13 @@
 #include <cstring>
 #include <vector>
 
-#include "base/read_file.h"
 #include "base/text.h"
+#include "keys/plant_parts.h"
 
 namespace indurop::keys {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_text(const fs::path& file) {
-  auto text = base::read_file(file);
-  return text ? std::move(*text) : std::string{};
-}
 
 std::string missing_file(const ParticipantKeys& keys) {
   for (const fs::path& file :

@@ -84,7 +84,7 @@ class Conductor {
   Console& console_;
   base::StopSignal& signals_;
   std::int64_t delay_ns_;
-  mirror::Network network_;
+  mirror::SimulatedNetwork network_;
   std::vector<PlantEvent> events_;
   std::size_t next_event_ = 0;
   std::vector<ConductorBoard> boards_;

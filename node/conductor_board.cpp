@@ -19,8 +19,8 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::seconds kEndGrace{10};  // a node gives its own modules and processes a few seconds
-constexpr std::chrono::milliseconds kLook{1};
+constexpr std::chrono::seconds kBoardGrace{10};  // a node gives its own modules and processes a few seconds
+constexpr std::chrono::milliseconds kEndPoll{1};
 
 // "r.json" of board "left" is "r.left.json", and "r.left.2.json" when it was started again.
 std::filesystem::path file_of(const std::filesystem::path& file, const std::string& board, int start) {
@@ -115,13 +115,13 @@ void ConductorBoard::kill() noexcept {
 
 int ConductorBoard::await_end() {
   channel_.reset();
-  const rt::MonoTime give_up = rt::MonoClock::now() + kEndGrace;
+  const rt::MonoTime give_up = rt::MonoClock::now() + kBoardGrace;
   int status = 0;
   while (pid_ > 0 && ::waitpid(pid_, &status, WNOHANG) == 0) {
     if (rt::MonoClock::now() > give_up) {
       ::kill(pid_, SIGKILL);
     }
-    rt::sleep_until(rt::MonoClock::now() + kLook);
+    rt::sleep_until(rt::MonoClock::now() + kEndPoll);
   }
   if (pid_ > 0) {
     pid_ = -1;

@@ -10,7 +10,7 @@ namespace {
 constexpr std::chrono::seconds kSummary{1};
 constexpr std::size_t kMostLines = 4;
 
-double microseconds(std::int64_t ns) noexcept {
+double in_microseconds(std::int64_t ns) noexcept {
   return static_cast<double>(ns) / 1000;
 }
 
@@ -27,15 +27,15 @@ const scheduler::OverrunEntry* newest_overrun(const scheduler::RunBlock& run, st
   return nullptr;
 }
 
-std::string describe(const scheduler::RunBlock& run, const scheduler::OverrunEntry& entry) {
+std::string describe_overrun(const scheduler::RunBlock& run, const scheduler::OverrunEntry& entry) {
   std::string text =
       fmt::format("the last at tick {} (slot {}): ", std::uint64_t{entry.tick}, std::uint64_t{entry.slot});
   text += entry.started != 0 ? fmt::format("it had been running for {:.1f} us after starting {:.1f} us late",
-                                           microseconds(entry.own_ns), microseconds(entry.latency_ns))
+                                           in_microseconds(entry.own_ns), in_microseconds(entry.latency_ns))
                              : std::string("it was still waiting for its turn");
   if (entry.previous >= 0) {
     text += fmt::format("; before it ran {} for {:.1f} us", run.modules()[entry.previous].name,
-                        microseconds(entry.previous_ns));
+                        in_microseconds(entry.previous_ns));
   }
   return text;
 }
@@ -93,13 +93,13 @@ void Console::report_overruns(rt::MonoTime now, bool last) {
     if (const std::uint64_t fresh = overruns - seen_[i].overruns; fresh > 0) {
       const scheduler::OverrunEntry* entry = newest_overrun(*run_, i);
       lines.push_back(fmt::format("module {}: {} overrun{}{}", module.name, fresh, fresh == 1 ? "" : "s",
-                                  entry == nullptr ? "" : ", " + describe(*run_, *entry)));
+                                  entry == nullptr ? "" : ", " + describe_overrun(*run_, *entry)));
       seen_[i].overruns = overruns;
     }
     const std::uint64_t misses = module.deadline_misses.load(std::memory_order_relaxed);
     if (const std::uint64_t fresh = misses - seen_[i].misses; fresh > 0) {
       lines.push_back(fmt::format("module {}: {} deadline{} of {:.1f} us missed", module.name, fresh,
-                                  fresh == 1 ? "" : "s", microseconds(module.deadline_ns)));
+                                  fresh == 1 ? "" : "s", in_microseconds(module.deadline_ns)));
       seen_[i].misses = misses;
     }
   }

@@ -11,7 +11,7 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{50};
+constexpr std::chrono::milliseconds kHangPoll{50};
 constexpr std::chrono::seconds kPatienceAtEnd{2};
 
 // A signal that every thread blocks waits for the main one, which is inside a module.
@@ -48,7 +48,7 @@ void HangWatch::loop() {
   std::uint64_t before = progress_();
   rt::MonoTime since = rt::MonoClock::now();
   while (!stop_.load()) {
-    rt::sleep_until(rt::MonoClock::now() + kLook);
+    rt::sleep_until(rt::MonoClock::now() + kHangPoll);
     const std::uint64_t now = progress_();
     if (now != before) {
       before = now;

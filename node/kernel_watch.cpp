@@ -18,7 +18,7 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::milliseconds kPause{100};
+constexpr std::chrono::milliseconds kKernelPoll{100};
 
 }  // namespace
 
@@ -29,7 +29,7 @@ struct KernelWatch::Impl {
     std::unique_lock lock(mutex_);
     do {
       look_.look(rt::now_ns());
-    } while (!end_.wait_for(lock, kPause, [this] { return stop_; }));
+    } while (!end_.wait_for(lock, kKernelPoll, [this] { return stop_; }));
     look_.look(rt::now_ns());
   }
 

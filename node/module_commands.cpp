@@ -14,7 +14,7 @@ using scheduler::ModuleState;
 using scheduler::Operation;
 
 constexpr std::chrono::seconds kLaunch{5};  // until a process is ready to be released
-constexpr std::chrono::milliseconds kLook{1};
+constexpr std::chrono::milliseconds kCommandPoll{1};
 
 }  // namespace
 
@@ -167,7 +167,7 @@ void ModuleCommands::end() {
   for (Work& work : works_) {
     if (work.call != nullptr) {
       while (!parts_.phases.ended(*work.call, rt::MonoClock::now(), Phases::kGrace)) {
-        rt::sleep_until(rt::MonoClock::now() + kLook);
+        rt::sleep_until(rt::MonoClock::now() + kCommandPoll);
       }
       if (parts_.phases.conclude(std::move(work.call)) && work.step == Step::Starting) {
         record(work.module).state.store(ModuleState::Loaded);  // it has started, so it gets its stop()

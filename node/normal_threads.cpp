@@ -8,9 +8,9 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{10};
+constexpr std::chrono::milliseconds kThreadPoll{10};
 constexpr std::chrono::seconds kGrace{2};
-constexpr std::size_t kStackBytes = std::size_t{8} * 1024 * 1024;
+constexpr std::size_t kThreadStack = std::size_t{8} * 1024 * 1024;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ bool NormalThreads::launch(std::uint32_t module) {
   normal->state.task.run = libraries_[module].functions().run;
   normal->state.record = &run_.modules()[module];
   normal->period_ns = period_ns;
-  auto thread = kernel.start({"irp-normal", 0, config_.modules[module].core, kStackBytes},
+  auto thread = kernel.start({"irp-normal", 0, config_.modules[module].core, kThreadStack},
                              [this, &normal = *normal] { loop(normal); });
   if (!thread) {
     return false;
@@ -106,7 +106,7 @@ void NormalThreads::loop(Normal& normal) noexcept {
     normal.runner.run(only, run_.tick.load(std::memory_order_relaxed), kernel.now());
     next = std::max(next + std::chrono::nanoseconds{normal.period_ns}, kernel.now());
     while (normal.period_ns > 0 && kernel.now() < next && !leaving()) {
-      kernel.sleep_until(std::min(next, kernel.now() + kLook));
+      kernel.sleep_until(std::min(next, kernel.now() + kThreadPoll));
     }
   } while (normal.period_ns > 0 && !leaving() && normal.state.enabled.load());
   normal.runner.detach_thread();
@@ -122,7 +122,7 @@ void NormalThreads::stop() {
     scheduler::Kernel& kernel = normal->kernel;
     const rt::MonoTime give_up = kernel.now() + kGrace;
     while (!normal->done.load()) {
-      kernel.sleep_until(kernel.now() + kLook);
+      kernel.sleep_until(kernel.now() + kThreadPoll);
       if (const rt::MonoTime now = kernel.now(); now > give_up) {
         normal->runner.enforce_budget(now, true, 1);
       }

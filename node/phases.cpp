@@ -11,8 +11,8 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{1};
-constexpr std::size_t kStackBytes = std::size_t{8} * 1024 * 1024;
+constexpr std::chrono::milliseconds kPhasePoll{1};
+constexpr std::size_t kPhaseStack = std::size_t{8} * 1024 * 1024;
 
 }  // namespace
 
@@ -62,7 +62,7 @@ Phases::CallPointer Phases::begin(std::uint32_t index, const char* phase, void (
   call->state.task.run = function;
   call->state.record = &call->scratch;
   call->state.logged = false;
-  auto thread = rt::Thread::start({"irp-phase", 0, -1, kStackBytes}, [this, &one = *call] {
+  auto thread = rt::Thread::start({"irp-phase", 0, -1, kPhaseStack}, [this, &one = *call] {
     const rt::HandlerStack handler_stack;
     one.runner.attach_thread();
     scheduler::TaskState* const only[] = {&one.state};
@@ -116,7 +116,7 @@ bool Phases::call(std::uint32_t index, const char* phase, void (*function)()) {
   // start() may take its time, until somebody wants the node to end; stop() has a limit in any case.
   std::chrono::nanoseconds limit{std::string_view(phase) == "stop" ? kGrace : std::chrono::seconds{0}};
   while (!ended(*call, rt::MonoClock::now(), limit)) {
-    const int number = signals_.wait(kLook);
+    const int number = signals_.wait(kPhasePoll);
     console_.report(rt::MonoClock::now(), false);
     if (number != 0 && limit.count() == 0) {
       limit = rt::MonoClock::now() - call->began + kGrace;

@@ -21,13 +21,13 @@ using scheduler::FaultKind;
 using scheduler::ModuleState;
 using scheduler::Operation;
 
-constexpr std::chrono::seconds kEndGrace{2};
+constexpr std::chrono::seconds kProcessGrace{2};
 constexpr std::chrono::milliseconds kAsked{500};  // then SIGTERM
 constexpr std::chrono::milliseconds kPoll{5};
-constexpr std::chrono::seconds kPatience{2};
+constexpr std::chrono::seconds kStartPatience{2};
 constexpr std::size_t kRestartsKept = 1000;
 
-std::string describe(int status) {
+std::string describe_end(int status) {
   if (WIFSIGNALED(status)) {
     return fmt::format("ended by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
   }
@@ -61,7 +61,7 @@ bool Processes::enrolled(Child& child) {
   if (expects_signal(child.pid, child.module->signal)) {
     return true;
   }
-  if (!child.warned && rt::MonoClock::now() - child.launched > kPatience) {
+  if (!child.warned && rt::MonoClock::now() - child.launched > kStartPatience) {
     child.warned = true;
     console_.warning("module {} neither catches nor blocks {} ({}): it is not woken until it does", record(child).name,
                      child.module->signal, ::strsignal(child.module->signal));
@@ -199,10 +199,10 @@ void Processes::died(Child& child, int status, rt::MonoTime schedule) {
     fault(child, FaultKind::Budget, "killed: one run did not return for 10 s of real time");
   } else if (was_starting && WIFEXITED(status)) {
     fault(child, FaultKind::StartFailed,
-          describe(status) +
+          describe_end(status) +
               (child.module->signal != 0 ? " before it expected its signal" : " before it called irp::waitPeriod()"));
   } else {
-    fault(child, FaultKind::Exit, describe(status));
+    fault(child, FaultKind::Exit, describe_end(status));
   }
   plan_restart(child, schedule);
 }
@@ -285,7 +285,7 @@ void Processes::stop(std::uint32_t module, rt::MonoTime now) {
 
 void Processes::insist(Child& child, rt::MonoTime now) {
   const std::chrono::nanoseconds since = now - child.asked;
-  if (since > kEndGrace) {
+  if (since > kProcessGrace) {
     console_.warning("module {} did not end within 2 s and was killed", record(child).name);
     ::kill(child.pid, SIGKILL);
     child.asked = now;
@@ -316,7 +316,7 @@ void Processes::end_all() {
     }
     ask_to_end(child);
   }
-  const rt::MonoTime deadline = rt::MonoClock::now() + kEndGrace;
+  const rt::MonoTime deadline = rt::MonoClock::now() + kProcessGrace;
   for (Child& child : children_) {
     int status = 0;
     bool told = false;
@@ -328,7 +328,7 @@ void Processes::end_all() {
         ::waitpid(child.pid, &status, 0);
         break;
       }
-      if (!told && now > deadline - kEndGrace + kAsked) {
+      if (!told && now > deadline - kProcessGrace + kAsked) {
         ::kill(child.pid, SIGTERM);  // it asks neither
         told = true;
       }

@@ -13,7 +13,7 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::milliseconds kPause{5};
+constexpr std::chrono::milliseconds kRecordPause{5};
 constexpr std::chrono::seconds kFlush{1};
 
 }  // namespace
@@ -102,7 +102,7 @@ void RecordPart::loop() {
       (void)recorder_.flush();  // tried again with the next chunk
       flushed = now;
     }
-    std::this_thread::sleep_for(kPause);
+    std::this_thread::sleep_for(kRecordPause);
   }
 }
 

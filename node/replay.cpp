@@ -18,8 +18,8 @@ using scheduler::ModuleState;
 using scheduler::ModuleType;
 using scheduler::Operation;
 
-constexpr std::chrono::seconds kPatience{10};  // with a process, in real time
-constexpr std::chrono::microseconds kPause{50};
+constexpr std::chrono::seconds kReplayPatience{10};  // with a process, in real time
+constexpr std::chrono::microseconds kReplayPoll{50};
 
 bool names(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
@@ -283,8 +283,8 @@ bool Replay::start_modules() {
       return false;
     }
   }
-  const rt::MonoTime until = rt::MonoClock::now() + kPatience;
-  while (!processes_.ready() && rt::MonoClock::now() < until && signals_.wait(kPause) == 0) {
+  const rt::MonoTime until = rt::MonoClock::now() + kReplayPatience;
+  while (!processes_.ready() && rt::MonoClock::now() < until && signals_.wait(kReplayPoll) == 0) {
     (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
   }
   for (const auto& module : modules_) {
@@ -357,7 +357,7 @@ Ending Replay::run() {
   rt::install_guard_handlers();
   runner_.attach_thread();
   HangWatch hang_watch([this] { return returned_.load(std::memory_order_relaxed); },
-                       [this] { runner_.enforce_budget(kernel_.now() + kPatience, true, 0); });
+                       [this] { runner_.enforce_budget(kernel_.now() + kReplayPatience, true, 0); });
   const bool whole = replay(*recorded);
   runner_.detach_thread();
   run_.state.store(scheduler::NodeState::Stopping);

@@ -10,8 +10,8 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::seconds kPatience{10};
-constexpr std::chrono::milliseconds kPause{1};
+constexpr std::chrono::seconds kRestartPatience{10};
+constexpr std::chrono::milliseconds kRestartPoll{1};
 constexpr int kLooksBeforeSleep = 2000;
 constexpr std::chrono::microseconds kShortPause{50};
 
@@ -23,7 +23,7 @@ bool Replay::call(std::uint32_t index, const char* phase, void (*function)()) {
   }
   auto call = phases_.begin(index, phase, function);
   while (call != nullptr && !phases_.ended(*call, rt::MonoClock::now(), Phases::kGrace)) {
-    std::this_thread::sleep_for(kPause);
+    std::this_thread::sleep_for(kRestartPoll);
   }
   return call != nullptr && phases_.conclude(std::move(call));
 }
@@ -37,7 +37,7 @@ void Replay::run_process(Module& module, std::uint32_t index, const tape::RunTai
   slot.release_tick.store(tail.tick);
   slot.released.store(release, std::memory_order_release);
   slot.wake.wake();
-  const rt::MonoTime until = rt::MonoClock::now() + kPatience;
+  const rt::MonoTime until = rt::MonoClock::now() + kRestartPatience;
   for (int looks = 0; slot.done.load(std::memory_order_acquire) != release; ++looks) {
     if (looks < kLooksBeforeSleep) {
       rt::relax();
@@ -57,7 +57,7 @@ void Replay::run_process(Module& module, std::uint32_t index, const tape::RunTai
 }
 
 bool Replay::restart_process(std::uint32_t index) {
-  const rt::MonoTime until = rt::MonoClock::now() + kPatience;
+  const rt::MonoTime until = rt::MonoClock::now() + kRestartPatience;
   processes_.stop(index, rt::MonoClock::now());
   bool started = false;
   while (rt::MonoClock::now() < until) {
@@ -67,7 +67,7 @@ bool Replay::restart_process(std::uint32_t index) {
     } else if (started && run_.modules()[index].state.load() == scheduler::ModuleState::Running) {
       return true;
     }
-    std::this_thread::sleep_for(kPause);
+    std::this_thread::sleep_for(kRestartPoll);
   }
   return false;
 }

@@ -12,7 +12,7 @@ namespace indurop::node {
 namespace {
 
 constexpr std::chrono::seconds kSaveEvery{1};
-constexpr std::chrono::milliseconds kLook{20};
+constexpr std::chrono::milliseconds kRetainPoll{20};
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void Retainer::start() {
 void Retainer::loop() {
   rt::MonoTime next = rt::MonoClock::now() + kSaveEvery;
   while (!stop_.load()) {
-    rt::sleep_until(rt::MonoClock::now() + kLook);
+    rt::sleep_until(rt::MonoClock::now() + kRetainPoll);
     if (rt::MonoClock::now() >= next) {
       const Status saved = file_.save(store_);
       failed_.store(static_cast<int>(saved.error().code));

@@ -17,7 +17,7 @@ namespace {
 using scheduler::ModuleState;
 using scheduler::ModuleType;
 
-constexpr std::chrono::milliseconds kLook{10};
+constexpr std::chrono::milliseconds kEndCheck{10};
 constexpr std::chrono::milliseconds kEnrol{500};        // how long the first tick waits for process modules
 constexpr std::chrono::seconds kEnrolInSimulation{10};  // likewise, and later for one that was started again
 
@@ -219,7 +219,7 @@ rt::MonoTime Running::attend_processes() {
 
 // Until all of them are ready, or the time has come. False if one of them ends the run.
 bool Running::await_processes(rt::MonoTime until) {
-  while (!processes_.ready() && rt::MonoClock::now() < until && signals_.wait(kLook / 10) == 0) {
+  while (!processes_.ready() && rt::MonoClock::now() < until && signals_.wait(kEndCheck / 10) == 0) {
     if (processes_.supervise(rt::MonoClock::now(), kernel_.now())) {
       return false;
     }
@@ -297,7 +297,7 @@ std::uint64_t Running::ticks() const noexcept {
 
 // Until it is time to look again. Returns a stop signal, 0 if none has come.
 int Running::pass() {
-  return simulation_ ? simulation_->pass(kLook) : signals_.wait(kLook);
+  return simulation_ ? simulation_->pass(kEndCheck) : signals_.wait(kEndCheck);
 }
 
 Ending Running::supervise() {

@@ -13,7 +13,7 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{20};  // for a stop signal, while standard input is waited for
+constexpr std::chrono::milliseconds kInputPoll{20};  // for a stop signal, while standard input is waited for
 
 }  // namespace
 
@@ -31,7 +31,7 @@ StepInput::Order StepInput::next(base::StopSignal& signals, std::int64_t basic_p
       return {0, false, number};
     }
     pollfd input{STDIN_FILENO, POLLIN, 0};
-    if (::poll(&input, 1, static_cast<int>(kLook.count())) > 0 && !read_more()) {
+    if (::poll(&input, 1, static_cast<int>(kInputPoll.count())) > 0 && !read_more()) {
       return {0, true, 0};
     }
   }

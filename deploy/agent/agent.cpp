@@ -27,7 +27,7 @@ namespace {
 
 using Do = BoardTransaction::Do;
 
-constexpr std::chrono::milliseconds kLook{20};
+constexpr std::chrono::milliseconds kAgentPoll{20};
 constexpr std::chrono::milliseconds kTell{500};  // at least
 constexpr std::chrono::milliseconds kTellFast{50};
 
@@ -317,9 +317,9 @@ class Agent {
 
   void pause(base::StopSignal& signals) {
     if (link_ == nullptr) {
-      signals.wait(kLook);
+      signals.wait(kAgentPoll);
     } else if (!busy_) {
-      link_->wait(rt::MonoClock::now() + kLook);
+      link_->wait(rt::MonoClock::now() + kAgentPoll);
     }
   }
 

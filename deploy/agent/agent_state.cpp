@@ -31,7 +31,7 @@ using base::Problem;
 
 constexpr std::size_t kHistoryKept = 20;
 constexpr std::chrono::hours kPiecesKept{24};  // of a deployment that was cut short
-constexpr mode_t kFileMode = 0640;
+constexpr mode_t kStateMode = 0640;
 constexpr mode_t kProgramMode = 0750;
 
 Problem failed(const std::string& what, const fs::path& where, int number) {
@@ -95,7 +95,7 @@ Result<AgentState, Problem> AgentState::open(const std::string& board, Tell tell
     return failed("cannot keep others out of", folder, errno);
   }
   const fs::path lock_file = folder / "agent.lock";
-  const int lock = ::open(lock_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kFileMode);
+  const int lock = ::open(lock_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kStateMode);
   if (lock < 0) {
     return failed("cannot open", lock_file, errno);
   }
@@ -155,7 +155,7 @@ Result<void, Problem> AgentState::commit(Committed next) {
     next.history.erase(next.history.begin(), next.history.end() - kHistoryKept);
   }
   const fs::path file = folder() / kCommittedFile;
-  if (const auto written = base::replace_file(file, committed_text(next), base::Durable::Yes, kFileMode); !written) {
+  if (const auto written = base::replace_file(file, committed_text(next), base::Durable::Yes, kStateMode); !written) {
     return Problem{base::cannot_write(file, written.error())};
   }
   committed_ = std::move(next);
@@ -210,7 +210,7 @@ Result<void, Problem> AgentState::lay_out(const Package& package, const fs::path
     if (auto copied = clone_file(file(entry.digest), name); !copied) {
       return copied;
     }
-    if (::chmod(name.c_str(), entry.executable ? kProgramMode : kFileMode) != 0) {
+    if (::chmod(name.c_str(), entry.executable ? kProgramMode : kStateMode) != 0) {
       return failed("cannot set the mode of", name, errno);
     }
     const auto copy = keys::digest_of_file(name);

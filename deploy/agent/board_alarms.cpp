@@ -22,7 +22,7 @@ namespace {
 using alarms::AlarmEvent;
 using base::Json;
 
-constexpr std::chrono::milliseconds kLook{100};
+constexpr std::chrono::milliseconds kAlarmPoll{100};
 constexpr std::chrono::seconds kLookIdle{1};
 constexpr std::size_t kMostEvents = 200;
 
@@ -72,7 +72,7 @@ void BoardAlarms::step(rt::MonoTime now) {
     return;
   }
   std::string problem = watch_.look(modules_of(board_));
-  look_at_ = now + (watch_.idle() ? rt::MonoTime::duration(kLookIdle) : rt::MonoTime::duration(kLook));
+  look_at_ = now + (watch_.idle() ? rt::MonoTime::duration(kLookIdle) : rt::MonoTime::duration(kAlarmPoll));
   if (problem != problem_ && !problem.empty()) {
     log_.error("alarms cannot be kept: {}", problem);
   }

@@ -11,7 +11,7 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::chrono::milliseconds kRetry{500};
+constexpr std::chrono::milliseconds kLinkRetry{500};
 constexpr std::chrono::seconds kLookForKeys{1};
 
 }  // namespace
@@ -29,7 +29,7 @@ bool BoardLink::keep(rt::MonoTime now, const std::string& plant, bool idle) {
   if (link_ != nullptr || now < join_at_) {
     return false;
   }
-  join_at_ = now + kRetry;
+  join_at_ = now + kLinkRetry;
   tell(join());
   return link_ != nullptr;
 }

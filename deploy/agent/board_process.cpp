@@ -26,8 +26,8 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::chrono::seconds kEndGrace{10};  // a node gives its own modules and processes a few seconds
-constexpr std::chrono::milliseconds kLook{10};
+constexpr std::chrono::seconds kNodeGrace{10};  // a node gives its own modules and processes a few seconds
+constexpr std::chrono::milliseconds kNodePoll{10};
 constexpr std::size_t kLongestLine = 500;
 constexpr int kPipeBytes = 1 << 20;
 
@@ -246,13 +246,13 @@ void BoardProcess::note_end(int status, rt::MonoTime now) {
 void BoardProcess::signal_stop(rt::MonoTime now) {
   if (!asked_to_stop_) {
     asked_to_stop_ = true;
-    kill_at_ = now + kEndGrace;
+    kill_at_ = now + kNodeGrace;
     condition_ = NodeCondition::Stopping;
     ::kill(pid_, SIGTERM);
   } else if (now >= kill_at_) {
-    log_.error("the node did not end within {} s and was killed", kEndGrace.count());
+    log_.error("the node did not end within {} s and was killed", kNodeGrace.count());
     ::kill(pid_, SIGKILL);
-    kill_at_ = now + kEndGrace;
+    kill_at_ = now + kNodeGrace;
   }
 }
 
@@ -300,7 +300,7 @@ void BoardProcess::end() {
   wanted_.clear();
   while (pid_ > 0) {
     step(rt::MonoClock::now());
-    rt::sleep_until(rt::MonoClock::now() + kLook);
+    rt::sleep_until(rt::MonoClock::now() + kNodePoll);
   }
 }
 

@@ -29,8 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds kEndGrace{10};  // it writes what it has
-constexpr std::chrono::seconds kLook{1};
+constexpr std::chrono::seconds kRecorderGrace{10};  // it writes what it has
+constexpr std::chrono::seconds kRecorderPoll{1};
 constexpr const char* kPast = "past";
 
 fs::path folder_of(const std::string& board) {
@@ -179,7 +179,7 @@ void BoardRecorder::step(rt::MonoTime now) {
   } else if (!asked_ && now > lease_until_) {
     end(fmt::format("{} was not heard for {} s", host_, limits_.lease.count()), now);
   } else if (!asked_ && now >= look_at_) {
-    look_at_ = now + kLook;
+    look_at_ = now + kRecorderPoll;
     if (const std::string why = limit(); !why.empty()) {
       end(why, now);
     }
@@ -191,7 +191,7 @@ void BoardRecorder::end(const std::string& why, rt::MonoTime now) {
   if (pid_ > 0 && !asked_) {
     ended_ = why;
     asked_ = true;
-    kill_at_ = now + kEndGrace;
+    kill_at_ = now + kRecorderGrace;
     ::kill(pid_, SIGINT);
   }
 }

@@ -9,7 +9,7 @@ namespace {
 using base::Json;
 using base::Problem;
 
-constexpr std::uint64_t kFormat = 2;
+constexpr std::uint64_t kCommittedFormat = 2;
 constexpr std::uint64_t kWithoutDigest = 1;
 constexpr std::size_t kDeploymentsKept = 5;
 
@@ -55,7 +55,7 @@ Json history_json(const std::vector<HistoryEntry>& history) {
 }
 
 std::string committed_text(const Committed& committed) {
-  Json whole = json_of(committed, kFormat);
+  Json whole = json_of(committed, kCommittedFormat);
   whole["sha256"] = keys::digest_of(whole.dump());
   return whole.dump(2) + "\n";
 }
@@ -77,7 +77,7 @@ Result<Committed, Problem> read_committed(std::string_view text) {
     return out;
   }
   std::string digest;
-  if (format != kFormat || !read(whole, "sha256", digest)) {
+  if (format != kCommittedFormat || !read(whole, "sha256", digest)) {
     return Problem{"it is of another release, or was changed"};
   }
   const std::string found = keys::digest_of(json_of(out, format).dump());

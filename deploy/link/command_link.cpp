@@ -10,8 +10,8 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::int32_t kDepth = 16;
-constexpr std::int64_t kBlockNs = 100'000'000;
+constexpr std::int32_t kCommandDepth = 16;
+constexpr std::int64_t kCommandBlockNs = 100'000'000;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ Result<std::unique_ptr<CommandLink>, base::Problem> CommandLink::open(DeployLink
   const bool agent = side == CommandSide::Agent;
   const auto& in_type = agent ? indurop_deploy_Command_desc : indurop_deploy_Reply_desc;
   const auto& out_type = agent ? indurop_deploy_Reply_desc : indurop_deploy_Command_desc;
-  const dds::Qos qos = dds::make_qos({.block_ns = kBlockNs, .for_late_ones = false, .depth = kDepth});
+  const dds::Qos qos = dds::make_qos({.block_ns = kCommandBlockNs, .for_late_ones = false, .depth = kCommandDepth});
   const dds::Listener listener = dds::wake_listener(link.wake_word());
   auto impl = std::make_unique<Impl>(link);
   impl->in = dds::make_reader(link.participant(), in_type, schema::deploy_topics() + (agent ? "command" : "reply"), qos,

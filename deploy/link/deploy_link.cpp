@@ -26,9 +26,9 @@ namespace indurop::deploy {
 namespace {
 
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
-constexpr std::int64_t kBlockNs = 100'000'000;  // a chunk waits so long for room
-constexpr std::int32_t kDepth = 512;            // messages a receiver may lag behind
-constexpr std::int32_t kReports = 8;            // of one name, so that one in a false name does not cover the true one
+constexpr std::int64_t kChunkBlockNs = 100'000'000;  // a chunk waits so long for room
+constexpr std::int32_t kChunkDepth = 512;            // messages a receiver may lag behind
+constexpr std::int32_t kReports = 8;  // of one name, so that one in a false name does not cover the true one
 constexpr std::int64_t kLettingInNs = 2'000'000'000;
 constexpr std::size_t kMostRoom = 2U << 20U;
 
@@ -41,9 +41,9 @@ std::string blob_topic(std::uint64_t requester) {
 }
 
 dds::Qos link_qos(bool state, bool writer) {
-  return dds::make_qos({.block_ns = kBlockNs,
+  return dds::make_qos({.block_ns = kChunkBlockNs,
                         .for_late_ones = state,
-                        .depth = !state   ? kDepth
+                        .depth = !state   ? kChunkDepth
                                  : writer ? 1
                                           : kReports,
                         .lease_ns = kLeaseNs,

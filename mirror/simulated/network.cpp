@@ -33,7 +33,7 @@ bool is_before(std::int64_t time, std::uint32_t board, std::uint64_t number, con
 
 }  // namespace
 
-Network::Network(const NetworkModel& model, std::size_t boards)
+SimulatedNetwork::SimulatedNetwork(const NetworkModel& model, std::size_t boards)
     : model_(model), boards_(boards), links_(boards, std::vector<Link>(boards)) {
   for (std::size_t from = 0; from < boards; ++from) {
     for (std::size_t to = 0; to < boards; ++to) {
@@ -46,17 +46,17 @@ Network::Network(const NetworkModel& model, std::size_t boards)
 }
 
 // From 0 to less than 1.
-double Network::draw(Link& link) const noexcept {
+double SimulatedNetwork::draw(Link& link) const noexcept {
   constexpr unsigned kBits = 53;  // a double holds
   return std::ldexp(static_cast<double>(next_chance(link.chance) >> (64U - kBits)), -static_cast<int>(kBits));
 }
 
-bool Network::linked(std::size_t from, std::size_t to) const noexcept {
+bool SimulatedNetwork::linked(std::size_t from, std::size_t to) const noexcept {
   const auto there = [](const Board& board) { return board.runs && board.connected; };
   return from != to && there(boards_[from]) && there(boards_[to]);
 }
 
-void Network::put(std::size_t to, Pending pending) {
+void SimulatedNetwork::put(std::size_t to, Pending pending) {
   pending.number = ++number_;
   std::vector<Pending>& inbox = boards_[to].inbox;
   const auto place = std::find_if(inbox.begin(), inbox.end(), [&](const Pending& other) {
@@ -65,7 +65,7 @@ void Network::put(std::size_t to, Pending pending) {
   inbox.insert(place, std::move(pending));
 }
 
-void Network::carry(const Message& message, std::size_t to, std::int64_t earliest_ns, bool may_be_lost) {
+void SimulatedNetwork::carry(const Message& message, std::size_t to, std::int64_t earliest_ns, bool may_be_lost) {
   Link& link = links_[message.board][to];
   const double luck = draw(link);  // always both, so that a change of one figure does not change the other's chance
   const double late = draw(link);
@@ -97,7 +97,7 @@ void Network::carry(const Message& message, std::size_t to, std::int64_t earlies
   put(to, std::move(pending));
 }
 
-void Network::want(std::size_t from, std::size_t to, Kind stream, std::int64_t now_ns) {
+void SimulatedNetwork::want(std::size_t from, std::size_t to, Kind stream, std::int64_t now_ns) {
   std::vector<Kind>& wanted = links_[from][to].wanted;
   if (std::find(wanted.begin(), wanted.end(), stream) == wanted.end()) {
     wanted.push_back(stream);
@@ -114,7 +114,7 @@ void Network::want(std::size_t from, std::size_t to, Kind stream, std::int64_t n
   }
 }
 
-void Network::send(Message message, std::int64_t earliest_ns) {
+void SimulatedNetwork::send(Message message, std::int64_t earliest_ns) {
   Board& sender = boards_[message.board];
   if (message.kind == Kind::Hear) {
     const auto from = static_cast<std::size_t>(message.part / kStreams);
@@ -138,7 +138,7 @@ void Network::send(Message message, std::int64_t earliest_ns) {
   }
 }
 
-std::vector<Message> Network::take(std::size_t board, std::int64_t until_ns) {
+std::vector<Message> SimulatedNetwork::take(std::size_t board, std::int64_t until_ns) {
   std::vector<Pending>& inbox = boards_[board].inbox;
   const auto end = std::find_if(inbox.begin(), inbox.end(),
                                 [&](const Pending& pending) { return pending.message.time_ns > until_ns; });
@@ -150,7 +150,7 @@ std::vector<Message> Network::take(std::size_t board, std::int64_t until_ns) {
   return out;
 }
 
-std::int64_t Network::next_question(std::size_t board) const noexcept {
+std::int64_t SimulatedNetwork::next_question(std::size_t board) const noexcept {
   for (const Pending& pending : boards_[board].inbox) {
     if (!pending.message.is_frame()) {
       return pending.message.time_ns;
@@ -159,13 +159,13 @@ std::int64_t Network::next_question(std::size_t board) const noexcept {
   return INT64_MAX;
 }
 
-std::int64_t Network::next_arrival(std::size_t board) const noexcept {
+std::int64_t SimulatedNetwork::next_arrival(std::size_t board) const noexcept {
   const std::vector<Pending>& inbox = boards_[board].inbox;
   return inbox.empty() ? INT64_MAX : inbox.front().message.time_ns;
 }
 
 // `board` is gone for all that heard it.
-void Network::tell_gone(std::size_t board, std::int64_t when_ns) {
+void SimulatedNetwork::tell_gone(std::size_t board, std::int64_t when_ns) {
   for (std::size_t to = 0; to < boards_.size(); ++to) {
     if (to != board && boards_[to].runs) {
       put(to, {{Kind::Gone, static_cast<std::uint32_t>(board), 0, when_ns, {}}, 0, false});
@@ -173,7 +173,7 @@ void Network::tell_gone(std::size_t board, std::int64_t when_ns) {
   }
 }
 
-void Network::forget_gone(std::size_t board) {
+void SimulatedNetwork::forget_gone(std::size_t board) {
   for (std::size_t to = 0; to < boards_.size(); ++to) {
     std::erase_if(boards_[to].inbox, [&](const Pending& pending) {
       return pending.message.kind == Kind::Gone && (pending.message.board == board || to == board);
@@ -182,7 +182,7 @@ void Network::forget_gone(std::size_t board) {
 }
 
 // What is on the way from and to this board is lost.
-void Network::drop_between(std::size_t board) {
+void SimulatedNetwork::drop_between(std::size_t board) {
   boards_[board].inbox.clear();
   for (Board& other : boards_) {
     std::erase_if(other.inbox, [&](const Pending& pending) {
@@ -192,7 +192,7 @@ void Network::drop_between(std::size_t board) {
 }
 
 // `to` hears what it missed.
-void Network::introduce(std::size_t from, std::size_t to, std::int64_t now_ns) {
+void SimulatedNetwork::introduce(std::size_t from, std::size_t to, std::int64_t now_ns) {
   if (!linked(from, to) || !boards_[from].catalogue) {
     return;
   }
@@ -205,7 +205,7 @@ void Network::introduce(std::size_t from, std::size_t to, std::int64_t now_ns) {
   }
 }
 
-void Network::cut(std::size_t board, std::int64_t now_ns) {
+void SimulatedNetwork::cut(std::size_t board, std::int64_t now_ns) {
   if (!boards_[board].connected) {
     return;
   }
@@ -220,7 +220,7 @@ void Network::cut(std::size_t board, std::int64_t now_ns) {
   }
 }
 
-void Network::join(std::size_t board, std::int64_t now_ns) {
+void SimulatedNetwork::join(std::size_t board, std::int64_t now_ns) {
   if (boards_[board].connected) {
     return;
   }
@@ -232,14 +232,14 @@ void Network::join(std::size_t board, std::int64_t now_ns) {
   }
 }
 
-void Network::kill(std::size_t board, std::int64_t now_ns) {
+void SimulatedNetwork::kill(std::size_t board, std::int64_t now_ns) {
   if (!boards_[board].runs) {
     return;
   }
   leave(board, now_ns + model_.lease.count() - model_.delay.count());
 }
 
-void Network::leave(std::size_t board, std::int64_t now_ns) {
+void SimulatedNetwork::leave(std::size_t board, std::int64_t now_ns) {
   boards_[board].runs = false;
   boards_[board].catalogue.reset();
   boards_[board].last.clear();
@@ -250,7 +250,7 @@ void Network::leave(std::size_t board, std::int64_t now_ns) {
   tell_gone(board, now_ns + model_.delay.count());
 }
 
-void Network::start(std::size_t board, std::int64_t now_ns) {
+void SimulatedNetwork::start(std::size_t board, std::int64_t now_ns) {
   boards_[board].runs = true;
   for (std::size_t other = 0; other < boards_.size(); ++other) {
     introduce(other, board, now_ns);

@@ -26,9 +26,9 @@ struct NetworkModel {
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};  // a board not heard for so long is gone
 };
 
-class Network {
+class SimulatedNetwork {
  public:
-  Network(const NetworkModel& model, std::size_t boards);
+  SimulatedNetwork(const NetworkModel& model, std::size_t boards);
 
   // A board sends something, at the message's time. `earliest`: it arrives nowhere before.
   void send(Message message, std::int64_t earliest_ns = 0);

@@ -18,7 +18,7 @@ constexpr std::uint64_t kMostRows = 20'000;
 constexpr std::uint64_t kUsualPatienceMs = 2000;
 constexpr std::uint64_t kMostPatienceMs = 10'000;
 constexpr std::int64_t kMsNs = 1'000'000;
-constexpr std::int64_t kLongestNs = 60'000'000'000;  // for what comes after the trigger
+constexpr std::int64_t kLongestRestNs = 60'000'000'000;  // for what comes after the trigger
 
 struct Wanted {
   tools::ScopeOrder order;
@@ -84,7 +84,7 @@ Reply scope(Api& /*api*/, const Call& call) {
       body["capture"] = tools::json_of(*capture);
       return json_reply(body);
     }
-    const std::int64_t patience = opened->fired() ? kLongestNs : wanted->patience_ns;
+    const std::int64_t patience = opened->fired() ? kLongestRestNs : wanted->patience_ns;
     if (rt::now_ns() - begin >= patience || opened->over() || tools::interrupted()) {
       break;
     }

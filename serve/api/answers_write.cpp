@@ -90,7 +90,7 @@ Reply write_values(Api& api, const Call& call, bool hold) {
 }
 
 Reply command(Api& api, const Call& call, scheduler::ModuleCommand what, std::string word) {
-  constexpr std::int64_t kLongestNs = 10'000'000'000;
+  constexpr std::int64_t kLongestCommandNs = 10'000'000'000;
   const auto found = board_of(call);
   if (!found) {
     return found.error();
@@ -113,7 +113,7 @@ Reply command(Api& api, const Call& call, scheduler::ModuleCommand what, std::st
     return *refused;
   }
   write.context().node = (*found)->name();
-  const tools::Commanded done = tools::command_here(write.context(), what, module, kLongestNs);
+  const tools::Commanded done = tools::command_here(write.context(), what, module, kLongestCommandNs);
   if (done.code != kOk) {
     const bool ran = (*found)->alive();
     return write.failed(done.code == kUnreachable && ran ? status::kNoAnswer : status::kConflict, write.message());

@@ -29,12 +29,13 @@ constexpr std::array kOnce{"host",
                            "sec-websocket-key",
                            "sec-websocket-version"};
 
-char lower(char c) {
+char lower_letter(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
 bool equal_but_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lower_letter(x) == lower_letter(y); });
 }
 
 // A character of a method or of a field's name.
@@ -146,7 +147,7 @@ std::optional<Reply> read_field(std::string_view line, Head& head) {
     return bad("a header has a control character");
   }
   std::string small(name);
-  std::transform(small.begin(), small.end(), small.begin(), &lower);
+  std::transform(small.begin(), small.end(), small.begin(), &lower_letter);
   const bool known =
       std::any_of(head.fields.begin(), head.fields.end(), [&small](const auto& field) { return field.first == small; });
   if (known && std::find(kOnce.begin(), kOnce.end(), small) != kOnce.end()) {

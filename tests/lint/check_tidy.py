@@ -50,7 +50,7 @@ def clang_arguments(entry):
             drop_next = False
         elif word in ("-o", "-include"):
             drop_next = True  # what is included so is g++'s precompiled header
-        elif word not in ("-c", "-Winvalid-pch") and not word.endswith(".cpp") and word not in ("-fno-gnu-unique",):
+        elif word not in ("-c", "-Winvalid-pch") and not word.endswith((".cpp", ".cxx")) and word not in ("-fno-gnu-unique",):
             kept.append(word)
     return kept
 
@@ -124,10 +124,21 @@ def run_changed(root, build):
     return run_all(root, build, [], set(files[:MAX_CHANGED]))
 
 
+def compiled(build):
+    """What is compiled; a file that is compiled together with others has an entry of its own."""
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        path = pathlib.Path(entry["file"])
+        if path.parent.name == "Unity" and path.exists():
+            for name in re.findall(r'^#include "(.+)"$', path.read_text(), re.MULTILINE):
+                yield {**entry, "file": name}
+        else:
+            yield entry
+
+
 def run_all(root, build, prefixes, only=None):
     ours = {str(root / name): name for name in common.cxx_files(root) if only is None or name in only}
     entries = {}
-    for entry in json.loads((build / "compile_commands.json").read_text()):
+    for entry in compiled(build):
         name = ours.get(str(pathlib.Path(entry["file"]).resolve()))
         if name and (not prefixes or name.startswith(tuple(prefixes))):
             entries.setdefault(name, entry)

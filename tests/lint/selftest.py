@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Shows every lint a violation: a check that finds nothing because it is broken fails here."""
 
+import json
 import pathlib
 import shutil
 import subprocess
@@ -431,6 +432,17 @@ class Tidy(Sample):
         git("commit", "-am", "two")
         self.put("rt/c.cpp", HEAD)
         self.assertEqual(sorted(check_tidy.changed(self.root)[0]), ["rt/b.cpp", "rt/c.cpp"])
+
+    def test_files_that_are_compiled_together(self):
+        self.put("rt/a.cpp", HEAD + "int* f() { return 0; }\n")
+        self.put("build/rt/Unity/unity_0_cxx.cxx", f'/* made */\n#include "{self.root}/rt/a.cpp"\n')
+        together = {"file": str(self.root / "build/rt/Unity/unity_0_cxx.cxx"), "directory": str(self.root),
+                    "command": "c++ -std=c++20 -c build/rt/Unity/unity_0_cxx.cxx"}
+        alone = {**together, "file": str(self.root / "rt/b.cpp")}
+        self.put("build/compile_commands.json", json.dumps([together, alone]))
+        entries = list(check_tidy.compiled(self.root / "build"))
+        self.assertEqual([entry["file"] for entry in entries], [str(self.root / "rt/a.cpp"), alone["file"]])
+        self.found(check_tidy.tidy_one(self.root, self.root, entries[0], self.root, b""), "rt/a.cpp", "modernize-use-nullptr")
 
     def test_findings_are_remembered(self):
         text = "int* f() { return 0; }\n"

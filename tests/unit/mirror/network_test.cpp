@@ -23,7 +23,7 @@ Message message(Kind kind, std::uint32_t from, std::int64_t time_ns, std::uint32
 class NetworkTest : public ::testing::Test {
  protected:
   // Board `to` hears what `from` sends on the stream.
-  static void hear(Network& network, std::uint32_t to, std::uint32_t from, Kind stream) {
+  static void hear(SimulatedNetwork& network, std::uint32_t to, std::uint32_t from, Kind stream) {
     const auto part = from * static_cast<std::uint32_t>(kStreams) + static_cast<std::uint32_t>(stream);
     network.send(message(Kind::Hear, to, 0, part));
   }
@@ -37,7 +37,7 @@ class NetworkTest : public ::testing::Test {
 };
 
 TEST_F(NetworkTest, Delays_what_somebody_wants_to_hear) {
-  Network sut({.delay = 2ms}, 3);
+  SimulatedNetwork sut({.delay = 2ms}, 3);
   hear(sut, 1, 0, Kind::Prompt);
   sut.send(message(Kind::Prompt, 0, 5 * kMs));
   EXPECT_EQ(sut.next_arrival(1), 7 * kMs);
@@ -47,7 +47,7 @@ TEST_F(NetworkTest, Delays_what_somebody_wants_to_hear) {
 }
 
 TEST_F(NetworkTest, Gives_the_last_frame_of_each_part_to_who_comes_late) {
-  Network sut({.delay = 1ms}, 2);
+  SimulatedNetwork sut({.delay = 1ms}, 2);
   sut.send(message(Kind::Prompt, 0, kMs, 0, 1));
   sut.send(message(Kind::Prompt, 0, 2 * kMs, 0, 2));
   sut.send(message(Kind::Prompt, 0, 2 * kMs, 1, 3));
@@ -60,7 +60,7 @@ TEST_F(NetworkTest, Gives_the_last_frame_of_each_part_to_who_comes_late) {
 
 TEST_F(NetworkTest, Loses_best_effort_and_repeats_the_rest_in_order) {
   const auto run = [](Kind stream) {
-    Network sut({.delay = 1ms, .jitter = 3ms, .loss = 0.3, .seed = 7}, 2);
+    SimulatedNetwork sut({.delay = 1ms, .jitter = 3ms, .loss = 0.3, .seed = 7}, 2);
     hear(sut, 1, 0, stream);
     std::vector<std::uint8_t> values;
     std::vector<Message> all;
@@ -82,7 +82,7 @@ TEST_F(NetworkTest, Loses_best_effort_and_repeats_the_rest_in_order) {
 }
 
 TEST_F(NetworkTest, Does_not_repeat_what_is_superseded) {
-  Network sut({.delay = 1ms, .loss = 0.5, .repeat = 100ms, .seed = 1}, 2);
+  SimulatedNetwork sut({.delay = 1ms, .loss = 0.5, .repeat = 100ms, .seed = 1}, 2);
   hear(sut, 1, 0, Kind::Prompt);
   for (std::uint8_t i = 0; i < 100; ++i) {
     sut.send(message(Kind::Prompt, 0, i * kMs, 0, i));  // the same part again and again
@@ -94,7 +94,7 @@ TEST_F(NetworkTest, Does_not_repeat_what_is_superseded) {
 
 TEST_F(NetworkTest, Is_the_same_with_the_same_seed_and_another_with_another) {
   const auto run = [](std::uint64_t seed) {
-    Network sut({.delay = 1ms, .jitter = 1ms, .loss = 0.1, .seed = seed}, 2);
+    SimulatedNetwork sut({.delay = 1ms, .jitter = 1ms, .loss = 0.1, .seed = seed}, 2);
     hear(sut, 1, 0, Kind::Prompt);
     for (std::uint32_t i = 0; i < 100; ++i) {
       sut.send(message(Kind::Prompt, 0, i * kMs, i));
@@ -106,7 +106,7 @@ TEST_F(NetworkTest, Is_the_same_with_the_same_seed_and_another_with_another) {
 }
 
 TEST_F(NetworkTest, A_pulled_cable_is_noticed_after_the_lease_and_what_was_missed_comes_when_it_is_back) {
-  Network sut({.delay = 1ms, .lease = 50ms}, 2);
+  SimulatedNetwork sut({.delay = 1ms, .lease = 50ms}, 2);
   hear(sut, 1, 0, Kind::Prompt);
   sut.send(message(Kind::Catalogue, 0, 0));
   sut.send(message(Kind::Prompt, 0, 0, 0, 1));
@@ -128,14 +128,14 @@ TEST_F(NetworkTest, A_pulled_cable_is_noticed_after_the_lease_and_what_was_misse
 }
 
 TEST_F(NetworkTest, A_cable_that_is_back_within_the_lease_was_never_away) {
-  Network sut({.delay = 1ms, .lease = 50ms}, 2);
+  SimulatedNetwork sut({.delay = 1ms, .lease = 50ms}, 2);
   sut.cut(0, 10 * kMs);
   sut.join(0, 20 * kMs);
   EXPECT_TRUE(sut.take(1, kEnd).empty());
 }
 
 TEST_F(NetworkTest, A_board_that_leaves_is_gone_at_once_and_one_that_starts_hears_who_is_there) {
-  Network sut({.delay = 1ms, .lease = 50ms}, 2);
+  SimulatedNetwork sut({.delay = 1ms, .lease = 50ms}, 2);
   sut.send(message(Kind::Catalogue, 1, 0));
   (void)sut.take(0, kMs);
   sut.leave(0, 10 * kMs);
