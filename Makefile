@@ -23,9 +23,10 @@ with-tests:
 	@cmake --preset release --log-level=WARNING -DINDUROP_BUILD_TESTS=ON >/dev/null
 	@cmake --build --preset release -j $(JOBS)
 
-demo: ## install what is missing, build, run the chapter's example, a plant of two boards, the robot cell
+demo: ## install what is missing, build what it shows, run the chapter's example, a plant of two boards, the robot cell
 	@.ci/install-deps build
-	@$(MAKE) --no-print-directory all
+	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
+	@cmake --build --preset release -j $(JOBS) --target demo_programs
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/chapter/demo.sh
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/two_boards/demo.sh
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/robot_cell/demo.sh
