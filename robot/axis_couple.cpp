@@ -14,10 +14,6 @@ namespace {
 constexpr double kMostRatio = 1e6;
 constexpr double kLeastWay = 1e-6;  // rad or m of a master, to come into gear on
 
-constexpr std::size_t at(int axis) noexcept {
-  return static_cast<std::size_t>(axis);
-}
-
 }  // namespace
 
 bool AxisControl::leads() const noexcept {

@@ -25,8 +25,8 @@ enum class Parameter : std::int16_t {
 };
 
 ErrorCode lower_than(double most, double value, double& limit) noexcept {
-  constexpr double kRounding = 1e-9;
-  if (!(value >= 1e-6 * most && value <= most * (1 + kRounding))) {
+  constexpr double kSlack = 1e-9;
+  if (!(value >= 1e-6 * most && value <= most * (1 + kSlack))) {
     return ErrorCode::Value;
   }
   limit = std::min(value, most);
@@ -77,8 +77,8 @@ ErrorCode AxisControl::change(int parameter, double value) noexcept {
 
 // Only of an axis that stands between them: nothing is on its way to a place that is beyond them now.
 ErrorCode AxisControl::change_ends(const Own& own) noexcept {
-  constexpr double kRounding = 1e-9;
-  if (endless_ || !(own.lower < own.upper) || own.lower < least_ - kRounding || own.upper > greatest_ + kRounding) {
+  constexpr double kSlack = 1e-9;
+  if (endless_ || !(own.lower < own.upper) || own.lower < least_ - kSlack || own.upper > greatest_ + kSlack) {
     return ErrorCode::Value;
   }
   if (busy() || in_group() || queued_ > 0) {
@@ -86,7 +86,7 @@ ErrorCode AxisControl::change_ends(const Own& own) noexcept {
   }
   const double place = commanded().position;
   const bool beyond =
-      (own.upper_counts && place > own.upper + kRounding) || (own.lower_counts && place < own.lower - kRounding);
+      (own.upper_counts && place > own.upper + kSlack) || (own.lower_counts && place < own.lower - kSlack);
   if (beyond) {
     return ErrorCode::JointLimit;
   }

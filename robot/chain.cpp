@@ -10,10 +10,6 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr std::size_t at(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
-
 // The weight of what is `u` away, -1 to 1, its change, its sum from -1 on and the sum of that.
 double weight(double u) noexcept {
   const double rest = 1 - u * u;

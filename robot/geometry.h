@@ -29,6 +29,11 @@ inline constexpr double degrees(double radians) noexcept {
   return radians * 180 / kPi;
 }
 
+// The index of an axis, for containers.
+constexpr std::size_t at(int axis) noexcept {
+  return static_cast<std::size_t>(axis);
+}
+
 // The first axes; the others are at 0.
 Joints joints_of(std::initializer_list<double> first) noexcept;
 

@@ -11,10 +11,6 @@ namespace {
 
 constexpr double kPowerTime = 4;    // s all drives may take to get power or to leave a fault
 constexpr double kLetGoTime = 0.5;  // s they are waited for to give it up; one that keeps it has it
-constexpr std::size_t at(int axis) noexcept {
-  return static_cast<std::size_t>(axis);
-}
-
 AxisControl::Scale scale_of(const Settings& settings, const Axis& axis, std::size_t i) noexcept {
   const auto own = [i](const std::vector<double>& values) { return values.size() > 1 ? values[i] : values[0]; };
   const double unit = axis.slides() ? 0.001 : kPi / 180;

@@ -8,14 +8,6 @@
 
 namespace indurop::robot {
 
-namespace {
-
-constexpr std::size_t at(int axis) noexcept {
-  return static_cast<std::size_t>(axis);
-}
-
-}  // namespace
-
 // Each one after the one that it follows; circles there are none.
 void Group::move_axes() noexcept {
   std::array<bool, kAxes> moved{};

@@ -8,14 +8,6 @@
 
 namespace indurop::robot {
 
-namespace {
-
-constexpr std::size_t at(int axis) noexcept {
-  return static_cast<std::size_t>(axis);
-}
-
-}  // namespace
-
 void Group::look_ahead() noexcept {
   const bool alone =
       tracking_.on() || std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });

@@ -7,14 +7,6 @@
 
 namespace indurop::robot {
 
-namespace {
-
-constexpr std::size_t at(int axis) noexcept {
-  return static_cast<std::size_t>(axis);
-}
-
-}  // namespace
-
 // Paths were planned inside of the box, and a stop stays on them. Axes that move by themselves have to be able to come
 // to rest inside.
 bool Group::leaves_workspace() const noexcept {

@@ -14,10 +14,6 @@ namespace {
 
 constexpr double kThousandth = 1000;
 
-constexpr std::size_t at(int axis) noexcept {
-  return static_cast<std::size_t>(axis);
-}
-
 }  // namespace
 
 // Nothing is planned.

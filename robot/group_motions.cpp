@@ -11,10 +11,6 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr std::size_t at(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
-
 constexpr double kOnProduct = 0.4;  // part of the accelerations that a ride leaves for motions on it
 
 Service service_of(const Command& command) noexcept {

@@ -8,14 +8,6 @@
 
 namespace indurop::robot {
 
-namespace {
-
-constexpr std::size_t at(int axis) noexcept {
-  return static_cast<std::size_t>(axis);
-}
-
-}  // namespace
-
 bool Group::may_reload() const noexcept {
   const bool stands = state_ == GroupState::Standby || state_ == GroupState::Disabled;
   const bool busy = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });

@@ -11,10 +11,6 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr std::size_t at(int axis) noexcept {
-  return static_cast<std::size_t>(axis);
-}
-
 // What leaves the path as it was: the other axes can still follow it.
 bool keeps_path(ErrorCode code) noexcept {
   switch (code) {

@@ -10,7 +10,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kSpacing = 0.01;  // m between places that are looked at
+constexpr double kMeasureSpacing = 0.01;  // m between places that are looked at
 
 }  // namespace
 
@@ -94,7 +94,7 @@ void Planner::measure_tool_motion(const MoveCommand& command) noexcept {
   s.limits.acceleration = std::min(shared(acceleration, pace), shared(tool_.turn_acceleration, turning));
   s.limits.jerk = std::min(shared(tool_.jerk, pace), shared(tool_.turn_jerk, turning));
   s.most = s.limits;
-  begin_look(kSpacing, kMost / 2);
+  begin_look(kMeasureSpacing, kMost / 2);
 }
 
 }  // namespace indurop::robot

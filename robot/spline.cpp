@@ -8,14 +8,6 @@
 
 namespace indurop::robot {
 
-namespace {
-
-constexpr std::size_t at(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 void Spline::begin(const Pose& start, const ToolLimits& tool) noexcept {
   tool_ = tool;
   count_ = 0;

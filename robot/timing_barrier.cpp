@@ -13,10 +13,6 @@ constexpr double kEnough = 1e-3;  // of the duration: what the barrier may still
 // Places that are worked on while one is looked at, inverse kinematics and all.
 constexpr int kDerivedPerLook = 8;
 constexpr int kWeighedPerLook = 16;
-constexpr std::size_t at(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
-
 }  // namespace
 
 // At an even speed that keeps all limits.

@@ -15,10 +15,6 @@ constexpr int kFewest = 24;
 constexpr double kMargin = 0.98;  // of the limits: what lies between two knots
 constexpr double kDenser = 0.2;
 constexpr int kSmoothings = 16;  // a parameter that bends quickly has peaks of jerk between its knots
-constexpr std::size_t at(int i) noexcept {
-  return static_cast<std::size_t>(i);
-}
-
 }  // namespace
 
 void TimingSearch::begin(const Segment& segment, const PathBounds& bounds) noexcept {

@@ -116,7 +116,7 @@ void remember(std::map<std::string, const schema::Type*>& names, const std::stri
   }
 }
 
-void collect(ForeignNames& names, std::set<std::string>& seen, const schema::Type& type) {
+void collect_types(ForeignNames& names, std::set<std::string>& seen, const schema::Type& type) {
   if (type.name.empty() || !seen.insert(type.name).second) {
     return;
   }
@@ -127,7 +127,7 @@ void collect(ForeignNames& names, std::set<std::string>& seen, const schema::Typ
     remember(names.values, space + upper(one.name), type);
   }
   for (const schema::Field& field : type.fields) {
-    collect(names, seen, field.type);
+    collect_types(names, seen, field.type);
   }
 }
 
@@ -151,7 +151,7 @@ void index_foreign(Program& program) {
     for (std::size_t at = capitals.find("::"); at != std::string::npos; at = capitals.find("::", at + 2)) {
       names.spaces.insert(capitals.substr(0, at));
     }
-    collect(names, seen, one.type);
+    collect_types(names, seen, one.type);
   }
 }
 

@@ -180,9 +180,9 @@ const Global* covering_array(const Program& program, const ast::DirectAddress& a
   if (area == program.areas.end()) {
     return nullptr;
   }
-  constexpr int kMost = 1000;  // single variables that may stand before it, and would be an error themselves
+  constexpr int kMaxBefore = 1000;  // single variables that may stand before it, and would be an error themselves
   auto at = area->second.upper_bound(address.numbers.back());
-  for (int i = 0; i < kMost && at != area->second.begin(); ++i) {
+  for (int i = 0; i < kMaxBefore && at != area->second.begin(); ++i) {
     const auto& [number, one] = *--at;
     if (one->type->kind == Type::Kind::Array && lies_at(*one->type->element, address)) {
       return static_cast<std::uint64_t>(address.numbers.back() - number) < one->type->parts ? one : nullptr;

@@ -10,8 +10,6 @@ namespace indurop::plc {
 namespace {
 
 using ast::Section;
-using Kind = ast::Expression::Kind;
-
 // Of CODESYS: nVal : INT := LowerLimit;
 bool is_variable(const Context& context, const Pou& pou, const ast::Expression& name) {
   const std::string capitals = upper(name.name);
@@ -24,11 +22,12 @@ bool is_variable(const Context& context, const Pou& pou, const ast::Expression& 
 
 // Names are those of constants, unless they stand for places or the dialect takes variables.
 bool is_known_early(const Context& context, const Pou& pou, const ast::Expression& expression, bool is_place) {
-  const bool name = expression.kind == Kind::Name || expression.kind == Kind::Member;
-  if (expression.kind == Kind::Call || expression.kind == Kind::Deref ||
+  const bool name = expression.kind == ast::Expression::Kind::Name || expression.kind == ast::Expression::Kind::Member;
+  if (expression.kind == ast::Expression::Kind::Call || expression.kind == ast::Expression::Kind::Deref ||
       (name && is_place && !same_name(expression.name, "NULL")) ||
       (context.codesys() &&
-       (expression.kind == Kind::Index || (expression.kind == Kind::Name && is_variable(context, pou, expression))))) {
+       (expression.kind == ast::Expression::Kind::Index ||
+        (expression.kind == ast::Expression::Kind::Name && is_variable(context, pou, expression))))) {
     return false;
   }
   return std::all_of(expression.operands.begin(), expression.operands.end(),

@@ -32,7 +32,7 @@ std::string_view function_of(Operator op) noexcept {
   }
 }
 
-bool is_bits(const Type& type) noexcept {
+bool is_bit_string(const Type& type) noexcept {
   return type.kind == Type::Kind::Elementary && is_bit(type.elementary) && !type.is(Elementary::Bool);
 }
 
@@ -193,7 +193,7 @@ const Type* CallChecker::library_function(Expression& call, std::vector<const Li
     }
   }
   const bool to_text = first.name == "TO_STRING" || first.name == "TO_WSTRING";
-  if (to_text && !context_.codesys() && inputs.size() == 1 && is_bits(*inputs[0]->type)) {
+  if (to_text && !context_.codesys() && inputs.size() == 1 && is_bit_string(*inputs[0]->type)) {
     overloads = find_functions(fmt::format("{}_{}", name_of(inputs[0]->type->elementary), first.name));  // '16#2a'
   }
   const Type* result = choose(call, overloads, inputs, wanted);

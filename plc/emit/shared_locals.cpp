@@ -37,7 +37,7 @@ struct Way {
 };
 
 // (PT := T#1s) of the declaration of the instance.
-const ast::Initial* initial_of(const Way& instance, const std::string& field) {
+const ast::Initial* initial_text_of(const Way& instance, const std::string& field) {
   if (instance.initial == nullptr) {
     return nullptr;
   }
@@ -62,7 +62,7 @@ class Finder {
       inner.name = way.name + "_" + one->name;
       inner.retain = one->retain || (way.retain && !one->declared->non_retain);
       inner.outside = false;
-      const ast::Initial* given = initial_of(way, one->name);
+      const ast::Initial* given = initial_text_of(way, one->name);
       inner.initial = given != nullptr ? given : one->declared->initial ? &*one->declared->initial : nullptr;
       const bool shown = way.outside && show_locals_ && !is_hidden(*one);
       if (holds_instances(*one->type)) {
@@ -112,7 +112,7 @@ class Finder {
         Way inner = way;
         inner.cpp += "." + one.cpp;
         inner.name += "_" + one.name;
-        inner.initial = initial_of(way, one.cpp);
+        inner.initial = initial_text_of(way, one.cpp);
         add(*program_.types.elementary(std::get<Elementary>(one.type)), inner, nullptr);
       }
     }

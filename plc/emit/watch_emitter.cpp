@@ -12,7 +12,7 @@
 namespace indurop::plc {
 namespace {
 
-std::string name_of(const Pou& pou) {
+std::string watched_name_of(const Pou& pou) {
   return cpp_name(std::string_view(pou.name));
 }
 
@@ -23,9 +23,9 @@ class Emitter {
   // In the order of watch_layout().
   void pou(const Pou& pou) {
     out_.open(fmt::format("[[maybe_unused]] void show([[maybe_unused]] iec::Watch& out, [[maybe_unused]] const {}& x)",
-                          name_of(pou)));
+                          watched_name_of(pou)));
     if (pou.base != nullptr) {
-      out_.line(fmt::format("show(out, static_cast<const {}&>(x));", name_of(*pou.base)));
+      out_.line(fmt::format("show(out, static_cast<const {}&>(x));", watched_name_of(*pou.base)));
     }
     std::vector<const Variable*> row;  // that lie behind each other
     for (const Variable& one : pou.variables) {
@@ -129,7 +129,7 @@ void emit_frame(const Pou& pou, DebugTable& table, TextWriter& out) {
   DebugTable::Frame frame{&pou, frame_layout(pou)};
   out.open("const auto debug_show = [&]([[maybe_unused]] iec::Watch& debug_out)");
   if (const Pou* holder = holder_of(pou)) {
-    out.line(fmt::format("plc::show(debug_out, static_cast<const plc::{}&>(*this));", name_of(*holder)));
+    out.line(fmt::format("plc::show(debug_out, static_cast<const plc::{}&>(*this));", watched_name_of(*holder)));
   }
   Emitter emitter(out, "debug_out");
   for (const Variable* one : variables_of_call(pou)) {

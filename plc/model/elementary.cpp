@@ -7,13 +7,13 @@
 namespace indurop::plc {
 namespace {
 
-struct Row {
+struct ElementaryRow {
   std::string_view name;
   unsigned bits;
 };
 
 // In the order of the enumeration.
-constexpr std::array<Row, kElementaryCount> kRows{
+constexpr std::array<ElementaryRow, kElementaryCount> kRows{
     {{"BOOL", 1},           {"BYTE", 8},   {"WORD", 16},   {"DWORD", 32}, {"LWORD", 64}, {"SINT", 8},
      {"INT", 16},           {"DINT", 32},  {"LINT", 64},   {"USINT", 8},  {"UINT", 16},  {"UDINT", 32},
      {"ULINT", 64},         {"REAL", 32},  {"LREAL", 64},  {"TIME", 64},  {"DATE", 64},  {"TIME_OF_DAY", 64},
@@ -35,7 +35,7 @@ constexpr std::array<OtherName, 9> kOtherNames{{{"TOD", Elementary::TimeOfDay},
                                                 {"LDATE_AND_TIME", Elementary::DateAndTime},
                                                 {"BIT", Elementary::Bool}}};
 
-constexpr const Row& row(Elementary type) noexcept {
+constexpr const ElementaryRow& row(Elementary type) noexcept {
   return kRows[static_cast<std::size_t>(type)];
 }
 

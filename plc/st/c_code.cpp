@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/st/c_code.h"
+#include "plc/st/letters.h"
 
 #include <algorithm>
 #include <array>
@@ -8,13 +9,6 @@
 
 namespace indurop::plc::st {
 namespace {
-
-bool is_word(char c) noexcept {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-bool is_digit(char c) noexcept {
-  return c >= '0' && c <= '9';
-}
 
 std::vector<std::string_view> words_of(std::string_view code) {
   std::vector<std::string_view> out;

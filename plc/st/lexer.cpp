@@ -8,22 +8,13 @@
 #include <utility>
 
 #include "base/utf8.h"
+#include "plc/st/letters.h"
 
 namespace indurop::plc::st {
 namespace {
 
 constexpr std::array<std::string_view, 9> kTwoCharacterSymbols{":=", "::", "=>", "<=", ">=", "<>", "**", "..", "?="};
 constexpr std::string_view kSymbols = "+-*/&=<>()[],;:.^#|";
-
-bool is_letter(char c) noexcept {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-bool is_digit(char c) noexcept {
-  return c >= '0' && c <= '9';
-}
-bool is_word(char c) noexcept {
-  return is_letter(c) || is_digit(c);
-}
 
 std::string_view trimmed(std::string_view text) noexcept {
   constexpr std::string_view kBlank = " \t\r\n*-=";

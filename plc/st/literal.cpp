@@ -8,14 +8,11 @@
 #include <limits>
 
 #include "plc/model/characters.h"
+#include "plc/st/letters.h"
 #include "plc/st/time_literal.h"
 
 namespace indurop::plc::st {
 namespace {
-
-bool is_digit(char c) noexcept {
-  return c >= '0' && c <= '9';
-}
 
 int digit_value(char c) noexcept {
   if (is_digit(c)) {

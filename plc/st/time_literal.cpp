@@ -26,7 +26,7 @@ constexpr std::array<Unit, 7> kUnits{{{"D", kDay},
                                       {"US", 1'000},
                                       {"NS", 1}}};
 
-TimeValue wrong(std::string why) {
+TimeValue wrong_time(std::string why) {
   return {std::nullopt, std::move(why)};
 }
 
@@ -127,7 +127,7 @@ TimeValue duration(std::string_view text) {
   bool had_fraction = false;
   bool first = true;
   if (text.empty()) {
-    return wrong(kForm);
+    return wrong_time(kForm);
   }
   while (!text.empty()) {
     take(text, '_');
@@ -142,19 +142,19 @@ TimeValue duration(std::string_view text) {
       ++next_unit;
     }
     if (whole.empty() || next_unit == kUnits.size() || had_fraction) {
-      return wrong(kForm);
+      return wrong_time(kForm);
     }
     had_fraction = !fraction.empty();
     const Unit& own = kUnits[next_unit++];
     const auto part = scaled(whole, fraction, own.ns);
     const Unit& larger = kUnits[&own == kUnits.data() ? 0 : next_unit - 2];
     if (!first && part && *part >= larger.ns) {  // IEC 61131-3, 6.3.5: only the first unit may overflow
-      return wrong(fmt::format("only its first number may be so large: {} {} make one {}", larger.ns / own.ns, own.name,
-                               larger.name));
+      return wrong_time(fmt::format("only its first number may be so large: {} {} make one {}", larger.ns / own.ns,
+                                    own.name, larger.name));
     }
     first = false;
     if (!part || __builtin_add_overflow(total, *part, &total)) {
-      return wrong("it is longer than 292 years");
+      return wrong_time("it is longer than 292 years");
     }
   }
   return {negative ? -total : total, ""};
@@ -163,20 +163,21 @@ TimeValue duration(std::string_view text) {
 TimeValue date_or_time(Elementary type, std::string_view text) {
   if (type == Elementary::TimeOfDay) {
     const auto clock = take_clock(text);
-    return clock && text.empty() ? TimeValue{clock, ""} : wrong("write hours:minutes:seconds, as TOD#12:30:15.5");
+    return clock && text.empty() ? TimeValue{clock, ""} : wrong_time("write hours:minutes:seconds, as TOD#12:30:15.5");
   }
   const auto date = take_date(text);
   if (type == Elementary::Date) {
     return date && text.empty() ? TimeValue{date, ""}
-                                : wrong("write a day from 1677-09-22 to 2262-04-11 as D#2024-01-31");
+                                : wrong_time("write a day from 1677-09-22 to 2262-04-11 as D#2024-01-31");
   }
   const bool dash = take(text, '-');
   const auto clock = take_clock(text);
   if (!date || !dash || !clock || !text.empty()) {
-    return wrong("write year-month-day-hours:minutes:seconds, as DT#2024-01-31-12:30:15");
+    return wrong_time("write year-month-day-hours:minutes:seconds, as DT#2024-01-31-12:30:15");
   }
   std::int64_t ns = 0;
-  return __builtin_add_overflow(*date, *clock, &ns) ? wrong("it is after 2262-04-11-23:47:16.8") : TimeValue{ns, ""};
+  return __builtin_add_overflow(*date, *clock, &ns) ? wrong_time("it is after 2262-04-11-23:47:16.8")
+                                                    : TimeValue{ns, ""};
 }
 
 }  // namespace indurop::plc::st

@@ -11,7 +11,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 8U << 20;
+constexpr std::uintmax_t kMaxAuditBytes = 8U << 20;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ std::filesystem::path usual_audit_file() {
 }
 
 std::string append_audit(const std::filesystem::path& file, const AuditEntry& entry) {
-  return base::append_line({file, kMostBytes, S_IRUSR | S_IWUSR, base::Durable::Yes}, json_of(entry).dump());
+  return base::append_line({file, kMaxAuditBytes, S_IRUSR | S_IWUSR, base::Durable::Yes}, json_of(entry).dump());
 }
 
 std::vector<AuditEntry> read_audit(const std::filesystem::path& file, std::size_t most) {

@@ -16,6 +16,7 @@
 #include "rt/machine.h"
 #include "rt/thread.h"
 #include "tools/command/units.h"
+#include "tools/doctor/first_line.h"
 #include "vars/retain.h"
 #include "vars/shm_file.h"
 
@@ -23,13 +24,6 @@ namespace indurop::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string first_line(const fs::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  return line;
-}
 
 Finding kernel() {
   utsname name{};

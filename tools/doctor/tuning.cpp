@@ -28,7 +28,7 @@ fs::path below(const fs::path& root, const std::string& file) {
 }
 
 // Not base::read_file: files of the kernel have no size.
-std::string first_line(const fs::path& root, const std::string& file) {
+std::string setting_in(const fs::path& root, const std::string& file) {
   std::ifstream in(below(root, file));
   std::string line;
   std::getline(in, line);
@@ -128,7 +128,7 @@ class Examination {
   }
 
   void want(const std::string& file, const std::string& wanted, const std::string& why) {
-    const std::string now = chosen(first_line(root_, file));
+    const std::string now = chosen(setting_in(root_, file));
     if (!now.empty() && now != wanted) {
       tuning_.settings.push_back({file, now, wanted, why});
     }
@@ -139,7 +139,7 @@ class Examination {
     const std::string others = all_but(core_, cores_);
     const std::string mask = mask_of_all_but(core_, cores_);
     const auto want_mask = [&](const std::string& file, const std::string& why) {
-      const std::string now = first_line(root_, file);
+      const std::string now = setting_in(root_, file);
       if (!now.empty() && !same_mask(now, mask)) {
         tuning_.settings.push_back({file, now, mask, why});
       }
@@ -148,13 +148,13 @@ class Examination {
     want_mask("/sys/devices/virtual/workqueue/cpumask", "work that the kernel puts off is done on the other cores");
     for (const std::string& irq : folders(root_, "/proc/irq")) {
       const std::string file = irq + "/smp_affinity";
-      const std::string now = first_line(root_, file);
+      const std::string now = setting_in(root_, file);
       // Only what can come to this core: what is elsewhere stays there.
       if (!now.empty() && reaches_core(now)) {
         tuning_.settings.push_back({file, now, mask, "device interrupts come to the other cores"});
       }
     }
-    const std::string line = " " + first_line(root_, "/proc/cmdline") + " ";
+    const std::string line = " " + setting_in(root_, "/proc/cmdline") + " ";
     for (const auto& [word, value] :
          {std::pair("isolcpus", fmt::format("managed_irq,domain,{}", core_)),
           std::pair("nohz_full", std::to_string(core_)), std::pair("rcu_nocbs", std::to_string(core_))}) {
@@ -176,7 +176,7 @@ class Examination {
   }
 
   void look_at_the_rest() {
-    const std::string runtime = first_line(root_, "/proc/sys/kernel/sched_rt_runtime_us");
+    const std::string runtime = setting_in(root_, "/proc/sys/kernel/sched_rt_runtime_us");
     if (!runtime.empty() && runtime != "-1" && runtime.size() < 6) {
       tuning_.settings.push_back({"/proc/sys/kernel/sched_rt_runtime_us", runtime, "950000",
                                   "real-time threads are stopped after this many us of each second"});
@@ -187,7 +187,7 @@ class Examination {
     if (std::getline(swaps, line)) {
       tuning_.hints.emplace_back("swap is on: swapoff -a, and remove it from /etc/fstab");
     }
-    if (const std::string profile = first_line(root_, "/etc/tuned/active_profile");
+    if (const std::string profile = setting_in(root_, "/etc/tuned/active_profile");
         !profile.empty() && profile.find("realtime") == std::string::npos) {
       tuning_.hints.push_back(fmt::format(
           "tuned is active with profile {}, which may set things back: tuned-adm profile realtime", profile));
@@ -210,7 +210,7 @@ std::string write_setting(const fs::path& root, const std::string& file, const s
 }
 
 std::string boot_of(const fs::path& root) {
-  return first_line(root, "/proc/sys/kernel/random/boot_id");
+  return setting_in(root, "/proc/sys/kernel/random/boot_id");
 }
 
 struct Kept {

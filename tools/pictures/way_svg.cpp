@@ -16,10 +16,10 @@
 namespace indurop::tools {
 namespace {
 
-constexpr double kLeft = 64;    // for the numbers of the upward axis
-constexpr double kTop = 34;     // for the name
-constexpr double kBottom = 34;  // for the numbers of the other
-constexpr double kApart = 30;   // between the views
+constexpr double kWayLeft = 64;    // for the numbers of the upward axis
+constexpr double kWayTop = 34;     // for the name
+constexpr double kWayBottom = 34;  // for the numbers of the other
+constexpr double kApart = 30;      // between the views
 constexpr double kEndRadius = 4;
 
 struct Extent {
@@ -69,7 +69,7 @@ void grid(const Frame& frame, base::SvgPart& out) {
 }
 
 void draw(const View& view, const Frame& frame, const std::string& name, base::SvgPart& out) {
-  svg_text(out, frame.left, kTop - 12, "start", "name",
+  svg_text(out, frame.left, kWayTop - 12, "start", "name",
            fmt::format("{}: {} across, {} up", name, view.across_name, view.up_name));
   grid(frame, out);
   std::string way;
@@ -102,16 +102,16 @@ base::SvgPart way_svg(const Series& series, double width) {
     return out;
   }
   const bool flat = series.lines.size() == 2;
-  const double each = (width - (flat ? 1 : 2) * kLeft - (flat ? 0 : kApart)) / (flat ? 1 : 2);
-  std::vector<View> views{{kLeft, each, "x", "y", series.lines[0], series.lines[1]}};
+  const double each = (width - (flat ? 1 : 2) * kWayLeft - (flat ? 0 : kApart)) / (flat ? 1 : 2);
+  std::vector<View> views{{kWayLeft, each, "x", "y", series.lines[0], series.lines[1]}};
   if (!flat) {
-    views.push_back({2 * kLeft + each + kApart, each, "x", "z", series.lines[0], series.lines[2]});
+    views.push_back({2 * kWayLeft + each + kApart, each, "x", "z", series.lines[0], series.lines[2]});
   }
-  const double height = kWayHeight - kTop - kBottom;
+  const double height = kWayHeight - kWayTop - kWayBottom;
   std::vector<Frame> frames;
   double per_unit = std::numeric_limits<double>::infinity();
   for (const View& view : views) {
-    Frame frame{view.left, kTop, view.width, height, 1, {}, {}};
+    Frame frame{view.left, kWayTop, view.width, height, 1, {}, {}};
     frame.across.take(view.across);
     frame.up.take(view.up);
     if (frame.across.empty() || frame.up.empty()) {

@@ -16,7 +16,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kPatienceNs = 5'000'000'000;
+constexpr std::int64_t kForcePatienceNs = 5'000'000'000;
 // An agent may need a moment to hear of a renewal.
 constexpr std::int64_t kFarLeaseNs = 5'000'000'000;
 
@@ -40,7 +40,7 @@ class Orders {
     }
     const deploy::BoardReport& there = (*board)->report;
     const auto answered =
-        commander_->give(*options_.board.open, options_.board.link.self, there, action, target, kPatienceNs);
+        commander_->give(*options_.board.open, options_.board.link.self, there, action, target, kForcePatienceNs);
     if (!answered) {
       context_.out.error(fmt::format("board {}: {}", there.board, answered.error().text));
       return answered.error().code;

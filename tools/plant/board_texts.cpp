@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kPatienceNs = 2'000'000'000;
 constexpr std::int64_t kAskAgainNs = 250'000'000;
-constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kTextPollNs = 20'000'000;
 constexpr std::uint64_t kLargest = 64U << 20U;
 
 struct Text {
@@ -58,7 +58,7 @@ std::map<std::uint64_t, std::string> fetch_texts(deploy::DeployLink& link, std::
         text.ask_ns = rt::now_ns() + kAskAgainNs;
       }
     }
-    link.wait(rt::mono_time(rt::now_ns() + kLookNs));
+    link.wait(rt::mono_time(rt::now_ns() + kTextPollNs));
     for (const deploy::BlobChunk& chunk : link.take_chunks()) {
       const auto asked = texts.find(chunk.source);
       if (asked != texts.end() && chunk.blob == name) {

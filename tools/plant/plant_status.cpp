@@ -15,7 +15,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kHearNs = 1'500'000'000;  // agents speak twice a second
+constexpr std::int64_t kStatusHearNs = 1'500'000'000;  // agents speak twice a second
 
 // What an agent says; nothing if it is not what one of this version says.
 std::optional<std::vector<mirror::MirroredVariable>> variables_in(const std::string& text) {
@@ -83,7 +83,7 @@ int PlantStatus::show(Context& context) {
     if (open_ == nullptr) {
       return kUnreachable;
     }
-    roster_.gather(*open_, kHearNs, [&] { return roster_.complete(); });
+    roster_.gather(*open_, kStatusHearNs, [&] { return roster_.complete(); });
   }
   const VariablesRead read = ask(*open_, link.self, roster_);
   const std::vector<std::string> trouble = trouble_of(*open_, link.self, roster_);
@@ -95,7 +95,7 @@ int PlantStatus::show(Context& context) {
     context.out.error(
         fmt::format("no board was heard on domain {} within {}; agents are started with indurop-agent "
                     "--board NAME{}",
-                    link.network.domain, human_age(kHearNs), keys_hint(link)));
+                    link.network.domain, human_age(kStatusHearNs), keys_hint(link)));
   } else if (!missing.empty()) {
     context.out.error(fmt::format("not heard: {}", fmt::join(missing, ", ")));
   }

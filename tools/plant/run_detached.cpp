@@ -28,7 +28,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kStartPollNs = 20'000'000;
 
 // As the node itself finds its name.
 std::string name_of(const config::RunOptions& options) {
@@ -97,7 +97,7 @@ int run_detached(Context& context, const std::filesystem::path& program, const c
       context.out.note(fmt::format("node '{}' runs (pid {}); what it says: {}", node, *pid, log.string()));
       return kOk;
     }
-    wait_until(rt::now_ns() + kLookNs);
+    wait_until(rt::now_ns() + kStartPollNs);
     if (interrupted()) {
       ::kill(*pid, SIGTERM);
       ::waitpid(*pid, &status, 0);

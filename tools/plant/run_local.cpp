@@ -21,7 +21,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kEndPollNs = 20'000'000;
 constexpr std::int64_t kEndGraceNs = 10'000'000'000;  // a node gives its own modules and processes a few seconds
 
 struct Child {
@@ -71,7 +71,7 @@ class Plant {
 
   int run() {
     while (running() > 0) {
-      wait_until(rt::now_ns() + kLookNs);
+      wait_until(rt::now_ns() + kEndPollNs);
       if (interrupted()) {
         end_all(SIGINT);
         return interrupt_code();
@@ -92,7 +92,7 @@ class Plant {
     }
     const std::int64_t deadline = rt::now_ns() + kEndGraceNs;
     while (running() > 0 && rt::now_ns() < deadline) {
-      rt::sleep_until(rt::now_ns() + kLookNs);
+      rt::sleep_until(rt::now_ns() + kEndPollNs);
       (void)collect(false);
     }
     for (const Child& child : children_) {
