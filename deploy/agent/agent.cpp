@@ -132,9 +132,7 @@ class Agent {
 
   void listen(rt::MonoTime now) {
     for (const auto& news : link_->take_orders()) {
-      if (news.gone) {
-        perform(transaction_.deployer_gone(news.order.deployer), now);
-      } else if (may_order(news.order)) {
+      if (!news.gone && may_order(news.order)) {  // a deployer that is gone is silent
         perform(transaction_.hear(news.order, now, rt::WallClock::now()), now);
       }
     }

@@ -74,14 +74,14 @@ Do BoardTransaction::hear(const Order& order, rt::MonoTime now, rt::WallTime wal
   }
   const bool free = phase_ == Phase::Steady || (joining_ && phase_ != Phase::Trial && phase_ != Phase::Healthy);
   if (free && order.step == Step::Prepare && order.deployer != finished_) {
-    heard_ = now;
+    silence_ = Silence(now);
     clock_offset_ = wall - rt::wall_time(order.said_at_ns);
     return begin(order, order.deployer, false);
   }
   if (phase_ == Phase::Steady || joining_ || order.deployer != order_.deployer) {
     return Do::Nothing;
   }
-  heard_ = now;
+  silence_ = Silence(now);
   order_.health_ns = std::clamp<std::int64_t>(order.health_ns, 0, kLongestHealth.count());
   switch (order.step) {
     case Step::Prepare:
@@ -103,13 +103,6 @@ Do BoardTransaction::hear(const Order& order, rt::MonoTime now, rt::WallTime wal
       return end("another board could not, or the deployer gave up");
   }
   return Do::Nothing;
-}
-
-Do BoardTransaction::deployer_gone(std::uint64_t deployer) {
-  if (phase_ == Phase::Steady || joining_ || deployer != order_.deployer) {
-    return Do::Nothing;
-  }
-  return end("the deployer ended before it was done");
 }
 
 Do BoardTransaction::catch_up(const BoardReport& from, rt::MonoTime now) {
@@ -180,7 +173,7 @@ Do BoardTransaction::time(rt::MonoTime now) {
   if (phase_ == Phase::Steady) {
     return Do::Nothing;
   }
-  if (!joining_ && now - heard_ > kSilence) {
+  if (!joining_ && silence_.look(now) > kSilence) {
     return end(fmt::format("the deployer was not heard for {} s", kSilence.count()));
   }
   if (phase_ == Phase::Prepared && switch_ && now >= *switch_) {

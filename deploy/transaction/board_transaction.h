@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "deploy/transaction/silence.h"
 #include "deploy/words/deployment_words.h"
 #include "rt/clock.h"
 
@@ -26,7 +27,8 @@ class BoardTransaction {
     Forget,  // give up preparing
   };
 
-  static constexpr std::chrono::seconds kSilence{5};  // a deployer not heard for so long is gone
+  // A deployer not heard for so long has ended. That DDS has lost it says less: on a busy machine it comes back.
+  static constexpr std::chrono::seconds kSilence{5};
   static constexpr std::chrono::milliseconds kClockTrust{100};
   static constexpr std::chrono::seconds kSlowStart{5};  // beyond the health window, for what comes up late
   static constexpr std::chrono::seconds kJoinHealth{3};
@@ -35,8 +37,6 @@ class BoardTransaction {
 
   // A deployer said this. One deployment at a time: words of other deployers are not heard meanwhile.
   Do hear(const Order& order, rt::MonoTime now, rt::WallTime wall);
-  // This deployer has left the network.
-  Do deployer_gone(std::uint64_t deployer);
   // Another board of this board's plant has a newer deployment: this one missed it and takes it over by itself.
   Do catch_up(const BoardReport& from, rt::MonoTime now);
   // An empty problem is success.
@@ -44,7 +44,7 @@ class BoardTransaction {
   Do checked(const std::string& problem, rt::MonoTime now);
   // The node of the trial: `problem` it has for good, or what `missing` for being well.
   Do node(const std::string& problem, const std::string& missing, rt::MonoTime now);
-  // Time passes.
+  // Time passes. Call often.
   Do time(rt::MonoTime now);
 
   [[nodiscard]] Phase phase() const noexcept { return phase_; }
@@ -74,7 +74,7 @@ class BoardTransaction {
   std::uint64_t finished_ = 0;     // deployer whose deployment this board is done with
   std::uint64_t failed_join_ = 0;  // generation that could not be taken over
   rt::MonoTime retry_;
-  rt::MonoTime heard_;
+  Silence silence_;  // of the deployer
   std::optional<rt::MonoTime> switch_;
   rt::MonoTime trial_end_;
   std::chrono::nanoseconds clock_offset_{};

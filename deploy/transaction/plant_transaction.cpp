@@ -48,7 +48,7 @@ void PlantTransaction::hear(const BoardReport& report, rt::MonoTime now) {
   }
   const bool was_ours = !first && ours(known->second) && known->second.phase != Phase::Steady;
   known->second = report;
-  gone_.erase(report.board);
+  lost_.erase(report.board);
   if (was_ours && report.phase == Phase::Steady && order_.step != Step::Commit && order_.step != Step::Abort) {
     abort(Verdict::Refused, report.board, report.message.empty() ? "it gave up" : report.message, now);
   }
@@ -70,13 +70,20 @@ void PlantTransaction::judge(const std::string& board, const BoardReport& report
   }
 }
 
-void PlantTransaction::board_gone(const std::string& board, std::uint64_t agent, rt::MonoTime now) {
+void PlantTransaction::board_lost(const std::string& board, std::uint64_t agent, rt::MonoTime now) {
   const auto known = reports_.find(board);
   if (known == reports_.end() || known->second.agent != agent) {
     return;
   }
-  gone_.insert(board);
-  abort(Verdict::Refused, board, "it is not heard any more", now);
+  lost_.try_emplace(board, now);
+}
+
+void PlantTransaction::miss_lost(rt::MonoTime now) {
+  for (auto& [board, silence] : lost_) {
+    if (silence.look(now) > kLost) {
+      abort(Verdict::Refused, board, "it is not heard any more", now);
+    }
+  }
 }
 
 void PlantTransaction::rival(const Order& order, rt::MonoTime now) {
@@ -98,7 +105,7 @@ void PlantTransaction::give_up(rt::MonoTime now) {
 bool PlantTransaction::all_in(Phase phase) const {
   return std::all_of(order_.boards.begin(), order_.boards.end(), [&](const std::string& board) {
     const auto found = reports_.find(board);
-    return found != reports_.end() && ours(found->second) && found->second.phase == phase;
+    return found != reports_.end() && !lost_.contains(board) && ours(found->second) && found->second.phase == phase;
   });
 }
 
@@ -106,7 +113,7 @@ bool PlantTransaction::wound_up() {
   unconfirmed_.clear();
   for (const std::string& board : order_.boards) {
     const auto found = reports_.find(board);
-    if (found == reports_.end() || gone_.contains(board)) {
+    if (found == reports_.end() || lost_.contains(board)) {
       // Nobody waits for it to go back: it does so by itself. A commit may still reach it.
       if (order_.step == Step::Commit) {
         unconfirmed_.push_back(board);
@@ -129,6 +136,7 @@ bool PlantTransaction::wound_up() {
 bool PlantTransaction::time(rt::MonoTime now, rt::WallTime wall) {
   const Step before = order_.step;
   order_.said_at_ns = rt::to_ns(wall);
+  miss_lost(now);
   if (order_.step == Step::Prepare) {
     for (const auto& [board, since] : busy_since_) {
       if (now - since > kBusy) {

@@ -7,10 +7,10 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "deploy/transaction/silence.h"
 #include "deploy/words/deployment_words.h"
 #include "rt/clock.h"
 
@@ -31,13 +31,15 @@ class PlantTransaction {
   static constexpr std::chrono::milliseconds kSwitchAhead{300};
   static constexpr std::chrono::seconds kBusy{3};  // how long another deployer may take to give way
   static constexpr std::chrono::seconds kWindUp{10};
+  static constexpr std::chrono::seconds kLost{3};  // how long a board that the network has lost may take to come back
 
   // `order` without step and times: deployer, host, deployment, size, generation, boards, health. `patience`: how
   // long nothing at all may happen while boards prepare.
   PlantTransaction(Order order, std::chrono::nanoseconds patience, rt::MonoTime now);
 
   void hear(const BoardReport& report, rt::MonoTime now);
-  void board_gone(const std::string& board, std::uint64_t agent, rt::MonoTime now);
+  // The network has lost it. It is waited for a while: on a busy machine it comes back.
+  void board_lost(const std::string& board, std::uint64_t agent, rt::MonoTime now);
   // Another deployer speaks to some of the same boards: the one with the smaller number goes on.
   void rival(const Order& order, rt::MonoTime now);
   void give_up(rt::MonoTime now);
@@ -57,6 +59,7 @@ class PlantTransaction {
 
  private:
   void abort(Verdict verdict, const std::string& board, const std::string& reason, rt::MonoTime now);
+  void miss_lost(rt::MonoTime now);
   void judge(const std::string& board, const BoardReport& report, rt::MonoTime now);
   [[nodiscard]] bool all_in(Phase phase) const;
   [[nodiscard]] bool wound_up();
@@ -70,7 +73,7 @@ class PlantTransaction {
   bool finished_ = false;
   Verdict verdict_ = Verdict::Open;
   std::map<std::string, BoardReport> reports_;  // of the boards meant, newest
-  std::set<std::string> gone_;                  // of those, not heard any more
+  std::map<std::string, Silence> lost_;         // of those, since when they are not heard any more
   std::map<std::string, rt::MonoTime> busy_since_;
   std::map<std::string, std::string> reasons_;
   std::vector<std::string> unconfirmed_;

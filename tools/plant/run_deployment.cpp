@@ -83,7 +83,7 @@ class Run {
     std::vector<BoardRoster::Gone> gone;
     roster_.listen(link_, rt::to_ns(now), &gone);
     for (const auto& one : gone) {
-      transaction_.board_gone(one.board, one.agent, now);
+      transaction_.board_lost(one.board, one.agent, now);
     }
     for (const auto& [key, entry] : roster_.all()) {
       if (entry.heard_ns == rt::to_ns(now)) {

@@ -3,6 +3,7 @@
 // was committed or, once one board has committed the next, that. (The trial: faults_test.cpp.)
 
 #include "base/read_file.h"
+#include "deploy/link/deploy_link.h"
 #include "killed_fixture.h"
 
 namespace indurop::test {
@@ -176,6 +177,66 @@ TEST_F(Phases, A_deployer_killed_while_one_board_checks_and_the_other_is_prepare
   let_b_check();
   EXPECT_TRUE(both_run_the_committed());
   EXPECT_EQ(deploy(next_).code, 0) << "the next one finds the boards free";
+}
+
+// Somebody else in the network of agents: whom it has lost, the others have lost, too.
+class Witness {
+ public:
+  explicit Witness(int domain) {
+    deploy::LinkSettings settings;
+    settings.network.domain = domain;
+    settings.network.one_host = true;
+    settings.self = deploy::new_session();
+    auto opened = deploy::DeployLink::open(settings);
+    EXPECT_TRUE(opened);
+    link_ = std::move(opened->link);
+  }
+  bool loses_a_deployer() {
+    const auto news = link_->take_orders();
+    return std::any_of(news.begin(), news.end(), [](const auto& one) { return one.gone; });
+  }
+  bool loses(const std::string& board) {
+    const auto news = link_->take_boards();
+    return std::any_of(news.begin(), news.end(),
+                       [&](const auto& one) { return one.gone && one.report.board == board; });
+  }
+
+ private:
+  std::unique_ptr<deploy::DeployLink> link_;
+};
+
+TEST_F(Phases, A_deployer_that_stands_still_until_the_network_loses_it_goes_on) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
+#endif
+  hold_the_check();
+  Witness witness(link_domain());
+  Program& deployer = deploy_until_checking();
+  (void)witness.loses_a_deployer();
+  deployer.signal(SIGSTOP);
+  EXPECT_TRUE(wait_until([&] { return witness.loses_a_deployer(); }));
+  deployer.signal(SIGCONT);
+  let_b_check();
+  const Outcome outcome = deployer.finish();
+  EXPECT_EQ(outcome.code, 0) << outcome.err << agent("a").err() << agent("b").err();
+  EXPECT_NE(new_one(), "");
+}
+
+TEST_F(Phases, A_board_that_stands_still_until_the_network_loses_it_goes_on) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
+#endif
+  hold_the_check();
+  Witness witness(link_domain());
+  Program& deployer = deploy_until_checking();
+  (void)witness.loses(board("a"));
+  agent("a").signal(SIGSTOP);
+  EXPECT_TRUE(wait_until([&] { return witness.loses(board("a")); }));
+  agent("a").signal(SIGCONT);
+  let_b_check();
+  const Outcome outcome = deployer.finish();
+  EXPECT_EQ(outcome.code, 0) << outcome.err << agent("a").err() << agent("b").err();
+  EXPECT_NE(new_one(), "");
 }
 
 TEST_F(Phases, A_board_killed_while_it_is_healthy_takes_all_back) {

@@ -46,6 +46,13 @@ class Deployer : public testing::Test {
     say(report("b", phase));
   }
   bool time() { return sut_.time(now_, wall_); }
+  // Looks at the time in steps, as a deployer does.
+  void listen_for(std::chrono::nanoseconds duration) {
+    for (const rt::MonoTime end = now_ + duration; now_ < end;) {
+      now_ += std::chrono::milliseconds{100};
+      time();
+    }
+  }
   void to_trial() {
     all(Phase::Prepared);
     ASSERT_TRUE(time());
@@ -131,9 +138,14 @@ TEST_F(Deployer, A_fault_in_the_trial_rolls_all_boards_back) {
 
 TEST_F(Deployer, A_board_that_dies_in_the_trial_rolls_all_boards_back) {
   to_trial();
-  sut_.board_gone("b", 99, now_);
+  sut_.board_lost("b", 99, now_);
+  listen_for(2 * PlantTransaction::kLost);
   EXPECT_EQ(sut_.order().step, Step::Switch) << "another agent";
-  sut_.board_gone("b", 2, now_);
+  sut_.board_lost("b", 2, now_);
+  listen_for(PlantTransaction::kLost);
+  EXPECT_EQ(sut_.order().step, Step::Switch) << "it may come back";
+  now_ += kOneNs;
+  time();
   EXPECT_EQ(sut_.verdict(), Verdict::RolledBack);
   time();
   EXPECT_FALSE(sut_.finished()) << "a has not gone back yet";
@@ -142,9 +154,30 @@ TEST_F(Deployer, A_board_that_dies_in_the_trial_rolls_all_boards_back) {
   EXPECT_TRUE(sut_.finished()) << "b goes back by itself";
 }
 
+TEST_F(Deployer, A_board_that_is_lost_for_a_moment_ends_nothing) {
+  to_trial();
+  all(Phase::Healthy);
+  sut_.board_lost("b", 2, now_);
+  time();
+  EXPECT_EQ(sut_.order().step, Step::Switch) << "nobody knows what became of it";
+  listen_for(PlantTransaction::kLost);
+  say(report("b", Phase::Healthy));
+  listen_for(2 * PlantTransaction::kLost);
+  EXPECT_EQ(sut_.verdict(), Verdict::Committed);
+}
+
+TEST_F(Deployer, What_the_deployer_slept_itself_is_no_silence_of_a_board) {
+  to_trial();
+  sut_.board_lost("b", 2, now_);
+  now_ += 2 * PlantTransaction::kLost;
+  time();
+  EXPECT_EQ(sut_.order().step, Step::Switch);
+}
+
 TEST_F(Deployer, A_board_that_is_heard_again_is_waited_for) {
   to_trial();
-  sut_.board_gone("b", 2, now_);
+  sut_.board_lost("b", 2, now_);
+  listen_for(2 * PlantTransaction::kLost);
   say(report("b", Phase::Trial));
   say(report("a", Phase::Steady));
   time();
@@ -177,7 +210,7 @@ TEST_F(Deployer, After_the_commit_was_said_nothing_takes_it_back) {
   time();
   BoardReport failed = report("b", Phase::Failed);
   say(failed);
-  sut_.board_gone("b", 2, now_);
+  sut_.board_lost("b", 2, now_);
   sut_.give_up(now_);
   EXPECT_EQ(sut_.verdict(), Verdict::Committed);
   now_ += PlantTransaction::kWindUp + kOneNs;
