@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <netdb.h>
-#include <sys/socket.h>
-
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -16,6 +14,7 @@
 #include "tools/command/suggest.h"
 #include "tools/command/units.h"
 #include "tools/values/here_source.h"
+#include "tools/values/peer_address.h"
 #include "tools/values/remote_source.h"
 #include "tools/values/starting_node.h"
 #include "vars/node_lock.h"
@@ -60,29 +59,18 @@ Result<std::string, Failure> named_node(const std::string& name, const char* ori
                         fmt::join(running, ", "))};
 }
 
-// Empty if the name, with or without a port, is that of a machine.
-std::string peer_problem(const std::string& peer) {
-  const auto colon = peer.rfind(':');
-  const bool port = colon != std::string::npos && peer.find(':') == colon;  // more of them: an address of IPv6
-  addrinfo* found = nullptr;
-  const int code = ::getaddrinfo(peer.substr(0, port ? colon : peer.size()).c_str(), nullptr, nullptr, &found);
-  if (code == 0) {
-    ::freeaddrinfo(found);
-  }
-  return code == 0 ? std::string{} : ::gai_strerror(code);
-}
-
 Result<vars::Store, Failure> open_remote(Context& context, const std::vector<std::string>& names) {
   if (!context.node.empty()) {
     return Failure{kUsage, "--node names a node of this machine; boards in the network are chosen by NAME@BOARD"};
   }
-  for (const std::string& peer : context.far.network.peers) {
-    if (const std::string problem = peer_problem(peer); !problem.empty()) {
-      return Failure{kUsage, fmt::format("--peer {}: {}", printable(peer), problem)};
-    }
+  dds::NetworkSettings network = context.far.network;
+  auto peers = peer_addresses(network.peers, rt::MonoClock::now() + std::chrono::nanoseconds(context.far.wait_ns));
+  if (!peers) {
+    return std::move(peers).error();
   }
+  network.peers = std::move(peers).value();
   std::vector<std::string> notes;
-  auto source = RemoteSource::open(context.far.network, context.far.wait_ns, names, notes);
+  auto source = RemoteSource::open(network, context.far.wait_ns, names, notes);
   for (const std::string& note : notes) {
     context.out.note(note);
   }

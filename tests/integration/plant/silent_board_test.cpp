@@ -58,5 +58,17 @@ TEST_F(SilentBoard, Peers_that_are_no_machines_are_told_at_once) {
   EXPECT_THAT(sut.err, HasSubstr("--peer no such machine: "));
 }
 
+TEST_F(SilentBoard, Peers_whose_name_nobody_resolves_are_waited_for_no_longer_than_the_boards) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the library that takes name servers away cannot be loaded before that of the sanitizer";
+#endif
+  const Outcome sut = start({INDUROP_PROGRAM, "get", "left.number", "--remote", "--one-host", "--peer", "nohost:7410",
+                             "--wait", "100ms"},
+                            {.variables = {"LD_PRELOAD=" STUCK_RESOLVER}})
+                          .finish();
+  EXPECT_EQ(sut.code, 6);
+  EXPECT_THAT(sut.err, HasSubstr("--peer nohost:7410: no name server has answered yet"));
+}
+
 }  // namespace
 }  // namespace indurop::test

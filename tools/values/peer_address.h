@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The addresses of machines given by name. Name servers may take many seconds to answer, or not to: no caller waits
+// longer than it wants to.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <string>
+#include <vector>
+
+#include "rt/clock.h"
+#include "tools/command/verb.h"
+
+namespace indurop::tools {
+
+// `peers` are NAME or NAME:PORT; the same with addresses instead of names. Asks for all at once. Errors: no machine has
+// such a name; nobody has answered until `deadline`.
+Result<std::vector<std::string>, Failure> peer_addresses(const std::vector<std::string>& peers, rt::MonoTime deadline);
+
+}  // namespace indurop::tools
