@@ -252,21 +252,28 @@ Result<void, Problem> AgentState::keep_copy(const fs::path& copy, const std::str
   return copied ? keep(digest) : copied;
 }
 
+Result<void, Problem> AgentState::restore(const std::string& id, const PackageFile& entry) {
+  if (has_sound(entry.digest, entry.path)) {
+    return {};
+  }
+  const fs::path copy = files_.deployment(id) / entry.path;
+  if (files_.damage_in(id, entry)) {
+    return Problem{fmt::format("{}: neither {} nor {} has the SHA-256 {}", entry.path, file(entry.digest).string(),
+                               copy.string(), entry.digest)};
+  }
+  auto kept = keep_copy(copy, entry.digest);
+  if (kept) {
+    tell(fmt::format("{}: {} is made again from {}", entry.path, file(entry.digest).string(), copy.string()));
+  }
+  return kept;
+}
+
 Result<void, Problem> AgentState::repair(const std::string& id) {
   const auto content = package(id);
   std::vector<std::string> lost;
   for (const PackageFile& entry : content ? content->files : std::vector<PackageFile>{}) {
-    if (has_sound(entry.digest, entry.path)) {
-      continue;
-    }
-    const fs::path copy = files_.deployment(id) / entry.path;
-    if (files_.damage_in(id, entry)) {
-      lost.push_back(fmt::format("{}: neither {} nor {} has the SHA-256 {}", entry.path, file(entry.digest).string(),
-                                 copy.string(), entry.digest));
-    } else if (auto kept = keep_copy(copy, entry.digest); !kept) {
-      lost.push_back(kept.error().text);
-    } else {
-      tell(fmt::format("{}: {} is made again from {}", entry.path, file(entry.digest).string(), copy.string()));
+    if (auto restored = restore(id, entry); !restored) {
+      lost.push_back(restored.error().text);
     }
   }
   return lost.empty() ? install(id) : Result<void, Problem>(Problem{base::enumerate(lost)});
@@ -291,9 +298,10 @@ AgentState::Needed AgentState::needed_by(const std::set<std::string>& ids) const
   return needed;
 }
 
-// Of a deployment that runs and whose package is damaged it is not known which files it needs.
+// Of a deployment whose package is damaged it is not known which files it needs.
 void AgentState::remove_files_but(const std::set<std::string>& needed, bool old_only) const {
-  if (committed_.current.empty() || package(committed_.current)) {
+  const auto is_known = [this](const std::string& id) { return id.empty() || package(id); };
+  if (is_known(committed_.current) && is_known(committed_.previous)) {
     remove_others(folder() / "files", needed, old_only ? kPiecesKept : std::chrono::hours{});
   }
 }

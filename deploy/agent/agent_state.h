@@ -58,6 +58,9 @@ class AgentState {
   Result<void, base::Problem> install(const std::string& id);
   // The same, and files/ has all of the deployment afterwards, too: what one of the two has lost comes from the other.
   Result<void, base::Problem> repair(const std::string& id);
+  // files/ has this file of the deployment, and it is sound; made again from the deployment's folder if need be. A
+  // problem: neither copy is sound.
+  Result<void, base::Problem> restore(const std::string& id, const PackageFile& entry);
   // Where its manifest is when it is installed; its folder if that cannot be said, because its package is damaged.
   [[nodiscard]] std::filesystem::path manifest(const std::string& id) const;
   // Removes what neither the committed nor the previous deployment nor the newest of history needs. What has come of

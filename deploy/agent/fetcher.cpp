@@ -61,7 +61,11 @@ void Fetcher::begin(std::vector<std::uint64_t> sources, const std::string& id, s
   if (!keys::is_digest(id) || size > kLargestPackage) {
     problem_ = "the deployment offered has no sound id or size";
   } else if (const bool here = state_.has_sound(id, "the package"); !here && size == 0) {
-    problem_ = fmt::format("deployment {} is not on this board any more", shown_id(id));
+    problem_ = fmt::format(
+        "the package of deployment {} (SHA-256 {}) is not on this board as it was deployed, and none of the boards "
+        "that "
+        "were asked has it: deploy its files again (indurop deploy)",
+        shown_id(id), id);
   } else if (!here) {
     wanted_.push_back({id, size, "the package"});
   }
@@ -90,7 +94,7 @@ Fetcher::Attempt Fetcher::plan_files() {
   std::set<std::string> seen;
   const bool needed = std::find(package->boards.begin(), package->boards.end(), board_) != package->boards.end();
   for (const PackageFile& file : package->files) {
-    if (needed && seen.insert(file.digest).second && !state_.has_sound(file.digest, file.path)) {
+    if (needed && seen.insert(file.digest).second && !state_.restore(id_, file)) {
       wanted_.push_back({file.digest, file.size, file.path});
       progress_.bytes += file.size;
     }

@@ -4,9 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <string>
+#include <utility>
 
+#include "keys/digest.h"
 #include "tools/plant/board_history.h"
+#include "tools/plant/board_texts.h"
 #include "tools/plant/run_deployment.h"
 #include "tools/verbs/verbs.h"
 
@@ -85,6 +90,17 @@ std::string choose_target(Context& context, deploy::DeployLink& link, const Boar
   return first.previous;
 }
 
+// The list of the deployment's files, for boards whose own one is damaged; empty if no board has a sound one.
+std::string fetch_package(deploy::DeployLink& link, const BoardRoster& roster, std::uint64_t self,
+                          const std::string& id) {
+  for (auto& [agent, text] : fetch_texts(link, self, id, roster.agents())) {
+    if (keys::digest_of(text) == id) {
+      return std::move(text);
+    }
+  }
+  return {};
+}
+
 int roll_back(Context& context, Options& options) {
   auto link = open_link(context, options.link);
   if (link == nullptr) {
@@ -125,12 +141,16 @@ int roll_back(Context& context, Options& options) {
   deployment.order.host = deploy::host_name();
   deployment.order.plant = plant;
   deployment.order.deployment = target;
+  const std::string package = fetch_package(*link, roster, options.link.self, target);
+  deployment.order.size = package.size();
   deployment.order.generation = next_generation(roster);
   deployment.order.health_ns = options.health_ns;
   deployment.patience_ns = options.timeout_ns;
   deployment.title = fmt::format("plant {}, deployment {} again", plant, deploy::shown_id(target));
   deployment.head = {{"plant", plant}, {"deployment", target}, {"generation", deployment.order.generation}};
-  deployment.files = [](const std::string& /*name*/) { return std::nullopt; };
+  deployment.files = [&](const std::string& name) {
+    return name == target && !package.empty() ? std::optional(deploy::BlobServer::Blob{{}, package}) : std::nullopt;
+  };
   return run_deployment(context, *link, roster, std::move(deployment));
 }
 

@@ -34,11 +34,13 @@ class Damaged : public AgentsTest {
   static void flip(const fs::path& file) {
     std::fstream at(file, std::ios::in | std::ios::out | std::ios::binary);
     ASSERT_TRUE(at) << file;
-    at.seekg(1000);
+    const auto place = static_cast<std::streamoff>(std::min<std::uintmax_t>(1000, fs::file_size(file) / 2));
+    at.seekg(place);
     const auto byte = static_cast<char>(at.get() ^ 4);
-    at.seekp(1000);
+    at.seekp(place);
     at.put(byte);
   }
+  Outcome roll_back() { return indurop({"rollback", "--health", "500ms"}); }
   // Every copy of a module on a board.
   [[nodiscard]] std::vector<fs::path> copies(const std::string& name) const {
     std::vector<fs::path> all{state(name) / "files" / steady_};
@@ -126,6 +128,54 @@ TEST_F(Damaged, A_rollback_takes_it_from_another_board_or_is_refused_with_file_a
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, AllOf(HasSubstr("steady.so"), HasSubstr(steady_)));
   EXPECT_TRUE(wait_until([&] { return runs("a", second) && runs("b", second); }));
+}
+
+TEST_F(Damaged, A_rollback_takes_the_list_of_files_from_a_board_that_has_it) {
+  start_both();
+  const std::string first = deployed(v1_);
+  deployed(v2_);
+  flip(state("a") / "files" / first);
+  const Outcome seen = indurop_here({"verify"});
+  EXPECT_EQ(seen.code, 4);
+  EXPECT_THAT(seen.err, AllOf(HasSubstr(board("a") + ": the package of deployment"), HasSubstr(first)));
+  const Outcome back = roll_back();
+  EXPECT_EQ(back.code, 0) << back.err;
+  EXPECT_TRUE(runs("a", first) && runs("b", first));
+  EXPECT_EQ(indurop_here({"verify"}).code, 0);
+}
+
+TEST_F(Damaged, A_rollback_of_one_board_takes_a_file_from_its_other_copy) {
+  start_agent("a");
+  const std::string first = deployed(manifest("first.xml", {{"a", "steady"}}));
+  deployed(manifest("second.xml", {{"a", "other"}}));
+  flip(state("a") / "files" / steady_);
+  const Outcome back = roll_back();
+  EXPECT_EQ(back.code, 0) << back.err;
+  EXPECT_TRUE(runs("a", first) && is_sound("a"));
+}
+
+TEST_F(Damaged, A_list_of_files_that_no_board_has_is_named_and_comes_with_a_deployment) {
+  start_agent("a");
+  const std::string alone = manifest("first.xml", {{"a", "steady"}});
+  const std::string first = deployed(alone);
+  const std::string second = deployed(manifest("second.xml", {{"a", "other"}}));
+  flip(state("a") / "files" / first);
+  for (int i = 0; i < 2; ++i) {  // once it is damaged, then it is missing
+    SCOPED_TRACE(i);
+    const Outcome refused = roll_back();
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.err, AllOf(HasSubstr(first), HasSubstr("deploy its files again (indurop deploy)")));
+    EXPECT_EQ(indurop_here({"verify"}).code, 4);
+    EXPECT_TRUE(runs("a", second));
+  }
+  stop_agent("a", SIGTERM);  // what it needs without the list stays on the disk
+  start_agent("a");
+  EXPECT_TRUE(wait_until([&] { return runs("a", second); }));
+  EXPECT_TRUE(fs::exists(state("a") / "files" / steady_));
+  EXPECT_EQ(deployed(alone), first);
+  EXPECT_EQ(indurop_here({"verify"}).code, 0);
+  EXPECT_EQ(roll_back().code, 0);
+  EXPECT_TRUE(runs("a", second));
 }
 
 TEST_F(Damaged, Verify_names_it_and_an_agent_that_is_asked_repairs_it) {

@@ -241,6 +241,21 @@ TEST_F(AgentDamage, A_damaged_package_of_what_runs_costs_none_of_its_files) {
   EXPECT_TRUE(fs::exists(state_->files().deployment(id) / "mods/main.so"));
 }
 
+TEST_F(AgentDamage, A_damaged_package_of_before_costs_none_of_its_files) {
+  const std::string before = deploy(version("1"));
+  deploy(version("2"));
+  flip_a_bit({state_->file(before)});
+  state_->collect_garbage();
+  EXPECT_FALSE(state_->has_sound(before, "the package"));  // it is dropped
+  state_->collect_garbage();
+  for (const auto& [path, bytes] : contents_[before]) {
+    EXPECT_TRUE(state_->has(keys::digest_of(bytes))) << path;
+  }
+  bring(before);
+  EXPECT_TRUE(state_->repair(before));
+  EXPECT_TRUE(is_laid_out(before));
+}
+
 TEST_F(AgentDamage, The_state_is_closed_to_other_users) {
   struct stat about {};
   ASSERT_EQ(::stat(state_->folder().c_str(), &about), 0);
