@@ -141,11 +141,11 @@ std::optional<Reply> read_field(std::string_view line, Head& head) {
   if (colon == std::string_view::npos || !all_token(name)) {
     return bad("a header is NAME: value, on one line");
   }
-  const std::string_view value = base::trimmed(line.substr(colon + 1));
-  if (!std::all_of(value.begin(), value.end(),
-                   [](unsigned char c) { return c == ' ' || c == '\t' || is_visible(c); })) {
+  // At its ends, too: a line feed there is the end of the line to other readers.
+  if (!std::all_of(line.begin(), line.end(), [](unsigned char c) { return c == ' ' || c == '\t' || is_visible(c); })) {
     return bad("a header has a control character");
   }
+  const std::string_view value = base::trimmed(line.substr(colon + 1));
   std::string small(name);
   std::transform(small.begin(), small.end(), small.begin(), &lower_letter);
   const bool known =

@@ -57,9 +57,11 @@ TEST(HttpHead, Has_what_counts_once) {
 }
 
 TEST(HttpHead, Cannot_be_understood_in_two_ways) {
-  for (const char* fields : {" Host: localhost\r\n", "Host : localhost\r\n", "Host: localhost\r\n evil.com\r\n",
-                             "Host: local\nhost\r\n", "Host: local\rhost\r\n", "Host: a\x7f\r\n", "Host\r\n", ": x\r\n",
-                             "Host: localhost\r\nA: b\nHost: evil\r\n", "Host: localhost\r\nX y: z\r\n"}) {
+  for (const char* fields :
+       {" Host: localhost\r\n", "Host : localhost\r\n", "Host: localhost\r\n evil.com\r\n", "Host: local\nhost\r\n",
+        "Host: local\rhost\r\n", "Host: a\x7f\r\n", "Host\r\n", ": x\r\n", "Host: localhost\r\nA: b\nHost: evil\r\n",
+        "Host: localhost\r\nA: \nTransfer-Encoding: chunked\r\n", "Host: localhost\n\r\n", "Host: \rlocalhost\r\n",
+        "Host: localhost\v\r\n", "Host:\flocalhost\r\n", "Host: localhost\r\nX y: z\r\n"}) {
     EXPECT_EQ(of_fields(fields), 400) << fields;
   }
   EXPECT_EQ(of_fields(std::string("Host: a") + '\0' + "b\r\n"), 400);
