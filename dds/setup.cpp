@@ -8,6 +8,7 @@
 #include "dds/interface.h"
 #include "dds/log.h"
 #include "dds/security.h"
+#include "dds/steady_waits.h"
 
 namespace indurop::dds {
 namespace {
@@ -114,6 +115,9 @@ Result<Joined, base::Problem> join_network(const NetworkSettings& settings) {
     const std::string why = said.empty() ? participant.why() : said;
     return base::Problem{settings.security.on() ? fmt::format("keys refused (indurop keys list tells more): {}", why)
                                                 : why};
+  }
+  if (interface->note.empty() && !waits_are_steady()) {
+    interface->note = "this program is not heard for as long as its clock is put back, because DDS waits by that clock";
   }
   return Joined{{std::move(domain), std::move(participant)}, std::move(interface->note)};
 }

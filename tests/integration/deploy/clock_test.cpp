@@ -2,6 +2,7 @@
 // Clocks that are an hour off, of a board and of a deployer: nothing waits for them, and it is told.
 
 #include <cstdlib>
+#include <fstream>
 
 #include "agents_fixture.h"
 
@@ -68,6 +69,35 @@ TEST_F(Clock, Of_a_board_is_an_hour_ahead) {
   kill_node(board("b"));
   start_agent("b");
   EXPECT_TRUE(wait_until([&] { return runs("b", id); }));
+}
+
+TEST_F(Clock, That_is_put_back_while_an_agent_runs_costs_nobody_its_sight) {
+  const std::filesystem::path clock = folder() / "clock";
+  const auto put = [&](std::int64_t seconds) {
+    std::fstream file(clock, std::ios::in | std::ios::out | std::ios::binary);
+    file.write(reinterpret_cast<const char*>(&seconds), sizeof seconds);
+  };
+  std::ofstream(clock, std::ios::binary) << std::string(sizeof(std::int64_t), '\0');
+  start_agent("b");
+  {
+    const Moved moved(0);
+    ::setenv("IRP_TEST_CLOCK_FILE", clock.c_str(), 1);
+    start_agent("a");
+    ::unsetenv("IRP_TEST_CLOCK_FILE");
+  }
+  const Outcome done = deploy(v1_);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const std::string id = done.json()["deployment"];
+  for (std::int64_t back = kHour; back <= 3 * kHour; back += kHour) {
+    put(-back);
+    // Each is a newcomer that has to find the agent, and the other board's node has to go on hearing that board's.
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_TRUE(runs("a", id) && runs("b", id)) << back << ' ' << i;
+    }
+    const Json all = indurop_here({"status", "--node", board("b"), "-o", "json"}).json();
+    EXPECT_EQ(all["mirror"]["boards"][0]["state"], "alive") << back;
+  }
+  EXPECT_EQ(deploy(v2_).code, 0);
 }
 
 TEST_F(Clock, Of_deployers_jumps_back_and_forth) {
