@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "runtime/host.h"
+#include "vars/node_lock.h"
 #include "vars/shm_file.h"
 
 namespace indurop::runtime {
@@ -51,9 +52,23 @@ rt::MonoTime schedule_now() noexcept {
   return attachment != nullptr ? attachment->store().now() : rt::MonoClock::now();
 }
 
-std::string default_node() {
+namespace {
+
+std::string named_node() {
   const char* node = std::getenv("INDUROP_NODE");  // NOLINT(concurrency-mt-unsafe): read only
-  return node != nullptr && *node != '\0' ? node : "local";
+  return node != nullptr ? node : "";
+}
+
+// A program that was given no node has to do with the usual one only while that runs, not with what it left behind.
+bool binds_at_load() {
+  return !named_node().empty() || vars::running_node(default_node()) != 0;
+}
+
+}  // namespace
+
+std::string default_node() {
+  const std::string named = named_node();
+  return named.empty() ? "local" : named;
 }
 
 Process& Process::get() {
@@ -72,7 +87,7 @@ Process::Process() {
 
 void Process::register_refs(abi::Ref* refs, std::uint32_t count) {
   const std::lock_guard lock(mutex_);
-  if (!std::exchange(tried_at_load_, true) && !hosted()) {
+  if (!std::exchange(tried_at_load_, true) && !hosted() && binds_at_load()) {
     std::size_t unbound = 0;
     const Status status = attach_locked(default_node(), unbound);
     if (!status && status.error().code != Errc::NotFound) {

@@ -96,6 +96,27 @@ TEST_F(CommandLine, Ended_nodes_are_listed_apart_and_do_not_count) {
   EXPECT_EQ(indurop({"nodes", "--all", "-o", "json"}).json()["nodes"][1]["node"], "local");
 }
 
+TEST_F(CommandLine, Programs_that_no_node_started_have_nothing_to_do_with_one_that_ended) {
+  const auto alone = [](const std::string& node) {
+    Environment environment;
+    if (!node.empty()) {
+      environment.variables.push_back("INDUROP_NODE=" + node);
+    }
+    return Program({LONER_PROGRAM}, environment).finish();
+  };
+  Program node(fake_node("local"), background());
+  ASSERT_TRUE(node.prints("ready")) << node.out();
+  const Outcome beside = alone("");
+  EXPECT_EQ(beside.out, "2.5\n");
+  EXPECT_THAT(beside.err, HasSubstr("node 'local' does not have it"));
+  node.signal(SIGKILL);
+  ASSERT_EQ(node.wait(), 128 + SIGKILL);
+  const Outcome after = alone("");
+  EXPECT_EQ(after.out, "2.5\n");
+  EXPECT_THAT(after.err, IsEmpty());
+  EXPECT_THAT(alone("local").err, HasSubstr("node 'local' does not have it")) << "it was asked for";
+}
+
 TEST_F(CommandLine, A_node_that_is_just_starting_is_waited_for) {
   Outcome sut;
   // On a machine that is busy a node may need longer to start than verbs wait.
