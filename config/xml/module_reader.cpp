@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/text.h"
+#include "config/xml/module_file.h"
 #include "config/xml/reader.h"
 #include "config/xml/values.h"
 
@@ -99,7 +100,7 @@ class ModuleReader {
     module_.places.file = e.text_place;
     if (is_file_name(e, *text, report_)) {
       module_.file_as_written = *text;
-      module_.file = (folder_ / *text).lexically_normal();
+      module_.file = module_file(folder_, *text);
     }
   }
 

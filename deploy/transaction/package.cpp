@@ -80,6 +80,14 @@ std::map<std::filesystem::path, Use> files_of(const config::Plant& plant, const 
       files.emplace((folder / as_written).lexically_normal(), Use::Program);
     }
   };
+  // A bare name may mean a file with another one: beside the manifest, or a module of each board's own installation.
+  const auto add_module = [&](const config::Module& module) {
+    if (module.file_as_written.find('/') != std::string::npos || module.file.empty()) {
+      add_program(module.file_as_written);
+    } else if (module.file.parent_path() == folder) {
+      files.emplace(module.file, Use::Program);
+    }
+  };
   const auto add_data = [&](const std::vector<std::filesystem::path>& named) {
     for (const std::filesystem::path& file : named) {
       files[file] = Use::Data;
@@ -90,7 +98,7 @@ std::map<std::filesystem::path, Use> files_of(const config::Plant& plant, const 
   }
   for (const config::Board& board : plant.boards) {
     for (const config::Module& module : board.config.modules) {
-      add_program(module.file_as_written);
+      add_module(module);
       add_data(files_named_by_properties(module, folder));
       add_data(io_files_of(module, folder));
     }

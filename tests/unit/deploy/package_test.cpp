@@ -158,6 +158,18 @@ TEST_F(Packing, Files_of_the_board_itself_do_not_travel) {
   EXPECT_EQ(sut->package.files.size(), 1U);
 }
 
+TEST_F(Packing, A_module_named_without_ending_travels_as_its_file_or_is_of_the_installation) {
+  put("cell/libx.so", "module");
+  config::Plant with = plant("x");
+  with.boards[0].config.modules[0].file = folder_ / "cell/libx.so";
+  const auto beside = pack_plant(with);
+  ASSERT_TRUE(beside) << beside.error().text;
+  ASSERT_EQ(beside->package.files.size(), 2U);
+  EXPECT_EQ(beside->package.files[0].path, "libx.so");
+  with.boards[0].config.modules[0].file = "/usr/local/lib/libx.so";
+  EXPECT_EQ(pack_plant(with)->package.files.size(), 1U);
+}
+
 TEST_F(Packing, The_files_of_an_io_module_travel_too) {
   put("cell/io.xml",
       "<ioconfig><device name='a' driver='csv' file='../mods/values.csv'><input variable='x'/></device>"
