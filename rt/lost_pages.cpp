@@ -13,6 +13,8 @@
 #include <mutex>
 #include <utility>
 
+#include "rt/fault_handler.h"
+
 namespace indurop::rt {
 
 struct GuardedMapping::Region {
@@ -34,7 +36,6 @@ using Region = GuardedMapping::Region;
 std::atomic<Region*> g_regions{nullptr};
 std::atomic<LossHook> g_hook{nullptr};
 std::atomic<void*> g_context{nullptr};
-struct sigaction g_previous {};
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
 std::mutex& registration() {
@@ -58,32 +59,6 @@ bool put_zeros(std::uintptr_t from, std::size_t bytes, bool writable) noexcept {
   return ::mmap(at, bytes, writable ? PROT_READ | PROT_WRITE : PROT_READ, kKind, -1, 0) != MAP_FAILED;
 }
 
-void on_bus_error(int number, siginfo_t* info, void* context) {
-  if (replace_lost_page(info->si_addr)) {
-    return;
-  }
-  if ((g_previous.sa_flags & SA_SIGINFO) != 0 && g_previous.sa_sigaction != nullptr) {
-    g_previous.sa_sigaction(number, info, context);
-    return;
-  }
-  if (g_previous.sa_handler != SIG_DFL && g_previous.sa_handler != SIG_IGN) {
-    g_previous.sa_handler(number);
-    return;
-  }
-  struct sigaction standard {};  // a fault cannot be ignored: die as usual, with a core dump
-  standard.sa_handler = SIG_DFL;
-  ::sigaction(number, &standard, nullptr);
-  ::raise(number);
-}
-
-void install_handler() {
-  struct sigaction action {};
-  action.sa_sigaction = on_bus_error;
-  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
-  ::sigemptyset(&action.sa_mask);
-  ::sigaction(SIGBUS, &action, &g_previous);
-}
-
 // With registration() held.
 Region& free_region() {
   Region* const first = g_regions.load(std::memory_order_relaxed);
@@ -93,7 +68,7 @@ Region& free_region() {
     }
   }
   if (first == nullptr) {
-    install_handler();
+    install_fault_handler(SIGBUS);
   }
   auto* const made = new Region;  // NOLINT(cppcoreguidelines-owning-memory): stays, a handler may be looking at it
   made->next = first;
