@@ -7,6 +7,7 @@
 #include "rt/clock.h"
 #include "rt/copy_text.h"
 #include "rt/guard.h"
+#include "runtime/host.h"
 
 namespace indurop::node {
 namespace {
@@ -103,6 +104,7 @@ int run_node(const Options& options) {
   Console console(options.node, options.quiet);
   base::StopSignal signals;
   rt::install_guard_handlers();
+  rt::catch_faults_also_by(&runtime::catch_fault);
   auto checked = check(options, console);
   if (!checked) {
     // Of a replay that code says that something differs.

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "rt/lost_pages.h"
+#include "rt/guard.h"
 
 namespace indurop::rt {
 namespace {
@@ -21,10 +21,7 @@ void die_of(int number) noexcept {
 }
 
 void on_fault(int number, siginfo_t* info, void* context) {
-  const bool survived = number == SIGBUS && replace_lost_page(info->si_addr);
-  // A module does not go on with zeros in place of its values.
-  end_guarded_code(number, info->si_addr);
-  if (!survived && !pass_on(number, info, context)) {
+  if (!catch_fault(number, info->si_addr) && !pass_on(number, info, context)) {
     die_of(number);
   }
 }

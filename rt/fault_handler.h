@@ -19,7 +19,5 @@ bool pass_on(int number, siginfo_t* info, void* context) noexcept;
 // For SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT: a lost page (rt/lost_pages.h) is replaced, guarded code (rt/guard.h)
 // is ended, anything else is passed on; with nobody to pass it on to the process dies of it, with a core dump.
 void install_fault_handler(int number) noexcept;
-// Of rt/guard.cpp: ends the code that the calling thread's guard is armed for, and then does not return.
-void end_guarded_code(int number, void* address) noexcept;
 
 }  // namespace indurop::rt

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/guard.h"
 
+#include <atomic>
+#include <csetjmp>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <utility>
 
 #include "rt/fault_handler.h"
+#include "rt/lost_pages.h"
 
 namespace indurop::rt {
 namespace {
@@ -17,8 +23,11 @@ int order_signal() noexcept {
   return SIGRTMIN + 1;
 }
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): likewise
+std::atomic<CatchFault> g_library{nullptr};
+
 void on_order(int number, siginfo_t* info, void* context) {
-  end_guarded_code(Guard::kOrder, nullptr);
+  (void)catch_fault(Guard::kOrder, nullptr);
   (void)pass_on(number, info, context);
 }
 
@@ -33,6 +42,20 @@ void install_guard_handlers() noexcept {
   // Orders queue up while their thread gets no processor. Without SA_NODEFER they are delivered one after the other;
   // all at once their frames would overflow the handler's stack.
   install_in_front(order_signal(), on_order, 0);
+}
+
+bool catch_fault(int number, void* address) noexcept {
+  const bool survived = number == SIGBUS && replace_lost_page(address);
+  // A module does not go on with zeros in place of its values.
+  if (t_guard != nullptr && t_guard->armed()) {
+    t_guard->on_signal(number, address);
+  }
+  const CatchFault library = g_library.load(std::memory_order_acquire);
+  return survived || (library != nullptr && number != Guard::kOrder && library(number, address));
+}
+
+void catch_faults_also_by(CatchFault library) noexcept {
+  g_library.store(library, std::memory_order_release);
 }
 
 HandlerStack::HandlerStack() noexcept : memory_(std::malloc(kHandlerStackBytes)) {  // NOLINT: freed in the destructor
@@ -60,12 +83,6 @@ void Guard::leave() noexcept {  // NOLINT(readability-convert-member-functions-t
 
 Guard* Guard::exchange_current(Guard* guard) noexcept {
   return std::exchange(t_guard, guard);
-}
-
-void end_guarded_code(int number, void* address) noexcept {
-  if (t_guard != nullptr && t_guard->armed()) {
-    t_guard->on_signal(number, address);
-  }
 }
 
 void Guard::recovered() noexcept {  // NOLINT(readability-convert-member-functions-to-static): said of this guard

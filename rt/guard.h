@@ -17,6 +17,14 @@ namespace indurop::rt {
 // Installs the handlers, once per process. Not real-time safe.
 void install_guard_handlers() noexcept;
 
+// What the handlers do first: they replace a lost page (rt/lost_pages.h) and jump to the calling thread's guard if it is
+// armed. If it returns: whether the thread can go on. Real-time safe.
+bool catch_fault(int number, void* address) noexcept;
+// A library of the program has its own copy of this code, with the guards of its threads and its mappings: the handlers
+// call its catch_fault() after their own. Null: there is none.
+using CatchFault = bool (*)(int number, void* address) noexcept;
+void catch_faults_also_by(CatchFault library) noexcept;
+
 // Gives the calling thread a stack of its own for handlers, so that even a stack overflow is survived; freed with it.
 class HandlerStack {
  public:

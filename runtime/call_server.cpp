@@ -114,7 +114,7 @@ class FunctionServers::Server {
     t_served = &served_;
     const rt::HandlerStack stack;
     guard_.enter();
-    // A crash of an implementation comes back here (in the node, where handlers are installed).
+    // A crash of an implementation comes back here (in the node, whose handlers call catch_fault()).
     if (sigsetjmp(guard_.target(), 0) != 0) {
       crashed();
     } else {

@@ -3,23 +3,24 @@
 #include <indurop/guarded.h>
 
 #include <csetjmp>
-#include <csignal>
+#include <cstddef>
 
+#include "rt/guard.h"
 #include "rt/guard_text.h"
+#include "rt/thread.h"
+#include "runtime/host.h"
+
+namespace indurop::runtime {
+
+bool catch_fault(int number, void* address) noexcept {
+  return rt::catch_fault(number, address);
+}
+
+}  // namespace indurop::runtime
 
 namespace irp {
 
 bool guarded(void (*work)(void* with) noexcept, void* with, char* why, std::size_t size) noexcept {
-  // The node has handlers of its own, which are called for all other threads.
-  static const bool installed = [] {
-    struct sigaction now {};
-    const bool handled = ::sigaction(SIGSEGV, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) != 0;
-    if (handled) {  // else it ends as usual
-      indurop::rt::install_guard_handlers();
-    }
-    return handled;
-  }();
-  static_cast<void>(installed);
   const indurop::rt::HandlerStack handler_stack;
   const indurop::rt::StackBounds stack = indurop::rt::own_stack();
   indurop::rt::Guard guard;

@@ -101,5 +101,8 @@ Status start_function_servers(int fifo_priority, int core);
 void stop_function_servers();
 // For a thread that was thrown out of a module by a fault: gives up the call it was waiting in. Real-time safe.
 void release_calls_of_this_thread() noexcept;
+// For the handlers of the node: a fault in a shared function that is served here, or below irp::guarded(), is caught by
+// a jump; else it returns. Real-time safe.
+bool catch_fault(int number, void* address) noexcept;
 
 }  // namespace indurop::runtime

@@ -128,6 +128,29 @@ TEST_F(ThreadFault, Of_many_modules_in_one_node_are_each_contained) {
   EXPECT_EQ(sut.wait(), 130);
 }
 
+TEST_F(ThreadFault, In_a_thread_of_its_own_is_contained_where_the_module_asked_for_it) {
+  SKIP_CRASHES_UNDER_TSAN();
+  Program& sut =
+      start_and_wait({{.file = "thread_crash.so", .name = "bad"}, {.file = "counter.so", .name = "good"}});
+  ASSERT_TRUE(wait_until([&] { return module("bad").faults.load() == 1 || !sut.running(); }));
+  EXPECT_CONTAINS(std::string(module("bad").last_fault), "SIGSEGV (invalid memory access) at address 0x10");
+  EXPECT_TRUE(runs_reach("good", module("good").runs.load() + 50));
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 1);
+}
+
+TEST_F(ThreadFault, In_a_shared_function_ends_its_service_and_not_the_node) {
+  SKIP_CRASHES_UNDER_TSAN();
+  Program& sut = start_and_wait({{.file = "server.so", .name = "server", .properties = {{"good_calls", "5"}}},
+                                 {.file = "caller.so", .name = "caller", .period = "5ms", .priority = 2}});
+  ASSERT_TRUE(wait_until([&] { return value<std::uint32_t>("nt::failures") >= 5 || !sut.running(); }));
+  EXPECT_EQ(value<std::uint32_t>("nt::answers"), 5U);
+  EXPECT_TRUE(sut.says("shared function nt::add crashed with signal 11"));
+  EXPECT_TRUE(runs_reach("caller", module("caller").runs.load() + 50));
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
 TEST_F(ThreadFault, Shows_in_status_and_report) {
   SKIP_CRASHES_UNDER_TSAN();
   const std::string report = folder() / "r.json";
