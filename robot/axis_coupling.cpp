@@ -10,10 +10,17 @@ namespace {
 
 // Part of the axis' limits that are for catching up, whatever its master does. Both together are limited anyway.
 constexpr double kLeast = 0.2;
+constexpr double kMargin = 1 + 1e-4;
 
 LineState difference(double now, const LineState& before, double seconds) noexcept {
   const double velocity = (now - before.position) / seconds;
   return {now, velocity, (velocity - before.velocity) / seconds};
+}
+
+// What rounding may move the place of an axis by: paths of the tool, which are off by more, lead no other axis.
+double rounding_at(double position) noexcept {
+  constexpr double kPart = 1e-15, kTurns = 100;  // with what it was computed from
+  return kPart * (kTurns + std::abs(position));
 }
 
 double left(double limit, double used, double most) noexcept {
@@ -81,7 +88,15 @@ ErrorCode AxisCoupling::step(const Master& master, const SetPointGate& gate, dou
   if (const ErrorCode code = gate.check(next, 1); code != ErrorCode::Ok) {
     return code;
   }
-  synced_ = synced_ || (ended && next == wanted && !phasing_ && !(held_ && to_place_));
+  // The gate allows for the rounding of paths, which in short periods is as much as the limit of the jerk.
+  const double noise = 8 * rounding_at(std::max(std::abs(next), std::abs(master.now))) / (seconds * seconds);
+  const double change = difference(next, told, seconds).acceleration - told.acceleration;
+  if (std::abs(change) > most_.jerk * seconds * kMargin + noise) {
+    return ErrorCode::Jerk;
+  }
+  // A change of acceleration just before its end is seen in the differences of three periods.
+  const bool settled = gap_.duration() <= 0 || time_ >= gap_.duration() + 2 * seconds;
+  synced_ = synced_ || (settled && next == wanted && !phasing_ && !(held_ && to_place_));
   planned_ = next == wanted;
   put(next, told, seconds);
   return ErrorCode::Ok;
@@ -141,8 +156,8 @@ ErrorCode AxisCoupling::judge_approach(double master, double jerk, double second
     law_.approach = {};
     return synced_ ? ErrorCode::Ok : ErrorCode::Speed;
   }
-  constexpr double kMargin = 1 + 1e-4;
-  const double noise = 8 * 5e-11 / (seconds * seconds * seconds);  // of the jerk
+  const double noise = 8 * rounding_at(std::max(std::abs(law_state_.position), std::abs(master))) /
+                       (seconds * seconds * seconds);  // of the jerk
   if (std::abs(law_state_.velocity) > limits_.velocity * kMargin) {
     return ErrorCode::Speed;
   }

@@ -130,8 +130,7 @@ TEST_F(ThreadFault, Of_many_modules_in_one_node_are_each_contained) {
 
 TEST_F(ThreadFault, In_a_thread_of_its_own_is_contained_where_the_module_asked_for_it) {
   SKIP_CRASHES_UNDER_TSAN();
-  Program& sut =
-      start_and_wait({{.file = "thread_crash.so", .name = "bad"}, {.file = "counter.so", .name = "good"}});
+  Program& sut = start_and_wait({{.file = "thread_crash.so", .name = "bad"}, {.file = "counter.so", .name = "good"}});
   ASSERT_TRUE(wait_until([&] { return module("bad").faults.load() == 1 || !sut.running(); }));
   EXPECT_CONTAINS(std::string(module("bad").last_fault), "SIGSEGV (invalid memory access) at address 0x10");
   EXPECT_TRUE(runs_reach("good", module("good").runs.load() + 50));

@@ -21,7 +21,8 @@ inline long from_environment(const char* name, long otherwise) {
 
 class FollowCell : public testing::Test, public CommandCell {
  public:
-  explicit FollowCell(double period_ms = 10) : CommandCell(period_ms, in_tick()), judge_(period_ms / 1000) {}
+  explicit FollowCell(double period_ms = 10)
+      : CommandCell(period_ms, in_tick()), judge_(period_ms / 1000, cell_urdf(), 1e-14) {}
   static Settings in_tick() {
     Settings settings;
     settings.plan_in_tick = true;

@@ -20,8 +20,12 @@ inline constexpr double kEmergency = 1.5;  // Settings::emergency_factor
 class Judge {
  public:
   // Of the cell's arm, or of that of another URDF file.
-  explicit Judge(double period, const std::string& urdf = cell_urdf())
-      : period_(period), model_(arm_from_urdf("robot.urdf", urdf).value()), limits_(limits_of(model_, Settings{})) {}
+  // `rounding`: what set points may be off by, rad or m; of paths of the tool beside singular positions, if not said.
+  explicit Judge(double period, const std::string& urdf = cell_urdf(), double rounding = 5e-11)
+      : period_(period),
+        rounding_(rounding),
+        model_(arm_from_urdf("robot.urdf", urdf).value()),
+        limits_(limits_of(model_, Settings{})) {}
 
   // Empty, or what is broken.
   std::string look(const Cell& cell, double hardness) { return look(cell, hardness, hardness * hardness); }
@@ -47,7 +51,7 @@ class Judge {
       judge(broken, i, "speed", v / limits_.velocity[k]);
       judge(broken, i, "acceleration", a / limits_.acceleration[k] / hardness);
       // A third difference is off by eight times as much as what each set point is rounded by.
-      const double rounding = 8 * 5e-11 / (period_ * period_ * period_);
+      const double rounding = 8 * rounding_ / (period_ * period_ * period_);
       judge(broken, i, "jerk", std::max(0.0, std::abs(j) - rounding) / limits_.jerk[k] / jerk_part);
       seen = {p, v, a};
     }
@@ -70,6 +74,7 @@ class Judge {
   }
 
   double period_;
+  double rounding_;
   ArmModel model_;
   JointLimits limits_;
   std::array<Seen, kJoints> seen_{};
