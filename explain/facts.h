@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "operate/journal.h"
+
 namespace indurop::explain {
 
 struct ModuleFact {
@@ -59,17 +61,7 @@ struct OverrunFact {
 };
 
 // Somebody set, forced, stopped or started something.
-struct OrderFact {
-  std::int64_t node_ns = 0;  // 0: not known
-  std::int64_t wall_ns = 0;  // CLOCK_REALTIME
-  std::string who;           // user
-  std::string from;          // host, or address
-  std::string action;        // "set", "force", "unforce", "stop", "start", "restart"
-  std::string what;          // name of the variable, of the part, or of the module
-  std::string value;
-  std::int64_t until_ns = 0;  // of a force, when it ends; INT64_MAX: when it is let go; 0: not known
-  std::string reason;
-};
+using OrderFact = operate::Order;
 
 // What the kernel counted for one thread of the node between two looks.
 struct KernelFact {

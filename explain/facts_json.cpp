@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
+
+#include "operate/journal.h"
 
 namespace indurop::explain {
 namespace {
@@ -60,18 +63,6 @@ constexpr auto kModule = [](auto&& visit, auto& fact) {
   visit("restarts", fact.restarts);
   visit("fault_tick", fact.fault_tick);
   visit("fault", fact.fault);
-};
-
-constexpr auto kOrder = [](auto&& visit, auto& fact) {
-  visit("node_ns", fact.node_ns);
-  visit("wall_ns", fact.wall_ns);
-  visit("who", fact.who);
-  visit("from", fact.from);
-  visit("action", fact.action);
-  visit("what", fact.what);
-  visit("value", fact.value);
-  visit("until_ns", fact.until_ns);
-  visit("reason", fact.reason);
 };
 
 constexpr auto kKernel = [](auto&& visit, auto& fact) {
@@ -135,7 +126,11 @@ std::string facts_text(const Facts& facts) {
   Writer writer;
   kOwn(writer, facts);
   writer.json["modules"] = list_of(facts.modules, kModule);
-  writer.json["orders"] = list_of(facts.orders, kOrder);
+  Json orders = Json::array();
+  for (const OrderFact& order : facts.orders) {
+    orders.push_back(operate::json_of(order));
+  }
+  writer.json["orders"] = std::move(orders);
   writer.json["kernel"] = list_of(facts.kernel, kKernel);
   writer.json["boards"] = list_of(facts.boards, kBoard);
   return writer.json.dump() + "\n";
@@ -148,21 +143,15 @@ bool read_facts(std::string_view text, Facts& facts) {
   }
   kOwn(Reader(*json), facts);
   read_list((*json)["modules"], facts.modules, kModule);
-  read_list((*json)["orders"], facts.orders, kOrder);
+  facts.orders.clear();
+  for (const Json& one : (*json)["orders"].values()) {
+    OrderFact order;
+    operate::read_order(one, order);
+    facts.orders.push_back(std::move(order));
+  }
   read_list((*json)["kernel"], facts.kernel, kKernel);
   read_list((*json)["boards"], facts.boards, kBoard);
   return true;
-}
-
-Json json_of(const OrderFact& order) {
-  Writer writer;
-  kOrder(writer, order);
-  return std::move(writer.json);
-}
-
-bool read_order(const Json& json, OrderFact& order) {
-  kOrder(Reader(json), order);
-  return !order.action.empty();
 }
 
 Json json_of(const Answer& answer) {

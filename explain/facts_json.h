@@ -20,8 +20,6 @@ std::string facts_text(const Facts& facts);
 // False if it is no such text.
 bool read_facts(std::string_view text, Facts& facts);
 
-base::Json json_of(const OrderFact& order);
-bool read_order(const base::Json& json, OrderFact& order);
 base::Json json_of(const Answer& answer);
 
 }  // namespace indurop::explain

@@ -10,11 +10,11 @@
 #include "base/read_file.h"
 #include "explain/facts_json.h"
 #include "explain/kernel_log.h"
-#include "explain/orders.h"
 #include "explain/run_facts.h"
 #include "mirror/frames/mirror_block.h"
 #include "node/facts_part.h"
 #include "node/record_part.h"
+#include "operate/journal.h"
 #include "recorder/boxes.h"
 #include "recorder/recorder.h"
 #include "vars/box_wish.h"
@@ -96,7 +96,7 @@ std::string facts_of_crashed(const std::string& node, const scheduler::RunBlock&
   if (const auto* boards = file ? mirror::mirror_block_in({file->data(), file->size()}) : nullptr; boards != nullptr) {
     explain::add_boards(*boards, facts);
   }
-  facts.orders = explain::read_orders(node, run.started_wall_ns);
+  facts.orders = operate::read_orders(node, run.started_wall_ns);
   facts.board = text_of(run.board);
   facts.stop_reason = "its process died in the middle of its work";
   facts.now_ns = run.epoch_ns + static_cast<std::int64_t>(run.tick.load()) * run.basic_period_ns;

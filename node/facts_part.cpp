@@ -3,8 +3,8 @@
 
 #include "explain/facts_json.h"
 #include "explain/kernel_log.h"
-#include "explain/orders.h"
 #include "explain/run_facts.h"
+#include "operate/journal.h"
 #include "rt/clock.h"
 
 namespace indurop::node {
@@ -19,7 +19,7 @@ std::string facts_text(const Options& options, const Prepared& prepared, const m
   if (!simulated) {
     explain::add_kernel(options.node, facts);
   }
-  facts.orders = explain::read_orders(options.node, prepared.run().started_wall_ns);
+  facts.orders = operate::read_orders(options.node, prepared.run().started_wall_ns);
   facts.board = options.board;
   facts.stop_reason = stop_reason;
   facts.now_ns = rt::to_ns(prepared.store->now());

@@ -5,7 +5,7 @@
 namespace indurop::schema {
 
 unsigned protocol() noexcept {
-  return 4;
+  return 5;
 }
 
 }  // namespace indurop::schema

@@ -9,7 +9,7 @@
 
 #include "deploy/agent/board_alarms.h"
 #include "deploy/transaction/write_words.h"
-#include "explain/orders.h"
+#include "operate/journal.h"
 #include "rt/clock.h"
 #include "vars/box_wish.h"
 
@@ -88,8 +88,7 @@ std::uint64_t new_nonce() {
 
 // Which user gave it is known where it was given.
 void note(const std::string& board, const Command& command) {
-  explain::note_order(board,
-                      {rt::now_ns(), 0, "somebody", command.host, word_of(command.action), command.target, {}, 0, {}});
+  operate::note(board, {rt::now_ns(), 0, "somebody", command.host, word_of(command.action), command.target, {}, 0, {}});
 }
 
 }  // namespace
@@ -228,8 +227,9 @@ CommandReply BoardCommands::write(const Command& command) {
   const auto order = parse_write_order(command.target);
   const auto done = forces_.carry_out(command);
   if (!order || !order->renew) {
-    const std::string what =
-        order && command.action != Action::Unforce ? fmt::format("{}", fmt::join(order->lines, " ")) : command.target;
+    const std::string what = !order                 ? command.target
+                             : order->lines.empty() ? "*"
+                                                    : fmt::format("{}", fmt::join(order->lines, " "));
     log_.info("command from {}: {} {}: {}", command.host, word_of(command.action), one_line(what),
               done ? "done" : done.error().text);
   }

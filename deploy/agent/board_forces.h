@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of this board's variables that somebody elsewhere wants set or held, as far as the board's write lock lets
-// them, and that lock itself. Not real-time safe.
+// Orders from elsewhere about values of this board's variables and its write lock: what a command says becomes a call
+// of operate/. Not real-time safe.
 
 #pragma once
 
@@ -9,11 +9,14 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "base/problem.h"
+#include "deploy/transaction/write_words.h"
 #include "deploy/words/command_words.h"
-#include "rt/clock.h"
+#include "operate/hold.h"
+#include "operate/who.h"
+#include "vars/store.h"
 
 namespace indurop::deploy {
 
@@ -26,14 +29,16 @@ class BoardForces {
   Result<void, base::Problem> carry_out(const Command& command);
 
  private:
-  // What a commander holds as long as it says so.
-  struct Lease {
-    std::vector<std::string> lines;  // NAME=VALUE
-    rt::MonoTime until;
+  // What a commander holds as long as it renews it.
+  struct Held {
+    operate::Lease lease;
+    operate::Who who;
+    vars::Store store;  // that the lease is of
   };
+  Result<void, base::Problem> renew(const Command& command, const WriteOrder& order);
 
   std::string board_;
-  std::map<std::uint64_t, Lease> leases_;  // by commander
+  std::map<std::uint64_t, Held> leases_;  // by commander
 };
 
 // Why the board's write lock forbids commands to modules; empty if it does not.

@@ -14,7 +14,8 @@ namespace indurop::deploy {
 using base::Json;
 
 std::string text_of(const WriteOrder& order) {
-  const Json about{{"lease", order.lease}, {"renew", order.renew}, {"who", order.who}, {"reason", order.reason}};
+  const Json about{
+      {"lease", order.lease}, {"renew", order.renew}, {"end", order.end}, {"who", order.who}, {"reason", order.reason}};
   return fmt::format("{} {}\n{}", order.for_ns, about.dump(), fmt::join(order.lines, "\n"));
 }
 
@@ -33,6 +34,7 @@ std::optional<WriteOrder> parse_write_order(std::string_view text) {
           Json::parse(std::string_view(end, static_cast<std::size_t>(head.data() + head.size() - end)))) {
     base::read(*about, "lease", order.lease);
     base::read(*about, "renew", order.renew);
+    base::read(*about, "end", order.end);
     base::read(*about, "who", order.who);
     base::read(*about, "reason", order.reason);
   }

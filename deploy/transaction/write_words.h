@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Action::Force, Set and SetLock carry besides their lines: for how long, who and why. One text, which agents that
-// know less understand as far as they do.
+// What Action::Force, Unforce, Set and SetLock carry besides their lines: for how long, who and why. One text, which
+// agents that know less understand as far as they do.
 
 #pragma once
 
@@ -13,12 +13,13 @@
 namespace indurop::deploy {
 
 struct WriteOrder {
-  std::int64_t for_ns = 0;  // of a force, 0: until it is let go
+  std::int64_t for_ns = 0;  // of a force, 0: until it is released
   bool lease = false;       // it ends unless it is renewed within that time
   bool renew = false;       // nothing new: the same commander's lease goes on for so long; no lines
+  bool end = false;         // with renew: it ends now, instead
   std::string who;
   std::string reason;
-  std::vector<std::string> lines;  // NAME=VALUE; of SetLock: the word of the lock
+  std::vector<std::string> lines;  // NAME=VALUE; of SetLock: the word of the lock; of Unforce: names, none: all
 };
 
 std::string text_of(const WriteOrder& order);

@@ -18,7 +18,7 @@ enum class Action : std::uint8_t {
   StartNode,
   RestartNode,
   Force,    // target: transaction/write_words.h
-  Unforce,  // target: a NAME in a line each, or "*" for all
+  Unforce,  // likewise
   KeepBox,  // target: why
   // What its runs see and write comes to a file on its disk. Target: the recording's name, "past" or "now" (where it
   // begins), then wanted variables or globs in a line each, none: all. Said again, it goes on: one that is not asked

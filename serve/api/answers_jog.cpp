@@ -2,11 +2,11 @@
 // Answers about robots that are moved by hand from afar.
 #include <utility>
 
+#include "operate/set.h"
 #include "serve/api/answers.h"
 #include "serve/api/write.h"
 #include "serve/boards/board.h"
 #include "serve/jog/jog_desk.h"
-#include "tools/values/forcing.h"
 
 namespace indurop::serve::answers {
 namespace {
@@ -50,8 +50,8 @@ Reply begin_jog(Api& api, const Call& call) {
   if (!(*found)->alive()) {
     return write.failed(status::kConflict, "the board does not run");
   }
-  if (!tools::may(write.context(), (*found)->name(), vars::Act::Command)) {
-    return write.locked();
+  if (const auto locked = operate::refusal((*found)->name(), vars::Act::Command)) {
+    return write.failed(*locked);
   }
   if (auto refused = write.begin()) {
     return *refused;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers about forces that end with their client, and about the lock that keeps a board from being written to.
-#include <fmt/format.h>
-
-#include "rt/clock.h"
+#include "operate/set.h"
 #include "serve/api/answers.h"
 #include "serve/api/write.h"
 #include "serve/boards/board.h"
@@ -48,25 +46,17 @@ Reply set_lock(Api& api, const Call& call) {
   Write write(api, call, "lock");
   const auto json = base::Json::parse(call.request->body);
   std::string word;
-  vars::LockNote note;
+  std::string reason;
   if (!json || !base::read(*json, "lock", word) || !vars::write_lock_of(word)) {
     return write.failed(status::kBadRequest, "lock is none, tune or all");
   }
-  base::read(*json, "reason", note.reason);
-  write.about(word, note.reason);
-  auto custody = vars::Custody::open((*found)->name(), vars::Mode::ReadWrite);
-  if (!custody) {
-    return write.failed(status::kConflict, fmt::format("its write lock cannot be opened: {}", custody.error().where));
-  }
+  base::read(*json, "reason", reason);
+  write.about(word, reason);
   if (auto refused = write.begin()) {
     return *refused;
   }
-  note.who = call.who;
-  note.from = call.request->from;
-  note.wall_ns = rt::wall_ns();
-  note.lock = *vars::write_lock_of(word);
-  if (const Status locked = custody->set_lock(note); !locked) {
-    return write.failed(status::kNoAnswer, fmt::format("it is not locked: {}", locked.error().where));
+  if (const auto locked = operate::set_lock((*found)->name(), *vars::write_lock_of(word), write.who()); !locked) {
+    return write.failed(locked.error());
   }
   base::Json body = about(**found);
   body["lock"] = word;

@@ -27,7 +27,7 @@ base::Json variable_json(const vars::Store& store, const tools::Item& item, cons
   out["form"] = form_of(item.place.type);
   Quality quality = quality_of(store, item);
   if (values) {
-    const auto bytes = tools::read_item(store, item);
+    const auto bytes = operate::read(store, item);
     quality = bytes ? quality : Quality::Unread;
     out["value"] = bytes ? tools::raw_value(item.place.type, *bytes) : base::Json();
     out["text"] = bytes ? schema::format_value(item.place.type, *bytes) : std::string();
@@ -44,7 +44,7 @@ base::Json variable_json(const vars::Store& store, const tools::Item& item, cons
   out["quality"] = word_of(quality);
   base::Json forced = base::Json::array();
   for (const vars::Force& force : forces) {
-    if (touches(force, item)) {
+    if (operate::touches(force, item)) {
       forced.push_back(schema::part_at(variable, force.offset).name);
     }
   }

@@ -2,6 +2,10 @@
 // Answers that change something: values, forces, modules. The store is opened to write for that moment only.
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "operate/hold.h"
+#include "operate/set.h"
 #include "serve/api/answers.h"
 #include "serve/api/wish.h"
 #include "serve/api/write.h"
@@ -9,35 +13,38 @@
 #include "serve/boards/variable.h"
 #include "serve/leases/lease_desk.h"
 #include "tools/plant/commands.h"
-#include "tools/values/forcing.h"
-#include "tools/values/node_choice.h"
+#include "tools/plc/plc_literal.h"
 
 namespace indurop::serve::answers {
 namespace {
 
-// All values found good, or none.
-std::optional<std::vector<tools::Assignment>> check_values(Write& write, const vars::Store& store, const Wish& wish,
-                                                           const char* verb) {
-  std::vector<tools::Assignment> all;
-  bool fine = true;
+// All values found good, or what is wrong with each that is not.
+Result<std::vector<operate::Assignment>, operate::Refusal> check_values(const vars::Store& store, const Wish& wish) {
+  std::vector<operate::Assignment> all;
+  operate::Refusal wrong;
   for (const auto& [name, value] : wish.values) {
     if (name.empty() || name.find('=') != std::string::npos) {
-      write.context().out.error(fmt::format("'{}' is no name of a variable", name));
-      fine = false;
+      wrong.reasons.push_back(fmt::format("'{}' is no name of a variable", name));
       continue;
     }
-    auto one = tools::read_assignments(write.context(), store, verb, {name, value});
+    auto item = operate::find(store, name);
+    auto one = item ? operate::parse(store, std::move(item).value(), value, &tools::parse_plc_literal)
+                    : Result<operate::Assignment, base::Problem>(std::move(item).error());
     if (one) {
-      all.push_back(std::move(one->front()));
+      all.push_back(std::move(one).value());
+    } else {
+      wrong.reasons.push_back(one.error().text);
     }
-    fine = fine && one.ok();
   }
-  return fine ? std::optional(std::move(all)) : std::nullopt;
+  if (!wrong.reasons.empty()) {
+    return wrong;
+  }
+  return all;
 }
 
-base::Json names_of(const std::vector<tools::Assignment>& all) {
+base::Json names_of(const std::vector<operate::Assignment>& all) {
   base::Json names = base::Json::array();
-  for (const tools::Assignment& one : all) {
+  for (const operate::Assignment& one : all) {
     names.push_back(one.item.name);
   }
   return names;
@@ -58,13 +65,16 @@ Reply write_values(Api& api, const Call& call, bool hold) {
   if (!store) {
     return store.error();
   }
-  const auto values = check_values(write, *store, *wish, hold ? "force" : "set");
-  if (!values || (!hold && tools::any_forced(write.context(), *store, *values))) {
-    return write.failed_with(kFailed);
+  const auto values = check_values(*store, *wish);
+  if (!values) {
+    return write.failed(values.error());
   }
-  if (!(hold ? tools::may(write.context(), (*found)->name(), vars::Act::Force)
-             : tools::may_set(write.context(), *values))) {
-    return write.locked();
+  if (const auto forced = hold ? std::nullopt : operate::forced(*store, *values)) {
+    return write.failed(*forced);
+  }
+  const std::string& node = (*found)->name();
+  if (const auto locked = hold ? operate::refusal(node, vars::Act::Force) : operate::refusal_to_set(node, *values)) {
+    return write.failed(*locked);
   }
   if (wish->lease && store->header().virtual_ns.load() != 0) {
     return write.failed(status::kConflict, "the time of a simulation is not the one that a lease goes by: use for_ns");
@@ -72,18 +82,21 @@ Reply write_values(Api& api, const Call& call, bool hold) {
   if (auto refused = write.begin()) {
     return *refused;
   }
-  tools::Lease lease;
-  const int code = !hold         ? tools::set_values(write.context(), *store, *values)
-                   : wish->lease ? tools::hold_values(write.context(), *store, *values, LeaseDesk::kLeaseNs, &lease)
-                                 : tools::hold_values(write.context(), *store, *values, wish->for_ns);
-  if (code != kOk) {
-    return write.failed_with(code);
-  }
   base::Json body = about(**found);
-  if (wish->lease) {
-    body["lease"] =
-        api.leases().take((*found)->name(), call.who, call.request->from, text_of(*wish), *store, std::move(lease));
-    body["lease_ns"] = LeaseDesk::kLeaseNs;
+  if (!hold) {
+    if (const auto done = operate::set(node, *store, *values, write.who()); !done) {
+      return write.failed(done.error());
+    }
+  } else {
+    auto held = operate::hold(node, *store, *values, wish->lease ? LeaseDesk::kLeaseNs : wish->for_ns,
+                              wish->lease ? operate::Ends::UnlessRenewed : operate::Ends::ByItself, write.who());
+    if (!held) {
+      return write.failed(held.error());
+    }
+    if (wish->lease) {
+      body["lease"] = api.leases().take(node, write.who(), text_of(*wish), *store, std::move(held).value());
+      body["lease_ns"] = LeaseDesk::kLeaseNs;
+    }
   }
   body[hold ? "forced" : "written"] = names_of(*values);
   return write.done(body);
@@ -106,8 +119,8 @@ Reply command(Api& api, const Call& call, scheduler::ModuleCommand what, std::st
   }
   Write write(api, call, std::move(word));
   write.about(module, query_value(*call.request, "reason").value_or(""));
-  if (!tools::may(write.context(), (*found)->name(), vars::Act::Command)) {
-    return write.locked();
+  if (const auto locked = operate::refusal((*found)->name(), vars::Act::Command)) {
+    return write.failed(*locked);
   }
   if (auto refused = write.begin()) {
     return *refused;
@@ -153,25 +166,24 @@ Reply release(Api& api, const Call& call) {
   if (!store) {
     return store.error();
   }
-  std::vector<tools::Item> items;
-  const bool fine = wish->all || tools::select_items(write.context(), *store, wish->names, items) == kOk;
-  if (!fine) {
-    return write.failed_with(kFailed);
+  const auto items = operate::select(*store, wish->names);
+  if (!items) {
+    return write.failed(operate::Refusal{operate::Why::Wrong, items.error()});
   }
-  if (!tools::may(write.context(), (*found)->name(), vars::Act::Force)) {
-    return write.locked();
+  const std::string& node = (*found)->name();
+  if (const auto locked = operate::refusal(node, vars::Act::Force)) {
+    return write.failed(*locked);
   }
   if (auto refused = write.begin()) {
     return *refused;
   }
-  std::vector<std::string> gone;
-  const int code = wish->all ? tools::let_all_go(write.context(), *store, gone)
-                             : tools::let_values_go(write.context(), *store, items, gone);
-  if (code != kOk) {
-    return write.failed_with(code);
+  const auto released =
+      wish->all ? operate::release_all(node, *store, write.who()) : operate::release(node, *store, *items, write.who());
+  if (!released) {
+    return write.failed(released.error());
   }
   base::Json body = about(**found);
-  body["released"] = gone;
+  body["released"] = base::Json(*released);
   return write.done(body);
 }
 

@@ -53,6 +53,20 @@ Reply Write::failed(int code, const std::vector<std::string>& all) {
   return refusal(code, all.front(), all);
 }
 
+Reply Write::failed(const operate::Refusal& refusal) {
+  using operate::Why;
+  std::vector<std::string> reasons = refusal.reasons;
+  if (refusal.why == Why::Locked) {
+    reasons.front() = fmt::format("node '{}': {}", entry_.board, reasons.front());
+  }
+  const int code = refusal.why == Why::Locked   ? status::kLocked
+                   : refusal.why == Why::Busy   ? status::kNoAnswer
+                   : refusal.why == Why::Absent ? status::kConflict
+                                                : status::kWrongValue;
+  note_failure(reasons.front());
+  return serve::refusal(code, reasons.front(), reasons.size() > 1 ? reasons : std::vector<std::string>());
+}
+
 void Write::note_failure(const std::string& why) {
   entry_.outcome = why;
   static_cast<void>(api_->audit().note(entry_));  // nothing was written, so there is nothing to hide

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "operate/refusal.h"
+#include "operate/who.h"
 #include "serve/api/api.h"
 #include "serve/api/router.h"
 #include "tools/command/verb.h"
@@ -27,14 +29,16 @@ class Write {
 
   // Opens the board's store to write; it has to run if `running`.
   Result<vars::Store, Reply> open(bool running);
+  // Who writes, and why.
+  [[nodiscard]] operate::Who who() const { return {entry_.who, entry_.from, entry_.reason}; }
   // What is noted.
   void about(std::string what, std::string reason);
   Reply failed(int code, std::string why);
   // For all these reasons, at least one; the first one is noted.
   Reply failed(int code, const std::vector<std::string>& all);
   Reply failed_with(int exit_code);
-  // Of a write that the board's lock forbids; the message says so.
-  Reply locked() { return failed(status::kLocked, messages_.front()); }
+  // What operate/ refused.
+  Reply failed(const operate::Refusal& refusal);
   // Before anything is changed: without a note nothing is written.
   std::optional<Reply> begin();
   Reply done(const base::Json& body);

@@ -135,12 +135,6 @@ base::Json form_of(const schema::Type& type) {
   return out;
 }
 
-bool touches(const vars::Force& force, const tools::Item& item) noexcept {
-  const std::uint64_t begin = item.place.offset;
-  return force.variable == item.entry && force.offset < begin + item.place.type.size() &&
-         begin < force.offset + force.size;
-}
-
 std::vector<tools::Item> items_named(const vars::Store& store, const std::string& node,
                                      const std::vector<std::string>& names, std::vector<std::string>& problems) {
   tools::Context context;

@@ -26,9 +26,6 @@ std::optional<std::int64_t> age_of(const vars::Store& store, const tools::Item& 
 base::Json form_of(const schema::Type& type);
 base::Json range_of(const std::optional<schema::Range>& range);
 
-// Do the item and the forced part overlap?
-bool touches(const vars::Force& force, const tools::Item& item) noexcept;
-
 // Items for a name, a part or a glob; what is wrong goes to `problems`.
 std::vector<tools::Item> items_named(const vars::Store& store, const std::string& node,
                                      const std::vector<std::string>& names, std::vector<std::string>& problems);

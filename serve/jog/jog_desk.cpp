@@ -10,6 +10,7 @@
 #include <cmath>
 #include <utility>
 
+#include "operate/set.h"
 #include "rt/clock.h"
 #include "serve/random_word.h"
 #include "tools/values/here_source.h"
@@ -118,7 +119,7 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
   }
   for (const vars::Force& force : store->forces()) {
     if (force.variable == place->entry) {
-      return Problem{"ROBOT_JOG is forced; release it first"};
+      return Problem{operate::is_forced(robot.empty() ? "ROBOT_JOG" : robot + "::ROBOT_JOG")};
     }
   }
   const std::lock_guard guard(mutex_);

@@ -5,7 +5,6 @@
 
 #include "rt/clock.h"
 #include "serve/random_word.h"
-#include "tools/values/here_source.h"
 
 namespace indurop::serve {
 namespace {
@@ -25,11 +24,10 @@ bool bind(Held& held, const vars::Store& store) {
 
 }  // namespace
 
-std::string LeaseDesk::take(const std::string& board, const std::string& who, const std::string& from,
-                            const std::string& what, const vars::Store& store, tools::Lease lease) {
+std::string LeaseDesk::take(const std::string& board, const operate::Who& who, const std::string& what,
+                            const vars::Store& store, operate::Lease lease) {
   Held held{board,
             who,
-            from,
             what,
             {},
             store.header().layout_hash,
@@ -47,13 +45,13 @@ bool LeaseDesk::renew(const std::string& board, const std::string& name, const s
   look();
   const std::lock_guard guard(mutex_);
   const auto found = all_.find(name);
-  if (found == all_.end() || found->second.board != board || found->second.who != who) {
+  if (found == all_.end() || found->second.board != board || found->second.who.name != who) {
     return false;
   }
   Held& held = found->second;
   auto store = vars::Store::attach(board, vars::Mode::ReadWrite);
-  if (!store || !bind(held, *store) || !tools::renew(held.lease, *store, kLeaseNs)) {
-    note(held, "lost: somebody else has let one of them go or forced it, or the node was started anew");
+  if (!store || !bind(held, *store) || !operate::renew(held.lease, *store, kLeaseNs)) {
+    note(held, "lost: another user has released one of the values or forced it again, or the node was started again");
     all_.erase(found);
     return false;
   }
@@ -64,18 +62,13 @@ bool LeaseDesk::renew(const std::string& board, const std::string& name, const s
 bool LeaseDesk::end(const std::string& board, const std::string& name, const std::string& who) {
   const std::lock_guard guard(mutex_);
   const auto found = all_.find(name);
-  if (found == all_.end() || found->second.board != board || found->second.who != who) {
+  if (found == all_.end() || found->second.board != board || found->second.who.name != who) {
     return false;
   }
   Held& held = found->second;
   auto store = vars::Store::attach(board, vars::Mode::ReadWrite);
   if (store && bind(held, *store)) {
-    tools::Context context;
-    context.node = board;
-    context.who = held.who;
-    context.from = held.from;
-    context.values = std::make_shared<tools::HereSource>(board, vars::Mode::ReadWrite);
-    tools::end(context, held.lease, *store);
+    operate::end(board, *store, held.lease, held.who);
   }
   note(held, "done");
   all_.erase(found);
@@ -96,8 +89,8 @@ void LeaseDesk::look() {
 
 void LeaseDesk::note(const Held& held, const char* outcome) const {
   AuditEntry entry;
-  entry.who = held.who;
-  entry.from = held.from;
+  entry.who = held.who.name;
+  entry.from = held.who.from;
   entry.board = held.board;
   entry.action = "release";
   entry.what = held.what;

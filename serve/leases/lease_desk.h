@@ -10,8 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "operate/hold.h"
+#include "operate/who.h"
 #include "serve/api/audit.h"
-#include "tools/values/forcing.h"
+#include "vars/store.h"
 
 namespace indurop::serve {
 
@@ -23,8 +25,8 @@ class LeaseDesk {
   explicit LeaseDesk(const Audit& audit) : audit_(&audit) {}
 
   // Any thread. Returns the name to renew it by, which cannot be guessed. `store`: of the board, as it is now.
-  std::string take(const std::string& board, const std::string& who, const std::string& from, const std::string& what,
-                   const vars::Store& store, tools::Lease lease);
+  std::string take(const std::string& board, const operate::Who& who, const std::string& what, const vars::Store& store,
+                   operate::Lease lease);
   // False: there is no such lease of this client, or it has ended.
   bool renew(const std::string& board, const std::string& name, const std::string& who);
   bool end(const std::string& board, const std::string& name, const std::string& who);
@@ -34,13 +36,12 @@ class LeaseDesk {
  private:
   struct Held {
     std::string board;
-    std::string who;
-    std::string from;
+    operate::Who who;
     std::string what;                  // for the audit log
     std::vector<std::uint64_t> names;  // hashes of the variables, in the order of lease.values
     std::uint64_t layout_hash = 0;
     std::uint64_t generation = 0;  // of the node's run
-    tools::Lease lease;
+    operate::Lease lease;
     std::int64_t until_ns = 0;  // CLOCK_MONOTONIC
   };
   void note(const Held& held, const char* outcome) const;

@@ -70,8 +70,8 @@ void Feed::read(const vars::Store& store) {
     const bool other = fine && record_.set_value(i, bytes);
     changed_[i] = other || quality_[i] == Quality::Unread;
     quality_[i] = fine ? quality_of(store, item) : Quality::Unread;
-    forced_[i] =
-        std::any_of(forces.begin(), forces.end(), [&item](const vars::Force& one) { return touches(one, item); });
+    forced_[i] = std::any_of(forces.begin(), forces.end(),
+                             [&item](const vars::Force& one) { return operate::touches(one, item); });
     record_.set_quality(i, quality_[i], forced_[i]);
   }
   head_.time_ns = store.now().time_since_epoch().count();

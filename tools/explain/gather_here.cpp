@@ -6,9 +6,9 @@
 
 #include "explain/facts_json.h"
 #include "explain/kernel_log.h"
-#include "explain/orders.h"
 #include "explain/run_facts.h"
 #include "mirror/frames/mirror_block.h"
+#include "operate/journal.h"
 #include "rt/clock.h"
 #include "tape/follower.h"
 #include "tools/explain/gather.h"
@@ -72,7 +72,7 @@ Facts of_memory(const std::string& node, const RunView& run, bool with_runs, std
   }
   facts.board = fixed_text(run.block().board);
   add_mirror(node, facts);
-  facts.orders = explain::read_orders(node, run.block().started_wall_ns);
+  facts.orders = operate::read_orders(node, run.block().started_wall_ns);
   facts.now_ns = now_ns;
   facts.wall_minus_node_ns = facts.is_virtual ? 0 : rt::wall_ns() - now_ns;
   if (!facts.is_virtual) {

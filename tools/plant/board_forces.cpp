@@ -2,7 +2,6 @@
 #include "tools/plant/board_forces.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <optional>
 
@@ -108,7 +107,7 @@ int hold_on_board(Context& context, BoardForces& options, std::vector<std::strin
     }
   }
   take_interrupt();
-  again.for_ns = 1;  // now
+  again.end = true;
   return orders.give(deploy::Action::Force, text_of(again));
 }
 
@@ -117,8 +116,7 @@ int lock_board(Context& context, BoardForces& options, const std::string& word) 
 }
 
 int unforce_on_board(Context& context, BoardForces& options, const std::vector<std::string>& names) {
-  return Orders(context, options)
-      .give(deploy::Action::Unforce, names.empty() ? "*" : fmt::format("{}", fmt::join(names, "\n")));
+  return Orders(context, options).give(deploy::Action::Unforce, text_of(order_of(context, names)));
 }
 
 }  // namespace indurop::tools

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/user_name.h"
-#include "explain/orders.h"
+#include "operate/journal.h"
 #include "rt/clock.h"
 #include "tools/command/audit.h"
 #include "tools/command/interrupt.h"
@@ -71,7 +71,7 @@ void note(const Context& context, const std::string& node, const RunView& run, M
           const std::string& module) {
   const std::int64_t simulated = run.block().virtual_ns.load();
   const char* action = command == ModuleCommand::Stop ? "stop" : command == ModuleCommand::Start ? "start" : "restart";
-  explain::note_order(
+  operate::note(
       node,
       {simulated != 0 ? simulated : rt::now_ns(), 0, context.who, context.from, action, module, {}, 0, context.reason});
   if (context.who.empty()) {  // what comes over HTTP is in the audit log already

@@ -45,8 +45,8 @@ deploy::Action action_of(PlantWatch::FarOrder::What what) {
 
 std::string target_of(const PlantWatch::FarOrder& order) {
   using What = PlantWatch::FarOrder::What;
-  const bool bare = order.what == What::Unforce || order.what == What::StopModule || order.what == What::StartModule ||
-                    order.what == What::RestartModule;
+  const bool bare =
+      order.what == What::StopModule || order.what == What::StartModule || order.what == What::RestartModule;
   if (!bare) {
     deploy::WriteOrder words;
     words.for_ns = order.for_ns;
@@ -55,7 +55,7 @@ std::string target_of(const PlantWatch::FarOrder& order) {
     words.lines = order.lines;
     return text_of(words);
   }
-  return order.what == What::Unforce && order.lines.empty() ? "*" : fmt::format("{}", fmt::join(order.lines, "\n"));
+  return fmt::format("{}", fmt::join(order.lines, "\n"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "operate/set.h"
 #include "tools/values/assignment.h"
 #include "tools/values/forcing.h"
 #include "tools/values/node_choice.h"
@@ -49,7 +50,7 @@ int take_values(Context& context, const vars::Store& store, const std::vector<st
     return code;
   }
   for (const Item& item : items) {
-    const auto bytes = read_item(store, item);
+    const auto bytes = operate::read(store, item);
     if (!bytes) {
       context.out.error(bytes.error().text);
       return kFailed;
@@ -67,7 +68,7 @@ std::vector<Difference> compare(const vars::Store& store, const Recipe& recipe) 
     const auto place = schema::find_place(store.schema(), name, message);
     const auto* entry = place.ok() ? store.find(place.value().variable->name_hash()) : nullptr;
     if (entry != nullptr) {
-      if (const auto bytes = read_item(store, {name, place.value(), entry})) {
+      if (const auto bytes = operate::read(store, {name, place.value(), entry})) {
         one.now = raw_value(place.value().type, *bytes);
         one.same = one.now.dump() == one.recipe.dump();
       }
@@ -105,7 +106,7 @@ int load_values(Context& context, vars::Store& store, const Recipe& recipe, std:
   }
   tick = *done;
   for (const Assignment& one : *assignments) {
-    note_order(context, store, "set", one);
+    operate::note_set(context.node, store, one, who_orders(context));
   }
   return kOk;
 }

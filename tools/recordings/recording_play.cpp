@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "operate/set.h"
 #include "recorder/run_words.h"
 #include "recorder/sources.h"
 #include "recording/cdr.h"
@@ -88,16 +89,18 @@ Result<Playlist, Failure> choose(Context& context, const Options& options, const
 }
 
 // Writing to a forced value is for nothing. The names, empty: none is.
-std::string forced_of(const Playlist& list, const vars::Store& store) {
-  std::string names;
-  for (const vars::Force& force : store.forces()) {
-    for (const auto& [id, played] : list) {
-      if (force.variable == played.entry) {
-        names += (names.empty() ? "" : ", ") + played.variable->name;
-      }
+// True after an error message for each that is forced: what would be written has no effect.
+bool any_forced(Context& context, const Playlist& list, const vars::Store& store) {
+  bool any = false;
+  const std::vector<vars::Force> forces = store.forces();
+  for (const auto& [id, played] : list) {
+    if (std::any_of(forces.begin(), forces.end(),
+                    [entry = played.entry](const vars::Force& force) { return force.variable == entry; })) {
+      context.out.error(operate::is_forced(played.variable->name));
+      any = true;
     }
   }
-  return names;
+  return any;
 }
 
 struct Done {
@@ -166,9 +169,7 @@ int play(Context& context, const Options& options) {
   if (!list) {
     return report(context.out, list.error());
   }
-  if (const std::string forced = forced_of(*list, *store); !forced.empty()) {
-    context.out.error(
-        fmt::format("{}: forced, what is written has no effect; release it first: indurop unforce", forced));
+  if (any_forced(context, *list, *store)) {
     return kFailed;
   }
   const auto done = play_all(options, *reader, *store, *list);

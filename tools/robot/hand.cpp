@@ -68,7 +68,7 @@ int hold(Context& context, vars::Store& store, const Item& beat, const Hand& han
 // A hand that was lost left the switch pressed: the robot wants it released before it counts again. The exit code.
 int let_go_before(Context& context, vars::Store& store, const Item& enable, const std::vector<Assignment>& rest) {
   constexpr std::int64_t kPeriodsNs = 100'000'000;  // of any robot
-  const auto now = read_item(store, enable);
+  const auto now = operate::read(store, enable);
   if (!now || std::all_of(now->begin(), now->end(), [](std::uint8_t byte) { return byte == 0; })) {
     return kOk;
   }

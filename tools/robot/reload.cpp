@@ -39,7 +39,7 @@ class Robot {
     }
     std::uint32_t* const numbers[] = {&to.acknowledged, &to.done, &to.error};
     for (std::size_t i = 0; i < items.size(); ++i) {
-      const auto bytes = read_item(store_, items[i]);
+      const auto bytes = operate::read(store_, items[i]);
       if (!bytes) {
         context_.out.error(bytes.error().text);
         return kFailed;

@@ -48,7 +48,7 @@ int read_place(Context& context, const vars::Store& store, const RobotChoice& ch
   }
   std::vector<std::vector<std::uint8_t>> values;
   for (const Item& item : items) {
-    auto bytes = read_item(store, item);
+    auto bytes = operate::read(store, item);
     if (!bytes) {
       context.out.error(bytes.error().text);
       return kFailed;

@@ -8,7 +8,7 @@
 #include "alarms/alarm_journal.h"
 #include "alarms/alarm_list.h"
 #include "alarms/alarm_watch.h"
-#include "explain/orders.h"
+#include "operate/journal.h"
 #include "rt/clock.h"
 #include "tools/command/screen.h"
 #include "tools/command/units.h"
@@ -84,7 +84,7 @@ std::string event_of(const RunView& run, const OverrunSample& one) {
              : text;
 }
 
-std::string order_of(const scheduler::RunBlock& block, const explain::OrderFact& order) {
+std::string order_of(const scheduler::RunBlock& block, const operate::Order& order) {
   const std::int64_t since = std::max<std::int64_t>(order.node_ns - block.epoch_ns, 0);
   std::string text = fmt::format("tick {}: {} {}{}", since / std::max<std::int64_t>(block.basic_period_ns, 1),
                                  order.action, order.what, order.value.empty() ? "" : " = " + order.value);
@@ -106,7 +106,7 @@ std::vector<TopEvent> newest_events(const std::string& node, const RunView& run)
   for (const OverrunSample& one : run.overrun_log(kEvents)) {
     all.push_back({block.epoch_ns + static_cast<std::int64_t>(one.tick) * block.basic_period_ns, event_of(run, one)});
   }
-  const auto orders = explain::read_orders(node, block.started_wall_ns);
+  const auto orders = operate::read_orders(node, block.started_wall_ns);
   for (std::size_t i = orders.size() - std::min(orders.size(), kEvents); i < orders.size(); ++i) {
     all.push_back({orders[i].node_ns, order_of(block, orders[i])});
   }

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <utility>
 
 #include "tools/plc/plc_literal.h"
 
@@ -40,28 +40,12 @@ int parse_one(Context& context, const vars::Store& store, const char* verb, cons
   if (const int code = select_items(context, store, {name}, items); code != kOk) {
     return code;
   }
-  Assignment assignment{items.front(), std::vector<std::uint8_t>(items.front().place.type.size()), text};
-  const auto& place = assignment.item.place;
-  // Parts of a value that are not mentioned keep what they have.
-  if (auto bytes = read_item(store, assignment.item); bytes) {
-    assignment.bytes = std::move(*bytes);
-  }
-  std::string message;
-  if (!parse_plc_literal(place.type, text, assignment.bytes) &&
-      !schema::parse_value(place.type, text, assignment.bytes, message).ok()) {
-    context.out.error(fmt::format(
-        "{}: {}", assignment.item.name,
-        message.empty() ? fmt::format("'{}' is not a valid {}", text, schema::display_name(place.type)) : message));
+  auto assignment = operate::parse(store, std::move(items.front()), text, &parse_plc_literal);
+  if (!assignment) {
+    context.out.error(assignment.error().text);
     return kFailed;
   }
-  constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-  const schema::Range range = place.range.value_or(schema::Range{-kUnlimited, kUnlimited});
-  const Status in_range = schema::check_range(range, place.type, assignment.bytes, message);
-  if (!in_range.ok()) {
-    context.out.error(fmt::format("{}: {}", assignment.item.name, message));
-    return kFailed;
-  }
-  out.push_back(std::move(assignment));
+  out.push_back(std::move(assignment).value());
   return kOk;
 }
 

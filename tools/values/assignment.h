@@ -3,19 +3,15 @@
 
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "operate/item.h"
 #include "tools/values/variables.h"
 
 namespace indurop::tools {
 
-struct Assignment {
-  Item item;
-  std::vector<std::uint8_t> bytes;  // of the item; what a value leaves out is as it was
-  std::string text;                 // as it was written
-};
+using operate::Assignment;
 
 // "a=1" "b=2", or "a" "1": types, array bounds and declared ranges are checked. A failure comes after an error message
 // for each that is wrong, which names `verb`.

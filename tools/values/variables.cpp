@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "tools/command/units.h"
 #include "tools/values/node_choice.h"
@@ -16,40 +17,13 @@
 namespace indurop::tools {
 namespace {
 
-bool add_item(const vars::Store& store, std::string name, const schema::Place& place, std::vector<Item>& items) {
-  const auto* entry = store.find(place.variable->name_hash());
-  if (entry == nullptr) {
-    return false;
-  }
-  const bool known = std::any_of(items.begin(), items.end(), [&](const Item& item) {
-    return item.entry == entry && item.place.offset == place.offset && item.name == name;
+void add_item(Item item, std::vector<Item>& items) {
+  const bool known = std::any_of(items.begin(), items.end(), [&](const Item& one) {
+    return one.entry == item.entry && one.place.offset == item.place.offset && one.name == item.name;
   });
   if (!known) {
-    items.push_back({std::move(name), place, entry});
+    items.push_back(std::move(item));
   }
-  return true;
-}
-
-schema::Place whole(const schema::Variable& variable) {
-  return {&variable, variable.type, 0, variable.unit, variable.range};
-}
-
-// Full name of a part that was named without its leading namespaces.
-std::string full_name(const std::string& text, const schema::Place& place) {
-  const std::string& variable = place.variable->name;
-  // The variable's last part ends where an index or a field begins.
-  const auto last = variable.rfind("::");
-  const std::string base = last == std::string::npos ? variable : variable.substr(last + 2);
-  std::size_t at = text.find(base);
-  while (at != std::string::npos) {
-    const std::size_t end = at + base.size();
-    const bool starts = at == 0 || text[at - 1] == ':' || text[at - 1] == '.';
-    if (starts && (end == text.size() || text[end] == '[' || text[end] == '.')) {
-      return variable + text.substr(end);
-    }
-    at = text.find(base, at + 1);
-  }
-  return variable;
 }
 
 // Exit code, after an error message: there is no such variable, or its board cannot be asked.
@@ -106,18 +80,23 @@ int select_items(Context& context, const vars::Store& store, const std::vector<s
       continue;
     }
     if (!is_glob(name)) {
-      std::string message;
-      const auto place = schema::find_place(store.schema(), name, message);
-      if (!place.ok() || !add_item(store, full_name(name, place.value()), place.value(), items)) {
-        code = unknown(context, name, message.empty() ? fmt::format("there is no variable '{}'", name) : message);
+      auto found = operate::find(store, name);
+      if (found) {
+        add_item(std::move(found).value(), items);
+      } else {
+        code = unknown(context, name, found.error().text);
       }
       continue;
     }
     bool any = false;
     for (const auto& variable : store.schema().variables) {
       const bool meant = board.empty() || context.values->owner(variable.name) == board;
-      if (meant && schema::glob_match(name, variable.name)) {
-        any = add_item(store, variable.name, whole(variable), items) || any;
+      if (!meant || !schema::glob_match(name, variable.name)) {
+        continue;
+      }
+      if (auto found = operate::whole(store, variable)) {
+        add_item(std::move(found).value(), items);
+        any = true;
       }
     }
     if (!any) {
@@ -138,16 +117,6 @@ int select_items(Context& context, const vars::Store& store, const std::vector<s
     code = drop_forbidden(context, items) ? kOk : kFailed;
   }
   return code;
-}
-
-Result<std::vector<std::uint8_t>, base::Problem> read_item(const vars::Store& store, const Item& item) {
-  std::vector<std::uint8_t> bytes(item.place.type.size());
-  const Status status = store.read(*item.entry, item.place.offset, bytes);
-  if (!status.ok()) {
-    return base::Problem{
-        fmt::format("{} cannot be read: {} ({})", item.name, status.error().where, to_string(status.error().code))};
-  }
-  return bytes;
 }
 
 JsonValue raw_value(const schema::Type& type, std::span<const std::uint8_t> bytes) {

@@ -3,26 +3,19 @@
 
 #pragma once
 
-#include <indurop/result.h>
-
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "base/problem.h"
+#include "operate/item.h"
 #include "tools/command/verb.h"
 #include "vars/store.h"
 
 namespace indurop::tools {
 
-// A variable or a part of it. Points into the store's schema: keep the store.
-struct Item {
-  std::string name;  // full name with the part, "knu::Robot::joints[1].y"
-  schema::Place place;
-  const vars::DirectoryEntry* entry = nullptr;
-};
+using operate::Item;
 
 // Items for names (exact parts) and globs, in the order given, no item twice. The exit code, after an error message for
 // each name that is nothing, or of a board that is silent.
@@ -31,9 +24,6 @@ enum class Values { Needed, NotNeeded };
 int select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
                  std::vector<Item>& items, Values values = Values::Needed);
 using schema::is_glob;
-
-// One consistent version of the item's bytes, or why there is none.
-Result<std::vector<std::uint8_t>, base::Problem> read_item(const vars::Store& store, const Item& item);
 
 // Value for JSON and CSV.
 JsonValue raw_value(const schema::Type& type, std::span<const std::uint8_t> bytes);

@@ -238,7 +238,7 @@ int await(Context& context, const std::string& name) {
   constexpr std::int64_t kPauseNs = 5'000'000;
   while (!interrupted()) {
     for (const Item& item : items) {
-      const auto bytes = read_item(*store, item);
+      const auto bytes = operate::read(*store, item);
       if (bytes && std::any_of(bytes->begin(), bytes->end(), [](std::uint8_t byte) { return byte != 0; })) {
         return kOk;
       }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop force, unforce, forces: values that hold whoever writes them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "operate/hold.h"
 #include "rt/clock.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/units.h"
@@ -34,8 +36,11 @@ struct ForceOptions {
   bool lease = false;
 };
 
-// Until the user ends it, the node ends, or somebody else lets go of one of them.
-int keep_holding(Context& context, vars::Store& store, Lease& lease) {
+// How long a lease holds after it was renewed last.
+constexpr std::int64_t kLeaseNs = 2'000'000'000;
+
+// Until the user ends it, the node ends, or another user releases one of them.
+int keep_holding(Context& context, vars::Store& store, operate::Lease& lease) {
   constexpr std::int64_t kRenewNs = kLeaseNs / 4;
   context.out.note("held while this runs; Ctrl-C lets go");
   int code = kOk;
@@ -44,24 +49,27 @@ int keep_holding(Context& context, vars::Store& store, Lease& lease) {
       context.out.error(context.values->gone(absence.empty() ? "started anew" : absence) +
                         ": nothing is held any more");
       code = kUnreachable;
-    } else if (!renew(lease, store, kLeaseNs)) {
-      context.out.error("somebody else has let one of them go or forced it since; the others are let go");
-      code = kFailed;
+    } else if (const auto renewed = operate::renew(lease, store, kLeaseNs); !renewed) {
+      code = report(context, renewed.error());
     }
   }
   take_interrupt();
-  end(context, lease, store);
+  std::string names = fmt::format("{}", fmt::join(lease.names, " "));
+  operate::end(context.node, store, lease, who_orders(context));
+  note_for_audit(context, "unforce", names);
   return code;
 }
 
-int force_while_here(Context& context, vars::Store& store, const std::vector<Assignment>& assignments) {
-  if (store.header().virtual_ns.load() != 0) {
-    context.out.error("the time of a simulation is not the one that --lease goes by: use --for");
-    return kUsage;
+int hold(Context& context, vars::Store& store, const ForceOptions& options,
+         const std::vector<Assignment>& assignments) {
+  auto held =
+      operate::hold(context.node, store, assignments, options.lease ? kLeaseNs : options.for_ns,
+                    options.lease ? operate::Ends::UnlessRenewed : operate::Ends::ByItself, who_orders(context));
+  if (!held) {
+    return report(context, held.error());
   }
-  Lease lease;
-  const int code = hold_values(context, store, assignments, kLeaseNs, &lease);
-  return code == kOk ? keep_holding(context, store, lease) : code;
+  note_for_audit(context, "force", text_of(assignments));
+  return options.lease ? keep_holding(context, store, *held) : kOk;
 }
 
 int force(Context& context, ForceOptions& options) {
@@ -81,8 +89,11 @@ int force(Context& context, ForceOptions& options) {
   if (!assignments) {
     return report(context.out, assignments.error());
   }
-  return options.lease ? force_while_here(context, *store, *assignments)
-                       : hold_values(context, *store, *assignments, options.for_ns);
+  if (options.lease && store->header().virtual_ns.load() != 0) {
+    context.out.error("the time of a simulation is not the one that --lease goes by: use --for");
+    return kUsage;
+  }
+  return hold(context, *store, options, *assignments);
 }
 
 struct UnforceOptions {
@@ -107,12 +118,18 @@ int unforce(Context& context, UnforceOptions& options) {
   if (const int code = options.all ? kOk : select_items(context, *store, options.names, items); code != kOk) {
     return code;
   }
-  std::vector<std::string> gone;
-  const int code = options.all ? let_all_go(context, *store, gone) : let_values_go(context, *store, items, gone);
-  if (code == kOk && gone.empty()) {
-    context.out.note("none of these is forced");
+  const operate::Who who = who_orders(context);
+  const auto released = options.all ? operate::release_all(context.node, *store, who)
+                                    : operate::release(context.node, *store, items, who);
+  if (!released) {
+    return report(context, released.error());
   }
-  return code;
+  if (released->empty()) {
+    context.out.note("none of these is forced");
+  } else {
+    note_for_audit(context, "unforce", fmt::format("{}", fmt::join(*released, " ")));
+  }
+  return kOk;
 }
 
 Result<std::vector<ForceView>, Failure> forces_of(Context& context, BoardChoice& board) {

@@ -42,7 +42,7 @@ int get(Context& context, const std::vector<std::string>& names) {
   note_old(context, items);
   Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right, 0, kAlignedValue}, {"UNIT", "unit"}});
   for (const Item& item : items) {
-    const auto bytes = read_item(*store, item);
+    const auto bytes = operate::read(*store, item);
     if (!bytes) {
       context.out.error(bytes.error().text);
       return kFailed;

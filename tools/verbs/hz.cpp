@@ -73,7 +73,7 @@ class Counter {
       started_ = true;
       return updates;
     }
-    auto bytes = read_item(store_, item_);
+    auto bytes = operate::read(store_, item_);
     if (!bytes) {
       return 0;
     }

@@ -2,12 +2,10 @@
 // indurop lock: what may be written to a node from outside.
 #include <fmt/format.h>
 
-#include "base/user_name.h"
-#include "explain/orders.h"
-#include "rt/clock.h"
-#include "tools/command/audit.h"
+#include "operate/set.h"
 #include "tools/plant/board_forces.h"
 #include "tools/values/force_view.h"
+#include "tools/values/forcing.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
 
@@ -29,25 +27,11 @@ int show(Context& context, const std::string& node, const vars::LockNote& lock) 
 }
 
 int set_here(Context& context, const std::string& node, vars::WriteLock lock) {
-  auto custody = vars::Custody::open(node, vars::Mode::ReadWrite);
-  if (!custody) {
-    context.out.error(custody.error().code == Errc::NotFound
-                          ? fmt::format("node '{}' has not run yet, or was started by an older version", node)
-                          : explain_open_error(custody.error(), node, true));
-    return exit_code_of(custody.error());
+  context.node = node;
+  if (const auto locked = operate::set_lock(node, lock, who_orders(context)); !locked) {
+    return report(context, locked.error());
   }
-  vars::LockNote note;
-  note.who = base::user_name();
-  note.reason = context.reason;
-  note.wall_ns = rt::wall_ns();
-  note.lock = lock;
-  if (const Status locked = custody->set_lock(note); !locked) {
-    context.out.error(fmt::format("node '{}' is not locked: {}", node, locked.error().where));
-    return kUnreachable;
-  }
-  const std::string word = vars::word_of(lock);
-  explain::note_order(node, {rt::now_ns(), 0, {}, {}, "lock", word, {}, 0, context.reason});
-  (void)append_audit(usual_audit_file(), {note.wall_ns, note.who, "", node, "lock", word, "done", note.reason});
+  note_for_audit(context, "lock", vars::word_of(lock));
   return kOk;
 }
 

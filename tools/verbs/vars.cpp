@@ -96,7 +96,7 @@ int list(Context& context, const Options& options) {
                {"DESCRIPTION", "description", Align::Left, 4},
                {"", "source"}});
   for (const Item& item : items) {
-    const auto bytes = read_item(*store, item);
+    const auto bytes = operate::read(*store, item);
     if (!bytes) {
       context.out.error(bytes.error().text);
       code = kFailed;

@@ -2,6 +2,7 @@
 // How the node of a board does and what is forced on it, seen and changed from elsewhere.
 
 #include <cstdlib>
+#include <fstream>
 
 #include "agents_fixture.h"
 
@@ -117,6 +118,68 @@ TEST_F(RemoteLook, Values_are_set_all_or_none) {
   EXPECT_EQ(value("torque"), 1);
 }
 
+// Compared with the same orders given on the board itself.
+TEST_F(RemoteLook, Orders_are_noted_as_those_given_on_the_board) {
+  start_boards();
+  const std::vector<std::vector<std::string>> orders{
+      {"set", "echo=3", "--reason", "a start"},
+      {"force", "torque=1", "encoder.speed=0.5", "--for", "600s", "--reason", "a trial"},
+      {"unforce", "torque", "--reason", "trial over"},
+      {"force", "echo=7"},
+      {"unforce", "--all", "--reason", "shift ends"},
+      {"force", "torque=2"},
+      {"unforce", "*::torque"},
+      {"lock", "tune", "--reason", "production"},
+      {"lock", "none"},
+  };
+  const auto file = folder() / "state" / board("a") / "orders.jsonl";
+  const auto noted = [&] {
+    Json all = Json::array();
+    std::ifstream lines(file);
+    for (std::string line; std::getline(lines, line);) {
+      Json one = Json::parse(line);
+      EXPECT_GT(one["node_ns"].get<std::int64_t>(), 0) << line;
+      EXPECT_NE(one["from"], "") << line;
+      one["ends"] = one["until_ns"].get<std::int64_t>() > one["node_ns"].get<std::int64_t>();
+      for (const char* other : {"node_ns", "wall_ns", "until_ns", "from"}) {
+        one.erase(other);
+      }
+      all.push_back(std::move(one));
+    }
+    std::filesystem::remove(file);
+    return all;
+  };
+  for (const std::vector<std::string>& order : orders) {
+    const Outcome outcome = at_a(order);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  const Json remote = noted();
+  for (std::vector<std::string> order : orders) {
+    order.insert(order.end(), {"--node", board("a")});
+    const Outcome outcome = indurop_here(order);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  const Json local = noted();
+  EXPECT_EQ(local.size(), orders.size() + 2);  // two that are of two values
+  EXPECT_EQ(remote, local);
+}
+
+TEST_F(RemoteLook, A_refusal_is_worded_as_on_the_board) {
+  start_boards();
+  ASSERT_EQ(at_a({"force", "torque=1"}).code, 0);
+  for (const std::vector<std::string>& order : std::vector<std::vector<std::string>>{
+           {"set", "torque=2"}, {"set", "torque=9"}, {"set", "nothing=1"}, {"unforce", "nothing"}}) {
+    const auto reason = [](const Outcome& outcome) {
+      EXPECT_EQ(outcome.code, 1) << outcome.err;
+      const auto at = outcome.err.find("error: ");
+      return at == std::string::npos ? outcome.err : outcome.err.substr(at + 7);
+    };
+    std::vector<std::string> here = order;
+    here.insert(here.end(), {"--node", board("a")});
+    EXPECT_EQ(reason(at_a(order)), "board " + board("a") + ": " + reason(indurop_here(here)));
+  }
+}
+
 TEST_F(RemoteLook, A_lease_ends_with_whoever_holds_it_from_afar) {
   start_boards();
   Program& holder = start_indurop({"force", "echo=7", "--lease", "--board", board("a")});
@@ -127,6 +190,11 @@ TEST_F(RemoteLook, A_lease_ends_with_whoever_holds_it_from_afar) {
   EXPECT_TRUE(wait_until([&] { return std::exchange(before, left()) < before; })) << "it is renewed";
   holder.signal(SIGKILL);
   EXPECT_TRUE(wait_until([&] { return here({"forces"})["forces"].empty(); }));
+  Program& other = start_indurop({"force", "echo=8", "--lease", "--board", board("a")});
+  ASSERT_TRUE(wait_until([&] { return here({"forces"})["forces"].size() == 1; })) << other.out();
+  other.signal(SIGINT);
+  EXPECT_EQ(other.wait(), 0) << other.err();
+  EXPECT_EQ(here({"forces"})["forces"], Json::array()) << "at once";
 }
 
 TEST_F(RemoteLook, A_locked_board_refuses_orders_from_afar) {

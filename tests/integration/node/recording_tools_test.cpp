@@ -114,7 +114,7 @@ TEST_F(RecordingTools, Play_refuses_what_is_forced) {
   ASSERT_EQ(indurop({"force", "nt::counted", "7", "--node", node()}).code, 0);
   const Outcome refused = recording({"play", file(), "--node", node(), "--speed", "100"});
   EXPECT_EQ(refused.code, 1);
-  EXPECT_CONTAINS(refused.err, "nt::counted: forced, what is written has no effect");
+  EXPECT_CONTAINS(refused.err, "nt::counted is forced; release it first: indurop unforce");
   EXPECT_FALSE(contains(refused.err, "wrote ")) << refused.err;
   EXPECT_EQ(recording({"play", file(), "nt::kept", "--node", node(), "--speed", "100"}).code, 0);
   sut.signal(SIGTERM);

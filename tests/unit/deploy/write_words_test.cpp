@@ -9,13 +9,14 @@ namespace indurop::deploy {
 namespace {
 
 TEST(WriteWords, Come_back_as_they_were) {
-  const WriteOrder order{5'000'000'000,   true, false, "anna \"the\" first", "valve {stuck}\nsince noon",
+  const WriteOrder order{5'000'000'000,   true, false, true, "anna \"the\" first", "valve {stuck}\nsince noon",
                          {"a=1", "b=x y"}};
   const auto sut = parse_write_order(text_of(order));
   ASSERT_TRUE(sut.has_value());
   EXPECT_EQ(sut->for_ns, order.for_ns);
   EXPECT_EQ(sut->lease, true);
   EXPECT_EQ(sut->renew, false);
+  EXPECT_EQ(sut->end, true);
   EXPECT_EQ(sut->who, order.who);
   EXPECT_EQ(sut->reason, order.reason);
   EXPECT_EQ(sut->lines, order.lines);

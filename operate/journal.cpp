@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "explain/orders.h"
+#include "operate/journal.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,14 +8,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 #include "base/line_journal.h"
 #include "base/user_name.h"
-#include "explain/facts_json.h"
 #include "rt/clock.h"
 #include "vars/retain.h"
 
-namespace indurop::explain {
+namespace indurop::operate {
 namespace {
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 20U;
@@ -24,7 +24,7 @@ std::filesystem::path file_of(const std::string& node) {
   return vars::state_directory(node) / "orders.jsonl";
 }
 
-// The address somebody came from, else this machine.
+// The address that this user is logged in from, else the name of this machine.
 std::string origin() {
   const char* connection = std::getenv("SSH_CONNECTION");
   if (connection != nullptr && *connection != '\0') {
@@ -37,7 +37,7 @@ std::string origin() {
 
 }  // namespace
 
-void note_order(const std::string& node, OrderFact order) {
+void note(const std::string& node, Order order) {
   order.wall_ns = rt::wall_ns();
   if (order.who.empty()) {
     order.who = base::user_name();
@@ -47,10 +47,10 @@ void note_order(const std::string& node, OrderFact order) {
   (void)base::append_line({file_of(node), kMostBytes, kMode, base::Durable::No}, json_of(order).dump());
 }
 
-std::vector<OrderFact> read_orders(const std::string& node, std::int64_t since_wall_ns) {
-  std::vector<OrderFact> all;
+std::vector<Order> read_orders(const std::string& node, std::int64_t since_wall_ns) {
+  std::vector<Order> all;
   base::each_line(file_of(node), [&](std::string_view line) {
-    OrderFact order;
+    Order order;
     const auto json = base::Json::parse(line);
     if (json && read_order(*json, order) && order.wall_ns >= since_wall_ns) {
       all.push_back(std::move(order));
@@ -59,4 +59,23 @@ std::vector<OrderFact> read_orders(const std::string& node, std::int64_t since_w
   return all;
 }
 
-}  // namespace indurop::explain
+base::Json json_of(const Order& order) {
+  return {{"node_ns", order.node_ns}, {"wall_ns", order.wall_ns},   {"who", order.who},
+          {"from", order.from},       {"action", order.action},     {"what", order.what},
+          {"value", order.value},     {"until_ns", order.until_ns}, {"reason", order.reason}};
+}
+
+bool read_order(const base::Json& json, Order& order) {
+  base::read(json, "node_ns", order.node_ns);
+  base::read(json, "wall_ns", order.wall_ns);
+  base::read(json, "who", order.who);
+  base::read(json, "from", order.from);
+  base::read(json, "action", order.action);
+  base::read(json, "what", order.what);
+  base::read(json, "value", order.value);
+  base::read(json, "until_ns", order.until_ns);
+  base::read(json, "reason", order.reason);
+  return !order.action.empty();
+}
+
+}  // namespace indurop::operate
