@@ -14,7 +14,7 @@ int calls = 0;
 }  // namespace
 
 INDUROP_IMPLEMENT(nt::add, [](double a, double b) {
-  if (++calls > good_calls && good_calls > 0) {
+  if (good_calls != 0 && good_calls < ++calls) {
     std::raise(SIGSEGV);
   }
   return a + b;

@@ -182,11 +182,11 @@ int play(Context& context, const Options& options) {
     context.out.error(
         fmt::format("{} values could not be written: their variables were held by somebody", done->refused));
   }
-  const std::string forced = forced_of(*list, *store);
-  if (!forced.empty()) {
-    context.out.error(fmt::format("{}: forced meanwhile, not all that was written had an effect", forced));
+  const bool forced = any_forced(context, *list, *store);
+  if (forced) {
+    context.out.error("this was forced meanwhile: not all that was written had an effect");
   }
-  return done->refused > 0 || !forced.empty() ? kFailed : kOk;
+  return done->refused > 0 || forced ? kFailed : kOk;
 }
 
 }  // namespace
