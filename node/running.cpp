@@ -132,19 +132,26 @@ void Running::change_batch(std::uint64_t tick) noexcept {
 
 // Everything a run saw and wrote goes to the tape.
 void Running::set_tape(scheduler::Hooks& hooks, const tape::Tape& tape) {
+  hooks.soon = [](void* context, std::uint32_t module) noexcept {
+    static_cast<Running*>(context)->prepared_.tape->soon(module);
+  };
   hooks.begins = [](void* context, std::uint32_t module) noexcept {
-    if (tape::Track* track = static_cast<Running*>(context)->prepared_.tape->of(module)) {
-      track->begin();
-      runtime::set_current_track(track);
+    tape::Track* const track = static_cast<Running*>(context)->prepared_.tape->of(module);
+    if (track == nullptr) {
+      return false;
     }
+    runtime::set_current_track(track);
+    return track->begin();
   };
   hooks.ended = [](void* context, std::uint32_t module, std::uint64_t tick, const scheduler::RunTimes& times,
                    bool faulted) noexcept {
-    if (tape::Track* track = static_cast<Running*>(context)->prepared_.tape->of(module)) {
-      runtime::set_current_track(nullptr);
-      track->end({0, 0, tick, times.release_ns, times.start_ns, times.end_ns},
-                 faulted ? std::uint32_t{tape::kFaulted} : 0U);
+    tape::Tape& written = *static_cast<Running*>(context)->prepared_.tape;
+    if (written.of(module) == nullptr) {
+      return false;
     }
+    runtime::set_current_track(nullptr);
+    return written.end(module, {0, 0, tick, times.release_ns, times.start_ns, times.end_ns},
+                       faulted ? std::uint32_t{tape::kFaulted} : 0U);
   };
   if (tape.others() != nullptr) {
     hooks.ticks = [](void* context, std::uint64_t tick, std::int64_t release_ns) noexcept {

@@ -51,7 +51,7 @@ class Guard {
 
   // Between arm and disarm a fault jumps to target(). Real-time safe, no system call.
   void arm() noexcept {
-    run_.fetch_add(1, std::memory_order_relaxed);
+    run_.store(run_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);  // no other thread writes it
     armed_.store(true, std::memory_order_release);
   }
   void disarm() noexcept { armed_.store(false, std::memory_order_release); }

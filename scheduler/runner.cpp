@@ -12,6 +12,8 @@
 namespace indurop::scheduler {
 namespace {
 
+constexpr std::size_t kSoon = 3;  // modules ahead: memory answers in about the time of two of the shortest runs
+
 // A simulated run has used up its budget.
 class TooLong : public std::exception {};
 
@@ -68,7 +70,11 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::Mono
     ++position_;
   }
   current_start_.store(rt::to_ns(kernel_.now()), std::memory_order_relaxed);
+  told_much_ = false;
   for (; position_ < tasks_.size(); ++position_) {
+    if (hooks_.soon != nullptr && position_ + kSoon < tasks_.size()) {
+      hooks_.soon(hooks_.context, tasks_[position_ + kSoon]->task.index);
+    }
     // Ordered with the band's release number, so that Engine::disable() knows which runs may still enter it.
     if (tasks_[position_]->enabled.load(std::memory_order_seq_cst)) [[likely]] {
       virtual_time_ ? call_current<true>() : call_current<false>();
@@ -101,6 +107,7 @@ void Runner::call_current() noexcept {
     if (state.task.condition) {
       ran = state.task.condition();
       current_start_.store(rt::to_ns(kernel_.now()), std::memory_order_relaxed);
+      told_much_ = false;
       if (ran) {
         tell_begin();
       }
@@ -192,17 +199,20 @@ void Runner::contain(FaultKind kind, const char* text) noexcept {
   tell_end(true);
 }
 
-// What is done for it is no time of the run.
+// What is done for it is no time of the run, unless reading the clock would take longer.
 void Runner::tell_begin() noexcept {
-  if (hooks_.begins != nullptr) {
-    hooks_.begins(hooks_.context, tasks_[position_]->task.index);
+  if (hooks_.begins != nullptr && hooks_.begins(hooks_.context, tasks_[position_]->task.index)) {
+    told_much_ = true;
+  }
+  if (told_much_) {
+    told_much_ = false;
     current_start_.store(rt::to_ns(kernel_.now()), std::memory_order_relaxed);
   }
 }
 
 void Runner::tell_end(bool faulted) noexcept {
   if (hooks_.ended != nullptr) {
-    hooks_.ended(hooks_.context, tasks_[position_]->task.index, tick_, times_[position_], faulted);
+    told_much_ = hooks_.ended(hooks_.context, tasks_[position_]->task.index, tick_, times_[position_], faulted);
   }
 }
 

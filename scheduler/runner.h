@@ -35,10 +35,13 @@ struct Hooks {
   void* context = nullptr;
   // Code of the module comes next, of its run of this tick and release.
   void (*entering)(void* context, std::uint32_t module, std::uint64_t tick, std::int64_t release_ns) noexcept = nullptr;
-  // A run of a thread module begins: the condition, if it has one, was true. What is done here is no time of the run.
-  void (*begins)(void* context, std::uint32_t module) noexcept = nullptr;
-  // It is over.
-  void (*ended)(void* context, std::uint32_t module, std::uint64_t tick, const RunTimes& times,
+  // A few modules later this one is entered, or asked for its condition: for what is to be in the cache then.
+  void (*soon)(void* context, std::uint32_t module) noexcept = nullptr;
+  // A run of a thread module begins: the condition, if it has one, was true. True: this took longer than a look at the
+  // clock, and is no time of the run.
+  bool (*begins)(void* context, std::uint32_t module) noexcept = nullptr;
+  // It is over. True: as above, this is no time of the run that follows.
+  bool (*ended)(void* context, std::uint32_t module, std::uint64_t tick, const RunTimes& times,
                 bool faulted) noexcept = nullptr;
   // A basic period has begun, nothing of it has run.
   void (*ticks)(void* context, std::uint64_t tick, std::int64_t release_ns) noexcept = nullptr;
@@ -106,6 +109,7 @@ class Runner {
   std::size_t position_ = 0;
   std::uint64_t tick_ = 0;
   std::int64_t release_ns_ = 0;
+  bool told_much_ = false;  // since the clock was read last
   std::vector<RunTimes> times_;
   std::atomic<TaskState*> current_{nullptr};
   std::atomic<std::int64_t> current_start_{0};

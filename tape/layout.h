@@ -16,7 +16,7 @@
 namespace indurop::tape {
 
 inline constexpr std::uint64_t kTapeMagic = 0x3145504154444e49ULL;  // "INDTAPE1"
-inline constexpr std::uint32_t kTapeAbi = 4;
+inline constexpr std::uint32_t kTapeAbi = 5;
 
 enum class EntryKind : std::uint32_t {
   Before = 1,  // value a run begins with
@@ -71,6 +71,7 @@ struct TapeVariable {
   std::uint32_t taped;  // 0: no track tells it, it is too large
 };
 
+inline constexpr std::size_t kLine = 64;  // bytes of a cache line
 inline constexpr std::size_t kMarks = 16;
 struct TapeTrack {
   std::uint64_t data_offset;  // of its words, from the begin of the tape
@@ -80,17 +81,18 @@ struct TapeTrack {
   std::uint32_t only_read;
   std::uint32_t both;
   std::uint32_t only_written;
-  std::uint64_t items_offset;                   // of the indices, from the begin of the tape
-  std::atomic<std::uint64_t> runs;              // written so far: the number of the next one
-  alignas(64) std::atomic<std::uint64_t> head;  // words written so far, whole runs only
-  std::atomic<std::uint64_t> claimed;           // words up to this one, less the ring's size, may be overwritten
-  // Of the run that has begun and not ended: words up to this one are its, those behind `head`; none if `open` is not
-  // larger than that. With them who died in it is known.
+  std::uint64_t items_offset;  // of the indices, from the begin of the tape
+  // One cache line has all that each run changes.
+  alignas(kLine) std::atomic<std::uint64_t> head;  // words written so far, whole runs only
+  std::atomic<std::uint64_t> claimed;              // words up to this one, less the ring's size, may be overwritten
+  std::atomic<std::uint64_t> runs;                 // written so far: the number of the next one
+  // Of the run of a process module that has begun and not ended: words up to this one are its, those behind `head`;
+  // none if `open` is not larger than that. With them who died in it is known.
   std::atomic<std::uint64_t> open;
   std::atomic<std::uint64_t> open_order;  // of its begin
   std::atomic<std::uint64_t> open_flags;
   // Where runs begin, about one for each part of the ring: whoever was overtaken goes on there.
-  std::atomic<std::uint64_t> marks[kMarks];
+  alignas(kLine) std::atomic<std::uint64_t> marks[kMarks];
 };
 inline constexpr std::uint32_t kOthers = 0xffffffff;
 

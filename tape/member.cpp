@@ -26,7 +26,7 @@ Result<Member> Member::open(const std::string& node, std::uint32_t module, const
   if (own == end) {
     return Error{Errc::NotFound, 0, "the tape has no track of this module"};
   }
-  auto track = std::make_unique<Track>(memory, *own, store);
+  auto track = std::make_unique<Track>(memory, *own, store, Track::Writer::Process);
   return Member(std::move(file).value(), std::move(track));
 }
 

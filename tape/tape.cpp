@@ -14,8 +14,6 @@
 namespace indurop::tape {
 namespace {
 
-constexpr std::uint64_t kLine = 64;
-
 constexpr std::uint64_t up(std::uint64_t bytes) noexcept {
   return (bytes + kLine - 1) / kLine * kLine;
 }
@@ -85,7 +83,7 @@ Result<std::unique_ptr<Tape>> Tape::create(const std::string& node, const vars::
   header.variables_offset = layout.variables;
   header.tracks_offset = layout.tracks;
   keep_first_values(memory, store, layout, plan);
-  tape->by_module_.resize(modules, nullptr);
+  tape->by_module_.resize(modules);
   for (std::size_t i = 0; i < plan.tracks.size(); ++i) {
     const TrackPlan& track = plan.tracks[i];
     auto& shared = reinterpret_cast<TapeTrack*>(memory + layout.tracks)[i];
@@ -98,13 +96,36 @@ Result<std::unique_ptr<Tape>> Tape::create(const std::string& node, const vars::
     shared.items_offset = layout.items[i];
     std::ranges::copy(items_of(track), reinterpret_cast<std::uint32_t*>(memory + layout.items[i]));
     tape->tracks_.push_back(std::make_unique<Track>(memory, shared, store));
-    (track.module == kOthers ? tape->others_ : tape->by_module_[track.module]) = tape->tracks_.back().get();
+    Track* const made = tape->tracks_.back().get();
+    if (track.module == kOthers) {
+      tape->others_ = made;
+    } else {
+      tape->by_module_[track.module] = {made, &shared.head, made->next()};
+    }
   }
   header.magic.store(kTapeMagic, std::memory_order_release);
   if (Status published = tape->file_.publish(); !published) {
     return published.error();
   }
   return tape;
+}
+
+void Tape::soon(std::uint32_t module) const noexcept {
+  const Place& place = by_module_[module];
+  const auto* const track = reinterpret_cast<const std::byte*>(place.track);
+  const auto* const next = static_cast<const std::byte*>(place.next);
+  __builtin_prefetch(track, 1);
+  __builtin_prefetch(track + kLine, 1);
+  __builtin_prefetch(place.shared, 1);
+  __builtin_prefetch(next, 1);
+  __builtin_prefetch(next + kLine, 1);  // a run is about as long as a line
+}
+
+bool Tape::end(std::uint32_t module, const RunTail& times, std::uint32_t flags) noexcept {
+  Place& place = by_module_[module];
+  const bool much = place.track->end(times, flags);
+  place.next = place.track->next();
+  return much;
 }
 
 void Tape::end_of_dead(std::uint32_t module, const RunTail& times) {

@@ -27,8 +27,12 @@ class Tape {
 
   // Null: nothing of this module is taped. Real-time safe.
   [[nodiscard]] Track* of(std::uint32_t module) noexcept {
-    return module < by_module_.size() ? by_module_[module] : nullptr;
+    return module < by_module_.size() ? by_module_[module].track : nullptr;
   }
+  // It runs soon: what the tape needs for that is fetched into the cache. On the thread that runs it. Real-time safe.
+  void soon(std::uint32_t module) const noexcept;
+  // Track::end(), of a module that is taped. Likewise.
+  bool end(std::uint32_t module, const RunTail& times, std::uint32_t flags) noexcept;
   // Of what no module of the schedule knows; null: there is nothing of that kind. Real-time safe.
   [[nodiscard]] Track* others() const noexcept { return others_; }
 
@@ -41,10 +45,16 @@ class Tape {
 
  private:
   Tape(vars::ShmFile&& file, const vars::Store& store) : file_(std::move(file)), store_(store) {}
+  // Those of modules that run one after the other lie side by side; what they lead to does not.
+  struct Place {
+    Track* track = nullptr;
+    const void* shared = nullptr;
+    const void* next = nullptr;  // where its next run is written
+  };
   vars::ShmFile file_;
   const vars::Store& store_;
   std::vector<std::unique_ptr<Track>> tracks_;
-  std::vector<Track*> by_module_;
+  std::vector<Place> by_module_;
   Track* others_ = nullptr;
 };
 

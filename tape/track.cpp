@@ -13,7 +13,8 @@ namespace indurop::tape {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr std::uint64_t kAhead = 64;  // words claimed more than needed, so that this is not done for each entry
+constexpr std::uint64_t kAhead = 64;        // words claimed more than needed, so that this is not done for each entry
+constexpr std::uint64_t kLookAtClock = 16;  // variables looked at and words told in the time of a look at the clock
 
 // The bits of a scalar.
 std::uint64_t load_scalar(const void* entry, std::uint32_t size) noexcept {
@@ -35,20 +36,23 @@ const abi::RingHeader& ring_of(const void* entry) noexcept {
 
 }  // namespace
 
-Track::Track(std::byte* tape, TapeTrack& shared, const vars::Store& store)
-    : shared_(shared),
-      words_(reinterpret_cast<std::uint64_t*>(tape + shared.data_offset)),
-      mask_(shared.words - 1),
-      orders_(reinterpret_cast<TapeHeader*>(tape)->order),
-      reads_end_(std::size_t{shared.only_read} + shared.both),
-      writes_begin_(shared.only_read),
+Track::Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Writer writer)
+    : orders_(reinterpret_cast<TapeHeader*>(tape)->order),
       head_(shared.head.load(kRelaxed)),
+      at_(head_),
       claimed_(shared.claimed.load(kRelaxed)),
       number_(shared.runs.load(kRelaxed)),
-      anew_(number_ > 0 ? std::uint32_t{kAnew} : 0U) {  // another process of a module that has run
+      anew_(number_ > 0 ? std::uint32_t{kAnew} : 0U),  // another process of a module that has run
+      shared_(shared),
+      words_(reinterpret_cast<std::uint64_t*>(tape + shared.data_offset)),
+      mask_(shared.words - 1),
+      part_shift_(static_cast<std::uint8_t>(std::bit_width(shared.words / kMarks) - 1)),
+      shows_open_(writer == Writer::Process),
+      reads_end_(shared.only_read + shared.both),
+      writes_begin_(shared.only_read) {
   const auto* const indices = reinterpret_cast<const std::uint32_t*>(tape + shared.items_offset);
   std::uint64_t largest = 0;
-  for (std::size_t i = 0; i < reads_end_ + shared.only_written; ++i) {
+  for (std::size_t i = 0; i < std::size_t{reads_end_} + shared.only_written; ++i) {
     const vars::DirectoryEntry& entry = store.directory()[indices[i]];
     items_.push_back(
         {store.entry(entry.name_hash, 0), 0, entry.value_size, indices[i], entry.kind == abi::Kind::Scalar});
@@ -106,25 +110,35 @@ bool Track::tell_changed(Item& item, EntryKind kind, bool anyway) noexcept {
   return true;
 }
 
-void Track::begin() noexcept {
+bool Track::begin() noexcept {
   at_ = head_;
   all_ = all_ || open_;
   open_ = true;
   clock_left_ = kMostReadings;
   told_left_ = kMostTold;
-  told_words_left_ = shared_.words / kToldShare;
+  told_words_left_ = (mask_ + 1) / kToldShare;
   order_ = orders_.fetch_add(1, kRelaxed);
   for (std::size_t i = 0; i < reads_end_; ++i) {
     tell_changed(items_[i], EntryKind::Before, all_);
   }
-  shared_.open_order.store(order_, kRelaxed);
-  shared_.open_flags.store(anew_.load(kRelaxed), kRelaxed);
-  show_open();
+  if (shows_open_) {
+    shared_.open_order.store(order_, kRelaxed);
+    shared_.open_flags.store(anew_.load(kRelaxed), kRelaxed);
+    show_open();
+  }
+  return much(reads_end_, head_);
+}
+
+// About a nanosecond for each variable that was looked at and for each word that was told since `from`.
+bool Track::much(std::size_t looked_at, std::uint64_t from) const noexcept {
+  return looked_at + (at_ - from) > kLookAtClock;
 }
 
 // What is told so far belongs to the run under way, whatever becomes of its writer.
 void Track::show_open() noexcept {
-  shared_.open.store(at_, std::memory_order_release);
+  if (shows_open_) {
+    shared_.open.store(at_, std::memory_order_release);
+  }
 }
 
 void Track::clock(std::int64_t ns) noexcept {
@@ -166,7 +180,8 @@ void Track::end_of_dead(RunTail times) noexcept {
   }
 }
 
-void Track::end(const RunTail& times, std::uint32_t flags) noexcept {
+bool Track::end(const RunTail& times, std::uint32_t flags) noexcept {
+  const std::uint64_t from = at_ + 1 + kRunWords;
   for (std::size_t i = 0; i < writes_begin_; ++i) {
     tell_changed(items_[i], EntryKind::During, false);
   }
@@ -175,6 +190,7 @@ void Track::end(const RunTail& times, std::uint32_t flags) noexcept {
   }
   tell_next_again();
   publish(times, flags);
+  return much(items_.size(), from);
 }
 
 void Track::look(const RunTail& times) noexcept {
@@ -192,7 +208,7 @@ void Track::look(const RunTail& times) noexcept {
 
 void Track::tell_next_again() noexcept {
   if (!items_.empty()) {
-    again_ = again_ + 1 < items_.size() ? again_ + 1 : 0;
+    again_ = again_ + 1U < items_.size() ? again_ + 1U : 0U;
     Item& item = items_[again_];
     if (item.scalar || ring_of(item.entry).seq.load(kRelaxed) == item.seen) {
       tell(item, EntryKind::Again);
@@ -200,25 +216,29 @@ void Track::tell_next_again() noexcept {
   }
 }
 
-void Track::publish(RunTail tail, std::uint32_t flags) noexcept {
-  tail.number = number_++;
-  shared_.runs.store(number_, kRelaxed);
-  tail.order = order_;
+// Written from what is at hand, and a mark without a division: this is all there is of most runs.
+void Track::publish(const RunTail& times, std::uint32_t flags) noexcept {
   claim(1 + kRunWords);
   const std::uint32_t anew = anew_.load(std::memory_order_acquire);
   if (anew != 0) [[unlikely]] {
     anew_.store(0, kRelaxed);
   }
-  put_head(EntryKind::Run, flags | anew);
+  std::uint64_t* const words = words_;
+  const std::uint64_t mask = mask_;
+  std::uint64_t at = at_;
+  const auto write = [&](std::uint64_t word) { __atomic_store_n(words + (at++ & mask), word, __ATOMIC_RELAXED); };
+  write(std::bit_cast<std::uint64_t>(EntryHead{EntryKind::Run, flags | anew}));
+  const RunTail tail{number_, order_, times.tick, times.release_ns, times.start_ns, times.end_ns};
   for (const std::uint64_t word : std::bit_cast<std::array<std::uint64_t, kRunWords>>(tail)) {
-    put(word);
+    write(word);
   }
-  const std::uint64_t part = shared_.words / kMarks;
-  if (head_ / part != at_ / part) {
-    shared_.marks[at_ / part % kMarks].store(at_, kRelaxed);
+  if ((head_ ^ at) >> part_shift_ != 0) [[unlikely]] {
+    shared_.marks[(at >> part_shift_) % kMarks].store(at, kRelaxed);
   }
-  head_ = at_;
-  shared_.head.store(head_, std::memory_order_release);
+  at_ = at;
+  head_ = at;
+  shared_.runs.store(++number_, kRelaxed);
+  shared_.head.store(at, std::memory_order_release);
   all_ = false;
   open_ = false;
 }

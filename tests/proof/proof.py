@@ -82,7 +82,7 @@ def script(seconds):
                 if folder == "cell":
                     lines.append("(sleep 0.5; indurop set --node proof CELL::tour true) &")
                 lines.append(f"indurop-node {base} --node proof -q --duration {seconds}s --report /out/{number}.{load}.proof")
-    lines.append("cd /test; indurop-node counted.xml --node counted -q --duration 500ms --report /out/counted")
+    lines.append("cd /test; indurop-node counted.xml --node counted -q --tape 0 --duration 500ms --report /out/counted")
     return "\n".join(lines) + "\n"
 
 

@@ -56,6 +56,7 @@ inline std::optional<Runs> run(const std::vector<Timed>& board) {
   hooks.ended = [](void* context, std::uint32_t module, std::uint64_t, const scheduler::RunTimes& times,
                    bool) noexcept {
     static_cast<World*>(context)->runs[module].push_back({times.release_ns, times.start_ns, times.end_ns});
+    return false;
   };
   scheduler::EngineSettings settings;
   settings.basic_period_ns = kBasic;
