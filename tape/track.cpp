@@ -2,8 +2,8 @@
 #include "tape/track.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstring>
 #include <utility>
 
@@ -228,10 +228,15 @@ void Track::publish(const RunTail& times, std::uint32_t flags) noexcept {
   std::uint64_t at = at_;
   const auto write = [&](std::uint64_t word) { __atomic_store_n(words + (at++ & mask), word, __ATOMIC_RELAXED); };
   write(std::bit_cast<std::uint64_t>(EntryHead{EntryKind::Run, flags | anew}));
-  const RunTail tail{number_, order_, times.tick, times.release_ns, times.start_ns, times.end_ns};
-  for (const std::uint64_t word : std::bit_cast<std::array<std::uint64_t, kRunWords>>(tail)) {
-    write(word);
-  }
+  // In the order of RunTail.
+  static_assert(kRunWords == 6 && offsetof(RunTail, order) == 8 && offsetof(RunTail, tick) == 16 &&
+                offsetof(RunTail, release_ns) == 24 && offsetof(RunTail, start_ns) == 32);
+  write(number_);
+  write(order_);
+  write(times.tick);
+  write(static_cast<std::uint64_t>(times.release_ns));
+  write(static_cast<std::uint64_t>(times.start_ns));
+  write(static_cast<std::uint64_t>(times.end_ns));
   if ((head_ ^ at) >> part_shift_ != 0) [[unlikely]] {
     shared_.marks[(at >> part_shift_) % kMarks].store(at, kRelaxed);
   }
