@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// No recursion: thousands of declarations may extend each other, and interfaces form diamonds.
 #include "plc/check/inheritance.h"
 
 #include <fmt/format.h>
@@ -8,6 +7,8 @@
 #include <map>
 #include <set>
 #include <vector>
+
+#include "plc/check/in_order.h"
 
 namespace indurop::plc {
 namespace {
@@ -19,22 +20,19 @@ class Inheritance {
   explicit Inheritance(Context& context) : context_(context) {}
 
   void run() {
-    for (Pou& pou : context_.program.pous) {
-      begin(pou);
-      while (!open_.empty()) {
-        step();
-      }
-    }
+    walk_.run(
+        context_.program.pous,
+        [this](const Pou& pou) {
+          std::vector<Pou*> out;
+          for (const Pou* one : parents_of(pou)) {
+            out.push_back(&context_.program.pous[one->index]);
+          }
+          return out;
+        },
+        [this](const Pou& last) { break_circle(last); }, [this](Pou& pou, const auto&) { complete(pou); });
   }
 
  private:
-  // One whose ancestors are looked at.
-  struct Open {
-    Pou* pou = nullptr;
-    std::vector<const Pou*> parents;
-    std::size_t next = 0;
-  };
-
   static std::vector<const Pou*> parents_of(const Pou& pou) {
     std::vector<const Pou*> out = pou.interfaces;
     if (pou.base != nullptr) {
@@ -43,45 +41,18 @@ class Inheritance {
     return out;
   }
 
-  void begin(Pou& pou) {
-    if (done_.insert(&pou).second) {
-      waiting_.insert(&pou);
-      open_.push_back({&pou, parents_of(pou), 0});
-    }
-  }
-
-  void step() {
-    Open& top = open_.back();
-    if (top.next == top.parents.size()) {
-      complete(*top.pou);
-      end();
-      return;
-    }
-    const Pou& parent = *top.parents[top.next++];
-    if (waiting_.contains(&parent)) {
-      break_circle(parent);
-    } else {
-      begin(*context_.program.pou_names.at(upper(parent.name)));
-    }
-  }
-
-  void end() {
-    waiting_.erase(open_.back().pou);
-    open_.pop_back();
-  }
-
   // The first of the circle in the text extends nothing any more; what waits for it goes on.
   void break_circle(const Pou& last) {
-    auto first = std::find_if(open_.begin(), open_.end(), [&](const Open& one) { return one.pou == &last; });
+    const auto& open = walk_.open();
+    auto first = std::find_if(open.begin(), open.end(), [&](const auto& one) { return one.one == &last; });
     first =
-        std::min_element(first, open_.end(), [](const Open& a, const Open& b) { return a.pou->index < b.pou->index; });
-    Pou& pou = *first->pou;
-    while (open_.back().pou != &pou) {
-      done_.erase(open_.back().pou);
-      end();
+        std::min_element(first, open.end(), [](const auto& a, const auto& b) { return a.one->index < b.one->index; });
+    Pou& pou = *first->one;
+    while (open.back().one != &pou) {
+      walk_.put_off();
     }
     extend_nothing(pou, fmt::format("{} extends itself, remove this EXTENDS", pou.name));
-    end();
+    walk_.end();
   }
 
   void complete(Pou& pou) {
@@ -121,9 +92,7 @@ class Inheritance {
   }
 
   Context& context_;
-  std::vector<Open> open_;
-  std::set<const Pou*> waiting_;  // those in `open_`
-  std::set<const Pou*> done_;     // looked at, or open
+  InOrder<Pou> walk_;
   std::map<const Pou*, std::size_t> depth_;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// No recursion: thousands of function blocks may have instances of each other. Circles are found later, by
-// order_pous().
+// Circles are found later, by order_pous().
 #include "plc/check/instance_sizes.h"
 
 #include <fmt/format.h>
@@ -8,9 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 #include <vector>
 
+#include "plc/check/in_order.h"
 #include "plc/check/places.h"
 #include "plc/check/saturating.h"
 #include "plc/check/value_tree.h"
@@ -52,12 +51,17 @@ class Measurer {
   explicit Measurer(Context& context) : context_(context) {}
 
   bool run() {
-    for (Pou& pou : context_.program.pous) {
-      begin(pou);
-      while (!open_.empty()) {
-        step();
-      }
-    }
+    InOrder<Pou> walk;
+    walk.run(
+        context_.program.pous,
+        [this](const Pou& pou) {
+          std::vector<Pou*> out;
+          for (const Pou* one : pou.holds) {
+            out.push_back(&context_.program.pous[one->index]);
+          }
+          return out;
+        },
+        [](const Pou&) {}, [this](Pou& pou, const auto& held) { measure(pou, held); });
     if (fine_) {
       together();
     }
@@ -65,34 +69,6 @@ class Measurer {
   }
 
  private:
-  struct Open {
-    Pou* pou = nullptr;
-    std::vector<Pou*> held;
-    std::size_t next = 0;
-  };
-
-  void begin(Pou& pou) {
-    if (!done_.insert(&pou).second) {
-      return;
-    }
-    Open made;
-    made.pou = &pou;
-    for (const Pou* one : pou.holds) {
-      made.held.push_back(&context_.program.pous[one->index]);
-    }
-    open_.push_back(std::move(made));
-  }
-
-  void step() {
-    Open& top = open_.back();
-    if (top.next < top.held.size()) {
-      begin(*top.held[top.next++]);
-      return;
-    }
-    measure(*top.pou, top.held);
-    open_.pop_back();
-  }
-
   void measure(Pou& pou, const std::vector<Pou*>& held) {
     std::size_t depth = 0;
     for (const Pou* one : held) {
@@ -154,8 +130,6 @@ class Measurer {
 
   Context& context_;
   bool fine_ = true;
-  std::vector<Open> open_;
-  std::set<const Pou*> done_;
   std::map<const Pou*, std::size_t> depth_;
 };
 
