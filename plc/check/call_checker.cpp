@@ -291,6 +291,11 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
 std::vector<const Variable*> CallChecker::by_position(const Expression& call, const Pou& pou) {
   std::vector<const Variable*> inputs;
   std::vector<const Variable*> all;
+  const auto unnamed =
+      std::count_if(call.arguments.begin(), call.arguments.end(), [](const Argument& one) { return one.name.empty(); });
+  if (unnamed == 0) {
+    return inputs;
+  }
   for (const Variable* one : parameters_of(pou)) {
     if (same_name(one->name, "ENO")) {
       continue;
@@ -302,8 +307,6 @@ std::vector<const Variable*> CallChecker::by_position(const Expression& call, co
       all.push_back(one);
     }
   }
-  const auto unnamed =
-      std::count_if(call.arguments.begin(), call.arguments.end(), [](const Argument& one) { return one.name.empty(); });
   return static_cast<std::size_t>(unnamed) > inputs.size() ? all : inputs;
 }
 
@@ -326,7 +329,7 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
     if (parameter == nullptr || !is_parameter(*parameter, argument.output)) {
       std::vector<std::string> known;
       for (const Variable* one : parameters_of(pou)) {
-        if (is_parameter(*one, argument.output)) {
+        if (!context_.diagnostics.full() && is_parameter(*one, argument.output)) {
           known.push_back(one->name);
         }
       }
@@ -359,7 +362,7 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
     }
     out.actuals.push_back({&argument, parameter->type, parameter, parameter->name});
   }
-  for (const Variable* one : inputs) {
+  for (const Variable* one : parameters_of(pou)) {
     if (one->section == ast::Section::InOut && !given.contains(one)) {
       context_.error(call.at, fmt::format("{} is VAR_IN_OUT and must be given in every call", one->name));
     }

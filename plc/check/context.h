@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -31,6 +32,10 @@ struct Context {
   std::set<std::pair<const Pou*, std::string>> known_errors{};
   // Initial values of instances, wherever their function blocks stand: looked at when all variables are known.
   std::vector<OpenInitial> open_initials{};
+  // In capitals, those that begin with errors too.
+  std::set<std::string> declared_types{};
+  // The last number that a name for types without one ended in.
+  std::map<std::string, std::size_t> type_numbers{};
 
   void error(const Place& at, std::string text) { diagnostics.error(at, located(std::move(text))); }
   void warning(const Place& at, std::string text) { diagnostics.warning(at, located(std::move(text))); }

@@ -92,6 +92,12 @@ bool in_range_of(const Type& from, const Type& to) noexcept {
 }
 
 bool same_range(const Type& a, const Type& b) noexcept {
+  if (a.kind == Type::Kind::Array && b.kind == Type::Kind::Array) {
+    return same_range(*a.element, *b.element);
+  }
+  if (a.kind == Type::Kind::Pointer && b.kind == Type::Kind::Pointer) {
+    return in_range_of(a, b);
+  }
   return in_range_of(a, b) && in_range_of(b, a);
 }
 

@@ -70,6 +70,7 @@ struct Type {
   std::uint64_t fields_inside = 1;                      // fields of structures, with those of inner ones; saturates
   std::size_t depth = 0;                                // structures and arrays inside each other
   std::size_t pointers = 0;                             // that lead to each other
+  std::size_t extends = 0;                              // Struct: those it extends
   bool is_private = false;                              // see is_private()
   std::map<std::string, std::size_t> field_names = {};  // Struct: in capitals, the place in `fields`
   mutable std::optional<std::uint64_t> default_values = {};  // see values_of(); set when first asked for

@@ -15,6 +15,7 @@ namespace indurop::plc {
 namespace {
 
 constexpr std::uint64_t kMaxParts = std::uint64_t{16} << 20U;  // elements of one type
+constexpr std::size_t kMaxDimensions = 16;
 constexpr std::int64_t kMaxStringLength = 65'000;
 
 bool is_whole(Elementary type) noexcept {
@@ -181,6 +182,11 @@ class TypeBuilder {
   const Type* array(ast::TypeSpec& spec) {
     Type type;
     type.kind = Type::Kind::Array;
+    if (spec.dimensions.size() > kMaxDimensions) {
+      context_.error(spec.at, fmt::format("an ARRAY of {} dimensions, at most {} are possible", spec.dimensions.size(),
+                                          kMaxDimensions));
+      return nullptr;
+    }
     type.element = build(*spec.element, "");
     if (spec.open) {
       type.open = true;
@@ -271,6 +277,7 @@ class TypeBuilder {
     for (ast::Variable& field : spec.fields) {
       if (!names.insert(upper(field.name)).second) {
         context_.error(field.at, fmt::format("the field '{}' is declared twice, rename one of them", field.name));
+        continue;
       }
       const Type* one = build(field.type, "");
       fine = fine && one != nullptr;
@@ -331,8 +338,13 @@ class TypeBuilder {
       context_.error(spec.element->at, fmt::format("{} is no STRUCT that could be extended", to_string(*base)));
       return false;
     }
-    if (base != nullptr) {
+    if (base != nullptr && base->extends == kMaxExtends) {
+      context_.error(spec.element->at,
+                     fmt::format("{} is the last of more than {} structures that extend each other, use fewer",
+                                 type.name, kMaxExtends));
+    } else if (base != nullptr) {
       type.fields = base->fields;
+      type.extends = base->extends + 1;
     }
     return base != nullptr;
   }
@@ -353,6 +365,7 @@ class TypeBuilder {
       }
       if (!names.insert(upper(one.name)).second) {
         context_.error(one.at, fmt::format("the value '{}' is declared twice, rename one of them", one.name));
+        continue;
       }
       if (!fits(Integer{next}, *context_.elementary(type.elementary))) {
         context_.error(one.at, fmt::format("{} does not fit {}", next, name_of(type.elementary)));
@@ -372,19 +385,15 @@ class TypeBuilder {
   }
 
   // Of an enumeration that is declared where it is used: mode : (Off, On);
-  [[nodiscard]] std::string free_type_name() const {
+  std::string free_type_name() {
     const std::string begin = context_.pou != nullptr ? context_.pou->name + "_values" : "values";
-    std::string name = begin;
-    for (int i = 2; is_type(name); ++i) {
-      name = fmt::format("{}_{}", begin, i);
-    }
+    std::size_t& last = context_.type_numbers[begin];
+    std::string name;
+    do {
+      ++last;
+      name = last == 1 ? begin : fmt::format("{}_{}", begin, last);
+    } while (context_.program.type_names.contains(upper(name)) || context_.declared_types.contains(upper(name)));
     return name;
-  }
-
-  [[nodiscard]] bool is_type(const std::string& name) const {
-    const auto& types = context_.program.project.types;
-    return context_.program.type_names.contains(upper(name)) ||
-           std::any_of(types.begin(), types.end(), [&](const auto& one) { return same_name(one.name, name); });
   }
 
   Context& context_;

@@ -32,6 +32,7 @@ class TypeOrder {
   explicit TypeOrder(Context& context) : context_(context) {
     for (ast::TypeDeclaration& one : context.program.project.types) {
       const auto [known, is_new] = declared_.emplace(upper(one.name), &one);
+      context.declared_types.insert(upper(one.name));
       if (!is_new) {
         context.error(one.at, fmt::format("the type '{}' is already declared at {}, rename one of them", one.name,
                                           to_string(known->second->at)));

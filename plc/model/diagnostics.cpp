@@ -17,12 +17,13 @@ bool is_word(char c) noexcept {
 
 void Diagnostics::add(base::Diagnostic::Severity severity, const Place& at, std::string text) {
   // NOLINTNEXTLINE(cppcoreguidelines-slicing): the rest of the place has fields of its own below
-  base::Diagnostic one{severity, at.file ? *at.file : std::string(), at, std::move(text)};
-  if (!all_.full()) {
-    one.within = at.within ? *at.within : std::string();
-    one.picture = picture(at);
+  const std::size_t before = found_.size();
+  // NOLINTNEXTLINE(cppcoreguidelines-slicing): the rest of the place has fields of its own below
+  all_.add({severity, at.file ? *at.file : std::string(), at, std::move(text)});
+  if (found_.size() > before) {  // else it is there already, or there are too many
+    found_.back().within = at.within ? *at.within : std::string();
+    found_.back().picture = picture(at);
   }
-  all_.add(std::move(one));
 }
 
 std::string Diagnostics::picture(const Place& at) const {

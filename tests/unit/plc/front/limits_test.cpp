@@ -74,6 +74,41 @@ TEST(PlcLimits, Function_blocks_extend_each_other_64_times_at_most) {
   }
 }
 
+TEST(PlcLimits, Structures_extend_each_other_64_times_at_most) {
+  const auto chain = [](int levels, bool downwards) {
+    return "TYPE S0 : STRUCT a0 : INT; END_STRUCT;\n" +
+           lines(
+               levels,
+               [](int i) {
+                 return "S" + n(i) + " EXTENDS S" + n(i - 1) + " : STRUCT a" + n(i) + " : INT; END_STRUCT;\n";
+               },
+               downwards) +
+           "END_TYPE PROGRAM Main VAR x : S60; END_VAR x.a0 := 1; END_PROGRAM";
+  };
+  for (const bool downwards : {false, true}) {
+    EXPECT_EQ(wrong(chain(65, downwards)), "");
+    EXPECT_THAT(wrong(chain(3000, downwards)), HasSubstr("is the last of more than 64 structures that extend"));
+  }
+}
+
+TEST(PlcLimits, Arrays_have_16_dimensions_at_most) {
+  const auto array = [](int dimensions) {
+    return "PROGRAM Main VAR a : ARRAY[0..0" + lines(dimensions, [](int) { return ", 0..0"; }) +
+           "] OF INT; END_VAR END_PROGRAM";
+  };
+  EXPECT_EQ(wrong(array(16)), "");
+  EXPECT_THAT(wrong(array(17)), HasSubstr("an ARRAY of 17 dimensions, at most 16 are possible"));
+}
+
+TEST(PlcLimits, Pointers_to_pointers_are_compared_once) {
+  std::string types;
+  for (const std::string one : {"A", "B"}) {
+    types += one + "0 : POINTER TO INT;\n" +
+             lines(60, [&](int i) { return one + n(i) + " : POINTER TO " + one + n(i - 1) + ";\n"; });
+  }
+  EXPECT_EQ(wrong("TYPE " + types + "END_TYPE PROGRAM Main VAR a : A59; b : B59; END_VAR a := b; END_PROGRAM"), "");
+}
+
 TEST(PlcLimits, A_diamond_of_interfaces_is_walked_once) {
   const std::string text =
       "INTERFACE I0 METHOD Go END_METHOD END_INTERFACE INTERFACE J0 END_INTERFACE\n" + lines(60, [](int i) {
