@@ -5,33 +5,63 @@
 
 #pragma once
 
-#include <indurop/plc/convert.h>
 #include <indurop/plc/types.h>
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace indurop::iec {
 
 namespace detail {
 
-// Appends to a text that is still all NUL and has room.
-template <Text T>
-class Builder {
+// Texts one behind the other, which know their length and have none of the NULs that fill a variable: most of them are
+// copied to a shorter variable at once.
+template <class Letter, std::size_t N>
+class Joined {
  public:
-  template <class View>
-  void append(View part) noexcept {
-    std::copy(part.begin(), part.end(), text_.data + used_);
-    used_ += part.size();
+  using View = std::basic_string_view<Letter>;
+  // The parts have at most N characters together.
+  template <std::same_as<View>... Parts>
+  explicit Joined(Parts... parts) noexcept {  // NOLINT(cppcoreguidelines-pro-type-member-init): nobody reads the rest
+    (append(parts), ...);
   }
-  [[nodiscard]] const T& text() const noexcept { return text_; }
+  [[nodiscard]] View view() const noexcept { return {data_, size_}; }
+  operator View() const noexcept { return view(); }  // NOLINT(google-explicit-constructor): like indurop::string
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] static constexpr std::size_t capacity() noexcept { return N; }
+
+  friend bool operator==(const Joined& a, View b) noexcept { return a.view() == b; }
 
  private:
-  T text_;
-  std::size_t used_ = 0;
+  void append(View part) noexcept {
+    std::memcpy(data_ + size_, part.data(), part.size() * sizeof(Letter));
+    size_ += part.size();
+  }
+
+  std::size_t size_ = 0;
+  Letter data_[N + 1];  // NOLINT(modernize-avoid-c-arrays): std::array would have to be filled
 };
+template <class Letter, std::size_t N>
+struct TextTraits<Joined<Letter, N>>
+    : TextTraits<std::conditional_t<std::same_as<Letter, char>, String<N>, WString<N>>> {};
+// As long as the rooms of all together.
+template <class T, class... More>
+using JoinedOf =
+    Joined<typename TextTraits<T>::Letter, kTextSize<T> + (std::size_t{0} + ... + (kTextSize<More> - 1)) - 1>;
+
+// With room for every part of a T.
+template <class T>
+using PartOf = Sized<T, kTextSize<T>>;
+
+// An INT counts no further.
+inline constexpr std::size_t kMostCounted = std::numeric_limits<std::int16_t>::max();
 
 // `n` as a length or position that may be added to another one without overflow.
 template <Integer T>
@@ -60,73 +90,61 @@ Cut<View> cut(View text, std::int64_t first, std::int64_t length) noexcept {
   return {text.substr(0, at), text.substr(at, to - at), text.substr(to)};
 }
 
-// Of two texts behind each other.
-template <class A, class B>
-using Joined = Sized<A, kTextSize<A> + kTextSize<B> - 1>;
-
 }  // namespace detail
 
 template <Text T>
 std::int16_t len(const T& in) noexcept {
-  return detail::saturated<std::int16_t>(static_cast<double>(in.size()));
+  return static_cast<std::int16_t>(std::min(in.size(), detail::kMostCounted));
 }
 
 template <Text T, Integer L>
-T left(const T& in, L length) noexcept {
-  return detail::cut(in.view(), 1, detail::count(length)).inside;
+detail::PartOf<T> left(const T& in, L length) noexcept {
+  const auto all = in.view();
+  const auto size = static_cast<std::int64_t>(all.size());
+  return all.substr(0, static_cast<std::size_t>(std::clamp<std::int64_t>(detail::count(length), 0, size)));
 }
 
 template <Text T, Integer L>
-T right(const T& in, L length) noexcept {
-  const auto size = static_cast<std::int64_t>(in.size());
+detail::PartOf<T> right(const T& in, L length) noexcept {
+  const auto all = in.view();
+  const auto size = static_cast<std::int64_t>(all.size());
   const std::int64_t wanted = std::clamp<std::int64_t>(detail::count(length), 0, size);
-  return detail::cut(in.view(), size - wanted + 1, wanted).inside;
+  return all.substr(static_cast<std::size_t>(size - wanted));
 }
 
 // `length` characters from position `first` on.
 template <Text T, Integer L, Integer P>
-T mid(const T& in, L length, P first) noexcept {
+detail::PartOf<T> mid(const T& in, L length, P first) noexcept {
   return detail::cut(in.view(), detail::count(first), detail::count(length)).inside;
 }
 
 template <Text First, SameLetters<First>... More>
 auto concat(const First& first, const More&... more) noexcept {
-  detail::Builder<detail::Sized<First, (detail::kTextSize<First> + ... + (detail::kTextSize<More> - 1))>> result;
-  result.append(first.view());
-  (result.append(more.view()), ...);
-  return result.text();
+  return detail::JoinedOf<First, More...>(first.view(), more.view()...);
 }
 
 // `in2` after the character at position `after`; 0 is the front.
 template <Text A, SameLetters<A> B, Integer P>
-detail::Joined<A, B> insert(const A& in1, const B& in2, P after) noexcept {
+auto insert(const A& in1, const B& in2, P after) noexcept {
   const auto parts = detail::cut(in1.view(), detail::count(after) + 1, 0);
-  detail::Builder<detail::Joined<A, B>> result;
-  result.append(parts.before);
-  result.append(in2.view());
-  result.append(parts.after);
-  return result.text();
+  return detail::JoinedOf<A, B>(parts.before, in2.view(), parts.after);
 }
 
 // Without `length` characters from position `first` on: the function DELETE.
 template <Text T, Integer L, Integer P>
-T erase(const T& in, L length, P first) noexcept {
+detail::PartOf<T> erase(const T& in, L length, P first) noexcept {
   const auto parts = detail::cut(in.view(), detail::count(first), detail::count(length));
-  detail::Builder<T> result;
-  result.append(parts.before);
-  result.append(parts.after);
-  return result.text();
+  detail::PartOf<T> result;
+  std::copy(parts.before.begin(), parts.before.end(), result.data);
+  std::copy(parts.after.begin(), parts.after.end(), result.data + parts.before.size());
+  return result;
 }
 
 // `in2` in the place of `length` characters of `in1` from position `first` on.
 template <Text A, SameLetters<A> B, Integer L, Integer P>
-detail::Joined<A, B> replace(const A& in1, const B& in2, L length, P first) noexcept {
+auto replace(const A& in1, const B& in2, L length, P first) noexcept {
   const auto parts = detail::cut(in1.view(), detail::count(first), detail::count(length));
-  detail::Builder<detail::Joined<A, B>> result;
-  result.append(parts.before);
-  result.append(in2.view());
-  result.append(parts.after);
-  return result.text();
+  return detail::JoinedOf<A, B>(parts.before, in2.view(), parts.after);
 }
 
 // The position where `in2` first stands in `in1`; 0 if it does not, or is empty.
@@ -134,7 +152,7 @@ template <Text A, SameLetters<A> B>
 std::int16_t find(const A& in1, const B& in2) noexcept {
   const auto part = in2.view();
   const std::size_t at = part.empty() ? part.npos : in1.view().find(part);
-  return at == part.npos ? std::int16_t{0} : detail::saturated<std::int16_t>(static_cast<double>(at + 1));
+  return at == part.npos ? std::int16_t{0} : static_cast<std::int16_t>(std::min(at + 1, detail::kMostCounted));
 }
 
 }  // namespace indurop::iec

@@ -209,12 +209,12 @@ inline Date read_date(Reader& in) noexcept {
 }  // namespace detail
 
 // STRING_TO_X is to<X>(text); STRING_TO_CHAR is its first byte, 0 if there is none.
-template <Scalar To, std::size_t N>
-To to(const indurop::string<N>& text) noexcept {
+template <Scalar To, NarrowText From>
+To to(const From& text) noexcept {
   if constexpr (std::same_as<To, bool>) {
     return detail::read_bool(text.view());
   } else if constexpr (std::same_as<To, char8_t>) {
-    return static_cast<char8_t>(text.data[0]);
+    return text.size() == 0 ? u8'\0' : static_cast<char8_t>(text.view()[0]);
   } else if constexpr (std::same_as<To, char16_t>) {
     return text.size() == 0 ? u'\0' : detail::first_wide(text.view());
   } else if constexpr (Integer<To>) {

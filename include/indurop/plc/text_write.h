@@ -108,8 +108,8 @@ inline String<5> to_string(bool value) noexcept {
   return value ? "TRUE" : "FALSE";
 }
 
-template <std::size_t N>
-indurop::string<N> to_string(const indurop::string<N>& value) noexcept {
+template <NarrowText T>
+T to_string(const T& value) noexcept {
   return value;
 }
 

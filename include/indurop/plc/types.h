@@ -92,6 +92,10 @@ template <class A, class B>
 concept SameLetters = Text<A> && Text<B> && std::same_as < typename detail::TextTraits<A>::Letter,
 typename detail::TextTraits<B>::Letter > ;
 template <class T>
+concept NarrowText = SameLetters<T, String<1>>;
+template <class T>
+concept BroadText = SameLetters<T, WString<1>>;
+template <class T>
 concept Integer = std::integral<T> && !std::same_as<T, bool>;
 template <class T>
 concept Real = std::floating_point<T>;

@@ -16,21 +16,21 @@
 namespace indurop::iec {
 
 // A text of two-byte characters never has more of them than bytes of UTF-8.
-template <std::size_t N>
-WideText<N> to_wstring(const indurop::string<N>& in) noexcept {
-  WideText<N> out;
+template <NarrowText T>
+WideText<detail::kTextSize<T>> to_wstring(const T& in) noexcept {
+  WideText<detail::kTextSize<T>> out;
   std::size_t used = 0;
   detail::each_wide(in.view(), [&](char16_t one) { out.data[used++] = one; });
   return out;
 }
-template <std::size_t N>
-WideText<N> to_wstring(const WideText<N>& in) noexcept {
+template <BroadText T>
+T to_wstring(const T& in) noexcept {
   return in;
 }
 
-template <std::size_t N>
-indurop::string<3 * (N - 1) + 1> to_string(const WideText<N>& in) noexcept {
-  indurop::string<3 * (N - 1) + 1> out;
+template <BroadText T>
+auto to_string(const T& in) noexcept {
+  String<3 * (detail::kTextSize<T> - 1)> out;
   std::size_t used = 0;
   detail::each_byte(in.view(), [&](char one) { out.data[used++] = one; });
   return out;
@@ -60,10 +60,10 @@ WString<20> to_wliteral(T value) noexcept {
 }
 
 // WSTRING_TO_X is to<X>(text); WSTRING_TO_WCHAR is its first character, 0 if there is none.
-template <Scalar To, std::size_t N>
-To to(const WideText<N>& text) noexcept {
+template <Scalar To, BroadText From>
+To to(const From& text) noexcept {
   if constexpr (std::same_as<To, char8_t> || std::same_as<To, char16_t>) {
-    return static_cast<To>(text.data[0]);
+    return text.size() == 0 ? To{} : static_cast<To>(text.view()[0]);
   } else {
     return to<To>(to_string(text));
   }

@@ -2,8 +2,12 @@
 // String functions, with positions and lengths inside, at and beyond the ends of the text.
 
 #include <gtest/gtest.h>
+#include <indurop/plc/select.h>
 #include <indurop/plc/text.h>
+#include <indurop/plc/wide.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -80,6 +84,41 @@ TEST(PlcText, Texts_are_joined_without_loss) {
   EXPECT_EQ(joined.capacity(), 8U);
   EXPECT_EQ(concat(String<3>(""), abc), "abc");
   EXPECT_EQ(String<4>(joined), "abcd");
+}
+
+TEST(PlcText, Joined_texts_are_texts_for_every_function) {
+  const String<3> abc("abc");
+  const auto joined = concat(abc, String<4>("de"));
+  EXPECT_EQ(len(joined), 5);
+  EXPECT_EQ(find(joined, String<2>("cd")), 3);
+  EXPECT_EQ(left(joined, 4), "abcd");
+  EXPECT_EQ(right(joined, 2), "de");
+  EXPECT_EQ(mid(joined, 2, 3), "cd");
+  EXPECT_EQ(erase(joined, 2, 3), "abe");
+  EXPECT_EQ(concat(joined, joined), "abcdeabcde");
+  EXPECT_EQ(insert(joined, joined, 1), "aabcdebcde");
+  EXPECT_EQ(replace(joined, abc, 5, 1), "abc");
+  EXPECT_EQ(concat(String<0>(""), String<0>("")), "");
+  EXPECT_TRUE(lt(joined, String<5>("abcdf")) && eq(joined, joined));
+  EXPECT_EQ(sel(true, abc, joined), "abcde");
+  EXPECT_EQ(max(joined, abc), "abcde");
+  EXPECT_EQ(to<std::int32_t>(concat(String<1>("4"), String<1>("2"))), 42);
+  EXPECT_EQ(to<double>(concat(to_string(4), String<2>(".5"))), 4.5);
+  EXPECT_EQ(to<char8_t>(joined), u8'a');
+  EXPECT_EQ(to_string(joined), "abcde");
+  EXPECT_EQ(to_wstring(joined).view(), u"abcde");
+  EXPECT_EQ(to_string(concat(WString<2>(u"ab"), WString<1>(u"c"))).view(), "abc");
+  EXPECT_EQ(to<char16_t>(concat(WString<2>(u"ab"), WString<1>(u"c"))), u'a');
+  EXPECT_EQ(to<std::int32_t>(concat(WString<1>(u"4"), WString<1>(u"2"))), 42);
+}
+
+// The bytes behind a text are compared and recorded with it.
+TEST(PlcText, What_lies_behind_an_assigned_text_is_zero) {
+  String<10> text("0123456789");
+  text = String<10>(concat(String<3>("abc"), String<20>("")));
+  for (std::size_t i = 3; i < sizeof text.data; ++i) {
+    EXPECT_EQ(text.data[i], '\0') << i;
+  }
 }
 
 TEST(PlcText, Insertion_after_a_position) {
