@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The nodes of this machine, seen from their files.
+#include "vars/nodes.h"
 
 #include <dirent.h>
 #include <sys/stat.h>
@@ -104,6 +105,16 @@ std::vector<std::string> list_nodes(Nodes which) {
   nodes.insert(nodes.end(), bare.begin(), bare.end());
   std::sort(nodes.begin(), nodes.end());
   return nodes;
+}
+
+bool has_node(const std::string& node, Nodes which) {
+  const auto is_there = [which](const std::string& file) {
+    struct stat info {};
+    return which == Nodes::Near ? is_near(file)
+                                : ::lstat((std::string(kShmDirectory) + "/" + file).c_str(), &info) == 0;
+  };
+  return valid_node_name(node) &&
+         (is_there(block_file(node)) || (is_there(lock_file(node)) && running_node(node) != 0));
 }
 
 Status remove_node(const std::string& node) {

@@ -9,6 +9,7 @@
 #include "alarms/alarm_list.h"
 #include "rt/clock.h"
 #include "scheduler/words.h"
+#include "vars/nodes.h"
 
 namespace indurop::serve {
 namespace {
@@ -118,9 +119,9 @@ std::vector<std::string> Boards::names() const {
   return all;
 }
 
-bool Boards::listed(const std::string& name) const {
-  const auto there = names();
-  return std::find(there.begin(), there.end(), name) != there.end();
+bool Boards::is_here(const std::string& name) const {
+  return (only_.empty() || name == only_) && !name.starts_with(tools::far_store_prefix()) &&
+         vars::has_node(name, only_.empty() ? vars::Nodes::Near : vars::Nodes::All);
 }
 
 Board* Boards::find(const std::string& name) {
@@ -129,19 +130,19 @@ Board* Boards::find(const std::string& name) {
     return all.size() == 1 ? find(all.front()) : nullptr;
   }
   const auto far = far_ != nullptr && (only_.empty() || name == only_) ? far_->find(name) : nullptr;
-  const auto known = std::find_if(boards_.begin(), boards_.end(), [&](const std::unique_ptr<Board>& board) {
-    return board->name() == name && board->far() == far.get();
-  });
-  if (known != boards_.end()) {
-    (*known)->refresh();
-    return (*known)->store() != nullptr || listed(name) ? known->get() : nullptr;
+  const auto [first, last] = boards_.equal_range(name);
+  const auto known = std::find_if(first, last, [&](const auto& entry) { return entry.second->far() == far.get(); });
+  if (known != last) {
+    known->second->refresh();
+    return known->second->store() != nullptr || far != nullptr || is_here(name) ? known->second.get() : nullptr;
   }
-  if (!listed(name)) {
+  if (far == nullptr && !is_here(name)) {
     return nullptr;
   }
-  boards_.push_back(far != nullptr ? std::make_unique<Board>(far, reader_) : std::make_unique<Board>(name));
-  boards_.back()->refresh();
-  return boards_.back().get();
+  const auto made =
+      boards_.emplace(name, far != nullptr ? std::make_unique<Board>(far, reader_) : std::make_unique<Board>(name));
+  made->second->refresh();
+  return made->second.get();
 }
 
 }  // namespace indurop::serve

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "alarms/alarm_book.h"
@@ -83,12 +84,12 @@ class Boards {
   [[nodiscard]] const std::string& only() const noexcept { return only_; }
 
  private:
-  [[nodiscard]] bool listed(const std::string& name) const;
+  [[nodiscard]] bool is_here(const std::string& name) const;
 
   std::string only_;
   const FarBoards* far_;
   std::size_t reader_;
-  std::vector<std::unique_ptr<Board>> boards_;  // those that were asked for
+  std::unordered_multimap<std::string, std::unique_ptr<Board>> boards_;  // those that were asked for, by name
 };
 
 }  // namespace indurop::serve

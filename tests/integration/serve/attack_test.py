@@ -7,6 +7,7 @@ import base64
 import contextlib
 import json
 import pathlib
+import re
 import select
 import socket
 import ssl
@@ -253,6 +254,21 @@ def test_idle_and_dripping_connections_lock_nobody_out(setting):
         connection.close()
     client.close()
     assert ask(server.port, get()) == 200
+
+
+def test_files_of_others_cost_their_number_and_not_its_square(setting):
+    child = setting.start(setting.programs / "indurop-serve", "--port", 0)
+    server = harness.Server(int(re.search(r":(\d+)/", child.stdout.readline()).group(1)), child)
+    costs = []
+    for many in (150, 600):
+        for number in range(many):
+            pathlib.Path(f"/dev/shm/indurop.{setting.node}-{number}").write_bytes(bytes(4096))
+        begin, asked = server.cpu_seconds(), 0
+        while server.cpu_seconds() - begin < 0.5:
+            assert server.get(API + "/boards").status == 200
+            asked += 1
+        costs.append((server.cpu_seconds() - begin) / asked)
+    assert costs[1] < 9 * costs[0], costs  # four times as many: 4 times as much, or 16 times
 
 
 def test_who_only_looks_cannot_take_all_streams(setting):

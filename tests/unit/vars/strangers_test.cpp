@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "tests/support/forked.h"
 #include "tests/support/wait_until.h"
 #include "vars/node_lock.h"
+#include "vars/nodes.h"
 #include "vars/run_file.h"
 #include "vars/store.h"
 
@@ -95,6 +97,29 @@ TEST(Strangers, Are_listed_only_if_asked_for) {
   EXPECT_EQ(owner_of(node.name()), 65534U);
   ASSERT_EQ(::chown(node.path().c_str(), 65534, ::getegid()), 0);
   EXPECT_THAT(list_nodes(), ::testing::Contains(node.name())) << "one of our group";
+}
+
+TEST(Strangers, One_name_is_found_as_in_the_list_of_all) {
+  const TestNode block("block");
+  const TestNode bare("bare");
+  const TestNode ended("ended");
+  std::ofstream(block.path()) << "x";
+  pid_t holder = 0;
+  const auto lock = NodeLock::acquire(bare.name(), holder);
+  ASSERT_TRUE(lock.ok());
+  std::ofstream(lock_path(ended)) << "1 1\n";
+  for (const Nodes which : {Nodes::Near, Nodes::All}) {
+    const auto all = list_nodes(which);
+    for (const std::string& name : {block.name(), bare.name(), ended.name(), std::string("no_such_node"), std::string(),
+                                    block.name() + ".run", std::string("../x"), bare.name() + ".lock"}) {
+      EXPECT_EQ(has_node(name, which), std::find(all.begin(), all.end(), name) != all.end()) << name;
+    }
+  }
+  EXPECT_TRUE(has_node(block.name()) && has_node(bare.name()) && !has_node(ended.name()));
+  if (::geteuid() == 0) {
+    ASSERT_EQ(::chown(block.path().c_str(), 12345, 12345), 0);
+    EXPECT_TRUE(!has_node(block.name()) && has_node(block.name(), Nodes::All));
+  }
 }
 
 TEST(Strangers, A_block_that_is_cut_is_read_without_harm_and_never_as_zeros) {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// One node of this machine, seen from its files; all of them: list_nodes() in vars/store.h.
+
+#pragma once
+
+#include <string>
+
+#include "vars/store.h"
+
+namespace indurop::vars {
+
+// Would list_nodes() name this one? Looks at its own files only, however many others there are.
+bool has_node(const std::string& node, Nodes which = Nodes::Near);
+
+}  // namespace indurop::vars
