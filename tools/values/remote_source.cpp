@@ -287,10 +287,11 @@ std::string RemoteSource::prefer(const std::string& pattern, const std::string& 
       any = true;
     }
   }
-  const bool there = std::any_of(boards_.begin(), boards_.end(), [&](const auto& one) { return one.name == board; });
-  return any     ? std::string{}
-         : there ? fmt::format("board {} shows no variable '{}'", board, pattern)
-                 : fmt::format("there is no board {}", board);
+  const auto known = std::find_if(boards_.begin(), boards_.end(), [&](const auto& one) { return one.name == board; });
+  return any                      ? std::string{}
+         : known == boards_.end() ? fmt::format("there is no board {}", board)
+         : known->heard           ? fmt::format("board {} shows no variable '{}'", board, pattern)
+                                  : fmt::format("'{}' of board {} is not known", pattern, board);
 }
 
 std::string RemoteSource::owner(const std::string& variable) const {

@@ -28,9 +28,17 @@ void add_item(Item item, std::vector<Item>& items) {
 
 // Exit code, after an error message: there is no such variable, or its board cannot be asked.
 int unknown(Context& context, const std::string& name, const std::string& message) {
-  const std::string owner = context.values->silent_owner(name);
-  context.out.error(owner.empty() ? message : fmt::format("'{}' is of board {}, which is silent", name, owner));
-  return owner.empty() ? kFailed : kUnreachable;
+  if (const std::string owner = context.values->silent_owner(name); !owner.empty()) {
+    context.out.error(fmt::format("'{}' is of board {}, which is silent", name, owner));
+    return kUnreachable;
+  }
+  context.out.error(message);
+  const std::string silent = context.values->here() ? std::string() : context.values->absence(nullptr);
+  if (silent.empty()) {
+    return kFailed;
+  }
+  context.out.note("it may be of a board that is " + silent);
+  return kUnreachable;
 }
 
 // "NAME@BOARD" is taken apart. The exit code, after an error message.
@@ -100,9 +108,9 @@ int select_items(Context& context, const vars::Store& store, const std::vector<s
       }
     }
     if (!any) {
-      context.out.error(
+      code = unknown(
+          context, name,
           fmt::format("no variable of {} matches '{}' (indurop vars lists all)", context.values->whose(), name));
-      code = kFailed;
     }
   }
   if (code == kOk && values == Values::Needed) {

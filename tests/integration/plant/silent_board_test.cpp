@@ -25,9 +25,9 @@ class SilentBoard : public PlantTest {
     out << "</plant>";
     return file;
   }
-  Outcome remote(std::vector<std::string> words) {
+  Outcome remote(std::vector<std::string> words, const std::string& wait = "20s") {
     words.insert(words.begin(), INDUROP_PROGRAM);
-    words.insert(words.end(), {"--one-host", "--domain", std::to_string(dds_domain(1)), "--wait", "20s"});
+    words.insert(words.end(), {"--one-host", "--domain", std::to_string(dds_domain(1)), "--wait", wait});
     return start(words).finish();
   }
 };
@@ -50,6 +50,18 @@ TEST_F(SilentBoard, Is_named_and_the_others_are_not_waited_for) {
   EXPECT_THAT(there.err, HasSubstr("silent: " + board("middle")));
   // Of the 20 s that it would wait for the silent board.
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
+TEST_F(SilentBoard, Of_which_nothing_is_known_is_named_with_what_was_asked_for) {
+  // A board that runs alone: the other one never did, so nobody has told what it shows.
+  start({INDUROP_PROGRAM, "run", plant(), "--board", board("left"), "--one-host", "-q"});
+  ASSERT_TRUE(wait_until([&] { return remote({"get", "left.number"}).code == 0; }));
+  for (const std::string& name : {std::string("elsewhere"), "elsewhere@" + board("middle"), std::string("else*")}) {
+    const Outcome sut = remote({"get", name}, "1s");
+    EXPECT_EQ(sut.code, 6) << name;
+    EXPECT_THAT(sut.err, HasSubstr("it may be of a board that is not heard: " + board("middle"))) << name;
+  }
+  EXPECT_THAT(remote({"get", "left@" + board("middle")}, "1s").err, HasSubstr(board("middle")));
 }
 
 TEST_F(SilentBoard, Peers_that_are_no_machines_are_told_at_once) {
