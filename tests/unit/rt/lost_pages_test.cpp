@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "rt/guard.h"
+
 namespace indurop::rt {
 namespace {
 
@@ -101,6 +103,39 @@ TEST(LostPages, Many_mappings_come_and_go_while_others_are_cut) {
   }
   end.store(true);
   other.join();
+}
+
+// As a program of a user may have one.
+void leave_with_42(int /*number*/) {
+  ::_exit(42);
+}
+
+TEST(LostPagesDeathTest, A_plain_handler_of_before_is_called_for_what_is_not_ours) {
+  EXPECT_EXIT(
+      {
+        ::signal(SIGFPE, leave_with_42);
+        install_guard_handlers();
+        install_guard_handlers();
+        ::raise(SIGFPE);
+      },
+      ::testing::ExitedWithCode(42), "");
+}
+
+TEST(LostPagesDeathTest, Guarded_mappings_survive_whichever_handler_came_first) {
+  const auto lives = [](bool guard_first) {
+    if (guard_first) {
+      install_guard_handlers();
+    }
+    const Mapped file(1);
+    const GuardedMapping sut = file.guard();
+    if (!guard_first) {
+      install_guard_handlers();
+    }
+    file.cut(0);
+    ::_exit(file.memory[0] == 0 && sut.lost() ? 7 : 1);
+  };
+  EXPECT_EXIT(lives(true), ::testing::ExitedWithCode(7), "");
+  EXPECT_EXIT(lives(false), ::testing::ExitedWithCode(7), "");
 }
 
 TEST(LostPagesDeathTest, A_file_that_nobody_guards_ends_the_process_as_ever) {
