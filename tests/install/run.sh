@@ -11,6 +11,10 @@ cp -r "$here/project" "$work/project"
 case $kind in
   installed)
     cmake --install "$build" --prefix "$work/first" >"$work/install.log"
+    # `make uninstall` removes what is listed there.
+    sort "$build/install_manifest.txt" >"$work/listed"
+    find "$work/first" -type f -o -type l | sort >"$work/written"
+    diff "$work/listed" "$work/written" || { echo "the list of installed files is not what was installed" >&2; exit 1; }
     # An installation is not tied to the place it was made for.
     mv "$work/first" "$work/prefix"
     set -- -DCMAKE_PREFIX_PATH="$work/prefix"
