@@ -65,10 +65,10 @@ int initPeriodExe();  // NOLINT(readability-identifier-naming): the chapter's na
 bool waitPeriod();  // NOLINT(readability-identifier-naming): likewise
 
 // Binds this process's shared variables to `node` now; "" = INDUROP_NODE, else "local". Done by itself when the program
-// is loaded, if the node exists by then, and by initPeriodExe(). A program that does neither calls this, again after a
-// new deployment. No other thread may be using shared variables meanwhile. Also starts serving the functions this
-// program implements. Not real-time safe. Returns 0 or a negative indurop::Errc: NotFound, PermissionDenied,
-// VersionMismatch, TypeMismatch (some variables were not bound; a message on stderr names them).
+// is loaded, if the node runs by then or INDUROP_NODE names it, and by initPeriodExe(). A program that does neither
+// calls this, again after a new deployment. No other thread may be using shared variables meanwhile. Also starts
+// serving the functions this program implements. Not real-time safe. Returns 0 or a negative indurop::Errc: NotFound,
+// PermissionDenied, VersionMismatch, TypeMismatch (some variables were not bound; a message on stderr names them).
 int attach(const char* node = "");
 
 // Value of <property><value name="...">: of the calling module, or `fallback` if there is none or it does not fit the

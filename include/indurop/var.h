@@ -89,12 +89,6 @@ INDUROP_ALWAYS_INLINE T modify(std::uint32_t offset, Change change) noexcept {
   }
 }
 
-template <class Tag, class T, class Change>
-void modify_each(std::uint32_t offset, std::size_t count, Change change) noexcept {
-  record_access<Tag, kRead | kWrite>();
-  ring_modify_each<T, Tag::kSize>(ring_of<Tag>(), offset, count, change);
-}
-
 }  // namespace detail
 
 // How fresh the variable's value is, the whole variable's even if the shape is a part of it. Real-time safe.

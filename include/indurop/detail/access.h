@@ -159,23 +159,4 @@ INDUROP_ALWAYS_INLINE T ring_modify(abi::RingHeader* ring, std::uint32_t offset,
   return value;
 }
 
-// The same of `count` values behind each other; change(i, value) makes each of them what it is to be.
-template <class T, std::size_t Size, class Change>
-void ring_modify_each(abi::RingHeader* ring, std::uint32_t offset, std::size_t count, Change change) noexcept {
-  auto* const to = static_cast<unsigned char*>(indurop_begin_write(ring, offset, count * sizeof(T)));
-  if (to == nullptr) [[unlikely]] {
-    return;
-  }
-  const std::uint64_t now = ring->seq.load(std::memory_order_relaxed);
-  const auto* const from = slot(ring, now, abi::slot_stride(Size));
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t at = offset + i * sizeof(T);
-    T value;
-    copy_from_shared(&value, from + at, sizeof(T));
-    change(i, value);
-    copy_to_shared(to + at, &value, sizeof(T));
-  }
-  indurop_commit_write(ring);
-}
-
 }  // namespace indurop::detail
