@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "rt/clock.h"
+#include "rt/condition_wait.h"
 
 extern "C" {
 
@@ -16,11 +17,11 @@ extern "C" {
 [[gnu::visibility("default")]] bool ddsrt_cond_waitfor(ddsrt_cond_t* cond, ddsrt_mutex_t* mutex,
                                                        dds_duration_t reltime) {
   if (reltime == DDS_INFINITY) {
-    return pthread_cond_wait(&cond->cond, &mutex->mutex) == 0;
+    return indurop::rt::wait_for_condition(cond->cond, mutex->mutex);
   }
   const std::int64_t now = indurop::rt::now_ns();
-  const timespec until = indurop::rt::to_timespec(now + std::clamp<std::int64_t>(reltime, 0, INT64_MAX - now));
-  return pthread_cond_clockwait(&cond->cond, &mutex->mutex, CLOCK_MONOTONIC, &until) == 0;
+  const auto until = indurop::rt::mono_time(now + std::clamp<std::int64_t>(reltime, 0, INT64_MAX - now));
+  return indurop::rt::wait_for_condition(cond->cond, mutex->mutex, until);
 }
 
 [[gnu::visibility("default")]] bool ddsrt_cond_waituntil(ddsrt_cond_t* cond, ddsrt_mutex_t* mutex, dds_time_t abstime) {
