@@ -11,14 +11,16 @@ namespace {
 int good_calls = 0;
 int calls = 0;
 
-}  // namespace
-
-INDUROP_IMPLEMENT(nt::add, [](double a, double b) {
-  if (good_calls != 0 && good_calls < ++calls) {
+double add(double a, double b) {
+  if (++calls > good_calls && good_calls > 0) {
     std::raise(SIGSEGV);
   }
   return a + b;
-})
+}
+
+}  // namespace
+
+INDUROP_IMPLEMENT(nt::add, add)
 
 void onStart() {
   good_calls = irp::property<int>("good_calls", 0);

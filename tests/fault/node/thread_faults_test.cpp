@@ -144,7 +144,7 @@ TEST_F(ThreadFault, In_a_shared_function_ends_its_service_and_not_the_node) {
                                  {.file = "caller.so", .name = "caller", .period = "5ms", .priority = 2}});
   ASSERT_TRUE(wait_until([&] { return value<std::uint32_t>("nt::failures") >= 5 || !sut.running(); }));
   EXPECT_EQ(value<std::uint32_t>("nt::answers"), 5U);
-  EXPECT_TRUE(sut.says("shared function nt::add crashed with signal 11"));
+  EXPECT_TRUE(sut.prints("shared function nt::add crashed with signal 11"));
   EXPECT_TRUE(runs_reach("caller", module("caller").runs.load() + 50));
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 0);
