@@ -2,6 +2,7 @@
 #include "tools/recordings/recording_play.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -89,18 +90,16 @@ Result<Playlist, Failure> choose(Context& context, const Options& options, const
 }
 
 // Writing to a forced value is for nothing. The names, empty: none is.
-// True after an error message for each that is forced: what would be written has no effect.
-bool any_forced(Context& context, const Playlist& list, const vars::Store& store) {
-  bool any = false;
+std::vector<std::string> forced_of(const Playlist& list, const vars::Store& store) {
+  std::vector<std::string> names;
   const std::vector<vars::Force> forces = store.forces();
   for (const auto& [id, played] : list) {
     if (std::any_of(forces.begin(), forces.end(),
                     [entry = played.entry](const vars::Force& force) { return force.variable == entry; })) {
-      context.out.error(operate::is_forced(played.variable->name));
-      any = true;
+      names.push_back(played.variable->name);
     }
   }
-  return any;
+  return names;
 }
 
 struct Done {
@@ -169,7 +168,10 @@ int play(Context& context, const Options& options) {
   if (!list) {
     return report(context.out, list.error());
   }
-  if (any_forced(context, *list, *store)) {
+  if (const auto forced = forced_of(*list, *store); !forced.empty()) {
+    for (const std::string& name : forced) {
+      context.out.error(operate::is_forced(name));
+    }
     return kFailed;
   }
   const auto done = play_all(options, *reader, *store, *list);
@@ -182,11 +184,12 @@ int play(Context& context, const Options& options) {
     context.out.error(
         fmt::format("{} values could not be written: their variables were held by somebody", done->refused));
   }
-  const bool forced = any_forced(context, *list, *store);
-  if (forced) {
-    context.out.error("this was forced meanwhile: not all that was written had an effect");
+  const auto forced = forced_of(*list, *store);
+  if (!forced.empty()) {
+    context.out.error(
+        fmt::format("{}: forced meanwhile, not all that was written had an effect", fmt::join(forced, ", ")));
   }
-  return done->refused > 0 || forced ? kFailed : kOk;
+  return done->refused > 0 || !forced.empty() ? kFailed : kOk;
 }
 
 }  // namespace
