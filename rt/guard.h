@@ -17,8 +17,8 @@ namespace indurop::rt {
 // Installs the handlers, once per process. Not real-time safe.
 void install_guard_handlers() noexcept;
 
-// What the handlers do first: they replace a lost page (rt/lost_pages.h) and jump to the calling thread's guard if it is
-// armed. If it returns: whether the thread can go on. Real-time safe.
+// What the handlers do first: they replace a lost page (rt/lost_pages.h) and jump to the calling thread's guard if it
+// is armed. If it returns: whether the thread can go on. Real-time safe.
 bool catch_fault(int number, void* address) noexcept;
 // A library of the program has its own copy of this code, with the guards of its threads and its mappings: the handlers
 // call its catch_fault() after their own. Null: there is none.

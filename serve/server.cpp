@@ -52,7 +52,7 @@ Server::Server(tools::ServeOptions options, Admission admission, const std::stri
       jogs_(audit_),
       api_(gate_, audit_, leases_, jogs_, facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
       page_(options_.web),
-      boards_(options_.node, &far_boards_),
+      boards_(options_.node, &remote_boards_),
       hub_(boards_, version, {options_.foxglove, options_.foxglove_hz},
            [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
       files_(options_.node),
@@ -97,8 +97,8 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
                               : refusal(status::kNotFound, "there is nothing at this path; see /api/v1/openapi.json");
   }
   match.call.who = request.client.name;
-  if (is_far(match)) {
-    return ask_far(std::move(match), ticket);
+  if (is_remote(match)) {
+    return ask_remote(std::move(match), ticket);
   }
   switch (match.route->pace) {
     case Pace::Files:
@@ -142,13 +142,13 @@ std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticke
 }
 
 std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {
-  if (far_ == nullptr) {
+  if (plant_ == nullptr) {
     return refusal(status::kNotFound, "this server looks at its own host only; start it with --plant");
   }
-  match.call.plant = &far_->watch;
+  match.call.plant = &plant_->watch;
   const auto request = std::make_shared<Request>(*match.call.request);
   match.call.request = request.get();
-  if (!far_->worker.add([this, request, match = std::move(match), ticket] {
+  if (!plant_->worker.add([this, request, match = std::move(match), ticket] {
         door_->reply(ticket, match.route->answer(api_, match.call));
       })) {
     return refusal(status::kUnavailable, "too many requests wait already; try again later");
@@ -156,45 +156,45 @@ std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {
   return std::nullopt;
 }
 
-bool Server::is_far(const Match& match) const {
+bool Server::is_remote(const Match& match) const {
   const auto board = match.call.part.find("board");
-  return far_ != nullptr && board != match.call.part.end() &&
-         (options_.node.empty() || board->second == options_.node) && far_boards_.find(board->second) != nullptr;
+  return plant_ != nullptr && board != match.call.part.end() &&
+         (options_.node.empty() || board->second == options_.node) && remote_boards_.find(board->second) != nullptr;
 }
 
-std::optional<Reply> Server::ask_far(Match match, Ticket ticket) {
-  const FarRoute route = far_route(*match.route);
+std::optional<Reply> Server::ask_remote(Match match, Ticket ticket) {
+  const Remote remote = match.route->remote;
   const std::string board = match.call.part.find("board")->second;
-  if (!route.possible) {
+  if (!remote.possible) {
     return refusal(status::kConflict,
                    fmt::format("board {} is on another host, where this is seen: indurop serve there", board));
   }
-  if (match.route->pace == Pace::Quick && route.answer == nullptr) {
+  if (match.route->pace == Pace::Quick && remote.answer == nullptr) {
     match.call.boards = &boards_;
     return match.route->answer(api_, match.call);
   }
-  match.call.plant = &far_->watch;
-  match.call.boards = &far_->boards;
+  match.call.plant = &plant_->watch;
+  match.call.boards = &plant_->boards;
   const auto request = std::make_shared<Request>(*match.call.request);
   match.call.request = request.get();
-  const bool added = far_->worker.add([this, request, route, board, match = std::move(match), ticket] {
-    if (route.answer == nullptr) {
-      far_boards_.fetch(far_->watch, board);
+  const bool added = plant_->worker.add([this, request, remote, board, match = std::move(match), ticket] {
+    if (remote.answer == nullptr) {
+      remote_boards_.fetch(plant_->watch, board);
     }
-    door_->reply(ticket, (route.answer != nullptr ? route.answer : match.route->answer)(api_, match.call));
+    door_->reply(ticket, (remote.answer != nullptr ? remote.answer : match.route->answer)(api_, match.call));
   });
   return added ? std::nullopt
                : std::optional(refusal(status::kUnavailable, "too many requests wait already; try again later"));
 }
 
 std::optional<Reply> Server::order_plant(Match match, Ticket ticket) {
-  if (far_ == nullptr) {
+  if (plant_ == nullptr) {
     return refusal(status::kNotFound, "this server looks at its own host only; start it with --plant");
   }
   match.call.link = &options_.link;
   const auto request = std::make_shared<Request>(*match.call.request);
   match.call.request = request.get();
-  if (!far_->orders.add_if_idle([this, request, match = std::move(match), ticket] {
+  if (!plant_->orders.add_if_idle([this, request, match = std::move(match), ticket] {
         door_->reply(ticket, match.route->answer(api_, match.call));
       })) {
     return refusal(status::kConflict, "the plant is being changed already");
@@ -267,7 +267,7 @@ int Server::run() {
   constexpr std::int64_t kLookNs = 500'000'000;
   std::unique_ptr<Door::Alarm> looking;
   if (options_.plant) {
-    far_ = std::make_unique<Far>(options_.link, options_.node, far_boards_);
+    plant_ = std::make_unique<Plant>(options_.link, options_.node, remote_boards_);
   }
   looking = std::make_unique<Door::Alarm>(*door_, [this, &looking] {
     hub_.look_around();
@@ -276,10 +276,10 @@ int Server::run() {
   });
   constexpr std::int64_t kHearNs = 125'000'000;
   Door::Alarm hearing(*door_, [this, &hearing] {
-    if (far_ != nullptr) {
-      (void)far_->worker.add_if_idle([this] {
-        far_->watch.look();
-        far_boards_.look(far_->watch);
+    if (plant_ != nullptr) {
+      (void)plant_->worker.add_if_idle([this] {
+        plant_->watch.look();
+        remote_boards_.look(plant_->watch);
       });
       hearing.set(kHearNs);
     }

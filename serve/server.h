@@ -44,8 +44,8 @@ class Server final : public House {
  private:
   // Boards and jobs of one more thread. The worker ends first.
   struct Helper {
-    explicit Helper(const std::string& node, const FarBoards* far = nullptr, std::size_t reader = 0)
-        : boards(node, far, reader) {}
+    explicit Helper(const std::string& node, const RemoteBoards* remote = nullptr, std::size_t reader = 0)
+        : boards(node, remote, reader) {}
     Boards boards;
     Worker worker;
   };
@@ -55,8 +55,8 @@ class Server final : public House {
   std::optional<Reply> order_plant(Match match, Ticket ticket);
   std::optional<Reply> ask_plc(Match match, Ticket ticket);
   // About a board of another host. Nothing to do with it: nothing.
-  [[nodiscard]] bool is_far(const Match& match) const;
-  std::optional<Reply> ask_far(Match match, Ticket ticket);
+  [[nodiscard]] bool is_remote(const Match& match) const;
+  std::optional<Reply> ask_remote(Match match, Ticket ticket);
   // Answers on the helper's thread.
   std::function<void()> job_of(Helper& helper, Match match, Ticket ticket);
   void announce() const;
@@ -70,7 +70,7 @@ class Server final : public House {
   JogDesk jogs_;
   Api api_;
   Page page_;
-  FarBoards far_boards_;
+  RemoteBoards remote_boards_;
   Boards boards_;
   Hub hub_;
   std::unique_ptr<Door> door_;  // after all that its connections use
@@ -78,8 +78,8 @@ class Server final : public House {
   Helper files_;
   Helper orders_;
   Helper holds_;
-  struct Far {
-    Far(const deploy::LinkSettings& settings, const std::string& node, const FarBoards& boards_of_it)
+  struct Plant {
+    Plant(const deploy::LinkSettings& settings, const std::string& node, const RemoteBoards& boards_of_it)
         : watch(settings), boards(node, &boards_of_it, kReader) {}
     static constexpr std::size_t kReader = 1;  // the door's thread is 0
     tools::PlantWatch watch;                   // of the worker's thread
@@ -94,7 +94,7 @@ class Server final : public House {
     Worker worker;
   };
   std::unique_ptr<Plc> plc_;                      // null: no program is shown
-  std::unique_ptr<Far> far_;                      // null: no plant is looked at
+  std::unique_ptr<Plant> plant_;                  // null: no plant is looked at
   std::vector<std::unique_ptr<Helper>> waiting_;  // one for each that waits; made when they are needed
 };
 

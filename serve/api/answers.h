@@ -36,21 +36,21 @@ Reply plant_difference(Api& api, const Call& call);
 Reply plant_rollback(Api& api, const Call& call);
 
 // The same of a board of another host.
-Reply far_messages(Api& api, const Call& call);
-Reply far_modules(Api& api, const Call& call);
-Reply far_histograms(Api& api, const Call& call);
-Reply far_schedule(Api& api, const Call& call);
-Reply far_runs(Api& api, const Call& call);
-Reply far_overruns(Api& api, const Call& call);
-Reply far_alarms(Api& api, const Call& call);
-Reply far_alarm_history(Api& api, const Call& call);
-Reply far_set(Api& api, const Call& call);
-Reply far_force(Api& api, const Call& call);
-Reply far_release(Api& api, const Call& call);
-Reply far_lock(Api& api, const Call& call);
-Reply far_start(Api& api, const Call& call);
-Reply far_stop(Api& api, const Call& call);
-Reply far_restart(Api& api, const Call& call);
+Reply remote_messages(Api& api, const Call& call);
+Reply remote_modules(Api& api, const Call& call);
+Reply remote_histograms(Api& api, const Call& call);
+Reply remote_schedule(Api& api, const Call& call);
+Reply remote_runs(Api& api, const Call& call);
+Reply remote_overruns(Api& api, const Call& call);
+Reply remote_alarms(Api& api, const Call& call);
+Reply remote_alarm_history(Api& api, const Call& call);
+Reply remote_set(Api& api, const Call& call);
+Reply remote_force(Api& api, const Call& call);
+Reply remote_release(Api& api, const Call& call);
+Reply remote_lock(Api& api, const Call& call);
+Reply remote_start(Api& api, const Call& call);
+Reply remote_stop(Api& api, const Call& call);
+Reply remote_restart(Api& api, const Call& call);
 
 Reply histograms(Api& api, const Call& call);
 Reply schedule(Api& api, const Call& call);

@@ -44,18 +44,18 @@ Result<alarms::AlarmOrder, std::string> read_order(const Call& call, alarms::Ala
   return order;
 }
 
-using FarOrder = tools::PlantWatch::FarOrder;
+using RemoteOrder = tools::PlantWatch::RemoteOrder;
 
-FarOrder::What far_word_of(alarms::AlarmEvent what) {
-  return what == alarms::AlarmEvent::Acknowledged ? FarOrder::What::AckAlarms
-         : what == alarms::AlarmEvent::Shelved    ? FarOrder::What::ShelveAlarms
-                                                  : FarOrder::What::UnshelveAlarms;
+RemoteOrder::What remote_word_of(alarms::AlarmEvent what) {
+  return what == alarms::AlarmEvent::Acknowledged ? RemoteOrder::What::AckAlarms
+         : what == alarms::AlarmEvent::Shelved    ? RemoteOrder::What::ShelveAlarms
+                                                  : RemoteOrder::What::UnshelveAlarms;
 }
 
 // The alarms that it was done to, or the reply that says why not.
-Result<base::Json, Reply> done_far(Write& write, const Call& call, const Board& board,
-                                   const alarms::AlarmOrder& order) {
-  const auto done = call.plant->order(board.name(), {far_word_of(order.what), order.names, order.for_ns,
+Result<base::Json, Reply> done_remotely(Write& write, const Call& call, const Board& board,
+                                        const alarms::AlarmOrder& order) {
+  const auto done = call.plant->order(board.name(), {remote_word_of(order.what), order.names, order.for_ns,
                                                      order.who + " at " + order.from, order.reason});
   if (!done) {
     return write.failed(done.error().code == kUnreachable ? status::kNoAnswer : status::kWrongValue, done.error().text);
@@ -94,7 +94,7 @@ Reply carry_out(Api& api, const Call& call, alarms::AlarmEvent what, const char*
   if (auto refused = write.begin()) {
     return *refused;
   }
-  auto done = board.far() != nullptr ? done_far(write, call, board, *order) : done_here(write, board, *order);
+  auto done = board.remote() != nullptr ? done_remotely(write, call, board, *order) : done_here(write, board, *order);
   if (!done) {
     return done.error();
   }
@@ -181,7 +181,7 @@ Reply unshelve_alarms(Api& api, const Call& call) {
   return carry_out(api, call, alarms::AlarmEvent::Unshelved, "unshelve");
 }
 
-Reply far_alarms(Api& /*api*/, const Call& call) {
+Reply remote_alarms(Api& /*api*/, const Call& call) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
@@ -204,7 +204,7 @@ Reply far_alarms(Api& /*api*/, const Call& call) {
   return json_reply(body);
 }
 
-Reply far_alarm_history(Api& /*api*/, const Call& call) {
+Reply remote_alarm_history(Api& /*api*/, const Call& call) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();

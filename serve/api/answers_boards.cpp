@@ -24,7 +24,7 @@ base::Json texts_of(const std::vector<Trouble>& troubles) {
 }
 
 alarms::AlarmCounts alarms_of(const Api& api, const Board& board) {
-  return board.far() != nullptr ? board.far_alarms() : api.facts().alarms(board.name());
+  return board.remote() != nullptr ? board.remote_alarms() : api.facts().alarms(board.name());
 }
 
 std::uint64_t number_of(const base::Json& row, const char* what) {
@@ -33,10 +33,10 @@ std::uint64_t number_of(const base::Json& row, const char* what) {
 
 // Of another host: what its agent says, and where it is.
 void add_far(base::Json& out, const Board& board) {
-  if (board.far() == nullptr) {
+  if (board.remote() == nullptr) {
     return;
   }
-  const auto said = board.far()->said();
+  const auto said = board.remote()->said();
   out["here"] = false;
   out["host"] = said.row["host"].text().value_or("");
   out["deployment"] = said.row["deployment"].text().value_or("");
@@ -67,8 +67,8 @@ base::Json summary_of(const Api& api, const Board& board) {
 }
 
 void add_forces(base::Json& out, const Board& board) {
-  if (board.far() != nullptr) {
-    auto said = board.far()->said();
+  if (board.remote() != nullptr) {
+    auto said = board.remote()->said();
     out["forces"] = std::move(said.forces);
     out["lock"] = std::move(said.lock);
     return;

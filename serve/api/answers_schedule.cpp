@@ -107,7 +107,7 @@ Reply schedule(Api& /*api*/, const Call& call) {
   }
   const auto& [board, run] = *found;
   const auto& block = run.block();
-  auto [plan, message] = board->far() == nullptr
+  auto [plan, message] = board->remote() == nullptr
                              ? plan_of(tools::fixed_text(block.config_file))
                              : std::pair(base::Json(), std::string("The plan is in files on the board's host."));
   base::Json body = about(*board);

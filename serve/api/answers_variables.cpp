@@ -53,7 +53,7 @@ base::Json variable_json(const vars::Store& store, const tools::Item& item, cons
 }
 
 Reply no_store(const Board& board) {
-  if (board.far() != nullptr) {
+  if (board.remote() != nullptr) {
     return refusal(status::kConflict,
                    fmt::format("the variables of board {} have not come yet: it is {}", board.name(), board.state()));
   }

@@ -7,7 +7,7 @@ namespace indurop::serve {
 
 const tools::KnownUses& Api::uses_of(const Board& board) {
   static const tools::KnownUses none;
-  if (board.far() != nullptr) {
+  if (board.remote() != nullptr) {
     return none;
   }
   const auto run = board.run();

@@ -41,24 +41,31 @@ struct Call {
 // what they run; the one that knows the PLC program. Files of the page and streams have no answer of their own.
 enum class Pace { Quick, Files, Orders, Wait, Holds, Plant, PlantOrders, Plc, Page, Stream };
 
+using Answer = Reply (*)(Api& api, const Call& call);
+
+// How a question about a board of another host is answered.
+struct Remote {
+  bool possible = false;    // false: by a server on that host only
+  Answer answer = nullptr;  // asks or orders through the plant; null: the usual answer, from what its agent reported
+};
+inline constexpr Remote kHereOnly{};
+inline constexpr Remote kAlike{true, nullptr};
+constexpr Remote through(Answer answer) noexcept {
+  return {true, answer};
+}
+
 struct Route {
   Method method;
   std::string_view pattern;  // "/api/v1/boards/{board}/set"; a last part "{file...}" is every path
   Right right;
   Pace pace;
-  Reply (*answer)(Api& api, const Call& call);
+  Answer answer;
+  Remote remote;
   std::string_view protocol = "";  // subprotocol of a WebSocket; empty: HTTP
 };
 
 // Everything that can be asked of the server. What is not in here is not there: no protocol, no path, no method.
 std::span<const Route> all_routes();
-// How a question about a board is answered if that is on another host: in the same way (null), in another one, which
-// goes through the plant, or not.
-struct FarRoute {
-  bool possible = false;
-  Reply (*answer)(Api& api, const Call& call) = nullptr;
-};
-FarRoute far_route(const Route& route);
 
 struct Match {
   const Route* route = nullptr;  // null: see `other_method`

@@ -23,20 +23,20 @@ std::uint64_t next_attachment() {
 }  // namespace
 
 void Board::want() const {
-  if (far_ != nullptr) {
-    far_->want(rt::now_ns());
+  if (remote_ != nullptr) {
+    remote_->want(rt::now_ns());
   }
 }
 
-alarms::AlarmCounts Board::far_alarms() const {
-  return far_ != nullptr ? alarms::counts_in(far_->said().alarms) : alarms::AlarmCounts();
+alarms::AlarmCounts Board::remote_alarms() const {
+  return remote_ != nullptr ? alarms::counts_in(remote_->said().alarms) : alarms::AlarmCounts();
 }
 
-void Board::refresh_far() {
-  const auto said = far_->said();
-  if (far_->generation() != generation_) {
-    const std::uint64_t generation = far_->generation();
-    if (auto fresh = far_->attach(reader_); fresh.ok()) {
+void Board::refresh_remote() {
+  const auto said = remote_->said();
+  if (remote_->generation() != generation_) {
+    const std::uint64_t generation = remote_->generation();
+    if (auto fresh = remote_->attach(reader_); fresh.ok()) {
       store_ = std::move(fresh).value();
       generation_ = generation;
       attachment_ = next_attachment();
@@ -46,8 +46,8 @@ void Board::refresh_far() {
 }
 
 void Board::refresh() {
-  if (far_ != nullptr) {
-    refresh_far();
+  if (remote_ != nullptr) {
+    refresh_remote();
     return;
   }
   if (!store_ || store_->retired() || source_.generation() != generation_) {
@@ -70,7 +70,7 @@ std::string Board::layout() const {
 }
 
 std::optional<tools::RunView> Board::run() const {
-  if (far_ != nullptr) {
+  if (remote_ != nullptr) {
     return shown_;
   }
   auto run = tools::RunView::open(name_);
@@ -87,8 +87,8 @@ std::string Board::state() const {
   if (!absence_.empty()) {
     return absence_;
   }
-  if (far_ != nullptr) {
-    return far_->said().state;
+  if (remote_ != nullptr) {
+    return remote_->said().state;
   }
   const auto view = run();
   return view && view->node_alive() ? scheduler::to_text(view->block().state.load(std::memory_order_relaxed))
@@ -97,7 +97,7 @@ std::string Board::state() const {
 
 std::vector<std::string> Boards::here() const {
   std::vector<std::string> all = vars::list_nodes(only_.empty() ? vars::Nodes::Near : vars::Nodes::All);
-  std::erase_if(all, [](const std::string& name) { return name.starts_with(tools::far_store_prefix()); });
+  std::erase_if(all, [](const std::string& name) { return name.starts_with(tools::remote_store_prefix()); });
   if (!only_.empty()) {
     std::erase_if(all, [this](const std::string& name) { return name != only_; });
   }
@@ -106,10 +106,10 @@ std::vector<std::string> Boards::here() const {
 
 std::vector<std::string> Boards::names() const {
   std::vector<std::string> all = here();
-  if (far_ == nullptr) {
+  if (remote_ == nullptr) {
     return all;
   }
-  for (std::string& name : far_->names()) {
+  for (std::string& name : remote_->names()) {
     if (only_.empty() || name == only_) {
       all.push_back(std::move(name));
     }
@@ -120,7 +120,7 @@ std::vector<std::string> Boards::names() const {
 }
 
 bool Boards::is_here(const std::string& name) const {
-  return (only_.empty() || name == only_) && !name.starts_with(tools::far_store_prefix()) &&
+  return (only_.empty() || name == only_) && !name.starts_with(tools::remote_store_prefix()) &&
          vars::has_node(name, only_.empty() ? vars::Nodes::Near : vars::Nodes::All);
 }
 
@@ -129,18 +129,19 @@ Board* Boards::find(const std::string& name) {
     const auto all = names();
     return all.size() == 1 ? find(all.front()) : nullptr;
   }
-  const auto far = far_ != nullptr && (only_.empty() || name == only_) ? far_->find(name) : nullptr;
+  const auto remote = remote_ != nullptr && (only_.empty() || name == only_) ? remote_->find(name) : nullptr;
   const auto [first, last] = boards_.equal_range(name);
-  const auto known = std::find_if(first, last, [&](const auto& entry) { return entry.second->far() == far.get(); });
+  const auto known =
+      std::find_if(first, last, [&](const auto& entry) { return entry.second->remote() == remote.get(); });
   if (known != last) {
     known->second->refresh();
-    return known->second->store() != nullptr || far != nullptr || is_here(name) ? known->second.get() : nullptr;
+    return known->second->store() != nullptr || remote != nullptr || is_here(name) ? known->second.get() : nullptr;
   }
-  if (far == nullptr && !is_here(name)) {
+  if (remote == nullptr && !is_here(name)) {
     return nullptr;
   }
-  const auto made =
-      boards_.emplace(name, far != nullptr ? std::make_unique<Board>(far, reader_) : std::make_unique<Board>(name));
+  const auto made = boards_.emplace(
+      name, remote != nullptr ? std::make_unique<Board>(remote, reader_) : std::make_unique<Board>(name));
   made->second->refresh();
   return made->second.get();
 }

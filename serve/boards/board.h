@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "alarms/alarm_book.h"
-#include "serve/boards/far_boards.h"
+#include "serve/boards/remote_boards.h"
 #include "tools/values/here_source.h"
 #include "tools/values/run_view.h"
 #include "vars/store.h"
@@ -24,8 +24,8 @@ class Board {
   explicit Board(std::string name) : name_(std::move(name)), source_(name_, vars::Mode::ReadOnly) {}
 
   // Of another host; `reader` is the number of this thread.
-  Board(std::shared_ptr<tools::FarBoard> far, std::size_t reader)
-      : name_(far->name()), source_(name_, vars::Mode::ReadOnly), far_(std::move(far)), reader_(reader) {}
+  Board(std::shared_ptr<tools::RemoteBoard> remote, std::size_t reader)
+      : name_(remote->name()), source_(name_, vars::Mode::ReadOnly), remote_(std::move(remote)), reader_(reader) {}
 
   // Looks whether the store is still the one that is attached. Costs two small files.
   void refresh();
@@ -34,9 +34,9 @@ class Board {
   [[nodiscard]] const vars::Store* store() const noexcept { return store_ ? &*store_ : nullptr; }
   [[nodiscard]] bool alive() const noexcept { return store_ && absence_.empty(); }
   // Null: it is on this host.
-  [[nodiscard]] const tools::FarBoard* far() const noexcept { return far_.get(); }
+  [[nodiscard]] const tools::RemoteBoard* remote() const noexcept { return remote_.get(); }
   // Of another host, by its agent: how many alarms there are.
-  [[nodiscard]] alarms::AlarmCounts far_alarms() const;
+  [[nodiscard]] alarms::AlarmCounts remote_alarms() const;
   // Somebody wants to see its values: those of another host come as long as that is so.
   void want() const;
   // Changes whenever another store was attached: what points into the one before is void.
@@ -53,7 +53,7 @@ class Board {
   [[nodiscard]] bool shown(std::int64_t now_ns) const noexcept { return shown_ && now_ns < shown_until_ns_; }
 
  private:
-  void refresh_far();
+  void refresh_remote();
 
   std::string name_;
   tools::HereSource source_;
@@ -61,7 +61,7 @@ class Board {
   std::uint64_t generation_ = 0;
   std::uint64_t attachment_ = 0;
   std::string absence_ = "not running";
-  std::shared_ptr<tools::FarBoard> far_;
+  std::shared_ptr<tools::RemoteBoard> remote_;
   std::size_t reader_ = 0;
   std::optional<tools::RunView> shown_;
   std::int64_t shown_until_ns_ = 0;
@@ -70,9 +70,9 @@ class Board {
 // All nodes of the host, or the one that is wanted, and boards of other hosts. Of one thread.
 class Boards {
  public:
-  // `far`: boards of other hosts, which `reader` tells this thread from others by.
-  explicit Boards(std::string only, const FarBoards* far = nullptr, std::size_t reader = 0)
-      : only_(std::move(only)), far_(far), reader_(reader) {}
+  // `remote`: boards of other hosts, which `reader` tells this thread from others by.
+  explicit Boards(std::string only, const RemoteBoards* remote = nullptr, std::size_t reader = 0)
+      : only_(std::move(only)), remote_(remote), reader_(reader) {}
 
   // Those of this host.
   [[nodiscard]] std::vector<std::string> here() const;
@@ -87,7 +87,7 @@ class Boards {
   [[nodiscard]] bool is_here(const std::string& name) const;
 
   std::string only_;
-  const FarBoards* far_;
+  const RemoteBoards* remote_;
   std::size_t reader_;
   std::unordered_multimap<std::string, std::unique_ptr<Board>> boards_;  // those that were asked for, by name
 };

@@ -16,7 +16,7 @@ namespace {
 
 // A board of another host, whose node may not run.
 bool is_heard(const Board& board) {
-  return board.far() != nullptr && board.far()->said().heard;
+  return board.remote() != nullptr && board.remote()->said().heard;
 }
 
 }  // namespace
@@ -129,7 +129,7 @@ void Hub::look_around() {
     one["board"] = name;
     one["alive"] = board->alive();
     one["state"] = board->alive() || is_heard(*board) ? board->state()
-                   : board->far() != nullptr          ? "not heard"
+                   : board->remote() != nullptr       ? "not heard"
                                                       : "not running";
     one["layout"] = board->layout();
     list.push_back(std::move(one));

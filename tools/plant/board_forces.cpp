@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t kForcePatienceNs = 5'000'000'000;
 // An agent may need a moment to hear of a renewal.
-constexpr std::int64_t kFarLeaseNs = 5'000'000'000;
+constexpr std::int64_t kRemoteLeaseNs = 5'000'000'000;
 
 // Commands to one board, one after the other.
 class Orders {
@@ -92,16 +92,16 @@ int set_on_board(Context& context, BoardForces& options, std::vector<std::string
 int hold_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments) {
   Orders orders(context, options);
   deploy::WriteOrder order = order_of(context, as_lines(std::move(assignments)));
-  order.for_ns = kFarLeaseNs;
+  order.for_ns = kRemoteLeaseNs;
   order.lease = true;
   if (const int code = orders.give(deploy::Action::Force, text_of(order)); code != kOk) {
     return code;
   }
   context.out.note("held while this runs; Ctrl-C lets go");
   deploy::WriteOrder again;
-  again.for_ns = kFarLeaseNs;
+  again.for_ns = kRemoteLeaseNs;
   again.renew = true;
-  while (wait_until(rt::now_ns() + kFarLeaseNs / 4) != Woken::Signal) {
+  while (wait_until(rt::now_ns() + kRemoteLeaseNs / 4) != Woken::Signal) {
     if (const int code = orders.give(deploy::Action::Force, text_of(again)); code != kOk) {
       return interrupted() ? kOk : code;
     }

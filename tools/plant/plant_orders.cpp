@@ -16,8 +16,8 @@ namespace {
 constexpr std::int64_t kToldNs = 1'200'000'000;  // boards speak twice a second
 constexpr std::int64_t kPatienceNs = 5'000'000'000;
 
-deploy::Action action_of(PlantWatch::FarOrder::What what) {
-  using What = PlantWatch::FarOrder::What;
+deploy::Action action_of(PlantWatch::RemoteOrder::What what) {
+  using What = PlantWatch::RemoteOrder::What;
   switch (what) {
     case What::Set:
       return deploy::Action::Set;
@@ -43,8 +43,8 @@ deploy::Action action_of(PlantWatch::FarOrder::What what) {
   return deploy::Action::RestartModule;
 }
 
-std::string target_of(const PlantWatch::FarOrder& order) {
-  using What = PlantWatch::FarOrder::What;
+std::string target_of(const PlantWatch::RemoteOrder& order) {
+  using What = PlantWatch::RemoteOrder::What;
   const bool bare =
       order.what == What::StopModule || order.what == What::StartModule || order.what == What::RestartModule;
   if (!bare) {
@@ -82,7 +82,7 @@ std::map<std::string, std::string> PlantWatch::texts(const char* name, const std
   return all;
 }
 
-Result<std::string, Failure> PlantWatch::order(const std::string& board, const FarOrder& order) {
+Result<std::string, Failure> PlantWatch::order(const std::string& board, const RemoteOrder& order) {
   if (!open()) {
     return Failure{kUnreachable, problem_};
   }

@@ -40,7 +40,7 @@ class PlantWatch {
   // not.
   [[nodiscard]] std::map<std::string, std::string> texts(const char* name, const std::vector<std::string>& boards);
 
-  struct FarOrder {
+  struct RemoteOrder {
     enum class What : std::uint8_t {
       Set,
       Force,
@@ -62,7 +62,7 @@ class PlantWatch {
   };
   // Given to the board's agent, which looks whether it may be; waits until it is done, a few seconds at most. Boards
   // with keys want those of the settings. Returns what the board says of it.
-  Result<std::string, Failure> order(const std::string& board, const FarOrder& order);
+  Result<std::string, Failure> order(const std::string& board, const RemoteOrder& order);
 
  private:
   struct Gone {

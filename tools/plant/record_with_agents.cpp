@@ -28,7 +28,7 @@ bool among(const std::vector<std::string>& names, const std::string& name) {
 }
 
 // `nobody_has` loses the names that a board has.
-int begin(Context& context, const FarWish& wish, const deploy::LinkSettings& link, BoardRecordings& recordings,
+int begin(Context& context, const RemoteWish& wish, const deploy::LinkSettings& link, BoardRecordings& recordings,
           std::vector<std::string>& nobody_has) {
   std::vector<std::string> boards;
   for (const BoardElsewhere& board : wish.boards) {
@@ -65,7 +65,7 @@ void wait(std::int64_t duration_ns) {
   }
 }
 
-int join(Context& context, const FarWish& wish, BoardRecordings& recordings, const fs::path& parts) {
+int join(Context& context, const RemoteWish& wish, BoardRecordings& recordings, const fs::path& parts) {
   const int interrupt = interrupted() ? interrupt_code() : kOk;
   take_interrupt();  // it has ended the recording, and is not to end this
   int code = tell(context, recordings.end());
@@ -93,7 +93,7 @@ int join(Context& context, const FarWish& wish, BoardRecordings& recordings, con
 
 }  // namespace
 
-int record_with_agents(Context& context, const FarWish& wish, deploy::LinkSettings& link,
+int record_with_agents(Context& context, const RemoteWish& wish, deploy::LinkSettings& link,
                        const std::vector<std::string>& nobody_has,
                        const std::function<int(const fs::path& file)>& here) {
   auto commander = BoardCommander::make(context, link.keys);

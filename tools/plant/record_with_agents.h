@@ -19,7 +19,7 @@ struct BoardElsewhere {
   std::string name;
   std::string why;  // it is not recorded here, though it runs here; else empty
 };
-struct FarWish {
+struct RemoteWish {
   std::string plant;
   std::vector<BoardElsewhere> boards;
   std::vector<std::string> names;  // wanted variables or globs; none: all
@@ -31,7 +31,7 @@ struct FarWish {
 // Begins what agents are to record, calls `here` with a file for what this host records (empty: nothing), and when that
 // returns, ends the others and joins all. `nobody_has`: the wanted names that no board of this host has. Returns the
 // exit code of the first problem; boards that are not in the file are named.
-int record_with_agents(Context& context, const FarWish& wish, deploy::LinkSettings& link,
+int record_with_agents(Context& context, const RemoteWish& wish, deploy::LinkSettings& link,
                        const std::vector<std::string>& nobody_has,
                        const std::function<int(const std::filesystem::path& file)>& here);
 

@@ -258,8 +258,8 @@ int record_plant(Context& context, Options& options) {
   std::erase_if(names, [&](const std::string& name) {
     return std::find(nobody_has.begin(), nobody_has.end(), name) != nobody_has.end();
   });
-  const FarWish wish{read.plant.name, std::move(elsewhere), options.names,
-                     options.past,    options.duration_ns,  options.file};
+  const RemoteWish wish{read.plant.name, std::move(elsewhere), options.names,
+                        options.past,    options.duration_ns,  options.file};
   std::function<int(const std::filesystem::path& file)> here;
   if (!nodes.empty() && names.empty() == options.names.empty()) {
     here = [&](const std::filesystem::path& file) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/plant/far_board.h"
+#include "tools/plant/remote_board.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -73,16 +73,16 @@ base::Json shown_forces(const base::Json& told) {
 
 }  // namespace
 
-std::string far_store_prefix() {
-  return fmt::format("far-{}-b", ::getpid());
+std::string remote_store_prefix() {
+  return fmt::format("remote-{}-b", ::getpid());
 }
 
-bool FarBoard::knows_variables() const {
+bool RemoteBoard::knows_variables() const {
   const std::lock_guard<std::mutex> guard(mutex_);
   return store_.has_value();
 }
 
-bool FarBoard::take_variables(std::string_view text) {
+bool RemoteBoard::take_variables(std::string_view text) {
   const auto parts = parts_of(text);
   std::string layout;
   if (!parts || !base::read(parts->first, "layout", layout)) {
@@ -100,7 +100,7 @@ bool FarBoard::take_variables(std::string_view text) {
   if (size > deploy::BoardValues::kMostBytes) {
     return false;  // no agent says so much
   }
-  const std::string name = far_store_prefix() + std::to_string(next_store());
+  const std::string name = remote_store_prefix() + std::to_string(next_store());
   auto fresh = vars::Store::create(name, *schema);
   if (!fresh) {
     return false;
@@ -121,7 +121,7 @@ bool FarBoard::take_variables(std::string_view text) {
   return true;
 }
 
-FarBoard::Taken FarBoard::take_values(std::string_view text, std::int64_t now_ns) {
+RemoteBoard::Taken RemoteBoard::take_values(std::string_view text, std::int64_t now_ns) {
   const auto parts = parts_of(text);
   std::string layout;
   if (!parts || !base::read(parts->first, "layout", layout)) {
@@ -162,7 +162,7 @@ FarBoard::Taken FarBoard::take_values(std::string_view text, std::int64_t now_ns
 }
 
 // Forces of the board hold the same parts here, so that readers see them.
-void FarBoard::hold(const base::Json& forces) {
+void RemoteBoard::hold(const base::Json& forces) {
   for (const base::Json& one : forces.values()) {
     std::string name;
     const auto offset = one["offset"].natural();
@@ -182,7 +182,7 @@ void FarBoard::hold(const base::Json& forces) {
   }
 }
 
-void FarBoard::write(std::string_view bytes, std::int64_t now_ns) {
+void RemoteBoard::write(std::string_view bytes, std::int64_t now_ns) {
   for (const schema::Variable& variable : store_->schema().variables) {
     std::int64_t freshness = 0;
     std::memcpy(&freshness, bytes.data(), sizeof freshness);
@@ -198,7 +198,7 @@ void FarBoard::write(std::string_view bytes, std::int64_t now_ns) {
   }
 }
 
-void FarBoard::look_at(const base::Json& row) {
+void RemoteBoard::look_at(const base::Json& row) {
   const std::lock_guard<std::mutex> guard(mutex_);
   said_.row = row;
   said_.heard = row["heard"].boolean().value_or(false);
@@ -210,7 +210,7 @@ void FarBoard::look_at(const base::Json& row) {
                                 : state;
 }
 
-void FarBoard::silent() {
+void RemoteBoard::silent() {
   const std::lock_guard<std::mutex> guard(mutex_);
   said_.values = false;
   next_ns_ = rt::now_ns() + kSecondNs;
@@ -222,13 +222,13 @@ void FarBoard::silent() {
   }
 }
 
-bool FarBoard::due(std::int64_t now_ns) const {
+bool RemoteBoard::due(std::int64_t now_ns) const {
   const std::lock_guard<std::mutex> guard(mutex_);
   const bool wanted = now_ns - wanted_ns_.load(std::memory_order_relaxed) < kWantedNs;
   return now_ns >= next_ns_ + (wanted ? 0 : kUnwantedNs);
 }
 
-Result<vars::Store> FarBoard::attach(std::size_t reader) {
+Result<vars::Store> RemoteBoard::attach(std::size_t reader) {
   const std::lock_guard<std::mutex> guard(mutex_);
   if (!store_) {
     return Error{Errc::NotFound, 0, "variables of the board"};
@@ -241,7 +241,7 @@ Result<vars::Store> FarBoard::attach(std::size_t reader) {
   return view;
 }
 
-FarBoard::Said FarBoard::said() const {
+RemoteBoard::Said RemoteBoard::said() const {
   const std::lock_guard<std::mutex> guard(mutex_);
   return said_;
 }

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "tools/plant/far_board.h"
 #include "tools/plant/plant_watch.h"
+#include "tools/plant/remote_board.h"
 
 namespace indurop::serve {
 
-class FarBoards {
+class RemoteBoards {
  public:
   // Of the thread that hears boards. Asks for what is due; takes up to two seconds if a board does not answer.
   void look(tools::PlantWatch& watch);
@@ -25,17 +25,17 @@ class FarBoards {
 
   // Of any thread: boards that were ever heard and do not run on this host. Null: there is none of that name.
   [[nodiscard]] std::vector<std::string> names() const;
-  [[nodiscard]] std::shared_ptr<tools::FarBoard> find(const std::string& name) const;
+  [[nodiscard]] std::shared_ptr<tools::RemoteBoard> find(const std::string& name) const;
 
  private:
-  using Some = std::vector<std::shared_ptr<tools::FarBoard>>;
+  using Some = std::vector<std::shared_ptr<tools::RemoteBoard>>;
   void hear(const tools::PlantWatch& watch);
   void ask(tools::PlantWatch& watch, const Some& boards);
   static void learn(tools::PlantWatch& watch, const Some& boards);
   [[nodiscard]] Some all() const;
 
   mutable std::mutex mutex_;  // of the map, not of what is in it
-  std::map<std::string, std::shared_ptr<tools::FarBoard>> boards_;
+  std::map<std::string, std::shared_ptr<tools::RemoteBoard>> boards_;
   std::map<std::string, std::int64_t> learn_ns_;  // not to be asked for their variables before
 };
 

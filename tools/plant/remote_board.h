@@ -18,15 +18,15 @@
 namespace indurop::tools {
 
 // What stores of this process are called as long as they have a name: not nodes.
-std::string far_store_prefix();
+std::string remote_store_prefix();
 
-class FarBoard {
+class RemoteBoard {
  public:
   static constexpr std::size_t kReaders = 2;
 
-  explicit FarBoard(std::string name) : name_(std::move(name)) {}
-  FarBoard(const FarBoard&) = delete;
-  FarBoard& operator=(const FarBoard&) = delete;
+  explicit RemoteBoard(std::string name) : name_(std::move(name)) {}
+  RemoteBoard(const RemoteBoard&) = delete;
+  RemoteBoard& operator=(const RemoteBoard&) = delete;
 
   // Of the thread that hears the board. What makes no sense changes nothing and is false.
   [[nodiscard]] bool knows_variables() const;

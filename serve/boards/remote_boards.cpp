@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "serve/boards/far_boards.h"
+#include "serve/boards/remote_boards.h"
 
 #include <algorithm>
 #include <utility>
@@ -16,7 +16,7 @@ bool runs_here(const std::string& name) {
   return vars::running_node(name) > 0;
 }
 
-std::vector<std::string> names_of(const std::vector<std::shared_ptr<tools::FarBoard>>& boards) {
+std::vector<std::string> names_of(const std::vector<std::shared_ptr<tools::RemoteBoard>>& boards) {
   std::vector<std::string> names;
   names.reserve(boards.size());
   for (const auto& board : boards) {
@@ -27,7 +27,7 @@ std::vector<std::string> names_of(const std::vector<std::shared_ptr<tools::FarBo
 
 }  // namespace
 
-FarBoards::Some FarBoards::all() const {
+RemoteBoards::Some RemoteBoards::all() const {
   const std::lock_guard<std::mutex> guard(mutex_);
   Some some;
   for (const auto& [name, board] : boards_) {
@@ -36,29 +36,29 @@ FarBoards::Some FarBoards::all() const {
   return some;
 }
 
-std::vector<std::string> FarBoards::names() const {
+std::vector<std::string> RemoteBoards::names() const {
   std::vector<std::string> names = names_of(all());
   std::erase_if(names, runs_here);
   return names;
 }
 
-std::shared_ptr<tools::FarBoard> FarBoards::find(const std::string& name) const {
+std::shared_ptr<tools::RemoteBoard> RemoteBoards::find(const std::string& name) const {
   const std::lock_guard<std::mutex> guard(mutex_);
   const auto known = boards_.find(name);
   return known != boards_.end() && !runs_here(name) ? known->second : nullptr;
 }
 
-void FarBoards::hear(const tools::PlantWatch& watch) {
+void RemoteBoards::hear(const tools::PlantWatch& watch) {
   for (const base::Json& row : watch.rows()) {
     const std::string name = row["board"].text().value_or("");
     if (name.empty() || runs_here(name)) {
       continue;
     }
-    std::shared_ptr<tools::FarBoard> board;
+    std::shared_ptr<tools::RemoteBoard> board;
     {
       const std::lock_guard<std::mutex> guard(mutex_);
       auto& known = boards_[name];
-      known = known != nullptr ? known : std::make_shared<tools::FarBoard>(name);
+      known = known != nullptr ? known : std::make_shared<tools::RemoteBoard>(name);
       board = known;
     }
     board->look_at(row);
@@ -68,7 +68,7 @@ void FarBoards::hear(const tools::PlantWatch& watch) {
   }
 }
 
-void FarBoards::learn(tools::PlantWatch& watch, const Some& boards) {
+void RemoteBoards::learn(tools::PlantWatch& watch, const Some& boards) {
   const auto texts = watch.texts("variables", names_of(boards));
   for (const auto& board : boards) {
     const auto text = texts.find(board->name());
@@ -78,7 +78,7 @@ void FarBoards::learn(tools::PlantWatch& watch, const Some& boards) {
   }
 }
 
-void FarBoards::ask(tools::PlantWatch& watch, const Some& boards) {
+void RemoteBoards::ask(tools::PlantWatch& watch, const Some& boards) {
   Some others;
   const auto take = [&](const Some& asked) {
     const auto texts = watch.texts("values", names_of(asked));
@@ -86,10 +86,11 @@ void FarBoards::ask(tools::PlantWatch& watch, const Some& boards) {
     others.clear();
     for (const auto& board : asked) {
       const auto text = texts.find(board->name());
-      const auto taken = text != texts.end() ? board->take_values(text->second, now) : tools::FarBoard::Taken::Nonsense;
-      if (taken == tools::FarBoard::Taken::OtherVariables) {
+      const auto taken =
+          text != texts.end() ? board->take_values(text->second, now) : tools::RemoteBoard::Taken::Nonsense;
+      if (taken == tools::RemoteBoard::Taken::OtherVariables) {
         others.push_back(board);
-      } else if (taken == tools::FarBoard::Taken::Nonsense) {
+      } else if (taken == tools::RemoteBoard::Taken::Nonsense) {
         board->silent();
       }
     }
@@ -102,7 +103,7 @@ void FarBoards::ask(tools::PlantWatch& watch, const Some& boards) {
   }
 }
 
-void FarBoards::look(tools::PlantWatch& watch) {
+void RemoteBoards::look(tools::PlantWatch& watch) {
   hear(watch);
   const std::int64_t now = rt::now_ns();
   Some due;
@@ -119,7 +120,7 @@ void FarBoards::look(tools::PlantWatch& watch) {
   }
 }
 
-void FarBoards::fetch(tools::PlantWatch& watch, const std::string& name) {
+void RemoteBoards::fetch(tools::PlantWatch& watch, const std::string& name) {
   hear(watch);
   const auto board = find(name);
   if (board == nullptr || !board->said().heard) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A board elsewhere, from what its agent says: the store of a node here and the one that is made of its agent's words
 // hold the same, whatever its variables are; words that make no sense change nothing.
-#include "tools/plant/far_board.h"
+#include "tools/plant/remote_board.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@
 namespace indurop::tools {
 namespace {
 
-using Taken = FarBoard::Taken;
+using Taken = RemoteBoard::Taken;
 
 schema::Variable variable(const std::string& name, schema::Base base, std::vector<std::uint32_t> dims) {
   schema::Variable out;
@@ -31,9 +31,9 @@ schema::Variable variable(const std::string& name, schema::Base base, std::vecto
   return out;
 }
 
-class FarBoardTest : public ::testing::Test {
+class RemoteBoardTest : public ::testing::Test {
  protected:
-  ~FarBoardTest() override { EXPECT_TRUE(vars::remove_shm_file(vars::block_file(node_)).ok()); }
+  ~RemoteBoardTest() override { EXPECT_TRUE(vars::remove_shm_file(vars::block_file(node_)).ok()); }
 
   vars::Store random_store(std::mt19937& rng) {
     constexpr schema::Base kBases[] = {schema::Base::UInt8, schema::Base::Int16, schema::Base::Float,
@@ -49,7 +49,7 @@ class FarBoardTest : public ::testing::Test {
     return std::move(vars::Store::create(node_, schema)).value();
   }
 
-  std::string node_ = "far_board_test_" + std::to_string(getpid());
+  std::string node_ = "remote_board_test_" + std::to_string(getpid());
 };
 
 std::vector<std::uint8_t> bytes_of(const vars::Store& store, const vars::DirectoryEntry& entry) {
@@ -58,9 +58,9 @@ std::vector<std::uint8_t> bytes_of(const vars::Store& store, const vars::Directo
   return bytes;
 }
 
-TEST_F(FarBoardTest, Holds_what_the_store_over_there_holds) {
+TEST_F(RemoteBoardTest, Holds_what_the_store_over_there_holds) {
   std::mt19937 rng(16);
-  FarBoard sut("there");
+  RemoteBoard sut("there");
   for (int round = 0; round < 60; ++round) {
     vars::Store there = random_store(rng);
     for (const vars::DirectoryEntry& entry : there.directory()) {
@@ -89,7 +89,7 @@ TEST_F(FarBoardTest, Holds_what_the_store_over_there_holds) {
   }
 }
 
-TEST_F(FarBoardTest, Tells_ages_silence_and_forces) {
+TEST_F(RemoteBoardTest, Tells_ages_silence_and_forces) {
   schema::Schema schema;
   schema.variables = {variable("own", schema::Base::Double, {}), variable("theirs", schema::Base::Double, {}),
                       variable("silent", schema::Base::Double, {}), variable("never", schema::Base::Double, {})};
@@ -107,7 +107,7 @@ TEST_F(FarBoardTest, Tells_ages_silence_and_forces) {
   const double five = 5;
   ASSERT_TRUE(there.force(forced, 0, {reinterpret_cast<const std::uint8_t*>(&five), sizeof five}, vars::kForever).ok());
   deploy::BoardValues said(node_);
-  FarBoard sut("there");
+  RemoteBoard sut("there");
   ASSERT_TRUE(sut.take_variables(said.variables()));
   const std::string text = said.values(rt::mono_time(begun));
   const std::int64_t later = rt::now_ns() + 1'000'000'000;  // the clock over there is another one
@@ -133,11 +133,11 @@ TEST_F(FarBoardTest, Tells_ages_silence_and_forces) {
   EXPECT_FALSE(sut.said().values);
 }
 
-TEST_F(FarBoardTest, Words_that_make_no_sense_change_nothing) {
+TEST_F(RemoteBoardTest, Words_that_make_no_sense_change_nothing) {
   std::mt19937 rng(17);
   vars::Store there = random_store(rng);
   deploy::BoardValues said(node_);
-  FarBoard sut("there");
+  RemoteBoard sut("there");
   for (const char* text : {"", "\n", "{}\n{}", "[]\n", "{\"layout\": 1}\n", "{\"layout\": \"x\"}\nnothing"}) {
     EXPECT_FALSE(sut.take_variables(text)) << text;
   }

@@ -16,7 +16,7 @@
 namespace indurop::serve::answers {
 namespace {
 
-using FarOrder = tools::PlantWatch::FarOrder;
+using RemoteOrder = tools::PlantWatch::RemoteOrder;
 
 // One order is one line for each value: what has more would be another order.
 bool one_line(const std::string& text) {
@@ -24,7 +24,7 @@ bool one_line(const std::string& text) {
 }
 
 // Begins, lets the board do it, and notes what became of that.
-Reply give(Write& write, const Call& call, const Board& board, FarOrder order, base::Json body) {
+Reply give(Write& write, const Call& call, const Board& board, RemoteOrder order, base::Json body) {
   if (!one_line(order.reason) || !std::all_of(order.lines.begin(), order.lines.end(), one_line)) {
     return write.failed(status::kWrongValue, "names, values and reasons for a board of another host are one line each");
   }
@@ -40,8 +40,8 @@ Reply give(Write& write, const Call& call, const Board& board, FarOrder order, b
   return write.done(body);
 }
 
-Reply write_far(Api& api, const Call& call, FarOrder::What what) {
-  const bool hold = what == FarOrder::What::Force;
+Reply write_remotely(Api& api, const Call& call, RemoteOrder::What what) {
+  const bool hold = what == RemoteOrder::What::Force;
   const auto found = board_of(call);
   if (!found) {
     return found.error();
@@ -56,7 +56,7 @@ Reply write_far(Api& api, const Call& call, FarOrder::What what) {
     return write.failed(status::kConflict,
                         "a lease is for boards of this host: force it for a time (for_ns), or until it is released");
   }
-  FarOrder order{what, {}, wish->for_ns, {}, wish->reason};
+  RemoteOrder order{what, {}, wish->for_ns, {}, wish->reason};
   base::Json names = base::Json::array();
   for (const auto& [name, value] : wish->values) {
     if (name.empty() || name.find('=') != std::string::npos) {
@@ -70,7 +70,7 @@ Reply write_far(Api& api, const Call& call, FarOrder::What what) {
   return give(write, call, **found, std::move(order), std::move(body));
 }
 
-Reply command(Api& api, const Call& call, FarOrder::What what, std::string word) {
+Reply command(Api& api, const Call& call, RemoteOrder::What what, std::string word) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
@@ -81,7 +81,7 @@ Reply command(Api& api, const Call& call, FarOrder::What what, std::string word)
   base::Json body = about(**found);
   body["module"] = module;
   body["result"] = "done";
-  return give(write, call, **found, FarOrder{what, {module}, 0, {}, {}}, std::move(body));
+  return give(write, call, **found, RemoteOrder{what, {module}, 0, {}, {}}, std::move(body));
 }
 
 // How the node does comes from its agent; the answer is that of a board here.
@@ -108,27 +108,27 @@ Reply shown(Api& api, const Call& call, Reply (*answer)(Api& api, const Call& ca
 
 }  // namespace
 
-Reply far_modules(Api& api, const Call& call) {
+Reply remote_modules(Api& api, const Call& call) {
   return shown(api, call, &modules);
 }
 
-Reply far_histograms(Api& api, const Call& call) {
+Reply remote_histograms(Api& api, const Call& call) {
   return shown(api, call, &histograms);
 }
 
-Reply far_schedule(Api& api, const Call& call) {
+Reply remote_schedule(Api& api, const Call& call) {
   return shown(api, call, &schedule);
 }
 
-Reply far_runs(Api& api, const Call& call) {
+Reply remote_runs(Api& api, const Call& call) {
   return shown(api, call, &runs);
 }
 
-Reply far_overruns(Api& api, const Call& call) {
+Reply remote_overruns(Api& api, const Call& call) {
   return shown(api, call, &overruns);
 }
 
-Reply far_messages(Api& /*api*/, const Call& call) {
+Reply remote_messages(Api& /*api*/, const Call& call) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
@@ -162,15 +162,15 @@ Reply far_messages(Api& /*api*/, const Call& call) {
   return json_reply(body);
 }
 
-Reply far_set(Api& api, const Call& call) {
-  return write_far(api, call, FarOrder::What::Set);
+Reply remote_set(Api& api, const Call& call) {
+  return write_remotely(api, call, RemoteOrder::What::Set);
 }
 
-Reply far_force(Api& api, const Call& call) {
-  return write_far(api, call, FarOrder::What::Force);
+Reply remote_force(Api& api, const Call& call) {
+  return write_remotely(api, call, RemoteOrder::What::Force);
 }
 
-Reply far_release(Api& api, const Call& call) {
+Reply remote_release(Api& api, const Call& call) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
@@ -183,11 +183,11 @@ Reply far_release(Api& api, const Call& call) {
   write.about(wish->all ? "all" : text_of(*wish), wish->reason);
   base::Json body = about(**found);
   body["released"] = base::Json(wish->names);
-  return give(write, call, **found, FarOrder{FarOrder::What::Unforce, wish->names, 0, {}, wish->reason},
+  return give(write, call, **found, RemoteOrder{RemoteOrder::What::Unforce, wish->names, 0, {}, wish->reason},
               std::move(body));
 }
 
-Reply far_lock(Api& api, const Call& call) {
+Reply remote_lock(Api& api, const Call& call) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
@@ -203,19 +203,19 @@ Reply far_lock(Api& api, const Call& call) {
   write.about(word, reason);
   base::Json body = about(**found);
   body["lock"] = word;
-  return give(write, call, **found, FarOrder{FarOrder::What::Lock, {word}, 0, {}, reason}, std::move(body));
+  return give(write, call, **found, RemoteOrder{RemoteOrder::What::Lock, {word}, 0, {}, reason}, std::move(body));
 }
 
-Reply far_start(Api& api, const Call& call) {
-  return command(api, call, FarOrder::What::StartModule, "start");
+Reply remote_start(Api& api, const Call& call) {
+  return command(api, call, RemoteOrder::What::StartModule, "start");
 }
 
-Reply far_stop(Api& api, const Call& call) {
-  return command(api, call, FarOrder::What::StopModule, "stop");
+Reply remote_stop(Api& api, const Call& call) {
+  return command(api, call, RemoteOrder::What::StopModule, "stop");
 }
 
-Reply far_restart(Api& api, const Call& call) {
-  return command(api, call, FarOrder::What::RestartModule, "restart");
+Reply remote_restart(Api& api, const Call& call) {
+  return command(api, call, RemoteOrder::What::RestartModule, "restart");
 }
 
 }  // namespace indurop::serve::answers

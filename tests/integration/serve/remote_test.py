@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """indurop-serve before a board of another host: a board whose memory it cannot see, heard through its agent only. The board's
-values, as they come here, are compared with what a server beside it reads from its memory. far_test.py PROGRAMS FAKE_NODE [TEST...]"""
+values, as they come here, are compared with what a server beside it reads from its memory. remote_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
 import os
 import pathlib
@@ -31,7 +31,7 @@ def there_are_namespaces():
     return False
 
 
-def start_far_server(setting, domain, *options):
+def start_remote_server(setting, domain, *options):
     """A server on another host than the nodes of this one."""
     child = setting.start(*ELSEWHERE, setting.programs / "indurop-serve", "--port", 0, "--plant", "--domain", domain, "--one-host",
                           "--write", "--token-file", setting.tokens, *options)
@@ -50,9 +50,9 @@ def begin(setting, *options):
     setting.start_node(*options)
     agent = start_agent(setting, setting.node, domain)
     near = setting.start_server()
-    far = start_far_server(setting, domain)
-    wait_for(lambda: [one["board"] for one in far.get(API + "/boards").json()["boards"]] == [setting.node], "the board to be heard")
-    return domain, agent, near, far
+    remote = start_remote_server(setting, domain)
+    wait_for(lambda: [one["board"] for one in remote.get(API + "/boards").json()["boards"]] == [setting.node], "the board to be heard")
+    return domain, agent, near, remote
 
 
 def variables(server, setting):
@@ -61,10 +61,10 @@ def variables(server, setting):
 
 
 def test_shows_the_variables_of_a_board_elsewhere(setting):
-    _, _, near, far = begin(setting)
-    assert far.get(API + "/boards").json()["boards"][0]["here"] is False
-    wait_for(lambda: variables(far, setting), "variables")
-    there, here = variables(near, setting), variables(far, setting)
+    _, _, near, remote = begin(setting)
+    assert remote.get(API + "/boards").json()["boards"][0]["here"] is False
+    wait_for(lambda: variables(remote, setting), "variables")
+    there, here = variables(near, setting), variables(remote, setting)
     assert there.keys() == here.keys() and len(here) > 3, here.keys()
     for name, one in here.items():
         for what in ("type", "form", "unit", "range", "description", "retain"):
@@ -72,16 +72,16 @@ def test_shows_the_variables_of_a_board_elsewhere(setting):
         assert one["age_ns"] is not None and one["age_ns"] >= 0, one
     steady = [name for name in here if there[name]["value"] == variables(near, setting)[name]["value"]]
     assert steady and all(here[name]["value"] == there[name]["value"] for name in steady), steady
-    one = far.get(board_of(setting) + "/variables/gain").json()
+    one = remote.get(board_of(setting) + "/variables/gain").json()
     assert one["value"] == there["knu::Robot::gain"]["value"] and one["quality"] == "good", one
-    missing = far.get(board_of(setting) + "/variables/gian")
+    missing = remote.get(board_of(setting) + "/variables/gian")
     assert missing.status == 404 and "did you mean" in missing.json()["message"], missing.body
 
 
 def test_follows_values_and_says_when_they_are_old(setting):
-    domain, agent, _, far = begin(setting)
-    wait_for(lambda: variables(far, setting), "variables")
-    client = WebSocket(far.port)
+    domain, agent, _, remote = begin(setting)
+    wait_for(lambda: variables(remote, setting), "variables")
+    client = WebSocket(remote.port)
     client.say(type="subscribe", id=1, board=setting.node, names=["tick", "gain"], rate_hz=10)
     told = client.heard("subscribed")
     assert [one["name"] for one in told["variables"]] == ["knu::Robot::tick", "knu::Robot::gain"], told
@@ -93,9 +93,9 @@ def test_follows_values_and_says_when_they_are_old(setting):
     setting.end(agent, signal.SIGKILL)
     while client.heard("values")["quality"].get("knu::Robot::gain") != "silent":
         pass
-    summary = wait_for(lambda: [one for one in far.get(API + "/boards").json()["boards"] if not one["alive"]], "the board to be missed")
+    summary = wait_for(lambda: [one for one in remote.get(API + "/boards").json()["boards"] if not one["alive"]], "the board to be missed")
     assert summary[0]["state"].startswith("not heard, last ") and summary[0]["trouble"], summary
-    last = variables(far, setting)["knu::Robot::gain"]
+    last = variables(remote, setting)["knu::Robot::gain"]
     assert last["quality"] == "silent" and last["value"] is not None, last
     start_agent(setting, setting.node, domain)
     while client.heard("values")["quality"]:
@@ -119,10 +119,10 @@ def deploy(setting, domain, *modules):
 def begin_deployed(setting):
     domain = take_domain(setting)
     agent = start_agent(setting, setting.node, domain)
-    far = start_far_server(setting, domain)
+    remote = start_remote_server(setting, domain)
     deploy(setting, domain, "counter", "faulty")
-    wait_for(lambda: variables(far, setting), "variables of what was deployed")
-    return domain, agent, setting.start_server(), far
+    wait_for(lambda: variables(remote, setting), "variables of what was deployed")
+    return domain, agent, setting.start_server(), remote
 
 
 def end_deployed(setting, agent):
@@ -130,34 +130,34 @@ def end_deployed(setting, agent):
 
 
 def test_sets_forces_and_lets_go_with_a_note_of_it(setting):
-    _, agent, near, far = begin_deployed(setting)
+    _, agent, near, remote = begin_deployed(setting)
     base = board_of(setting)
     looks = lambda server: variables(server, setting)["nt::looks"]
-    refused = far.post(base + "/set", {"values": {"looks": 3}}, token=None)
+    refused = remote.post(base + "/set", {"values": {"looks": 3}}, token=None)
     assert refused.status in (401, 403), refused.status
-    done = far.post(base + "/set", {"values": {"looks": 3}, "reason": "because"})
+    done = remote.post(base + "/set", {"values": {"looks": 3}, "reason": "because"})
     assert done.status == 200 and done.json()["written"] == ["looks"], done.body
-    assert looks(near)["value"] == 3 and looks(far)["value"] == 3
+    assert looks(near)["value"] == 3 and looks(remote)["value"] == 3
     for values in ({"looks": "many"}, {"look": 1}, {"looks": "1\nlooks=2"}, {"looks=1\nx": 1}, {"looks": 4, "look": 1}):
-        answer = far.post(base + "/set", {"values": values})
+        answer = remote.post(base + "/set", {"values": values})
         assert answer.status == 422 and answer.json()["message"], answer.body
         assert looks(near)["value"] == 3, "all or nothing"
-    assert far.post(base + "/force", {"values": {"looks": 5}, "lease": True}).status == 409
-    assert far.post(base + "/force", {"values": {"looks": 5}, "reason": "stuck"}).status == 200
-    forced = wait_for(lambda: far.get(base + "/forces").json()["forces"], "the force to be seen")
+    assert remote.post(base + "/force", {"values": {"looks": 5}, "lease": True}).status == 409
+    assert remote.post(base + "/force", {"values": {"looks": 5}, "reason": "stuck"}).status == 200
+    forced = wait_for(lambda: remote.get(base + "/forces").json()["forces"], "the force to be seen")
     assert (forced[0]["name"], forced[0]["value"], forced[0]["reason"]) == ("nt::looks", 5, "stuck") and "ana" in forced[0]["who"], forced
-    assert looks(far)["forced"] == ["nt::looks"] == looks(near)["forced"] and looks(far)["value"] == 5
-    assert far.post(base + "/release", {"names": ["looks"]}).status == 200
-    assert not looks(far)["forced"] and not looks(near)["forced"]
-    assert far.post(base + "/lock", {"lock": "all", "reason": "night"}).status == 200
-    locked = far.post(base + "/set", {"values": {"looks": 1}})
+    assert looks(remote)["forced"] == ["nt::looks"] == looks(near)["forced"] and looks(remote)["value"] == 5
+    assert remote.post(base + "/release", {"names": ["looks"]}).status == 200
+    assert not looks(remote)["forced"] and not looks(near)["forced"]
+    assert remote.post(base + "/lock", {"lock": "all", "reason": "night"}).status == 200
+    locked = remote.post(base + "/set", {"values": {"looks": 1}})
     assert locked.status == 422 and "lock" in locked.json()["message"] and looks(near)["value"] == 5, locked.body
-    assert looks(far) and far.get(base + "/forces").json()["lock"]["lock"] == "all"
-    assert far.post(base + "/lock", {"lock": "none"}).status == 200
-    assert far.post(base + "/modules/counter/stop").status == 200
+    assert looks(remote) and remote.get(base + "/forces").json()["lock"]["lock"] == "all"
+    assert remote.post(base + "/lock", {"lock": "none"}).status == 200
+    assert remote.post(base + "/modules/counter/stop").status == 200
     assert near.get(base + "/modules").json()["modules"][0]["state"] == "stopped"
-    assert far.post(base + "/modules/nobody/stop").status == 422
-    notes = far.get(API + "/audit", Authorization="Bearer " + harness.TOKEN).json()["audit"]
+    assert remote.post(base + "/modules/nobody/stop").status == 422
+    notes = remote.get(API + "/audit", Authorization="Bearer " + harness.TOKEN).json()["audit"]
     done = sorted(one["action"] for one in notes if one["outcome"] == "done" and one["who"] == "ana")
     assert done == ["force", "lock", "lock", "release", "set", "stop"], notes
     assert len([one for one in notes if one["outcome"] not in ("begun", "done")]) >= 7, "what was refused is noted, too"
@@ -165,14 +165,14 @@ def test_sets_forces_and_lets_go_with_a_note_of_it(setting):
 
 
 def test_says_what_was_printed_and_what_is_not_seen_from_here(setting):
-    _, agent, near, far = begin_deployed(setting)
+    _, agent, near, remote = begin_deployed(setting)
     base = board_of(setting)
-    there, here = near.get(base + "/messages").json(), far.get(base + "/messages").json()
+    there, here = near.get(base + "/messages").json(), remote.get(base + "/messages").json()
     assert here["messages"] and here["messages"] == there["messages"], (here, there)
     assert any(one["who"] == "counter" and "starts with" in one["text"] for one in here["messages"]), here
-    assert far.get(base + "/messages?count=1").json()["messages"] == here["messages"][-1:]
+    assert remote.get(base + "/messages?count=1").json()["messages"] == here["messages"][-1:]
     for path in ("/recipes", "/scope?channel=looks"):
-        answer = far.get(base + path)
+        answer = remote.get(base + path)
         assert answer.status == 409 and "on another host" in answer.json()["message"], answer.body
     end_deployed(setting, agent)
 
@@ -181,53 +181,53 @@ STEADY = ("name", "type", "operation", "period_ns", "priority", "core", "offset_
 
 
 def test_shows_modules_with_their_times_and_the_schedule(setting):
-    domain, agent, near, far = begin_deployed(setting)
+    domain, agent, near, remote = begin_deployed(setting)
     base = board_of(setting)
     ask = lambda server, path: server.get(base + path).json()
-    there, here = (ask(server, "/modules")["modules"] for server in (near, far))
+    there, here = (ask(server, "/modules")["modules"] for server in (near, remote))
     assert [[one[what] for what in STEADY] for one in here] == [[one[what] for what in STEADY] for one in there], (here, there)
-    assert far.get(base + "/modules").json()["alive"] is True
-    plan = ask(far, "/schedule")
+    assert remote.get(base + "/modules").json()["alive"] is True
+    plan = ask(remote, "/schedule")
     assert plan["plan"] is None and "board's host" in plan["message"], plan
     assert {what: plan[what] for what in ("basic_period_ns", "macro_period_ns", "slots", "epoch_ns")} == {
         what: ask(near, "/schedule")[what] for what in ("basic_period_ns", "macro_period_ns", "slots", "epoch_ns")}
-    seen = wait_for(lambda: ask(far, "/runs?count=50")["runs"], "runs")
+    seen = wait_for(lambda: ask(remote, "/runs?count=50")["runs"], "runs")
     beside = {one["number"]: one for one in ask(near, "/runs?count=8192")["runs"]}
     assert all(beside[one["number"]] == one for one in seen), "runs are those of the board's memory"
     last = seen[-1]["number"]
-    newer = wait_for(lambda: ask(far, f"/runs?after={last}")["runs"], "newer runs")
+    newer = wait_for(lambda: ask(remote, f"/runs?after={last}")["runs"], "newer runs")
     assert newer[0]["number"] > last
     exec_of = lambda server: ask(server, "/modules/counter/histograms")["histograms"]["exec"]
-    few, many = exec_of(far), exec_of(near)
+    few, many = exec_of(remote), exec_of(near)
     assert 0 < few["count"] <= many["count"] and few["min_ns"] >= many["min_ns"] and few["max_ns"] <= many["max_ns"], (few, many)
-    assert ask(far, "/overruns")["overruns"] == ask(near, "/overruns")["overruns"]
-    assert far.get(base + "/modules/nobody/histograms").status == 404
+    assert ask(remote, "/overruns")["overruns"] == ask(near, "/overruns")["overruns"]
+    assert remote.get(base + "/modules/nobody/histograms").status == 404
     setting.end(agent, signal.SIGKILL)
-    assert wait_for(lambda: far.get(base + "/modules").status == 504, "the answer that nobody answers")
+    assert wait_for(lambda: remote.get(base + "/modules").status == 504, "the answer that nobody answers")
     agent = start_agent(setting, setting.node, domain)
-    wait_for(lambda: far.get(base + "/modules").status == 200, "the board again")
+    wait_for(lambda: remote.get(base + "/modules").status == 200, "the board again")
     end_deployed(setting, agent)
 
 
 def test_alarms_are_looked_at_by_the_agent_and_acknowledged_from_elsewhere(setting):
     domain = take_domain(setting)
     agent = start_agent(setting, setting.node, domain)
-    far = start_far_server(setting, domain)
+    remote = start_remote_server(setting, domain)
     deploy(setting, domain, "counter")
-    wait_for(lambda: variables(far, setting), "variables of what was deployed")
+    wait_for(lambda: variables(remote, setting), "variables of what was deployed")
     base = board_of(setting)
     ask = lambda server, path="": server.get(f"{base}/alarms{path}").json()
     of = lambda server: [(one["alarm"], one["state"]) for one in ask(server)["alarms"]]
     alarm = "nt::torn > 1000"
-    assert [one["alarm"] for one in ask(far, "?all=true")["alarms"]] == [alarm] and of(far) == [], ask(far)
-    assert far.post(base + "/set", {"values": {"torn": 1001}}).status == 200
-    wait_for(lambda: of(far) == [(alarm, "unacknowledged")], "the alarm, which nobody but the agent can have seen")
-    assert ask(far)["watched"] is True
-    summary = wait_for(lambda: [one for one in far.get(API + "/boards").json()["boards"] if one["alarms"]["unacknowledged"] == 1], "its count")
+    assert [one["alarm"] for one in ask(remote, "?all=true")["alarms"]] == [alarm] and of(remote) == [], ask(remote)
+    assert remote.post(base + "/set", {"values": {"torn": 1001}}).status == 200
+    wait_for(lambda: of(remote) == [(alarm, "unacknowledged")], "the alarm, which nobody but the agent can have seen")
+    assert ask(remote)["watched"] is True
+    summary = wait_for(lambda: [one for one in remote.get(API + "/boards").json()["boards"] if one["alarms"]["unacknowledged"] == 1], "its count")
     assert summary[0]["alarms"]["worst"] == "high" and any("alarm" in text for text in summary[0]["trouble"]), summary
     near = setting.start_server()
-    assert of(near) == of(far) and ask(near)["counts"] == ask(far)["counts"]
-    order = lambda what, body, **more: far.post(f"{base}/alarms/{what}", body, **more)
+    assert of(near) == of(remote) and ask(near)["counts"] == ask(remote)["counts"]
+    order = lambda what, body, **more: remote.post(f"{base}/alarms/{what}", body, **more)
     assert order("ack", {"all": True}, token=None).status in (401, 403)
     said = order("ack", {"alarms": ["tron"]})
     assert said.status == 422 and "no alarm" in said.json()["message"], said.body
@@ -241,29 +241,29 @@ def test_alarms_are_looked_at_by_the_agent_and_acknowledged_from_elsewhere(setti
     assert told["state"] == "acknowledged" and told["reason"] == "seen" and "ana" in told["who"], told
     assert order("ack", {"all": True}).json()["alarms"] == [], "there was nothing to do"
     assert order("shelve", {"all": True, "for_ns": 3600 * 10**9}).status == 200
-    assert of(near) == of(far) == [(alarm, "shelved")]
+    assert of(near) == of(remote) == [(alarm, "shelved")]
     assert order("unshelve", {"alarms": [alarm]}).json()["alarms"] == [alarm]
-    wait_for(lambda: of(far) == [(alarm, "unacknowledged")], "it is raised again")
+    wait_for(lambda: of(remote) == [(alarm, "unacknowledged")], "it is raised again")
     events = lambda server: [(one["event"], one["alarm"]) for one in ask(server, "/history?count=5")["events"]]
-    assert events(far) == events(near) and [one[0] for one in events(far)[:4]] == ["raised", "acknowledged", "shelved", "unshelved"], events(far)
-    notes = far.get(API + "/audit", Authorization="Bearer " + harness.TOKEN).json()["audit"]
+    assert events(remote) == events(near) and [one[0] for one in events(remote)[:4]] == ["raised", "acknowledged", "shelved", "unshelved"], events(remote)
+    notes = remote.get(API + "/audit", Authorization="Bearer " + harness.TOKEN).json()["audit"]
     assert {"acknowledge", "shelve", "unshelve"} <= {one["action"] for one in notes if one["outcome"] == "done"}, notes
     end_deployed(setting, agent)
 
 
 def test_a_deployment_of_others_ends_what_was_followed(setting):
-    domain, agent, _, far = begin_deployed(setting)
-    client = WebSocket(far.port)
+    domain, agent, _, remote = begin_deployed(setting)
+    client = WebSocket(remote.port)
     client.say(type="subscribe", id=7, board=setting.node, names=["nt::*"], rate_hz=10)
     client.heard("subscribed")
     deploy(setting, domain, "layout_old")
     assert client.heard("layout_changed")["ids"] == [7]
-    old = variables(far, setting)["nt_layout::axis"]
+    old = variables(remote, setting)["nt_layout::axis"]
     client.say(type="subscribe", id=8, board=setting.node, names=["nt_layout::*"], rate_hz=10)
     client.heard("subscribed")
     deploy(setting, domain, "layout_new")
     assert client.heard("layout_changed")["ids"] == [8]
-    new = variables(far, setting)["nt_layout::axis"]
+    new = variables(remote, setting)["nt_layout::axis"]
     assert new["form"] != old["form"], new
     client.close()
     end_deployed(setting, agent)
