@@ -15,8 +15,14 @@ namespace {
 
 constexpr int kParticipantsPerHost = 64;  // boards and tools of one host, when ports are tried one by one
 
+// On one host, too, multicast finds the others: one message reaches all of them, instead of one for each port that
+// somebody might have. But who names a peer there, as programs of others do, knows nothing of multicast on loopback.
+bool found_by_multicast(const NetworkSettings& settings) {
+  return settings.multicast && !(settings.one_host && settings.known_ports);
+}
+
 std::string network(const NetworkSettings& settings, const std::string& interface_name) {
-  const bool multicast = settings.multicast && !settings.one_host;
+  const bool multicast = found_by_multicast(settings);
   // Loopback can do it, but does not say so.
   std::string text =
       fmt::format("<Interfaces><NetworkInterface name=\"{}\"{}/></Interfaces>", base::xml_text(interface_name),
@@ -30,7 +36,7 @@ std::string discovery(const NetworkSettings& settings) {
   std::string text = fmt::format("<LeaseDuration>{} ns</LeaseDuration>", settings.lease_ns);
   std::string peers;
   if (settings.one_host) {
-    peers = "<Peer address=\"127.0.0.1\"/>";
+    peers = found_by_multicast(settings) ? "" : "<Peer address=\"127.0.0.1\"/>";
   } else if (!settings.multicast || settings.known_ports) {
     for (const std::string& peer : settings.peers) {
       peers += fmt::format("<Peer address=\"{}\"/>", base::xml_text(peer));

@@ -11,8 +11,13 @@ namespace indurop::mirror {
 namespace {
 
 constexpr std::chrono::milliseconds kEvery{500};
+constexpr std::chrono::nanoseconds kForEach = std::chrono::nanoseconds{std::chrono::seconds{1}} / 32;
 
 }  // namespace
+
+std::chrono::nanoseconds Beacons::interval(std::size_t others) noexcept {
+  return std::max<std::chrono::nanoseconds>(kEvery, static_cast<std::int64_t>(others) * kForEach);
+}
 
 Beacons::Beacons(const vars::Store& store, const Settings& settings, std::uint64_t session, MirrorBlock& block)
     : store_(store), board_(settings.network.board), session_(session), block_(block) {
@@ -30,7 +35,7 @@ rt::MonoTime Beacons::cycle(rt::MonoTime now, const Schedule& schedule) noexcept
   if (now < due_) {
     return due_;
   }
-  due_ = now + kEvery;
+  due_ = now + interval(peers_.size());
   const rt::ClockSync sync = rt::clock_sync();
   block_.epoch_wall_ns.store(rt::to_ns(schedule.epoch), std::memory_order_relaxed);
   block_.clock_synchronised.store(sync.synchronised ? 1 : 0, std::memory_order_relaxed);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twice a second every board says that it lives, when its schedule began and what it thinks of the others' clocks.
+// Twice a second, or more rarely in a plant of more than 17 boards, every board says that it lives, when its schedule
+// began and what it thinks of the others' clocks.
 
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -24,6 +27,9 @@ class Beacons final : public BeaconListener {
   Beacons(const vars::Store& store, const Settings& settings, std::uint64_t session, MirrorBlock& block);
   Beacons(const Beacons&) = delete;
   Beacons& operator=(const Beacons&) = delete;
+
+  // Between two of them, so that a board hears and sends at most 32 a second, however many boards there are.
+  static std::chrono::nanoseconds interval(std::size_t others) noexcept;
 
   // `plane` is used until it is closed.
   Plane::Opened open(Plane& plane);

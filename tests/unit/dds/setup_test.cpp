@@ -31,9 +31,27 @@ TEST(Domain_configuration, Without_multicast_boards_are_found_at_their_addresses
   EXPECT_THAT(sut, HasSubstr("<Peer address=\"10.0.0.1\"/><Peer address=\"board-b.local\"/>"));
 }
 
-TEST(Domain_configuration, One_host_is_found_without_multicast) {
+TEST(Domain_configuration, Boards_of_one_host_are_found_by_one_message_to_all) {
   NetworkSettings settings = plain();
   settings.one_host = true;
+  const std::string sut = domain_configuration(settings, "lo");
+  EXPECT_THAT(sut, HasSubstr("<NetworkInterface name=\"lo\" multicast=\"true\"/>"));
+  EXPECT_THAT(sut, HasSubstr("<AllowMulticast>spdp</AllowMulticast>"));
+  EXPECT_THAT(sut, Not(HasSubstr("Peer")));
+  EXPECT_THAT(sut, Not(HasSubstr("ParticipantIndex"))) << "there may be more than ports to try";
+}
+
+TEST(Domain_configuration, One_host_without_multicast_is_found_at_loopback) {
+  NetworkSettings settings = plain();
+  settings.one_host = true;
+  settings.multicast = false;
+  EXPECT_THAT(domain_configuration(settings, "lo"), HasSubstr("<Peer address=\"127.0.0.1\"/>"));
+}
+
+TEST(Domain_configuration, One_host_is_found_by_peers_where_programs_of_others_name_it) {
+  NetworkSettings settings = plain();
+  settings.one_host = true;
+  settings.known_ports = true;
   const std::string sut = domain_configuration(settings, "lo");
   EXPECT_THAT(sut, HasSubstr("<NetworkInterface name=\"lo\"/>"));
   EXPECT_THAT(sut, HasSubstr("<AllowMulticast>false</AllowMulticast>"));
