@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct NetworkSettings {
   bool multicast = true;       // false: others are found at `peers`
   std::vector<std::string> peers;
   bool one_host = false;     // everybody runs here: loopback only
+  std::size_t others = 0;    // how many are expected, 0: few
   bool known_ports = false;  // may be found at its address by who names it as a peer, multicast or not
   Security security;
   std::int64_t lease_ns = 500'000'000;  // who is not heard for so long is gone

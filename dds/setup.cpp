@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
 #include "base/xml_text.h"
 #include "dds/endpoint.h"
 #include "dds/interface.h"
@@ -76,9 +81,20 @@ constexpr const char* kSizes =
 
 // A lost last value is repaired within milliseconds, not 100. Not where programs of others take part by keys: with
 // these, Fast DDS is let in less often (docs/adr/0016).
-constexpr const char* kQuickRepair =
-    "<HeartbeatInterval min=\"2 ms\" minsched=\"5 ms\" max=\"100 ms\">10 ms</HeartbeatInterval>"
-    "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>";
+//
+// Until the last one has answered, a writer asks all of its readers again in this interval, and each answers: with many
+// of them that costs the time in which the last one would. So each is asked as often as if there were eight.
+std::string quick_repair(std::size_t others) {
+  constexpr std::chrono::milliseconds kQuick{10};
+  constexpr std::chrono::milliseconds kUsual{100};
+  constexpr std::size_t kFew = 8;
+  const auto every = std::min(kUsual, kQuick * static_cast<std::int64_t>(std::max<std::size_t>(others, kFew)) /
+                                          static_cast<std::int64_t>(kFew));
+  return fmt::format(
+      "<HeartbeatInterval min=\"2 ms\" minsched=\"5 ms\" max=\"100 ms\">{} ms</HeartbeatInterval>"
+      "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>",
+      every.count());
+}
 
 }  // namespace
 
@@ -86,7 +102,7 @@ std::string domain_configuration(const NetworkSettings& settings, const std::str
   return network(settings, interface_name) + discovery(settings) + threads(settings) + kSizes +
          // One receive thread: with more, ending can hang, and none could get a priority.
          "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>" +
-         (settings.known_ports && settings.security.on() ? "" : kQuickRepair) +
+         (settings.known_ports && settings.security.on() ? "" : quick_repair(settings.others)) +
          // Files: sockets that hold what a receiver has asked for (deploy_link.h), and no limit for senders below that.
          (settings.known_ports
               ? "<SocketReceiveBufferSize max=\"4 MB\"/>"

@@ -52,6 +52,7 @@ dds::NetworkSettings network_settings(const config::Plant& plant, std::size_t bo
   settings.interface_name = own.interface_name;
   settings.address = own.address;
   settings.multicast = plant.multicast;
+  settings.others = plant.boards.size() - 1;
   for (const config::Board& other : plant.boards) {
     if (&other != &own && !other.address.empty()) {
       settings.peers.push_back(other.address);

@@ -58,6 +58,21 @@ TEST(Domain_configuration, One_host_is_found_by_peers_where_programs_of_others_n
   EXPECT_THAT(sut, HasSubstr("<Peer address=\"127.0.0.1\"/>"));
 }
 
+TEST(Domain_configuration, The_more_others_there_are_the_more_rarely_all_are_asked_what_they_lack) {
+  const auto interval = [](std::size_t others) {
+    NetworkSettings settings = plain();
+    settings.others = others;
+    const std::string text = domain_configuration(settings, "eth7");
+    const auto end = text.find(" ms</HeartbeatInterval>");
+    return std::stoi(text.substr(text.rfind('>', end) + 1));
+  };
+  EXPECT_EQ(interval(0), 10);
+  EXPECT_EQ(interval(8), 10);
+  EXPECT_EQ(interval(16), 20);
+  EXPECT_EQ(interval(63), 78);
+  EXPECT_EQ(interval(1000), 100) << "as DDS does it by itself";
+}
+
 TEST(Domain_configuration, No_priority_is_asked_for_without_the_right_to_it) {
   NetworkSettings settings = plain();
   EXPECT_THAT(domain_configuration(settings, "eth7"), Not(HasSubstr("realtime")));
