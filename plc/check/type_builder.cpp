@@ -9,6 +9,7 @@
 
 #include "plc/check/expression_checker.h"
 #include "plc/check/foreign_types.h"
+#include "plc/check/overlap.h"
 #include "plc/library/standard.h"
 
 namespace indurop::plc {
@@ -34,27 +35,6 @@ std::string whose(const std::string& name) {
     return "; it is Python or C code of Beremiz, write a module of its own for that, with shared variables between";
   }
   return ", declare it";
-}
-
-// Why another field may not lie at the place of one of the type, "" if it may: any bytes have to be a value of it.
-std::string why_no_overlap(const Type& type) {
-  if (type.kind == Type::Kind::Array) {
-    return why_no_overlap(*type.element);
-  }
-  if (type.is(Elementary::Bool)) {
-    return "a UNION has no BOOL and no BIT, which would get values that are neither TRUE nor FALSE; use bits: x.w.3";
-  }
-  if (type.kind == Type::Kind::Pointer || type.kind == Type::Kind::Interface || type.kind == Type::Kind::Block) {
-    return fmt::format("a UNION cannot contain {}, which would get values that lead nowhere", with_article(type));
-  }
-  if (type.range) {
-    return "a UNION has no subrange, whose values nobody would check; use its base type";
-  }
-  std::string why;
-  for (const Field& field : type.fields) {
-    why = why.empty() ? why_no_overlap(*field.type) : why;
-  }
-  return why;
 }
 
 class TypeBuilder {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Linux lets the waiting thread choose the clock.
 #include "rt/condition_wait.h"
 
 namespace indurop::rt {

@@ -48,8 +48,9 @@ IO_CONFIG = """<ioconfig>
 """
 VALUES = "time_ms,I0,level\n0,1,0.5\n3,2,\n5,3,1.5\n"
 ALLOWED = {"clock_nanosleep", "futex"}
-# A thread that begins may or may not get a heap of its own, depending on who began before it: once, not per tick.
-ONCE = {"mmap": 2, "munmap": 2, "mprotect": 2, "madvise": 1}
+# A thread that begins may or may not extend the heap, depending on which threads began before it: once, not per tick. The
+# calls of the allocator itself are counted exactly.
+ONCE = {"brk": 2, "mmap": 2, "munmap": 2, "mprotect": 2, "madvise": 1}
 SHORT, LONG = 200, 600  # ms = ticks
 
 

@@ -18,12 +18,12 @@ constexpr const char* kReadToken = "read-token-abcdefghijklm";
 
 // Who asks.
 struct Asker {
-  const char* what;
-  const char* token;
+  const char* what = "";
+  const char* token = "";
   Client certificate;
-  bool known;   // to the server
-  bool writes;  // if the server lets anybody write
-  bool wrong;   // showed something that does not count
+  bool known = false;   // to the server
+  bool writes = false;  // if the server lets anybody write
+  bool wrong = false;   // showed something that does not count
 };
 
 const std::array kAskers{
