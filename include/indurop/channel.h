@@ -16,7 +16,7 @@
 
 namespace channel {
 
-// A way to one node's variables, and the places already looked up. Belongs to one thread at a time.
+// A connection to one node's variables, with a cache of the names already resolved. Belongs to one thread at a time.
 class Handle {
  public:
   Handle() noexcept;
@@ -33,9 +33,9 @@ class Handle {
   std::unique_ptr<Impl> impl_;
 };
 
-// Connects to the node `node`; "" = INDUROP_NODE, else "local". Optional: the first read or write does it, and both
-// connect again by themselves when the node has been replaced. Not real-time safe.
-// Returns 0 or a negative indurop::Errc: NotFound (no such node), PermissionDenied, VersionMismatch, Corrupt.
+// Connects to the node `node`; "" = INDUROP_NODE, else "local". Optional: the first read or write connects, and both
+// reconnect automatically when the node has been replaced. Not real-time safe. Returns 0 or a negative indurop::Errc:
+// NotFound (no such node), PermissionDenied, VersionMismatch, Corrupt.
 int connect(Handle& handle, const char* node = "");
 
 // Copies one consistent value of the variable or part called `name` ("tick", "joint[1].y", "knu::Robot::joints").
@@ -49,7 +49,7 @@ std::ptrdiff_t read(Handle& handle, std::string_view name, std::size_t size, voi
 std::ptrdiff_t write(Handle& handle, std::string_view name, std::size_t size, const void* from);
 
 namespace detail {
-// What the part must be made of for a T; Any: only the size counts.
+// The basic type that the part must have for a T; Any: only the size is checked.
 enum class Basic : std::uint32_t { Any, Bool, Signed, Unsigned, Real };
 template <class T>
 constexpr Basic basic() noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the files are that a module's properties name: relative names begin at the folder of the node's module.xml.
+// Locates files named by a module's properties: relative names start at the folder of the node's module.xml.
 
 #pragma once
 
@@ -7,7 +7,8 @@
 
 namespace irp {
 
-// `name` beside the module.xml this node runs; unchanged if it is absolute, or outside a node. Not real-time safe.
+// Returns the path of `name` in the folder of the module.xml that this node runs; unchanged if it is absolute, or
+// outside a node. Not real-time safe.
 std::string file_beside_config(const std::string& name);
 
 }  // namespace irp

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shared variables and their value structs in the fmt library: fmt::print("{} {:.3f}\n", joints[0], joints[0].x).
-// The only header of ours that needs fmt; include it where you want it. Not real-time safe.
+// The only InduRoP header that needs fmt; include it where it is used. Not real-time safe.
 
 #pragma once
 
@@ -46,7 +46,7 @@ Out format_value(Out out, const T& value) {
   }
 }
 
-// For what has no format specification of its own.
+// For types that accept no format specification of their own.
 struct PlainFormatter {
   constexpr auto parse(fmt::format_parse_context& context) { return context.begin(); }
 };
@@ -103,6 +103,6 @@ struct fmt::formatter<T> : indurop::detail::PlainFormatter {
   }
 };
 
-// ArrayRef has begin() and end(), a string converts to a view: neither is a range of our users' making.
+// ArrayRef has begin() and end(), and a string converts to a view: fmt must not format either of them as a range.
 template <indurop::detail::Shape T>
 struct fmt::is_range<T, char> : std::false_type {};

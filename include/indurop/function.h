@@ -2,7 +2,7 @@
 // Shared functions: declared in a .glb file, implemented in one module, called like a function from any module of the
 // board, whether thread or process. Arguments and result travel through call slots in shared memory.
 //   INDUROP_IMPLEMENT(knu::Robot::add, &my_add)                 // the module that implements it
-//   double sum = add(1.0, 2.0);                                 // any other; throws if there is no answer
+//   double sum = add(1.0, 2.0);                                 // any other module; throws if there is no answer
 //   if (auto r = add.within(2ms)(1.0, 2.0); r.ok()) use(r.value());
 
 #pragma once
@@ -20,10 +20,10 @@
 
 namespace indurop {
 
-// How long a call waits for its result if neither the .glb file nor the caller says so.
+// The time a call waits for its result if neither the .glb file nor the caller sets a deadline.
 inline constexpr std::chrono::nanoseconds kDefaultCallDeadline{std::chrono::milliseconds(100)};
 
-// Thrown when the result of a failed call is used, or when nobody looked whether it failed.
+// Thrown when the result of a failed call is used, or when the caller did not check whether it failed.
 class [[gnu::visibility("default")]] call_error : public std::exception {  // NOLINT: named like the standard's own
  public:
   call_error(const char* function, Errc code) noexcept;
@@ -85,8 +85,8 @@ class CallOutcome {
 
 }  // namespace detail
 
-// What a call of a shared function returns. Converts to the result; throws call_error if there is none, and also if it
-// is destroyed without anybody having asked ok() or error(): no failure passes unseen.
+// The return value of a call of a shared function. Converts to the result; throws call_error if there is none, and also
+// if it is destroyed without a call of ok() or error(): no failure goes unnoticed.
 template <class R>
 class Call : public detail::CallOutcome {
  public:
@@ -108,8 +108,8 @@ class Call<void> : public detail::CallOutcome {
   void value() const { require(); }
 };
 
-// A shared function. Calling it hands the arguments to the module that implements it and waits for the result, at most
-// for the deadline. Real-time safe in the sense that it neither allocates nor locks, but it does wait: give it a
+// A shared function. Calling it passes the arguments to the module that implements it and waits for the result, at most
+// until the deadline. Real-time safe in the sense that it neither allocates nor locks, but it does wait: choose a
 // deadline that fits the caller's period. Any thread of any process.
 template <class Tag, class Signature>
 class Function;
@@ -156,7 +156,7 @@ class Function<Tag, R(Argument...)> {
 
 namespace detail {
 
-// One per INDUROP_IMPLEMENT: offers the function for as long as its module is loaded.
+// One object per INDUROP_IMPLEMENT: offers the function for as long as its module is loaded.
 template <class Shared, auto Code>
 class Implementation {
  public:
@@ -180,7 +180,7 @@ class Implementation {
   using Args = typename Tag::args;
   using Result = typename Tag::result;
 
-  // The arguments lie in shared memory: they are copied first, so that nobody changes them any more.
+  // The arguments are in shared memory: they are copied first, so that no other process can change them any more.
   static void invoke(const void* arguments, void* result) {
     Args args{};
     if constexpr (!std::is_empty_v<Args>) {
@@ -204,9 +204,9 @@ class Implementation {
 #define INDUROP_JOIN(a, b) INDUROP_JOIN_(a, b)
 
 // Makes `code` (a function, or a captureless lambda) the implementation of the shared function `shared`: at namespace
-// scope of one source file of the one module that implements it, with or without a semicolon. Calls are served one
-// after the other by a thread of that module, so an implementation that calls into a module which just waits for this
-// one ends in a time-out; functions of its own module it can call freely. A thrown exception reaches the caller as
+// scope of one source file of the one module that implements it, with or without a semicolon. A thread of that module
+// serves the calls one after the other, so an implementation that calls into a module which is itself waiting for this
+// one ends in a time-out; it may freely call functions of its own module. A thrown exception reaches the caller as
 // Errc::Failed.
 #define INDUROP_IMPLEMENT(shared, ...)                                                                             \
   static const ::indurop::detail::Implementation<std::remove_cvref_t<decltype(shared)>, __VA_ARGS__> INDUROP_JOIN( \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything a module author needs, besides <indurop/generated.h> with the shared variables of the project's .glb
-// files.
+// Everything a module author needs, in addition to <indurop/generated.h> with the shared variables of the project's
+// .glb files.
 
 #pragma once
 
@@ -15,6 +15,5 @@
 #include <indurop/string.h>
 #include <indurop/var.h>
 
-// Not for us: Figure 13 of the chapter writes to std::cout and includes nothing else of ours or of the standard
-// library.
+// Not needed by InduRoP itself: Figure 13 of the chapter writes to std::cout and includes no other header.
 #include <iostream>

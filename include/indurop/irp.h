@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The calls of the chapter's namespace irp: printing from real-time code, the life of a periodic or sporadic process
-// (Figure 8), a module's properties, and what it may ask about its schedule.
+// The functions of the chapter's namespace irp: printing from real-time code, the life cycle of a periodic or sporadic
+// process (Figure 8), a module's properties, and queries about its schedule.
 
 #pragma once
 
@@ -25,23 +25,23 @@ int print(const char* format, const Value&... values) noexcept {
   return indurop_print(format, arguments, sizeof...(Value));
 }
 
-// Each returns false, and leaves `value` alone, if the module has no such property or (after one message) if its text
-// is no value of the type.
+// Each returns false, and leaves `value` unchanged, if the module has no such property or (after one message) if its
+// text is not a value of the type.
 bool property_signed(const char* name, std::int64_t min, std::int64_t max, std::int64_t& value);
 bool property_unsigned(const char* name, std::uint64_t max, std::uint64_t& value);
 bool property_real(const char* name, double& value);
 bool property_bool(const char* name, bool& value);
-// Null if the module has no such property. The text lives as long as the node's run.
+// Returns null if the module has no such property. The text is valid until the node's run ends.
 const char* property_text(const char* name);
 
 }  // namespace detail
 
-// Prints like the C function, in a module of a node through a ring in shared memory that the node empties: no lock, no
-// allocation, no system call, any thread. Outside a node it writes to stdout. Shared variables can be given as they
-// are: irp::printf("%u %s\n", tick, station.name). The format's conversions are those of C (not %n); the type comes
-// from the argument itself, so `%d` also prints a double or a 64-bit number, and a missing argument shows as its
-// conversion. A message is cut at 487 bytes and then ends with "[cut]".
-// Returns the length printed; -1 if the ring was full: the message is dropped and counted. Real-time safe in a node.
+// Prints like the C function. In a module of a node it writes to a ring in shared memory that the node empties: no
+// lock, no allocation, no system call, any thread. Outside a node it writes to stdout. Shared variables can be passed
+// directly: irp::printf("%u %s\n", tick, station.name). The format's conversions are those of C (not %n); the type
+// comes from the argument itself, so `%d` also prints a double or a 64-bit number, and a missing argument shows as its
+// conversion. A message is cut at 487 bytes and then ends with "[cut]". Returns the length printed; -1 if the ring was
+// full: the message is dropped and counted. Real-time safe in a node.
 template <class... Argument>
 int printf(const char* format, const Argument&... arguments) noexcept {
   return detail::print(format, indurop::detail::value_of(arguments)...);
@@ -58,21 +58,22 @@ int printf(const char* format, const Argument&... arguments) noexcept {
 //   PermissionDenied, Corrupt, InvalidArgument, System: the same
 int initPeriodExe();  // NOLINT(readability-identifier-naming): the chapter's name (Figure 8)
 
-// Ends the current run and sleeps until the node releases the next one. True: run now. False: the node asks this
-// process to end; should it wait once more all the same (`while (1)`), it is ended here by exit(). A process outlives
-// its node: it goes on waiting and enrols again with the next node of the name. Real-time safe except for the sleep;
-// one thread only.
+// Ends the current run and sleeps until the node releases the next one. Returns true to run now, false if the node asks
+// this process to end; if it then waits again all the same (`while (1)`), this function ends it by exit(). A process
+// outlives its node: it keeps waiting and enrols again with the next node of that name. Real-time safe except for the
+// sleep; one thread only.
 bool waitPeriod();  // NOLINT(readability-identifier-naming): likewise
 
-// Binds this process's shared variables to `node` now; "" = INDUROP_NODE, else "local". Done by itself when the program
-// is loaded, if the node runs by then or INDUROP_NODE names it, and by initPeriodExe(). A program that does neither
-// calls this, again after a new deployment. No other thread may be using shared variables meanwhile. Also starts
-// serving the functions this program implements. Not real-time safe. Returns 0 or a negative indurop::Errc: NotFound,
-// PermissionDenied, VersionMismatch, TypeMismatch (some variables were not bound; a message on stderr names them).
+// Binds this process's shared variables to `node` now; "" = INDUROP_NODE, else "local". Done automatically when the
+// program is loaded, if the node is already running or INDUROP_NODE names it, and by initPeriodExe(). A program that
+// does neither calls this function, and again after a new deployment. No other thread may use shared variables
+// meanwhile. Also starts serving the functions this program implements. Not real-time safe. Returns 0 or a negative
+// indurop::Errc: NotFound, PermissionDenied, VersionMismatch, TypeMismatch (some variables were not bound; a message on
+// stderr names them).
 int attach(const char* node = "");
 
-// Value of <property><value name="...">: of the calling module, or `fallback` if there is none or it does not fit the
-// type (then one message says so). Integers may be written 0x..., bool as true/false/1/0/on/off/yes/no.
+// Returns the value of <property><value name="...">: of the calling module, or `fallback` if there is none or it does
+// not fit the type (then one message is printed). Integers may be written 0x..., bool as true/false/1/0/on/off/yes/no.
 // Not real-time safe: read properties in start().
 template <class T>
 requires std::is_arithmetic_v<T> T property(const char* name, T fallback) {
@@ -108,16 +109,17 @@ requires(!std::is_arithmetic_v<T> && std::constructible_from<T, const char*>) T
 // Nominal period of the calling module; 0 if it is not periodic or runs outside a node. Real-time safe.
 std::chrono::nanoseconds period() noexcept;
 // Number of the basic period that released the current run, from 0; and the point on the time grid it belongs to, in ns
-// of CLOCK_MONOTONIC: the same for all modules released together, however late each really started. Where no run is on
+// of CLOCK_MONOTONIC: the same for all modules released together, however late each one actually started. Outside a run
 // (start(), threads of a module's own, non-real-time modules), those of the present period. Real-time safe.
 std::uint64_t tick() noexcept;
 std::int64_t release_ns() noexcept;
-// The node's time now, in ns: CLOCK_MONOTONIC, in a simulation its virtual time. Real-time safe.
+// The current time of the node in ns: CLOCK_MONOTONIC; in a simulation its virtual time. Real-time safe.
 std::int64_t now_ns() noexcept;
 
-// What a run learns from elsewhere than shared variables, calls and now_ns(), as from a thread of its module: returns
-// it, and in a replay what the run learned then, so that it does the same again. Whether or not it runs in a node.
-// Real-time safe. Counts as an answer to a call: a run has up to 1024 of them (docs/recording.md).
+// Records a value that a run gets from elsewhere than shared variables, calls and now_ns(), for example from a thread
+// of its module: returns it, and in a replay the value that the run got when it was recorded, so that it does the same
+// again. Works in and outside a node. Real-time safe. Counts as an answer to a call: a run has up to 1024 of them
+// (docs/recording.md).
 std::int64_t learned(std::int64_t what) noexcept;
 
 // True once the node wants this module to end: for the loops of non-real-time modules,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several changes as one commit: `auto v = lock(joints); v[0].x = 1; v[1].x = 2;` is seen by readers all at once
-// when the scope ends, and not at all if the module throws or dies before.
+// Several changes as one commit: with `auto v = lock(joints); v[0].x = 1; v[1].x = 2;` readers see all changes at once
+// when the scope ends, and none of them if the module throws or dies before.
 
 #pragma once
 
@@ -45,7 +45,7 @@ class Locked {
   T& operator*() const noexcept { return *value_; }
   T* operator->() const noexcept { return value_; }
   decltype(auto) operator[](std::size_t index) const { return value_->at(index); }
-  // Gives the changes up; the variable keeps its version.
+  // Discards the changes; the variable keeps its version.
   void discard() noexcept { indurop_abort_write(std::exchange(ring_, nullptr)); }
 
  private:
@@ -68,10 +68,10 @@ std::tuple<Locked<typename Variable::whole_type>...> adopt(const std::array<Pend
 }
 }  // namespace detail
 
-// Locks one or several whole variables, always in the same order, so two modules cannot deadlock. One variable
-// gives a Locked, several give a tuple for a structured binding. Scalars are atomics: use +=, modify() or put them
-// into a struct. Errors: throws std::runtime_error if a lock is not free within 5 ms (its holder is stopped) or is
-// already held by the caller.
+// Locks one or several whole variables, always in the same order, so two modules cannot deadlock. One variable returns
+// a Locked, several return a tuple for a structured binding. Scalars are atomics: use +=, modify() or put them into a
+// struct. Errors: throws std::runtime_error if a lock is not free within 5 ms (its holder is stopped) or is already
+// held by the caller.
 template <class... Variable>
 requires(sizeof...(Variable) > 0 && (detail::Shape<Variable> && ...))
     [[nodiscard]] auto lock(const Variable&... /*variables*/) {

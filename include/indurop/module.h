@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a thread module says about itself: INDUROP_MODULE(run = &::onRun) as in Figures 4 and 5 of the chapter.
+// The description that a thread module gives of itself: INDUROP_MODULE(run = &::onRun) as in Figures 4 and 5 of the
+// chapter.
 
 #pragma once
 
@@ -12,7 +13,7 @@
 
 namespace indurop {
 
-// condition() of a sporadic module: `int condition()` as in Figure 7, or `bool condition()`.
+// The condition() of a sporadic module: `int condition()` as in Figure 7, or `bool condition()`.
 struct Condition {
   int (*as_int)() = nullptr;
   bool (*as_bool)() = nullptr;
@@ -28,11 +29,11 @@ struct Condition {
     return *this;
   }
   explicit operator bool() const noexcept { return as_int != nullptr || as_bool != nullptr; }
-  // Requires one of the two.
+  // Requires that one of the two functions is set.
   [[nodiscard]] bool operator()() const { return as_int != nullptr ? as_int() != 0 : as_bool(); }
 };
 
-// Filled in by the module for the node. Grows at its end only: `size` says how much of it the module knew.
+// Filled in by the module for the node. New fields go at the end only: `size` states how much of it the module knew.
 struct ModuleDescriptor {
   std::uint32_t size = sizeof(ModuleDescriptor);
   std::uint32_t abi = abi::kVersion;
@@ -50,8 +51,8 @@ static_assert(offsetof(ModuleDescriptor, abi) == 4, "size and ABI stay where the
 }  // namespace indurop
 
 extern "C" {
-// Every thread module that uses INDUROP_MODULE defines it. The caller sets `size`; no more than that is written, and
-// `size` and `abi` tell afterwards what the module was built with. Calls nothing of the module.
+// Every thread module that uses INDUROP_MODULE defines this function. The caller sets `size`; no more than that is
+// written, and `size` and `abi` then state what the module was built with. Does not call into the module.
 // NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name): the macro's cannot clash with names of a module
 [[gnu::visibility("default")]] void indurop_module_describe(indurop::ModuleDescriptor* descriptor);
 }
@@ -62,10 +63,10 @@ inline void hand_over(const ModuleDescriptor& from, ModuleDescriptor* to) noexce
 }
 }  // namespace indurop::detail
 
-// INDUROP_MODULE(run = &::onRun, start = &::onStart, name = "gripper") on one line of one source file of a thread
+// INDUROP_MODULE(run = &::onRun, start = &::onStart, name = "gripper") goes on one line of one source file of a thread
 // module, with or without a semicolon. In any order and all optional: run, start, stop, condition (functions;
 // captureless lambdas work too), name, description, author, license (text). Functions are named with :: as in the
-// chapter, because run, start, stop and the others stand for the fields inside the parentheses.
+// chapter, because inside the parentheses run, start, stop and the others are the fields.
 #define INDUROP_MODULE(...)                                                                     \
   _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wshadow\"") extern "C" void \
   indurop_module_describe(::indurop::ModuleDescriptor* indurop_to_) {                           \

@@ -18,7 +18,7 @@ struct IgnoreField {
   constexpr void operator()(const char* /*name*/, const T& /*value*/) const noexcept {}
 };
 
-// A struct from a .glb file; glb2idl writes indurop_fields(value, f) beside it.
+// A struct from a .glb file; glb2idl generates indurop_fields(value, f) with it.
 template <class T>
 concept ValueStruct = std::is_class_v<T> && requires(const T& value) {
   indurop_fields(value, IgnoreField{});
@@ -68,7 +68,7 @@ void print_value(std::ostream& out, const T& value) {
   }
 }
 
-// Leaves and texts print like the C++ type they stand for.
+// Leaves and texts print like the C++ type that they represent.
 template <class T>
 concept WholeShape = Shape<T> &&(IsArray<typename T::whole_type>::value || ValueStruct<typename T::whole_type>);
 

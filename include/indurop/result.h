@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors as values: what a call that can fail for outside reasons returns. No heap for the error, copyable.
+// Errors as values: the return type of a call that can fail for external reasons. The error needs no heap and is
+// copyable.
 
 #pragma once
 
@@ -15,13 +16,13 @@ namespace indurop {
 // Kinds of failure, append-only: numbers appear in logs and JSON.
 enum class Errc : int {
   Ok = 0,
-  InvalidArgument = 1,   // the caller's value is outside what the function documents
+  InvalidArgument = 1,   // the caller's value is outside the documented range
   NotFound = 2,          // no such name, file, node or module
   AlreadyExists = 3,     // name in use
   PermissionDenied = 4,  // the operating system refused
   Overflow = 5,          // a result does not fit its type
   Timeout = 6,           // not done within the stated time
-  Busy = 7,              // held by somebody else
+  Busy = 7,              // held by another user
   Corrupt = 8,           // checksum, magic or structure wrong
   VersionMismatch = 9,   // ABI or layout differs
   TypeMismatch = 10,     // variable or function has another type
@@ -39,11 +40,11 @@ enum class Errc : int {
 struct Error {
   Errc code = Errc::Ok;
   int sys_errno = 0;       // 0 if no system call was involved
-  const char* where = "";  // static text: what was being done
+  const char* where = "";  // static text: the operation that failed
 };
 
-// Either a value or an error: an Error, which costs nothing to carry, or a type of its own where people must be told
-// more (base/problem.h). value() requires ok(), error() requires not ok(); asking for the other one is a bug of the
+// Either a value or an error: an Error, which costs nothing to pass, or another error type where people need more
+// detail (base/problem.h). value() requires ok(), error() requires not ok(); asking for the other one is a bug of the
 // caller and aborts.
 template <class T, class E = Error>
 class [[nodiscard]] Result {
@@ -76,7 +77,7 @@ class [[nodiscard]] Result {
   std::variant<T, E> state_;
 };
 
-// Nothing to return but how it went, with an error that is more than an Error (else: Status).
+// A result without a value, with an error that is more than an Error (else: Status).
 template <class E>
 class [[nodiscard]] Result<void, E> {
  public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several variables read together: `auto s = snapshot(pose, speed);` gives copies of both as they were after one and
-// the same tick of the board that writes them.
+// Several variables read together: `auto s = snapshot(pose, speed);` returns copies of both as they were after the same
+// tick of the board that writes them.
 
 #pragma once
 
@@ -18,8 +18,8 @@ namespace indurop {
 template <class... Value>
 class Snapshot {
  public:
-  // False if the values could not be had together: a part of the board's update was lost on the way, or it is being
-  // written without a pause. Each value is whole all the same.
+  // Returns false if the values could not be read together: a part of the board's update was lost in transmission, or
+  // it is being written without a pause. Each single value is consistent all the same.
   [[nodiscard]] bool coherent() const noexcept { return coherent_; }
   template <std::size_t I>
   [[nodiscard]] const auto& get() const noexcept {
@@ -40,7 +40,7 @@ class Snapshot {
   bool coherent_ = false;
 };
 
-// Reads whole variables together. Real-time safe: no lock, no system call; tries for some microseconds at most.
+// Reads whole variables together. Real-time safe: no lock, no system call; retries for some microseconds at most.
 template <class... Variable>
 requires(sizeof...(Variable) > 0 && (detail::Shape<Variable> && ...))
     [[nodiscard]] auto snapshot(const Variable&... /*variables*/) noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounded text as it lies in a shared variable: `char name[16]` holds up to 15 characters and a terminating NUL.
+// Bounded text as stored in a shared variable: `char name[16]` holds up to 15 characters and a terminating NUL.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop {
 
-// Trivially copyable, no allocation, always terminated. Longer text is cut. Real-time safe.
+// Trivially copyable, no allocation, always terminated. Longer text is truncated. Real-time safe.
 template <std::size_t N>
 struct string {  // NOLINT(readability-identifier-naming): used like std::string
   static_assert(N >= 1, "a char array needs room for its terminating NUL");
@@ -34,7 +34,7 @@ struct string {  // NOLINT(readability-identifier-naming): used like std::string
     std::memcpy(data, text.data(), n);
     std::memset(data + n, 0, N - n);
   }
-  // A value that came from another process may lack its NUL; this view never runs past the array.
+  // A value written by another process may lack its NUL; this view never runs past the array.
   [[nodiscard]] std::string_view view() const noexcept { return {data, strnlen(data, N)}; }
   operator std::string_view() const noexcept { return view(); }  // NOLINT(google-explicit-constructor)
   [[nodiscard]] const char* c_str() const noexcept { return data; }

@@ -9,9 +9,9 @@
 //     EXPECT_TRUE(p.get<bool>("PLC_ROBOT::O3"));
 //   }
 //
-// The modules run in a process of their own, `indurop-node --sim`: the same way on every run, and a crash of one is a
-// fault to test for, not the end of the test. Not real-time safe, one thread at a time. What cannot be done throws
-// std::runtime_error, which says what and what to do, with the last words of the node.
+// The modules run in a process of their own, `indurop-node --sim`: the same way on every run, and a crash of a module
+// is a fault to test for, not the end of the test. Not real-time safe, one thread at a time. On failure throws
+// std::runtime_error, whose text states what failed and what to do, with the last output of the node.
 
 #pragma once
 
@@ -31,71 +31,71 @@
 namespace irp::testing {
 
 struct Settings {
-  std::string board{};                   // of the plant that the file is: this one alone; empty: all
-  std::filesystem::path times{};         // report of an earlier run: how long modules take; empty: <wcet>, or no time
-  std::vector<std::string> arguments{};  // more for indurop-node
-  std::chrono::seconds patience{30};     // real time that one call may take
+  std::string board{};                   // board to run if the file is a plant; empty: all boards
+  std::filesystem::path times{};         // report of an earlier run with execution times; empty: <wcet>, or no time
+  std::vector<std::string> arguments{};  // additional arguments for indurop-node
+  std::chrono::seconds patience{30};     // real time limit of one call
 };
 
-// What has happened to a module so far.
+// The counters of one module since the start.
 struct ModuleCount {
-  std::uint64_t runs = 0;  // of a process without the last one, which is counted with its next release
+  std::uint64_t runs = 0;  // for a process without the last run, which is counted at its next release
   std::uint64_t skipped = 0;
   std::uint64_t overruns = 0;
   std::uint64_t deadline_misses = 0;
   std::uint64_t faults = 0;
   std::uint64_t restarts = 0;
-  bool faulted = false;      // it is not entered any more
+  bool faulted = false;      // it is no longer executed
   std::string last_fault{};  // "exception: no sensor"
 };
 
 class Plant {
  public:
-  // Starts the configuration; it stands before its first tick, with initial values. Variables of the generated header
-  // in this program are those of this plant from now on: `EXPECT_EQ(tick, 5)` works as in a module, unless it has
-  // several boards.
-  // Of a plant's manifest all boards run, with a simulated network; a name that several boards have says which is
-  // meant: "torque@control", "table@sensor".
+  // Starts the configuration; it is halted before its first tick, with initial values. From now on the variables of the
+  // generated header in this program are those of this plant: `EXPECT_EQ(tick, 5)` works as in a module, unless it has
+  // several boards. For a plant's manifest all boards run, with a simulated network; a name that several boards have is
+  // qualified with the board: "torque@control", "table@sensor".
   explicit Plant(const std::filesystem::path& configuration, const Settings& settings = {});
   ~Plant();
   Plant(const Plant&) = delete;
   Plant& operator=(const Plant&) = delete;
 
-  // Lets virtual time pass, in whole basic periods (rounded up). It stands behind a tick again: all that belongs to it
-  // is done.
+  // Advances virtual time, in whole basic periods (rounded up). Afterwards it is halted again after a tick: everything
+  // that belongs to that tick is done.
   void run(std::chrono::nanoseconds time);
   void step(std::uint64_t ticks = 1);
-  // Tick by tick until the condition holds; false if it does not within this time.
+  // Runs tick by tick until the condition holds; returns false if it does not hold within this time.
   bool run_until(const std::function<bool()>& condition, std::chrono::nanoseconds at_most);
 
-  [[nodiscard]] std::uint64_t tick() const;  // ticks so far
+  [[nodiscard]] std::uint64_t tick() const;  // ticks run so far
   [[nodiscard]] std::chrono::nanoseconds time() const;
   [[nodiscard]] std::chrono::nanoseconds basic_period() const;
 
-  // A variable or a part of it by name, "joints[1].y"; leading namespaces may be left out if that is unique. Numbers
-  // are converted if T can hold the value; std::string is the text of a variable, else its value as `indurop get`
-  // prints it; any other T has to have the part's size.
+  // Returns the value of a variable or a part of it by name, "joints[1].y"; leading namespaces may be left out if that
+  // is unique. Numbers are converted if T can hold the value; std::string is the text of a variable, else its value as
+  // `indurop get` prints it; any other T must have the part's size.
   template <class T>
   [[nodiscard]] T get(std::string_view name) const;
-  // Writes it once; a declared @range does not count. Text is read as by `indurop set`: "{x: 1, y: 2}", "Running".
+  // Writes the value once; a declared @range is not checked. Text is parsed as by `indurop set`: "{x: 1, y: 2}",
+  // "Running".
   template <class T>
   void set(std::string_view name, const T& value);
-  // Holds it at the value, whoever writes it. Numbers only.
+  // Holds the variable at the value against all writers. Numbers only.
   template <class T>
   void force(std::string_view name, const T& value);
   void unforce(std::string_view name);
 
   [[nodiscard]] ModuleCount module(std::string_view name) const;
-  // Ends the process of a process module at once, as a crash does.
+  // Kills the process of a process module at once, as a crash would.
   void kill(std::string_view module);
 
-  // What these variables are at the end of each tick, from now on.
+  // Records the values of these variables at the end of each tick, from now on.
   void trace(std::vector<std::string> names);
-  // Compares what was traced with a file in CSV: a line for each tick in which something changed. Returns the first
-  // difference in words, nothing if there is none. With INDUROP_UPDATE_GOLDEN=1 in the environment it writes the file.
+  // Compares the trace with a CSV file: one line for each tick in which something changed. Returns a description of the
+  // first difference, empty if there is none. With INDUROP_UPDATE_GOLDEN=1 in the environment it writes the file.
   [[nodiscard]] std::string differs_from_golden(const std::filesystem::path& file) const;
 
-  // All that the node and its modules printed.
+  // Returns everything that the node and its modules printed.
   [[nodiscard]] std::string printed() const;
 
  private:

@@ -20,8 +20,8 @@
 
 namespace indurop {
 
-// Where inside its variable a shape points: the bytes that array indices have added. Every shape begins with it,
-// so all members of a generated union share one word.
+// Position within its variable that a shape points to: the bytes that array indices have added. Every shape begins with
+// it, so all members of a generated union share one word.
 struct Place {
   std::uint32_t bytes;
 };
@@ -91,10 +91,10 @@ INDUROP_ALWAYS_INLINE T modify(std::uint32_t offset, Change change) noexcept {
 
 }  // namespace detail
 
-// How fresh the variable's value is, the whole variable's even if the shape is a part of it. Real-time safe.
+// The freshness of the variable's value, always of the whole variable, even if the shape is a part. Real-time safe.
 //   age():   time since the board that owns it last confirmed it, whether or not it changed; zero on that board, and
-//            nanoseconds::max() before it was heard. The way through the network is not counted.
-//   valid(): the owner lives, and age() is at most the @maxage of the declaration. True on the owner's board.
+//            nanoseconds::max() before the first confirmation. Network latency is not included.
+//   valid(): the owner is alive, and age() is at most the @maxage of the declaration. True on the owner's board.
 #define INDUROP_FRESHNESS(Tag)                                   \
   [[nodiscard]] static std::chrono::nanoseconds age() noexcept { \
     return ::indurop::detail::age<Tag>();                        \
@@ -103,10 +103,10 @@ INDUROP_ALWAYS_INLINE T modify(std::uint32_t offset, Change change) noexcept {
     return ::indurop::detail::valid<Tag>();                      \
   }
 
-// Assigning to a proxy writes the variable, and they look like the standard library's containers.
+// Assigning to a proxy writes the variable; the proxies have the interface of the standard library's containers.
 // NOLINTBEGIN(cert-dcl21-cpp, cert-oop54-cpp, *assign*, readability-identifier-naming)
 
-// A number, bool or enum. Reading and assigning are one atomic access; +=, ++ and their kin are one atomic
+// A number, bool or enum. Reading and assigning are one atomic access each; +=, ++ and similar operators are one atomic
 // read-modify-write, `x = x + 1` is two accesses as in C. Real-time safe, any thread, any process.
 template <class Tag, class T, std::uint32_t Offset>
 struct Leaf {
@@ -131,7 +131,7 @@ struct Leaf {
   }
   INDUROP_ALWAYS_INLINE T operator=(const Leaf& other) const noexcept { return *this = other.get(); }
 
-  // Atomic read-modify-write by any function of the old value; may be called more than once for a scalar.
+  // Atomic read-modify-write by any function of the old value; `change` may be called more than once for a scalar.
   template <class Change>
   INDUROP_ALWAYS_INLINE T modify(Change change) const noexcept {
     return detail::modify<Tag, T>(Offset + place.bytes, change);
@@ -170,7 +170,7 @@ struct Leaf {
   }
 };
 
-// A char array: text of at most N - 1 characters, read and assigned as a whole.
+// A char array: text of at most N - 1 characters, read and assigned as a whole in one access.
 template <class Tag, std::size_t N, std::uint32_t Offset>
 struct Text {
   using value_type = string<N>;
@@ -216,8 +216,8 @@ auto operator<<(Stream& out, const Text<Tag, N, Offset>& text) -> decltype(out <
   return out << text.get().view();
 }
 
-// N equal elements. Elements are shapes (one access each); get(), assignment and comparison take the whole array
-// in one access. An index beyond the end throws std::out_of_range, which the scheduler reports as module fault.
+// N elements of the same type. Elements are shapes (one access each); get(), assignment and comparison take the whole
+// array in one access. An index beyond the end throws std::out_of_range, which the scheduler reports as a module fault.
 template <class Element, std::size_t N>
 struct ArrayRef {
   using value_type = typename Element::whole_type;
@@ -290,8 +290,8 @@ struct ArrayRef {
 };
 // NOLINTEND(cert-dcl21-cpp, cert-oop54-cpp, *assign*, readability-identifier-naming)
 
-// The members every generated struct shape has besides its fields; it names its Place `indurop_place`, so that a
-// field may have any name. A whole struct is read, assigned and compared in one access.
+// The members that every generated struct shape has in addition to its fields; it names its Place `indurop_place`, so
+// that a field may have any name. A whole struct is read, assigned and compared in one access.
 #define INDUROP_UNION_SHAPE(Self)                                                                 \
   constexpr Self(::indurop::Place indurop_at, ::indurop::detail::Make /*unused*/) noexcept        \
       : indurop_place(indurop_at) {}                                                              \
@@ -318,7 +318,7 @@ struct ArrayRef {
     return get() == indurop_other.get();                                                          \
   }
 
-// age() and valid() of a whole variable, wherever its shape comes from: also for structs with fields of these names.
+// age() and valid() as free functions for any shape: also usable for structs with fields of these names.
 template <detail::Shape T>
 [[nodiscard]] std::chrono::nanoseconds age(const T& /*shape*/) noexcept {
   return detail::age<typename T::tag_type>();

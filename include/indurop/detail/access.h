@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading and writing one variable in shared memory: atomics for scalars, a ring of versions for the rest.
-// Every access leaves one record in the ELF section .indurop.access, so that the platform knows, before
-// anything runs, who reads and who writes what. No syscall, no allocation.
+// Every access leaves one record in the ELF section .indurop.access, so that the platform knows, before anything runs,
+// which module reads and writes which variable. No syscall, no allocation.
 
 #pragma once
 
@@ -26,8 +26,8 @@ INDUROP_ALWAYS_INLINE void record_access() noexcept {
                  "i"(static_cast<std::uint32_t>(Tag::kNameHash >> 32U)), "i"(Direction));
 }
 
-// Bytes move between private memory and a slot that a writer may be changing; the caller throws the copy away
-// if that happened. ThreadSanitizer cannot know that, so it is shown relaxed atomics instead of memcpy.
+// Bytes move between private memory and a slot that a writer may be changing; the caller discards the copy if that
+// happened. ThreadSanitizer cannot know that, so it sees relaxed atomics instead of memcpy.
 INDUROP_ALWAYS_INLINE void copy_from_shared(void* to, const void* from, std::size_t size) noexcept {
 #ifdef __SANITIZE_THREAD__
   auto* t = static_cast<unsigned char*>(to);
@@ -56,8 +56,9 @@ INDUROP_ALWAYS_INLINE bool is_forced(void* scalar) noexcept {
   return offset.load(std::memory_order_relaxed) != 0 && indurop_hold_scalar(scalar);
 }
 
-// Looks before, so that a forced value is not even briefly another one, and after, because it may have been forced in
-// between: who forces it makes sure that this second look sees it (vars/forces.cpp), so no barrier is needed here.
+// Checks before the write, so that a forced value is never replaced even briefly, and after it, because the value may
+// have been forced in between: forcing makes sure that this second check sees it (vars/forces.cpp), so no barrier is
+// needed here.
 template <class T>
 INDUROP_ALWAYS_INLINE void scalar_write(void* entry, T value) noexcept {
   if (is_forced(entry)) [[unlikely]] {
@@ -68,7 +69,7 @@ INDUROP_ALWAYS_INLINE void scalar_write(void* entry, T value) noexcept {
   static_cast<void>(is_forced(entry));
 }
 
-// The new value, or the forced one. `change` may be called more than once.
+// Returns the new value, or the forced one. `change` may be called more than once.
 template <class T, class Change>
 INDUROP_ALWAYS_INLINE T scalar_modify(void* entry, Change change) noexcept {
   T* target = static_cast<T*>(entry);
@@ -95,8 +96,8 @@ INDUROP_ALWAYS_INLINE const unsigned char* slot(const abi::RingHeader* ring, std
   return reinterpret_cast<const unsigned char*>(ring) + sizeof(abi::RingHeader) + (seq % abi::kSlots) * stride;
 }
 
-// Copies a part of the current version; false if writers overtook it. The slot is written again only after three more
-// commits: two are harmless.
+// Copies a part of the current version; returns false if writers overtook it. The slot is written again only after
+// three more commits: two are harmless.
 INDUROP_ALWAYS_INLINE bool try_copy(const abi::RingHeader* ring, std::size_t stride, std::uint64_t seq, void* to,
                                     std::uint32_t offset, std::size_t length) noexcept {
   copy_from_shared(to, slot(ring, seq, stride) + offset, length);
@@ -104,7 +105,7 @@ INDUROP_ALWAYS_INLINE bool try_copy(const abi::RingHeader* ring, std::size_t str
   return ring->seq.load(std::memory_order_relaxed) - seq <= abi::kSlots - 2;
 }
 
-// False if that many copies were all overtaken.
+// Returns false if writers overtook all kReadTries copies.
 inline constexpr int kReadTries = 16;
 INDUROP_ALWAYS_INLINE bool try_copies(const abi::RingHeader* ring, std::size_t stride, void* to, std::uint32_t offset,
                                       std::size_t length) noexcept {
@@ -127,7 +128,7 @@ template <std::size_t Size>
 template <class T, std::size_t Size>
 INDUROP_ALWAYS_INLINE T ring_read(abi::RingHeader* ring, std::uint32_t offset) noexcept {
   const std::uint64_t seq = ring->seq.load(std::memory_order_acquire);
-  // Not initialised here, so that its own initial zeros are seen to be overwritten and cost nothing.
+  // Not initialised here, so that the compiler sees the value's own initial zeros overwritten and removes them.
   T value;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   if (!try_copy(ring, abi::slot_stride(Size), seq, &value, offset, sizeof(T))) [[unlikely]] {
     ring_read_again<Size>(ring, &value, offset, sizeof(T));

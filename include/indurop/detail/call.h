@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the templates of <indurop/function.h> hand to libindurop.
+// The structures that the templates of <indurop/function.h> pass to libindurop.
 
 #pragma once
 
@@ -27,7 +27,7 @@ struct FunctionOffer {
   std::uint32_t result_size;
 };
 
-// Bytes that travel for the arguments: none for an empty struct, whose sizeof is 1.
+// Number of argument bytes to transfer: none for an empty struct, whose sizeof is 1.
 template <class Args>
 constexpr std::uint32_t packed_size() noexcept {
   static_assert(std::is_trivially_copyable_v<Args>);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fresh the value of a variable is that another board owns.
+// The freshness of a variable's value that another board owns.
 
 #pragma once
 
@@ -13,8 +13,8 @@ namespace irp {
 std::int64_t now_ns() noexcept;  // <indurop/irp.h>
 }
 
-// What the run is to see of what abi::confirmed_of() says now: that, which its track is told, or what it saw then if
-// the run is repeated. Real-time safe.
+// Returns the value of abi::confirmed_of() that the run is to see: the given one, which is recorded on its track, or
+// the recorded one if the run is repeated. Real-time safe.
 extern "C" std::int64_t indurop_see_confirmed(std::int64_t confirmed) noexcept;
 
 namespace indurop::detail {
@@ -28,7 +28,7 @@ constexpr std::int64_t max_age_ns() noexcept {
   }
 }
 
-// What abi::confirmed_of() says, decoded. `now_ns` gives the time; it is asked only where it matters.
+// Decodes the value of abi::confirmed_of() into an age. `now_ns` returns the time; it is called only where it matters.
 template <class Now>
 std::chrono::nanoseconds age_of(std::int64_t confirmed, Now now_ns) noexcept {
   if (confirmed == 0) {

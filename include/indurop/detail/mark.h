@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leaves the ABI version in the non-loaded ELF section .indurop.abi of whoever includes one of our headers, so that a
-// module built for another version is refused before it is loaded. One u32 per object thanks to comdat.
+// Leaves the ABI version in the non-loaded ELF section .indurop.abi of every object that includes an InduRoP header, so
+// that a module built for another version is rejected before it is loaded. One u32 per object thanks to comdat.
 
 #pragma once
 

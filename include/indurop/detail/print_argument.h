@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An argument of irp::printf together with its type, so that a wrong conversion in the format can be put right
-// instead of crashing a real-time thread.
+// An argument of irp::printf together with its type, so that a wrong conversion in the format can be corrected instead
+// of crashing a real-time thread.
 
 #pragma once
 

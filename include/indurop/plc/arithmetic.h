@@ -12,7 +12,7 @@
 namespace indurop::iec {
 
 namespace detail {
-// Unsigned and not narrower than int: operands of this type are not promoted to one that can overflow.
+// An unsigned type not narrower than int: its operands are not promoted to a type that can overflow.
 template <Integer T>
 using Modular = std::common_type_t<std::make_unsigned_t<T>, unsigned>;
 }  // namespace detail
@@ -64,7 +64,7 @@ constexpr T neg(T a) noexcept {
   }
 }
 
-// Integers: cut toward zero. Faults if b is zero.
+// Integer division truncates toward zero. Faults if b is zero.
 template <Number T>
 constexpr T div(Place place, T a, T b) {
   if (b == T{}) [[unlikely]] {
@@ -78,7 +78,7 @@ constexpr T div(Place place, T a, T b) {
   return static_cast<T>(a / b);
 }
 
-// As IEEE 754 has it: infinite or NaN where b is zero.
+// Division as in IEEE 754: infinite or NaN if b is zero.
 template <Real T>
 constexpr T quotient(T a, T b) noexcept {
   return a / b;
@@ -98,7 +98,7 @@ constexpr T mod(Place place, T a, T b) {
   return static_cast<T>(a % b);
 }
 
-// The most negative integer stays as it is.
+// The most negative integer is returned unchanged.
 template <Number T>
 constexpr T abs(T a) noexcept {
   if constexpr (Real<T>) {

@@ -26,7 +26,7 @@ struct Rs {
   void operator()(const Scan& /*scan*/) noexcept { q1 = !r1 && (s || q1); }
 };
 
-// A claim that finds `busy` false afterwards has the semaphore until it is released.
+// If `busy` is false after a claim, the caller has the semaphore until it releases it.
 struct Sema {
   bool claim = false;
   bool release = false;
@@ -62,7 +62,7 @@ struct RTrig {
   bool memory_ = false;
 };
 
-// As the standard has it, a `clk` that is false at the first call is an edge.
+// As the standard specifies, a `clk` that is false at the first call is an edge.
 struct FTrig {
   bool clk = false;
   bool q = false;

@@ -16,12 +16,12 @@
 namespace indurop::iec {
 
 namespace detail {
-// Bits of the type; 1 for bool.
+// Number of bits of the type; 1 for bool.
 template <BitString T>
 inline constexpr int kWidth = std::numeric_limits<T>::digits;
 }  // namespace detail
 
-// Zeros follow; all bits are gone if n is the width or more, none moves if n is negative.
+// Shifts in zeros; returns 0 if n is the width or more, `in` unchanged if n is negative.
 template <BitString T, Integer N>
 constexpr T shl(T in, N n) noexcept {
   if (n <= N{}) {
@@ -44,11 +44,11 @@ constexpr T shr(T in, N n) noexcept {
   return static_cast<T>(std::uint64_t{in} >> n);
 }
 
-// Any n: whole turns change nothing, a negative n turns the other way.
+// Accepts any n: multiples of the width change nothing, a negative n rotates the other way.
 template <BitString T, Integer N>
 constexpr T rol(T in, N n) noexcept {
   constexpr auto kWidth = static_cast<unsigned>(detail::kWidth<T>);
-  const unsigned left = static_cast<unsigned>(n) % kWidth;  // widths are powers of two, so wrapped numbers serve too
+  const unsigned left = static_cast<unsigned>(n) % kWidth;  // widths are powers of two, so wrapped numbers work too
   if (left == 0) {
     return in;
   }
@@ -60,7 +60,7 @@ constexpr T ror(T in, N n) noexcept {
   return rol(in, 0U - static_cast<unsigned>(n));
 }
 
-// Integers, as CODESYS shifts and turns them: their bits, and to the right the sign follows.
+// Integers, shifted and rotated as CODESYS does it: by their bits; a right shift extends the sign.
 template <std::signed_integral T, Integer N>
 constexpr T shl(T in, N n) noexcept {
   return static_cast<T>(shl(static_cast<std::make_unsigned_t<T>>(in), n));
@@ -112,7 +112,7 @@ constexpr void set_bit(T& value, unsigned number, bool to) noexcept {
   value = static_cast<T>(to ? old | mask : old & ~mask);
 }
 
-// The bits from `first` on, as many as a P has: `w.%B1` is part<std::uint8_t>(w, 8). Requires that the value has them.
+// The bits from `first` on, as many as P has: `w.%B1` is part<std::uint8_t>(w, 8). Requires that the value has them.
 template <BitString P, BitString T>
 constexpr P part(T value, unsigned first) noexcept {
   return static_cast<P>(std::uint64_t{value} >> first);
@@ -135,7 +135,7 @@ constexpr T swapped(T in) noexcept {
   return static_cast<T>(out);
 }
 
-// The value with its bytes in the order `to`; texts and single bytes have none.
+// Returns the value with its bytes in the order `to`; texts and single bytes are unchanged.
 template <std::endian to, class T>
 constexpr T ordered(const T& in) noexcept {
   if constexpr (to == std::endian::native || std::same_as<T, bool> || Text<T>) {
@@ -152,7 +152,7 @@ constexpr T ordered(const T& in) noexcept {
 }
 }  // namespace detail
 
-// TO_BIG_ENDIAN and FROM_BIG_ENDIAN: the value with its bytes in that order, or back.
+// TO_BIG_ENDIAN and FROM_BIG_ENDIAN: converts the value to or from big-endian byte order.
 template <class T>
 constexpr T big_endian(const T& in) noexcept {
   return detail::ordered<std::endian::big>(in);

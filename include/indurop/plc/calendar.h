@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arithmetic of times and dates: ADD SUB MUL DIV on them, CONCAT_DATE_TOD and its kin. The time of day goes around at
-// midnight; everything else wraps as 64-bit integers do. Real-time safe.
+// Arithmetic of times and dates: ADD SUB MUL DIV on them, CONCAT_DATE_TOD and similar functions. The time of day wraps
+// around at midnight; everything else wraps like 64-bit integers. Real-time safe.
 
 #pragma once
 
@@ -44,7 +44,7 @@ constexpr Time sub(DateTime a, DateTime b) noexcept {
   return {sub(a.ns, b.ns)};
 }
 
-// With a REAL: to the nearest nanosecond, beyond the range of TIME its nearest end.
+// With a REAL factor: rounds to the nearest nanosecond and saturates at the range of TIME.
 template <Number N>
 constexpr Time mul(Time a, N factor) noexcept {
   if constexpr (Real<N>) {
@@ -54,7 +54,7 @@ constexpr Time mul(Time a, N factor) noexcept {
   }
 }
 
-// With an integer: cut toward zero. Faults if the divisor is zero.
+// With an integer divisor: truncates toward zero. Faults if the divisor is zero.
 template <Number N>
 constexpr Time div(Place place, Time a, N divisor) {
   if (divisor == N{}) [[unlikely]] {
@@ -80,8 +80,9 @@ namespace detail {
 inline constexpr std::int64_t kDaysBefore1970 = 719'468;  // since 0000-03-01
 inline constexpr std::int64_t kDaysOf400Years = 146'097;
 
-// Days from 1970-01-01 to the day, in the Gregorian calendar. Years are counted from March, so that the leap day ends
-// one, and in cycles of 400. Months and days beyond their range count on into the next ones. Requires |year| < 10^6.
+// Days from 1970-01-01 to the date, in the Gregorian calendar. Years are counted from March, so that the leap day is
+// the last day of a year, and in cycles of 400. Months and days beyond their range carry over into the next ones.
+// Requires |year| < 10^6.
 constexpr std::int64_t days_of(std::int64_t year, std::int64_t month, std::int64_t day) noexcept {
   const std::int64_t months = year * 12 + month - 3;
   const std::int64_t from_march = floor_div(months, 12);
@@ -120,7 +121,7 @@ constexpr std::int64_t bounded(T value) noexcept {
 
 }  // namespace detail
 
-// The 31st of April is the 1st of May; beyond the range of DATE its nearest end.
+// The 31st of April is the 1st of May; saturates at the range of DATE.
 template <Integer Y, Integer M, Integer D>
 constexpr Date concat_date(Y year, M month, D day) noexcept {
   return detail::day(detail::days_of(detail::bounded(year), detail::bounded(month), detail::bounded(day)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Function blocks of the standard's examples that editors bring along: HYSTERESIS INTEGRAL DERIVATIVE PID RAMP. Their
-// input CYCLE is the time between two calls; where it is not connected (zero), the schedule tells it. Times count in
+// Function blocks from the standard's examples that editors bring along: HYSTERESIS INTEGRAL DERIVATIVE PID RAMP. Their
+// input CYCLE is the time between two calls; if it is not connected (zero), it is taken from the schedule. Times are in
 // seconds. Real-time safe.
 
 #pragma once
@@ -16,7 +16,7 @@ constexpr double seconds(Time time) noexcept {
   return static_cast<double>(time.ns) / static_cast<double>(kSecond);
 }
 
-// The time between two calls: `cycle`, or if it is zero what has passed since the last call; zero at the first one.
+// The time between two calls: `cycle`, or if it is zero the time since the last call; zero at the first one.
 class Step {
  public:
   [[nodiscard]] Time next(const Scan& scan, Time cycle) noexcept {
@@ -43,8 +43,8 @@ struct Hysteresis {
   void operator()(const Scan& /*scan*/) noexcept { q = q ? !(xin1 < xin2 - eps) : xin1 > xin2 + eps; }
 };
 
-// xout = x0 + the integral of xin over the time in which run is true; r1 sets it to x0. Summed in double precision, so
-// that slow signals are not lost in short periods.
+// xout = x0 + the integral of xin over the time while run is true; r1 sets it to x0. Summed in double precision, so
+// that slow signals are not lost at short periods.
 struct Integral {
   bool run = false;
   bool r1 = false;
@@ -70,7 +70,7 @@ struct Integral {
   double sum_ = 0;
 };
 
-// The rate of change of xin per second over the last four values. Without a step of time it keeps its output.
+// The rate of change of xin per second over the last four values. If no time has passed it keeps its output.
 struct Derivative {
   bool run = false;
   float xin = 0;
@@ -99,10 +99,10 @@ struct Derivative {
   float x3_ = 0;
 };
 
-// xout = kp * (e + integral(e) / tr + td * derivative(e)) with e = pv - sp. By hand (automatic false): xout = kp * x0,
-// and the integral is prepared for a smooth change to automatic. tr = 0 switches the integral off.
+// xout = kp * (e + integral(e) / tr + td * derivative(e)) with e = pv - sp. In manual mode (automatic false): xout = kp
+// * x0, and the integral is prepared for a bumpless change to automatic. tr = 0 disables the integral.
 struct Pid {
-  bool automatic = false;  // AUTO: its own name is a word of C++
+  bool automatic = false;  // the input AUTO, which is a keyword of C++
   float pv = 0;
   float sp = 0;
   float x0 = 0;
@@ -136,7 +136,7 @@ struct Pid {
   Derivative derivative_;
 };
 
-// From x0 to x1 in the time tr while run is true; else xout follows x0.
+// Ramps from x0 to x1 in the time tr while run is true; else xout follows x0.
 struct Ramp {
   bool run = false;
   float x0 = 0;

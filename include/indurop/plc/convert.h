@@ -20,7 +20,7 @@ namespace indurop::iec {
 
 namespace detail {
 
-// `x` without a fraction as an integer; NaN is 0, beyond the range the nearest end.
+// Returns `x` without its fraction as an integer; NaN is 0; saturates at the range of the type.
 template <Integer T>
 constexpr T saturated(double x) noexcept {
   constexpr auto kLow = static_cast<double>(std::numeric_limits<T>::min());
@@ -34,7 +34,7 @@ constexpr T saturated(double x) noexcept {
   return x == x ? static_cast<T>(x) : T{};
 }
 
-// What the number 1 stands for.
+// The value of one unit of the number, in ns.
 template <Timelike T>
 inline constexpr std::int64_t kUnit = std::same_as<T, Time> || std::same_as<T, TimeOfDay> ? kMillisecond : kSecond;
 
@@ -47,13 +47,13 @@ constexpr std::int64_t floor_mod(std::int64_t a, std::int64_t by) noexcept {
   return rest < 0 ? rest + by : rest;
 }
 
-// The day so many days from 1970-01-01; beyond the range its nearest end.
+// The date `days` days after 1970-01-01; saturates at the range of Date.
 constexpr Date day(std::int64_t days) noexcept {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / kDay;
   return {std::clamp(days, -kMost, kMost) * kDay};
 }
 
-// A Date begins at midnight, a TimeOfDay ends there.
+// A Date is rounded down to midnight, a TimeOfDay wraps around there.
 template <Timelike T>
 constexpr T normalized(std::int64_t ns) noexcept {
   if constexpr (std::same_as<T, Date>) {
@@ -108,13 +108,13 @@ To to(From value) noexcept {
   }
 }
 
-// Cuts toward zero; otherwise as to<To>(value).
+// Truncates toward zero; otherwise like to<To>(value).
 template <Integer To, Real From>
 To trunc(From value) noexcept {
   return detail::saturated<To>(std::trunc(static_cast<double>(value)));
 }
 
-// 16#1234 is 1234. A digit above 9 counts what it is: 16#1A is 20.
+// Decodes BCD: 16#1234 is 1234. A digit above 9 counts with its value: 16#1A is 20.
 template <Integer To, BitString From>
 constexpr To from_bcd(From value) noexcept {
   std::uint64_t result = 0;
@@ -124,7 +124,7 @@ constexpr To from_bcd(From value) noexcept {
   return static_cast<To>(result);
 }
 
-// Whether each of its digits is one, 0 to 9.
+// Returns whether all BCD digits are valid, 0 to 9.
 template <BitString From>
 constexpr bool is_valid_bcd(From value) noexcept {
   std::uint64_t rest = value;
@@ -135,7 +135,7 @@ constexpr bool is_valid_bcd(From value) noexcept {
   return valid;
 }
 
-// 1234 is 16#1234. Digits that have no room are lost, the high ones: USINT_TO_BCD_BYTE(123) is 16#23.
+// Encodes BCD: 1234 is 16#1234. High digits that do not fit are lost: USINT_TO_BCD_BYTE(123) is 16#23.
 template <BitString To, Integer From>
 constexpr To to_bcd(From value) noexcept {
   std::uint64_t result = 0;
@@ -147,7 +147,7 @@ constexpr To to_bcd(From value) noexcept {
   return static_cast<To>(result);
 }
 
-// BCD_TO_INT and INT_TO_BCD of the library Util: -1 and 255 where there is no such number.
+// BCD_TO_INT and INT_TO_BCD of the library Util: return -1 and 255 for a value that cannot be converted.
 constexpr std::int16_t bcd_to_int(std::uint8_t value) noexcept {
   const bool fine = (value >> 4U) < 10U && (value & 0xFU) < 10U;
   return fine ? from_bcd<std::int16_t>(value) : std::int16_t{-1};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Function blocks CTU CTD CTUD and their forms for other integers, CTU_DINT .... They count rising edges and stop at
-// the ends of the type. Real-time safe.
+// Function blocks CTU CTD CTUD and their variants for other integers, CTU_DINT .... They count rising edges and stop at
+// the limits of the type. Real-time safe.
 
 #pragma once
 
@@ -56,7 +56,7 @@ struct Ctd {
   detail::Edge down_;
 };
 
-// Reset before load before counting; edges on both inputs at once cancel each other.
+// Priority: reset, load, counting; edges on both inputs at the same time cancel each other.
 template <Integer T>
 struct Ctud {
   bool cu = false;

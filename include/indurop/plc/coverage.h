@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often the statements of a PLC program built with --coverage ran. The counters lie in a file that is mapped, so
-// they are there however the program ends; counting is an addition in memory.
+// Execution counts of the statements of a PLC program built with --coverage. The counters are in a mapped file, so they
+// survive however the program ends; counting is an addition in memory.
 
 #pragma once
 
@@ -20,15 +20,15 @@
 
 namespace indurop::iec {
 
-// One per module, written by the thread that runs it. Counts for itself only unless INDUROP_PLC_COVERAGE names a folder
-// that is there: then in a new file of it, MODULE.PID.N.plccov, whose bytes are kMagic, the number of counters and the
-// size of the text as 64-bit words, the counters, and the text.
+// One object per module, written by the thread that runs it. Counts in private memory unless INDUROP_PLC_COVERAGE names
+// an existing folder: then in a new file there, MODULE.PID.N.plccov, whose bytes are kMagic, the number of counters and
+// the size of the text as 64-bit words, the counters, and the text.
 class Coverage {
  public:
   static constexpr std::uint64_t kMagic = 0x31564f43434c5049ULL;  // "IPLCCOV1"
   static constexpr std::size_t kHeadWords = 3;
 
-  // `text`: what the counters mean; a static text.
+  // `text`: the meaning of the counters; a static text.
   Coverage(const char* module, std::size_t counters, std::string_view text)
       : own_(kHeadWords + counters, 0), counts_(own_.data() + kHeadWords) {
     const char* folder = std::getenv("INDUROP_PLC_COVERAGE");
@@ -67,7 +67,7 @@ class Coverage {
     }
     const std::size_t words = kHeadWords + counters;
     size_ = words * sizeof(std::uint64_t) + text.size();
-    // The space is there before anything is counted: a full disk must not end the program later.
+    // The space is reserved before anything is counted: a full disk must not end the program later.
     void* const to = ::posix_fallocate(file, 0, static_cast<off_t>(size_)) == 0
                          ? ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file, 0)
                          : MAP_FAILED;

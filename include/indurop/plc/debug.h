@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a PLC program built with --debug says to `indurop plc debug`, which may let it stand at any statement. Only for
-// simulations: a program that stands does not return, and nothing here is real-time safe.
+// The connection of a PLC program built with --debug to `indurop plc debug`, which can halt it at any statement. Only
+// for simulations: a halted program does not return, and nothing here is real-time safe.
 
 #pragma once
 
@@ -24,16 +24,16 @@ namespace indurop::iec {
 
 class DebugFrame;
 
-// One per module. Does nothing unless INDUROP_PLC_DEBUG names the socket of a debugger.
+// One object per module. Does nothing unless INDUROP_PLC_DEBUG names the socket of a debugger.
 class Debugger {
  public:
-  // `mark`: of the program, as the debugger knows it.
+  // `mark`: identifies the program to the debugger.
   Debugger(const char* module, std::uint64_t mark) noexcept : module_(module), mark_(mark) {}
   Debugger(const Debugger&) = delete;
   Debugger& operator=(const Debugger&) = delete;
   ~Debugger() { disconnect(); }
 
-  // A scan begins. `show` tells the `bytes` bytes of the shared variables as the scan sees them.
+  // Begins a scan. `show` writes the `bytes` bytes of the shared variables as the scan sees them.
   void begin(std::int64_t time_ns, std::size_t bytes, void (*show)(Watch&)) {
     time_ns_ = time_ns;
     bytes_ = bytes;
@@ -46,7 +46,7 @@ class Debugger {
     }
     ask('B', 0, "");
   }
-  // The statement with this number is next.
+  // Announces that the statement with this number is next.
   void line(std::uint32_t number) {
     last_ = number;
     const bool stops = mode_ == 'i' || (mode_ == 'o' && depth() <= limit_) ||
@@ -55,7 +55,7 @@ class Debugger {
       ask('S', number, "");
     }
   }
-  // The scan ends with a fault, and the program with it.
+  // Reports a fault that ends the scan, and the program with it.
   void fault(const char* why) { ask('F', last_, why); }
 
  private:
@@ -114,19 +114,19 @@ class Debugger {
   std::uint64_t mark_;
   int socket_ = -1;
   bool tried_ = false;
-  char mode_ = 'c';  // until a breakpoint; 'i': the next statement; 'o': the next one that is not inside of a call
+  char mode_ = 'c';  // 'c': to the next breakpoint; 'i': to the next statement; 'o': to the next one not inside a call
   std::size_t limit_ = 0;
-  std::vector<std::uint32_t> breakpoints_;  // in order
+  std::vector<std::uint32_t> breakpoints_;  // sorted
   std::uint32_t last_ = 0;
   std::int64_t time_ns_ = 0;
   std::size_t bytes_ = 0;
   void (*show_)(Watch&) = nullptr;
   DebugFrame* top_ = nullptr;
-  std::string thrown_;  // frames that a fault has left
+  std::string thrown_;  // frames unwound by a fault
   std::uint32_t thrown_count_ = 0;
 };
 
-// While a body runs: its variables can be seen.
+// Makes the variables of a body visible while it runs.
 class DebugFrame {
  public:
   template <class Show>
@@ -178,7 +178,7 @@ inline std::size_t Debugger::depth() const {
   return count;
 }
 
-// The innermost first.
+// Writes the innermost frame first.
 inline void Debugger::append_frames(std::string& out) const {
   if (!thrown_.empty()) {
     append_number(out, thrown_count_);
@@ -219,7 +219,7 @@ inline void Debugger::ask(char kind, std::uint32_t number, std::string_view why)
     disconnect();
     return;
   }
-  // 'o': over calls, 'u': up to the caller.
+  // 'o': step over calls, 'u': up to the caller.
   mode_ = mode == 'u' ? 'o' : mode;
   const std::size_t now = depth();
   limit_ = mode == 'u' ? now - std::min<std::size_t>(now, 1) : now;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ends a PLC program: a division by zero, an index outside of an array. Thrown as an exception, which the node
-// reports as a module fault with the text below; nothing else of the PLC library throws.
+// The errors that end a PLC program: a division by zero, an index outside an array. Thrown as an exception, which the
+// node reports as a module fault with the text below; nothing else of the PLC library throws.
 
 #pragma once
 
@@ -10,13 +10,14 @@
 
 namespace indurop::iec {
 
-// Where in the program something is calculated. Both texts are literals of the generated code.
+// The place in the program of a calculation. Both texts are literals of the generated code.
 struct Place {
   const char* at;   // "prog.st:12:5", or for drawn networks "rung 3, block ADD"
   const char* pou;  // "MAIN"
 };
 
-// "prog.st:12:5: division by zero in MAIN". The text lies in the exception itself; beyond its room it is cut.
+// The exception with a text such as "prog.st:12:5: division by zero in MAIN". The text is stored in the exception
+// itself; it is cut to the space there.
 class Fault : public std::exception {
  public:
   Fault(Place place, const char* reason) noexcept {
@@ -32,7 +33,7 @@ class Fault : public std::exception {
   throw Fault(place, reason);
 }
 
-// For a value outside of [low, high]. `what` is the noun: "index", "selector K of MUX".
+// For a value outside [low, high]. `what` is the noun: "index", "selector K of MUX".
 [[noreturn, gnu::cold, gnu::noinline]] inline void fail_range(Place place, const char* what, std::int64_t value,
                                                               std::int64_t low, std::int64_t high) {
   char reason[120];
@@ -41,7 +42,7 @@ class Fault : public std::exception {
   throw Fault(place, reason);
 }
 
-// A VAR_IN_OUT of a function block, for its methods; null: there is none.
+// Returns a VAR_IN_OUT of a function block, for its methods; faults if it is null: not given.
 template <class T>
 [[nodiscard]] T& given(Place place, T* in_out) {
   if (in_out == nullptr) [[unlikely]] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The standard functions and function blocks of IEC 61131-3, for the C++ that PLC programs become. Hand-written modules
-// may use them too: they need nothing but the standard library.
+// The standard functions and function blocks of IEC 61131-3, for the C++ generated from PLC programs. Hand-written
+// modules may use them too: they need only the standard library.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the variables of a function, a method and of VAR_TEMP are there: pointers to them are good until the call
-// ends. Calls that take such an address have a number. Real-time safe; of one thread, as a program's scans are.
+// The lifetime of the variables of a function, a method and of VAR_TEMP: pointers to them are valid until the call
+// ends. Calls in which such an address is taken have a number. Real-time safe; for one thread, like a program's scans.
 
 #pragma once
 
@@ -20,9 +20,10 @@ class Lifetime {
   Lifetime& operator=(const Lifetime&) = delete;
   ~Lifetime() { innermost = outer_; }
 
-  // Of this call, not 0. The numbers begin again after 4 294 967 295 calls.
+  // The number of this call, not 0. Numbers repeat after 4 294 967 295 calls.
   [[nodiscard]] std::uint32_t number() const noexcept { return number_; }
-  // Whether the call of this number has not ended. Takes as long as there are calls inside each other that have one.
+  // Returns whether the call with this number has not ended. Run time is proportional to the number of nested calls
+  // that have one.
   [[nodiscard]] static bool lasts(std::uint32_t number) noexcept {
     for (const Lifetime* one = innermost; one != nullptr; one = one->outer_) {
       if (one->number_ == number) {
@@ -33,7 +34,7 @@ class Lifetime {
   }
 
  private:
-  // Each module has its own, and takes them along when it is unloaded.
+  // Each module has its own, which ends when the module is unloaded.
   [[gnu::visibility("hidden")]] inline static const Lifetime* innermost = nullptr;
   [[gnu::visibility("hidden")]] inline static std::uint32_t last = 0;
 

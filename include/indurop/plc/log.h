@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What LOGGER of Beremiz writes: a line of the module. Real-time safe in a node.
+// Output of the Beremiz LOGGER block: a line of the module. Real-time safe in a node.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop::iec {
 
-// `level`: 0 critical, 1 warning, 2 info, 3 debug. False: the line was dropped, because too many wait.
+// `level`: 0 critical, 1 warning, 2 info, 3 debug. Returns false if the line was dropped because too many are waiting.
 template <Text Message>
 bool log_message(std::int16_t level, const Message& message) noexcept {
   constexpr std::array<const char*, 4> kNames{"CRITICAL", "WARNING", "INFO", "DEBUG"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of REAL and LREAL. Where mathematics has no result they give the C library's NaN or infinity: SQRT(-1.0),
+// Functions of REAL and LREAL. Where the result is not defined they return the C library's NaN or infinity: SQRT(-1.0),
 // LN(0.0), ASIN(2.0). Real-time safe.
 
 #pragma once
@@ -51,7 +51,7 @@ template <Real T>
 T atan(T x) noexcept {
   return std::atan(x);
 }
-// The angle of the point (x, y), from -pi to pi.
+// The angle of the point (x, y), from -pi to pi, in radians.
 template <Real T>
 T atan2(T y, T x) noexcept {
   return std::atan2(y, x);
@@ -63,7 +63,7 @@ T expt(T x, N n) noexcept {
   return static_cast<T>(std::pow(static_cast<double>(x), static_cast<double>(n)));
 }
 
-// Neither NaN nor infinite.
+// Returns true if x is neither NaN nor infinite.
 template <Real T>
 bool is_valid(T x) noexcept {
   return std::isfinite(x);

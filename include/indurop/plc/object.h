@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Object orientation of the third edition: what function blocks with methods begin with, variables of an INTERFACE, and
-// calls that nobody can see before they happen. Real-time safe, but for the faults.
+// Object orientation of the third edition: the base of function blocks with methods, variables of an INTERFACE, and
+// calls whose target is known only at run time. Real-time safe, except for the faults.
 
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace indurop::iec {
 
-// What all function blocks with methods have in common. It comes first, so that one which extends another begins with
-// the variables of that.
+// The common base of all function blocks with methods. It comes first, so that a block which extends another begins
+// with that block's variables.
 struct Instance {
   Instance() = default;
   Instance(const Instance&) = default;
@@ -36,7 +36,7 @@ struct Interface {
       : object(other.object) {}
 };
 
-// Whether both are one instance, seen through whatever interfaces.
+// Returns whether both refer to the same instance, through whatever interfaces.
 template <class A, class B>
 bool operator==(const Interface<A>& a, const Interface<B>& b) noexcept {
   const void* const one = a.object == nullptr ? nullptr : dynamic_cast<const void*>(a.object);
@@ -74,7 +74,7 @@ void lead_to(Pointer<T>& pointer, T* instance) noexcept {
 
 }  // namespace detail
 
-// to ?= from: NULL unless the instance is one of what `to` leads to.
+// to ?= from: NULL unless the instance is of the type that `to` refers to.
 template <class To, class From>
 void attempt(Place place, To& to, const From& from) {
   using Wanted = std::remove_pointer_t<decltype(detail::instance_of(place, to))>;
@@ -85,8 +85,8 @@ void attempt(Place place, To& to, const From& from) {
   }
 }
 
-// A call of a method that the text does not name: through an interface, or of a function block that extends another.
-// Such ones may lead to themselves.
+// A call of a method whose target the text does not determine: through an interface, or of a function block that
+// extends another. Such calls may recurse.
 class Call {
  public:
   Call(int& inside, Place place) : inside_(inside) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// POINTER TO, REF_TO and REFERENCE TO: an address that knows the variable it lies in, so that one beside it is a fault
-// of the module and no other variable's value. Real-time safe, but for the faults.
+// POINTER TO, REF_TO and REFERENCE TO: an address that knows the variable it points into, so that an access outside it
+// is a fault of the module and does not reach another variable. Real-time safe, except for the faults.
 
 #pragma once
 
@@ -15,10 +15,10 @@ namespace indurop::iec {
 
 template <class T>
 struct Pointer {
-  char* base = nullptr;     // of the variable
-  std::uint32_t size = 0;   // its bytes
-  std::uint32_t call = 0;   // the call whose variable it is; 0: it is there for good
-  std::int64_t offset = 0;  // of the value pointed at, in bytes; may lie outside until it is used
+  char* base = nullptr;     // start of the variable
+  std::uint32_t size = 0;   // size of the variable in bytes
+  std::uint32_t call = 0;   // the call that the variable belongs to; 0: permanent
+  std::int64_t offset = 0;  // of the value pointed to, in bytes; may be outside until it is used
 
   Pointer() = default;
   Pointer(char* variable, std::uint32_t bytes, std::int64_t at, std::uint32_t of_call = 0) noexcept
@@ -41,14 +41,14 @@ auto operator<=>(const Pointer<A>& a, const Pointer<B>& b) noexcept {
   return a.address() <=> b.address();
 }
 
-// ADR(x), where x lies in the variable `whole`.
+// ADR(x), where x is inside the variable `whole`.
 template <class T, class Whole>
 Pointer<T> address(T& value, Whole& whole) noexcept {
   static_assert(sizeof(Whole) <= UINT32_MAX);
   char* const base = reinterpret_cast<char*>(&whole);
   return {base, static_cast<std::uint32_t>(sizeof(Whole)), reinterpret_cast<char*>(&value) - base};
 }
-// The same of a variable of this call.
+// The same for a variable of this call.
 template <class T, class Whole>
 Pointer<T> address(T& value, Whole& whole, const Lifetime& call) noexcept {
   Pointer<T> out = address(value, whole);
@@ -61,7 +61,7 @@ Pointer<T> address_in(const Pointer<Whole>& pointer, T& value) noexcept {
   return {pointer.base, pointer.size, reinterpret_cast<char*>(&value) - pointer.base, pointer.call};
 }
 
-// p + n: n bytes on, whatever it points at.
+// p + n: n bytes further, whatever it points to.
 template <class T>
 Pointer<T> moved(Pointer<T> pointer, std::int64_t bytes) noexcept {
   pointer.offset =
@@ -69,7 +69,7 @@ Pointer<T> moved(Pointer<T> pointer, std::int64_t bytes) noexcept {
   return pointer;
 }
 
-// Element `index` of what begins where the pointer points: p^[i], p[i].
+// Element `index` of the array that begins at the pointer: p^[i], p[i].
 template <class Element, class T>
 Element& element(Place place, const Pointer<T>& pointer, std::int64_t index) {
   constexpr auto kBytes = static_cast<std::int64_t>(sizeof(Element));
@@ -92,8 +92,8 @@ Element& element(Place place, const Pointer<T>& pointer, std::int64_t index) {
   return *reinterpret_cast<Element*>(at);
 }
 
-// s[first], the first character of a text. Counted from 0 the one behind the longest text, which stays its end, is
-// there.
+// s[first] is the first character of a text. Counted from 0, the index after the longest text is accessible too; it
+// remains the terminator.
 template <class Letter, std::int64_t first, class Text>
 Letter& character(Place place, Text& text, std::int64_t index) {
   static_assert(sizeof(Letter) == sizeof text.data[0]);

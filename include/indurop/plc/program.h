@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the C++ that PLC programs become needs besides the library of the standard: values between the program and the
-// shared variables, loops. Real-time safe.
+// What the C++ generated from PLC programs needs in addition to the standard library of IEC 61131-3: transfer of values
+// between the program and the shared variables, and loops. Real-time safe.
 
 #pragma once
 
@@ -19,8 +19,8 @@
 #include <type_traits>
 #include <utility>
 
-// A service of libindurop: another number after each time that it was decided where shared variables lie. Any thread;
-// real-time safe.
+// A service of libindurop: the number changes each time shared variables were bound to addresses. Any thread; real-time
+// safe.
 extern "C" std::uint32_t indurop_bindings() noexcept;
 
 namespace indurop::iec {
@@ -55,10 +55,10 @@ constexpr void copy_value(std::array<To, N>& to, const std::array<From, N>& from
   }
 }
 
-// A WSTRING is shared as numbers.
+// A WSTRING is shared as an array of numbers.
 template <std::size_t N>
 constexpr void copy_value(WideText<N>& to, const std::array<std::uint16_t, N>& from) {
-  std::copy(from.begin(), from.end() - 1, to.data);  // the last one stays its end
+  std::copy(from.begin(), from.end() - 1, to.data);  // the last one remains the terminator
 }
 template <std::size_t N>
 constexpr void copy_value(std::array<std::uint16_t, N>& to, const WideText<N>& from) {
@@ -67,7 +67,7 @@ constexpr void copy_value(std::array<std::uint16_t, N>& to, const WideText<N>& f
 
 namespace detail {
 
-// A value that is not on the stack, which a variable may be too large for. One thread, one value of the type at a time.
+// A value that is not on the stack, for which a variable may be too large. One thread, one value of the type at a time.
 template <class T>
 T& staging() noexcept {
   static T value{};
@@ -76,7 +76,7 @@ T& staging() noexcept {
 
 }  // namespace detail
 
-// The whole shared variable, copied once and not over the stack.
+// Copies the whole shared variable once and not via the stack.
 template <class T, class Shared>
 void read_image(T& to, const Shared& from) {
   using Whole = typename Shared::whole_type;
@@ -102,7 +102,7 @@ void read_image(T& to, const Shared& from) {
   }
 }
 
-// Writes a shared variable, or a part of it, if the program changed it: what others wrote meanwhile stays.
+// Writes a shared variable, or a part of it, if the program changed it: values that other writers wrote meanwhile stay.
 template <class Shared, class T>
 void write_changed(const Shared& to, const T& now, const T& before) {
   using Whole = typename Shared::whole_type;
@@ -120,7 +120,7 @@ void write_changed(const Shared& to, const T& now, const T& before) {
 
 namespace detail {
 
-// What arrays of a program and their shared ones are made of, whatever their dimensions.
+// The innermost element types of a program's array and of its shared one, whatever their dimensions.
 template <class Own, class Shared>
 struct Elements {
   using OwnType = Own;
@@ -134,7 +134,7 @@ struct Elements<std::array<Own, N>, std::array<Shared, N>> {
   static constexpr std::size_t kCount = N * Elements<Own, Shared>::kCount;
 };
 
-// Writes those of `count` elements from `offset` on that differ from what they were, in one commit.
+// Writes those of `count` elements from `offset` on that differ from their previous values, in one commit.
 template <class Tag, class Own, class Shared>
 void write_elements(std::uint32_t offset, const Own* now, const Own* before, std::size_t count) noexcept {
   indurop::detail::record_access<Tag, indurop::detail::kRead | indurop::detail::kWrite>();
@@ -160,7 +160,7 @@ void write_elements(std::uint32_t offset, const Own* now, const Own* before, std
 
 }  // namespace detail
 
-// Of an array the elements that the program changed: others may have other writers.
+// Writes the elements of an array that the program changed: the rest may have other writers.
 template <class Shared, class T, std::size_t N>
 void write_changed(const Shared& to, const std::array<T, N>& now, const std::array<T, N>& before) {
   using All = detail::Elements<std::array<T, N>, typename Shared::whole_type>;
@@ -185,7 +185,8 @@ void write_changed(const Shared& to, const std::array<T, N>& now, const std::arr
                                                                  mine + first, old + first, last - first + 1);
 }
 
-// A shared number as programs need it: of thousands, an indurop::Leaf each would take g++ longer than the program.
+// A shared number as programs need it: with an indurop::Leaf for each of thousands, g++ would take longer than for the
+// program.
 template <class Tag, class T, std::uint32_t Offset>
 struct SharedNumber {
   using whole_type = T;
@@ -203,15 +204,15 @@ struct SharedWord {
   void* now;  // of the program
 };
 
-// Numbers of one size, of which the program writes the first `Written`. Those that lie behind each other in the program
-// are copied as one stretch. Where the shared ones lie is remembered: to look it up in 48 bytes for each of thousands
-// takes longer than to copy them. One thread; real-time safe.
+// Numbers of one size, of which the program writes the first `Written`. Those that are adjacent in the program are
+// copied as one block. The addresses of the shared ones are cached: looking up 48 bytes for each of thousands takes
+// longer than copying them. One thread; real-time safe.
 template <class Bits, std::size_t N, std::size_t Written>
 class SharedWords {
  public:
   constexpr explicit SharedWords(const std::array<SharedWord, N>& words) noexcept : words_(words) {}
 
-  // Into the program, which sees them as they are now until the end of its scan.
+  // Copies the shared values into the program, which uses them unchanged until the end of its scan.
   void read() noexcept {
     if (bindings_ != indurop_bindings()) {
       bind();
@@ -235,7 +236,7 @@ class SharedWords {
     }
   }
 
-  // Those the program changed: what others wrote meanwhile stays.
+  // Writes the values that the program changed: values that other writers wrote meanwhile stay.
   void write() noexcept {
     std::size_t first = 0;
     for (std::size_t i = 0; i < written_stretches_; ++i) {
@@ -276,15 +277,16 @@ class SharedWords {
 
   const std::array<SharedWord, N>& words_;
   std::array<const void*, N> entries_{};
-  std::array<Bits, std::max<std::size_t>(Written, 1)> before_{};  // what they were at the begin of the scan
+  std::array<Bits, std::max<std::size_t>(Written, 1)> before_{};  // values at the start of the scan
   std::array<Stretch, N> at_{};
   std::size_t stretches_ = 0;
   std::size_t written_stretches_ = 0;
   std::uint32_t bindings_ = 0;
 };
 
-// VAR_ACCESS: a shared variable that follows one of a program. What others write into a Writable one goes into the
-// program's at the begin of the next scan; others get the program's value back.
+// VAR_ACCESS: a shared variable that follows one of a program. Values that other writers write into a Writable one are
+// copied to the program's variable at the start of the next scan; without Writable they are overwritten by the
+// program's value.
 template <class T, bool Writable>
 class Access {
  public:
@@ -313,13 +315,13 @@ class Access {
   }
 
  private:
-  T now_{};  // of the shared one
+  T now_{};  // value of the shared one
   T seen_{};
   bool known_ = false;
 };
 
-// FOR whose end, step or variable only the running program knows. It ends where the variable would overflow, or leave
-// its subrange, in which it then stays.
+// A FOR loop whose end, step or variable is known only at run time. It ends where the variable would overflow or leave
+// its subrange; the variable stays within it.
 template <Integer T>
 class Loop {
  public:
@@ -345,7 +347,7 @@ class Loop {
   bool over_ = false;
 };
 
-// A UNION: bytes that are the place of all its fields. The code that uses it is compiled without strict aliasing.
+// A UNION: the bytes shared by all its fields. The code that uses it is compiled without strict aliasing.
 template <class... Fields>
 struct Overlap {
   static constexpr std::size_t kBytes = std::max({sizeof(Fields)...});
@@ -361,13 +363,13 @@ auto& overlaid(Union& value) noexcept {
   }
 }
 
-// For an output that the caller does not want.
+// For an output that the caller does not use.
 template <class T>
 constexpr T& scratch(T&& value = T{}) noexcept {
   return value;
 }
 
-// An array of equal elements.
+// Returns an array with all elements equal to `value`.
 template <class Array>
 constexpr Array filled(const typename Array::value_type& value) noexcept {
   Array out{};

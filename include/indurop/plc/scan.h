@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a function block knows of the scan it is called in. Time comes from the schedule, not from a clock: it stands
-// still during a scan, and in simulation and replay it is the time of the simulation.
+// The information that a function block has about the scan in which it is called. Time comes from the schedule, not
+// from a clock: it is constant during a scan, and in simulation and replay it is the time of the simulation.
 
 #pragma once
 
@@ -15,13 +15,13 @@ struct Scan {
 
 namespace detail {
 
-// Time since start(), in scans.
+// Time since start(), as of the current scan.
 class Stopwatch {
  public:
   void start(const Scan& scan) noexcept { start_ns_ = scan.time_ns; }
-  // As if it had started that long ago.
+  // Continues as if it had started `elapsed` ago.
   void resume(const Scan& scan, Time elapsed) noexcept { start_ns_ = sub(scan.time_ns, elapsed.ns); }
-  // Time before the start does not count: a retained block may come from before the last boot.
+  // Time before the start is ignored: a retained block may come from before the last boot.
   [[nodiscard]] Time elapsed(const Scan& scan) noexcept {
     if (scan.time_ns < start_ns_) {
       start(scan);
@@ -35,7 +35,7 @@ class Stopwatch {
 
 }  // namespace detail
 
-// Inputs and outputs of the block have the values they had before the program ended: it goes on from there.
+// Inputs and outputs of the block have the values they had before the program ended: it resumes from there.
 template <class Block>
 void restore(Block& block, const Scan& scan) noexcept {
   if constexpr (requires { block.restore(scan); }) {

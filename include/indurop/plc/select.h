@@ -14,13 +14,13 @@
 
 namespace indurop::iec {
 
-// in0 if g is false, in1 if it is true.
+// Returns in0 if g is false, in1 if it is true.
 template <class A, class B>
 constexpr Common<A, B> sel(bool g, const A& in0, const B& in1) noexcept {
   return g ? Common<A, B>(in1) : Common<A, B>(in0);
 }
 
-// The first of equals. A NaN in the first place stays, in another it is passed over.
+// Returns the first of equal values. A NaN as first argument is kept, any other is ignored.
 template <class First, class... More>
 constexpr Common<First, More...> max(const First& first, const More&... more) noexcept {
   Common<First, More...> result(first);
@@ -35,7 +35,7 @@ constexpr Common<First, More...> min(const First& first, const More&... more) no
   return result;
 }
 
-// MIN(MAX(IN, MN), MX): `mx` if the limits are crossed; NaN stays NaN.
+// MIN(MAX(IN, MN), MX): `mx` if the limits are swapped; NaN stays NaN.
 template <class Low, class T, class High>
 constexpr Common<Low, T, High> limit(const Low& mn, const T& in, const High& mx) noexcept {
   return min(max(in, mn), mx);
@@ -49,7 +49,7 @@ constexpr std::int64_t shown(T value) noexcept {
 }
 }  // namespace detail
 
-// The input number k, from 0. Faults if there is none.
+// Input number k, from 0. Faults if there is no such input.
 template <Integer K, class First, class... More>
 constexpr Common<First, More...> mux(Place place, K k, const First& first, const More&... more) {
   using Result = Common<First, More...>;
@@ -62,7 +62,7 @@ constexpr Common<First, More...> mux(Place place, K k, const First& first, const
   return result;
 }
 
-// The position, from 0, of element `value` of ARRAY [low..high]. Faults outside.
+// The position, from 0, of element `value` of ARRAY [low..high]. Faults outside the bounds.
 template <Integer T>
 constexpr std::size_t index(Place place, T value, std::int64_t low, std::int64_t high) {
   if (std::cmp_less(value, low) || std::cmp_greater(value, high)) [[unlikely]] {
@@ -71,7 +71,7 @@ constexpr std::size_t index(Place place, T value, std::int64_t low, std::int64_t
   return static_cast<std::size_t>(value) - static_cast<std::size_t>(low);
 }
 
-// `value`, for a variable of the subrange type (low..high). Faults outside.
+// Returns `value`, for a variable of the subrange type (low..high). Faults outside the range.
 template <Integer T>
 constexpr T in_range(Place place, T value, std::int64_t low, std::int64_t high) {
   if (std::cmp_less(value, low) || std::cmp_greater(value, high)) [[unlikely]] {
@@ -80,7 +80,8 @@ constexpr T in_range(Place place, T value, std::int64_t low, std::int64_t high) 
   return value;
 }
 
-// set_bit() of a variable of the subrange type (low..high). Faults where it would leave it, and then changes nothing.
+// set_bit() for a variable of the subrange type (low..high). Faults, without a change, if the result is outside the
+// range.
 template <Integer T>
 constexpr void set_bit_in_range(Place place, T& value, unsigned number, bool to, std::int64_t low, std::int64_t high) {
   T changed = value;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ARRAY[*]: an array of the caller, whose bounds are known during the call only. Real-time safe, but for the faults.
+// ARRAY[*]: an array of the caller, whose bounds are known during the call only. Real-time safe, except for the faults.
 
 #pragma once
 
@@ -20,7 +20,7 @@ class Slice {
   };
 
   Slice() = default;
-  // All elements of `whole`, which may be an array of arrays: they lie behind each other.
+  // Refers to all elements of `whole`, which may be an array of arrays: they are contiguous.
   template <class Array>
   Slice(Array& whole, std::array<Bounds, N> bounds) noexcept : first_(reinterpret_cast<T*>(&whole)), bounds_(bounds) {}
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// LEN LEFT RIGHT MID CONCAT INSERT DELETE REPLACE FIND. A result has room for everything it can become; it is cut when
-// it is assigned to a shorter STRING. Positions count from 1; positions and lengths that reach beyond the text mean the
-// part of it that exists. A character of a STRING is a byte, that of a WSTRING two. Real-time safe.
+// LEN LEFT RIGHT MID CONCAT INSERT DELETE REPLACE FIND. A result has space for every possible value; it is cut when it
+// is assigned to a shorter STRING. Positions count from 1; positions and lengths beyond the text are limited to the
+// part that exists. A character of a STRING is one byte, that of a WSTRING two. Real-time safe.
 
 #pragma once
 
@@ -21,13 +21,13 @@ namespace indurop::iec {
 
 namespace detail {
 
-// Texts one behind the other, which know their length and have none of the NULs that fill a variable: most of them are
+// Concatenated texts, which know their length and are not padded with the NULs that fill a variable: most of them are
 // copied to a shorter variable at once.
 template <class Letter, std::size_t N>
 class Joined {
  public:
   using View = std::basic_string_view<Letter>;
-  // The parts have at most N characters together.
+  // The parts must have at most N characters together.
   template <std::same_as<View>... Parts>
   explicit Joined(Parts... parts) noexcept {  // NOLINT(cppcoreguidelines-pro-type-member-init): nobody reads the rest
     (append(parts), ...);
@@ -51,19 +51,19 @@ class Joined {
 template <class Letter, std::size_t N>
 struct TextTraits<Joined<Letter, N>>
     : TextTraits<std::conditional_t<std::same_as<Letter, char>, String<N>, WString<N>>> {};
-// As long as the rooms of all together.
+// A Joined with the total size of all texts.
 template <class T, class... More>
 using JoinedOf =
     Joined<typename TextTraits<T>::Letter, kTextSize<T> + (std::size_t{0} + ... + (kTextSize<More> - 1)) - 1>;
 
-// With room for every part of a T.
+// A text with space for every part of a T.
 template <class T>
 using PartOf = Sized<T, kTextSize<T>>;
 
-// An INT counts no further.
+// The maximum length and position: an INT cannot count further.
 inline constexpr std::size_t kMostCounted = std::numeric_limits<std::int16_t>::max();
 
-// `n` as a length or position that may be added to another one without overflow.
+// Returns `n` as a length or position that can be added to another one without overflow.
 template <Integer T>
 constexpr std::int64_t count(T n) noexcept {
   constexpr std::int64_t kFar = std::int64_t{1} << 62;
@@ -112,7 +112,7 @@ detail::PartOf<T> right(const T& in, L length) noexcept {
   return all.substr(static_cast<std::size_t>(size - wanted));
 }
 
-// `length` characters from position `first` on.
+// Returns `length` characters from position `first` on.
 template <Text T, Integer L, Integer P>
 detail::PartOf<T> mid(const T& in, L length, P first) noexcept {
   return detail::cut(in.view(), detail::count(first), detail::count(length)).inside;
@@ -123,14 +123,14 @@ auto concat(const First& first, const More&... more) noexcept {
   return detail::JoinedOf<First, More...>(first.view(), more.view()...);
 }
 
-// `in2` after the character at position `after`; 0 is the front.
+// Inserts `in2` after the character at position `after`; 0 is the front.
 template <Text A, SameLetters<A> B, Integer P>
 auto insert(const A& in1, const B& in2, P after) noexcept {
   const auto parts = detail::cut(in1.view(), detail::count(after) + 1, 0);
   return detail::JoinedOf<A, B>(parts.before, in2.view(), parts.after);
 }
 
-// Without `length` characters from position `first` on: the function DELETE.
+// Removes `length` characters from position `first` on: the function DELETE.
 template <Text T, Integer L, Integer P>
 detail::PartOf<T> erase(const T& in, L length, P first) noexcept {
   const auto parts = detail::cut(in.view(), detail::count(first), detail::count(length));
@@ -140,14 +140,14 @@ detail::PartOf<T> erase(const T& in, L length, P first) noexcept {
   return result;
 }
 
-// `in2` in the place of `length` characters of `in1` from position `first` on.
+// Replaces `length` characters of `in1` from position `first` on by `in2`.
 template <Text A, SameLetters<A> B, Integer L, Integer P>
 auto replace(const A& in1, const B& in2, L length, P first) noexcept {
   const auto parts = detail::cut(in1.view(), detail::count(first), detail::count(length));
   return detail::JoinedOf<A, B>(parts.before, in2.view(), parts.after);
 }
 
-// The position where `in2` first stands in `in1`; 0 if it does not, or is empty.
+// The position of the first occurrence of `in2` in `in1`; 0 if there is none, or `in2` is empty.
 template <Text A, SameLetters<A> B>
 std::int16_t find(const A& in1, const B& in2) noexcept {
   const auto part = in2.view();

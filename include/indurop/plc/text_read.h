@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// STRING_TO_X: reads what stands at the beginning of a text, after blanks, and ignores the rest; 0 or FALSE if nothing
-// can be read. Literals of IEC 61131-3 are understood, with their underscores: '16#FF', '1_000', 'T#1m30s',
-// 'D#2024-01-31', also without the prefix. Beyond the range of a number: its nearest end. Real-time safe.
+// STRING_TO_X: parses the beginning of a text, after blanks, and ignores the rest; returns 0 or FALSE if nothing can be
+// read. Accepts literals of IEC 61131-3 with their underscores: '16#FF', '1_000', 'T#1m30s', 'D#2024-01-31', also
+// without the prefix. Saturates at the range of a number. Real-time safe.
 
 #pragma once
 
@@ -44,7 +44,7 @@ class Reader {
     rest_.remove_prefix(there ? 1 : 0);
     return there;
   }
-  // All of `word` or nothing, in any case of letters.
+  // Skips all of `word`, ignoring case, or nothing.
   bool skip(std::string_view word) noexcept {
     Reader ahead = *this;
     for (const char c : word) {
@@ -55,7 +55,7 @@ class Reader {
     *this = ahead;
     return true;
   }
-  // True after "-"; a "+" is skipped too.
+  // Returns true after "-"; also skips a "+".
   bool minus() noexcept {
     const bool negative = skip('-');
     if (!negative) {
@@ -64,7 +64,7 @@ class Reader {
     return negative;
   }
 
-  // Digits and underscores; the greatest number if they have no room.
+  // Reads digits and underscores; returns the maximum number on overflow.
   std::uint64_t digits(unsigned base = 10) noexcept {
     constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t value = 0;
@@ -78,7 +78,7 @@ class Reader {
     }
     return value;
   }
-  // The decimals after a point, in parts of `unit` ns.
+  // Reads the decimals after a point, in units of `unit` ns.
   std::int64_t fraction(std::int64_t unit) noexcept {
     std::int64_t sum = 0;
     for (; at_digit(); rest_.remove_prefix(1)) {
@@ -87,7 +87,7 @@ class Reader {
     }
     return sum;
   }
-  // Up to and including '#', if there is one.
+  // Skips everything up to and including '#', if there is one.
   void skip_prefix() noexcept {
     const std::size_t hash = rest_.find('#');
     rest_.remove_prefix(hash == std::string_view::npos ? 0 : hash + 1);
@@ -119,7 +119,7 @@ template <Real T>
 T read_real(std::string_view text) noexcept {
   Reader in(text);
   in.skip('+');
-  char buffer[128];  // from_chars() knows no underscores
+  char buffer[128];  // from_chars() does not accept underscores
   std::size_t used = 0;
   for (const char c : in.rest()) {
     if (used < sizeof buffer && c != '_') {
@@ -142,13 +142,13 @@ inline bool read_bool(std::string_view text) noexcept {
   return in.skip("TRUE") || read_integer<std::int64_t>(text) != 0;
 }
 
-// The unit that follows; 0 if there is none.
+// Reads the unit that follows; returns 0 if there is none.
 inline std::int64_t read_unit(Reader& in) noexcept {
   struct Unit {
     const char* name;
     std::int64_t ns;
   };
-  // The longer names first: "ms" is no minute.
+  // Longer names first, so that "ms" is not read as minutes.
   constexpr Unit kUnits[] = {{"ms", kMillisecond}, {"us", kMicrosecond}, {"ns", 1},     {"d", kDay},
                              {"h", kHour},         {"m", kMinute},       {"s", kSecond}};
   for (const Unit& unit : kUnits) {
@@ -178,7 +178,7 @@ inline Time read_duration(std::string_view text) noexcept {
   return {negative ? neg(sum) : sum};
 }
 
-// "12:34:56.789"; the seconds may be missing.
+// Reads "12:34:56.789"; the seconds may be missing.
 inline std::int64_t read_time_of_day(Reader& in) noexcept {
   std::int64_t ns = mul(static_cast<std::int64_t>(in.digits()), kHour);
   if (in.skip(':')) {
@@ -193,7 +193,7 @@ inline std::int64_t read_time_of_day(Reader& in) noexcept {
   return normalized<TimeOfDay>(ns).ns;
 }
 
-// "2024-01-31"; 1970-01-01 if it is none.
+// Reads "2024-01-31"; returns 1970-01-01 if it is not a date.
 inline Date read_date(Reader& in) noexcept {
   const std::uint64_t year = in.digits();
   if (!in.skip('-')) {

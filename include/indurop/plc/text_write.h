@@ -30,7 +30,7 @@ class Writer {
   void number(T value) noexcept {
     used_ = static_cast<std::size_t>(std::to_chars(text_.data + used_, text_.data + N, value).ptr - text_.data);
   }
-  // With leading zeros.
+  // Writes a number with leading zeros.
   void digits(std::int64_t value, int width) noexcept {
     for (int i = width - 1; i >= 0; --i) {
       text_.data[used_ + static_cast<std::size_t>(i)] = static_cast<char>('0' + value % 10);
@@ -55,7 +55,7 @@ void write_date(Writer<N>& out, std::int64_t ns) noexcept {
   out.digits(civil.day, 2);
 }
 
-// 12:34:56, with as many groups of three decimals as it needs.
+// Writes 12:34:56, with as many groups of three decimals as needed.
 template <std::size_t N>
 void write_time_of_day(Writer<N>& out, std::int64_t ns) noexcept {
   out.digits(ns / kHour, 2);
@@ -77,7 +77,7 @@ void write_time_of_day(Writer<N>& out, std::int64_t ns) noexcept {
   }
 }
 
-// The shortest decimal text that reads back as the same value, with a point: "1.0", "1.0e+30". No number: "NaN", "INF".
+// The shortest decimal text that reads back as the same value, with a decimal point: "1.0", "1.0e+30"; or "NaN", "INF".
 template <Real T>
 String<32> write_real(T value) noexcept {
   if (std::isnan(value)) {
@@ -140,7 +140,7 @@ String<32> to_string(T value) noexcept {
   return detail::write_real(value);
 }
 
-// 'T#1d2h3m4s5ms6us7ns' without what is zero.
+// 'T#1d2h3m4s5ms6us7ns' without the zero parts.
 inline String<48> to_string(Time value) noexcept {
   struct Unit {
     std::uint64_t ns;

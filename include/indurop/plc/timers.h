@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Function blocks TP TON TOF BLINK and RTC. `pt` may change while a timer runs and counts at once; negative it is zero.
-// A timer ends in the first scan whose time reaches `pt`; `et` then stands at `pt`. Real-time safe.
+// Function blocks TP TON TOF BLINK and RTC. `pt` may change while a timer runs and takes effect at once; negative
+// counts as zero. A timer ends in the first scan whose time reaches `pt`; `et` then stays at `pt`. Real-time safe.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop::iec {
 
-// A pulse of length `pt` at the rising edge of `in`, which does nothing more until the pulse has ended.
+// A pulse of length `pt` at the rising edge of `in`, which has no further effect until the pulse has ended.
 struct Tp {
   bool in = false;
   Time pt;
@@ -44,7 +44,7 @@ struct Tp {
   bool before_ = false;
 };
 
-// `q` follows when `in` was true for `pt`; it falls with `in`.
+// On-delay: `q` rises when `in` was true for `pt`; it falls with `in`.
 struct Ton {
   bool in = false;
   Time pt;
@@ -79,7 +79,7 @@ struct Ton {
   bool running_ = false;
 };
 
-// `q` rises with `in` and falls when `in` was false for `pt`.
+// Off-delay: `q` rises with `in` and falls when `in` was false for `pt`.
 struct Tof {
   bool in = false;
   Time pt;
@@ -114,8 +114,8 @@ struct Tof {
   bool running_ = false;
 };
 
-// BLINK of the library Util: while `enable` is true, `out` is true for `timehigh` and false for `timelow` in turn, true
-// first. It stays as it is when `enable` falls.
+// BLINK of the library Util: while `enable` is true, `out` alternates between true for `timehigh` and false for
+// `timelow`, true first. It keeps its value when `enable` falls.
 struct Blink {
   bool enable = false;
   Time timelow;
@@ -130,7 +130,7 @@ struct Blink {
       out = begins || !out;
     }
   }
-  // The time at its output begins again.
+  // The time of the present output starts again.
   void restore(const Scan& scan) noexcept {
     running_ = enable;
     watch_.start(scan);

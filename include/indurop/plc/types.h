@@ -76,10 +76,10 @@ struct TextTraits<WideText<N>> {
   template <std::size_t M>
   using Sized = WideText<M>;
 };
-// With the NUL behind the text.
+// Size of a text including its terminating NUL.
 template <class T>
 inline constexpr std::size_t kTextSize = TextTraits<T>::kSize;
-// A text of the same kind as T with room for M - 1 characters.
+// A text type of the same kind as T with space for M - 1 characters.
 template <class T, std::size_t M>
 using Sized = typename TextTraits<T>::template Sized<M>;
 }  // namespace detail
@@ -123,7 +123,7 @@ constexpr auto common_type() noexcept {
 }
 }  // namespace detail
 
-// The type that holds each of them: their one type, or the longest text.
+// The type that can hold all of them: their common type, or the longest text.
 template <class... T>
 using Common = typename decltype(detail::common_type<T...>())::type;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// UTF-8 to UTF-16 and back, for STRING and WSTRING. A byte that is no UTF-8 counts as the character of its number, half
-// of a pair of UTF-16 as a character of its own, so that nothing is lost. Real-time safe.
+// UTF-8 to UTF-16 and back, for STRING and WSTRING. A byte that is not valid UTF-8 is taken as the character with its
+// number, an unpaired UTF-16 surrogate as a character of its own, so that nothing is lost. Real-time safe.
 
 #pragma once
 
@@ -12,10 +12,10 @@ namespace indurop::iec::detail {
 
 struct CodePoint {
   std::uint32_t number = 0;
-  std::size_t bytes = 1;  // of the text
+  std::size_t bytes = 1;  // its length in the text
 };
 
-// The first one of a text that is not empty.
+// Decodes the first code point of a text that is not empty.
 constexpr CodePoint first_point(std::string_view utf8) noexcept {
   const auto byte = [&](std::size_t i) { return std::uint32_t{static_cast<unsigned char>(utf8[i])}; };
   const std::uint32_t lead = byte(0);
@@ -55,7 +55,7 @@ constexpr void each_wide(std::string_view utf8, Put put) {
   }
 }
 
-// Calls put(char) for each byte of the text in UTF-8. Half of a pair is written as if it were a character.
+// Calls put(char) for each byte of the text in UTF-8. An unpaired surrogate is encoded as if it were a character.
 template <class Put>
 constexpr void each_byte(std::u16string_view wide, Put put) {
   const auto tail = [&](std::uint32_t bits) { put(static_cast<char>(0x80U | (bits & 0x3FU))); };
@@ -80,7 +80,7 @@ constexpr void each_byte(std::u16string_view wide, Put put) {
   }
 }
 
-// What a text that is not empty begins with.
+// Returns the first UTF-16 unit of a text that is not empty.
 constexpr char16_t first_wide(std::string_view utf8) noexcept {
   char16_t first = 0;
   each_wide(utf8.substr(0, first_point(utf8).bytes), [&](char16_t one) { first = first == 0 ? one : first; });

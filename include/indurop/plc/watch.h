@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a PLC program built with --watch tells `indurop plc watch` at the end of a scan: the values of its variables,
-// one behind the other without gaps. Real-time safe.
+// The values that a PLC program built with --watch reports to `indurop plc watch` at the end of a scan: its variables,
+// one after the other without gaps. Real-time safe.
 
 #pragma once
 
@@ -17,7 +17,7 @@ namespace indurop::iec {
 
 class Watch {
  public:
-  // `to` has room for everything that is put.
+  // `to` must have space for everything that is written.
   explicit Watch(std::uint8_t* to) noexcept : to_(to) {}
 
   template <class T>
@@ -39,7 +39,7 @@ class Watch {
       }
     }
   }
-  // Members of `all` that lie behind each other, from `first` on.
+  // Writes contiguous members of `all`, from `first` on.
   template <class All, class First>
   void put_row(const All& all, const First& first, std::size_t size) noexcept {
     const auto* begin = reinterpret_cast<const std::uint8_t*>(&all);
@@ -54,8 +54,8 @@ class Watch {
   std::uint8_t* to_;
 };
 
-// Writes the shared variable `Tag`, bytes, in its place in shared memory: a program has thousands of them, which are
-// not put together elsewhere first. `show` puts all but the mark.
+// Writes the shared variable `Tag`, bytes, directly in shared memory: a program has thousands of values, which are not
+// collected elsewhere first. `show` writes everything but the mark.
 template <class Tag, class Show>
 void tell(std::uint64_t mark, Show show) noexcept {
   static_assert(Tag::kKind == abi::Kind::Ring);
@@ -69,7 +69,8 @@ void tell(std::uint64_t mark, Show show) noexcept {
   }
 }
 
-// The power at some points of a drawn body, one by one: what was written in bytes is not read at once as a whole.
+// Writes the power flow at some points of a drawn body, one by one: bytes written singly are not read back at once as a
+// whole.
 template <class... Power>
 [[gnu::always_inline]] inline void put_flow(bool* to, Power... power) noexcept {
   ((*to++ = power), ...);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conversions of WSTRING, CHAR and WCHAR. A STRING is UTF-8, a WSTRING UTF-16; a byte that is no UTF-8 becomes the
-// character of its number. A CHAR is a byte, as a STRING counts them. Real-time safe.
+// Conversions of WSTRING, CHAR and WCHAR. A STRING is UTF-8, a WSTRING UTF-16; a byte that is not valid UTF-8 becomes
+// the character with its number. A CHAR is one byte, as in a STRING. Real-time safe.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace indurop::iec {
 
-// A text of two-byte characters never has more of them than bytes of UTF-8.
+// A text never has more two-byte characters than bytes of UTF-8.
 template <NarrowText T>
 WideText<detail::kTextSize<T>> to_wstring(const T& in) noexcept {
   WideText<detail::kTextSize<T>> out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// WSTRING: text of two bytes for each character, UTF-16. What it has is what indurop::string has.
+// WSTRING: text of two bytes for each character, UTF-16. It has the same functions as indurop::string.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace indurop::iec {
 
 // Trivially copyable, no allocation, always terminated; the same bytes as `uint16_t name[N]` of a .glb file. Longer
-// text is cut. Real-time safe.
+// text is truncated. Real-time safe.
 template <std::size_t N>
 struct WideText {
   static_assert(N >= 1, "a text needs room for its terminating NUL");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands as function blocks of PLCopen Motion Control give them: each one has a number of its own and learns its own
-// end. They lie in places of a shared variable (MC_COMMAND), answers in another one (MC_ANSWER).
+// Commands as issued by function blocks of PLCopen Motion Control: each one has its own number and its outcome is
+// reported individually. They are in slots of a shared variable (MC_COMMAND), answers in another one (MC_ANSWER).
 
 #pragma once
 
@@ -11,26 +11,26 @@
 
 namespace indurop::robot {
 
-inline constexpr std::size_t kCommands = 32;  // places
+inline constexpr std::size_t kCommands = 32;  // slots
 inline constexpr std::size_t kCams = 4;
 inline constexpr std::size_t kCamPoints = 64;
 inline constexpr std::size_t kBelts = 2;
 inline constexpr std::size_t kProfiles = 4;
 inline constexpr std::size_t kProfilePoints = 64;
 
-// What a command does with those before it.
+// The effect of a command on those before it.
 enum class BufferMode : std::int16_t {
-  Aborting,  // at once and instead of them
+  Aborting,  // at once, replacing them
   Buffered,  // after them
-  // After them, passing the end of the one before with the lower velocity of both, that of the one before, its own, the
-  // higher one.
+  // After them, passing the end of the previous motion with the lower velocity of both, that of the previous one, its
+  // own, the higher one.
   BlendingLow,
   BlendingPrevious,
   BlendingNext,
   BlendingHigh
 };
 
-// Of axes that turn on and on: which way to an absolute position. None: as the numbers say.
+// For axes that turn endlessly: the direction to an absolute position. None: as given by the position values.
 enum class Direction : std::int16_t { None, Positive, Shortest, Negative, Current };
 
 // Coordinates of the axes, of the machine (the base), of the product.
@@ -40,47 +40,48 @@ enum class CircleMode : std::int16_t { Border, Center, Radius };
 
 enum class CommandState : std::int32_t {
   None,
-  Waits,   // taken; others are before it
-  Active,  // has the axis or the group
+  Waits,   // accepted; others are before it
+  Active,  // controls the axis or the group
   Done,
   Aborted,
   Error
 };
 
-// Zeros in velocity, acceleration, deceleration and jerk stand for the most there is; degrees are millimetres where an
-// axis slides.
+// Zero in velocity, acceleration, deceleration and jerk means the maximum; degrees are millimetres for a sliding axis.
 struct Command {
-  std::uint32_t number = 0;   // another one than last time in this place: a new command; the lower one comes first
+  std::uint32_t number = 0;   // differs from the last one in this slot: a new command; the lower number comes first
   std::int32_t code = 0;      // AxisService or, if axis is 0, Service
   std::int32_t axis = 0;      // from 1; 0: the group
-  std::uint32_t updates = 0;  // another one than last time: its other fields have changed, and count at once
+  std::uint32_t updates = 0;  // differs from last time: the other fields have changed and take effect at once
   BufferMode buffer = BufferMode::Aborting;
   Direction direction = Direction::None;
   CoordSystem coords = CoordSystem::Axes;
-  std::int16_t option = 0;     // of a circle: CircleMode, + 16: clockwise; of a position that is set: 1 is relative
-  std::int16_t execute = 0;    // of stops: 1 as long as they hold
-  std::int16_t job = 0;        // of JobStart
-  std::array<double, 8> to{};  // deg; a pose: mm and deg; a single axis has the first
-  // Of circles: the point between, the centre or the radius as a vector. Of what is tracked: the product on it.
+  std::int16_t option = 0;     // for a circle: CircleMode, + 16: clockwise; for a set position: 1 is relative
+  std::int16_t execute = 0;    // for stops: 1 as long as they hold
+  std::int16_t job = 0;        // for JobStart
+  std::array<double, 8> to{};  // deg; a pose: mm and deg; a single axis uses the first
+  // For circles: the point between, the centre or the radius as a vector. For tracking: the product on the belt or
+  // table.
   std::array<double, 8> aux{};
   double velocity = 0;      // deg/s, mm/s; joint motions of the group: %
   double acceleration = 0;  // deg/s^2
   double deceleration = 0;  // deg/s^2; 0: as acceleration
   double jerk = 0;          // deg/s^3
-  double transition = 0;    // mm, with blending: how far before the end of the motion before it the path may turn
+  double transition = 0;    // mm, with blending: at most this far before the previous motion's end the path turns
 };
 
-// Of a cam: the master's place rises from point to point. Numbers of both are as their users count, or what they scale
-// it with.
+// The table of a cam: the master's position increases from point to point. Both positions are in the units of their
+// axes, or scaled by them.
 struct CamTable {
   std::int16_t points = 0;
   std::array<double, kCamPoints> master{};
   std::array<double, kCamPoints> slave{};
 };
 
-// Of a profile: where, how fast or how hard an axis is to be at times after its beginning, which rise from above 0.
+// The table of a profile: position, velocity or torque of an axis at times after its start, which increase from above
+// 0.
 struct ProfileTable {
-  std::uint32_t command = 0;  // number of the command that it is for
+  std::uint32_t command = 0;  // number of the command that uses it
   std::int16_t points = 0;
   std::array<double, kProfilePoints> time{};  // s
   std::array<double, kProfilePoints> value{};
@@ -90,7 +91,7 @@ struct CommandAnswer {
   std::uint32_t number = 0;
   CommandState state = CommandState::None;
   ErrorCode error = ErrorCode::Ok;
-  bool reached = false;  // of motions without an end: has the velocity, is in gear; or had, as the next took over
+  bool reached = false;  // for endless motions: has reached the velocity or is in gear; or had, when replaced
 };
 
 using CamTables = std::array<CamTable, kCams>;

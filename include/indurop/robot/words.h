@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers by which a PLC program and the robot task speak with each other. Append-only; a .glb declares the same
-// names for PLC programs (examples/robot_cell/plc_robot.glb).
+// The numbers that a PLC program and the robot task exchange. Append-only; a .glb declares the same names for PLC
+// programs (examples/robot_cell/plc_robot.glb).
 
 #pragma once
 
@@ -42,7 +42,7 @@ enum class Service : std::int32_t {
   SelectTool,
   JobResume,
   JobBack,
-  // The others by commands only.
+  // The following ones by commands only.
   DirectRelative,
   LinearRelative,
   CircularAbsolute,
@@ -52,11 +52,11 @@ enum class Service : std::int32_t {
   Continue,
   SetTransform,
   SelectCam,  // takes table `option` as a cam; `job` 1: periodic
-  // By requests only: the job files are read anew.
+  // By requests only: the job files are read again.
   JobReload,
   // By commands.
-  TrackBelt,  // the product moves with belt `option`, along x of `to`, from `aux` in it on
-  TrackTable  // likewise about z of `to`
+  TrackBelt,  // the product moves with belt `option`, along x of `to`, starting from `aux` in it
+  TrackTable  // the same about z of `to`
 };
 
 // Services of one axis.
@@ -75,24 +75,24 @@ enum class AxisService : std::int32_t {
   SetPosition,
   GearIn,  // follows axis `option` with to[0] / to[1] of its speed
   Decouple,
-  CamIn,  // follows axis `option` on cam `job`: to has offset and scale of both, aux whether zeros are those of the
-          // axes
-  MoveSuperimposed,  // by to[0] on top of what it does, `velocity` faster at most
+  CamIn,  // follows axis `option` on cam `job`: to has offset and scale of both, aux whether their zeros are those of
+          // the axes
+  MoveSuperimposed,  // by to[0] on top of the current motion, at most `velocity` faster
   HaltSuperimposed,
-  TouchProbe,  // where the next edge is; `option` 1: a falling one, + 2: of the mark; `job` 1: from to[0] to to[1] only
+  TouchProbe,  // position of the next edge; `option` 1: falling, + 2: of the mark; `job` 1: from to[0] to to[1] only
   AbortTrigger,
-  // As GearIn, from where it is at to[3] and its master at to[2] on; on the last to[4] of the master's way it gets
-  // there.
+  // As GearIn, from its position to[3] and its master's position to[2] on; synchronizes over the last to[4] of the
+  // master's distance.
   GearInPos,
   Combine,      // follows axes `option` and `job` with to[0] / to[1] and to[2] / to[3] of their speeds
-  ShiftMaster,  // of a follower of axis `option`: sees its master to[0] further on; `job` 1: so much more than it does
-  MoveContinuousAbsolute,  // passes to[0] with the velocity to[1], which may have a sign, and goes on with it
+  ShiftMaster,  // of a follower of axis `option`: shifts the master it sees by to[0]; `job` 1: by so much more than now
+  MoveContinuousAbsolute,  // passes to[0] with the velocity to[1], which may have a sign, and continues with it
   MoveContinuousRelative,
-  WriteParameter,   // parameter `option` of the standard becomes to[0]
-  PositionProfile,  // table `job` of times: to[0] is the scale of time, to[1] that of values, to[2] is added to them
+  WriteParameter,   // sets parameter `option` of the standard to to[0]
+  PositionProfile,  // table `job` of times: to[0] scales the time, to[1] the values, to[2] is added to the values
   VelocityProfile,
   AccelerationProfile,
-  TorqueControl  // pushes with to[0] N m (N), which grows by to[1] in a second, no faster than `velocity`
+  TorqueControl  // applies to[0] N m (N), ramped by to[1] per second, no faster than `velocity`
 };
 
 enum class ErrorCode : std::uint32_t {
@@ -101,50 +101,50 @@ enum class ErrorCode : std::uint32_t {
   State,         // not possible in this state
   Point,         // no such point
   Job,           // no such job
-  Value,         // a value that is no number or out of its range
+  Value,         // a value that is not a number or out of range
   Unreachable,   // the target is out of reach
-  JointLimit,    // the target or the way there is beyond a joint's limit
-  Singular,      // the way comes too near a singular position
-  Speed,         // the way would need a joint to be faster than it can
-  Circle,        // the points of a circle lie on a line
+  JointLimit,    // the target or the path exceeds a joint limit
+  Singular,      // the path comes too near a singular position
+  Speed,         // the path would exceed the speed limit of a joint
+  Circle,        // the points of a circle are on a line
   Drive,         // a drive reports a fault
   Following,     // an axis does not follow
-  Power,         // a drive does not take power, or lost it
+  Power,         // a drive does not switch on, or lost its power
   Emergency,     // emergency stop
   Line,          // a line of a job failed
-  NotHomed,      // the axis does not know where it is
-  Aborted,       // a later command took over
-  Acceleration,  // the way would need a joint to accelerate harder than it can
-  Jerk,          // the way would need a joint to change its acceleration faster than it can
-  Workspace,     // the target or the way there is outside of the workspace
+  NotHomed,      // the position of the axis is not known
+  Aborted,       // a later command replaced it
+  Acceleration,  // the path would exceed the acceleration limit of a joint
+  Jerk,          // the path would exceed the jerk limit of a joint
+  Workspace,     // the target or the path is outside the workspace
   Tool,          // no such tool
-  NoResume,      // there is no job to go on with
+  NoResume,      // there is no job to resume
   Away,          // the robot is too far from where its job left the path
-  Full,          // more commands than there is room for
-  Master,        // the axis to follow has no power, failed or looks for its place
-  Enabling,      // manual mode, and the enabling switch is not held
+  Full,          // too many commands
+  Master,        // the axis to follow has no power, failed or is homing
+  Enabling,      // manual mode, and the enabling device is not held
   Mode,          // another operating mode was chosen
-  Torque,        // an axis has not enough torque for it, however slow it is
-  Collision,     // the target or the way there is too near to a zone, or to the arm itself
-  Contact,       // something pushes against the arm
-  Belt,          // the place of a belt is not told, jumps or goes too quickly
-  NoTorque,      // the torque of an axis cannot be told: no masses, no rated torque, or its drive has no such mode
+  Torque,        // an axis has not enough torque for it at any speed
+  Collision,     // the target or the path is too near to a zone, or to the arm itself
+  Contact,       // contact: an external force acts on the arm
+  Belt,          // the position of a belt is not reported, jumps or changes too fast
+  NoTorque,      // the torque of an axis is not known: no masses, no rated torque, or no such mode in its drive
   Planner        // a thread of the robot task crashed; the task ends once the drives have no power
 };
 
-// How the robot is run (ISO 10218-1), as a key switch says.
+// The operating mode of the robot (ISO 10218-1), as selected by a key switch.
 enum class OperatingMode : std::int16_t {
-  Any,        // there is no switch: jobs run, and it may be moved by hand
-  Automatic,  // it is not moved by hand
-  Manual      // at most 250 mm/s, and only while the enabling switch is held
+  Any,        // no selector: jobs run, and jogging is allowed
+  Automatic,  // no jogging
+  Manual      // at most 250 mm/s, and only while the enabling device is held
 };
 
 // Stop categories of IEC 60204-1. Hold and ordinary stops are of category 2, disabling the group is of category 1, an
 // emergency stop of category 1 or 0 (Settings::emergency_category).
 enum class StopCategory : std::int16_t {
-  Category0 = 0,  // power is taken away at once
-  Category1 = 1,  // the robot is brought to rest, then power is taken away
-  Category2 = 2   // the robot is brought to rest and keeps its power
+  Category0 = 0,  // power is removed at once
+  Category1 = 1,  // the robot is stopped, then power is removed
+  Category2 = 2   // the robot is stopped and keeps its power
 };
 
 enum class JobState : std::int16_t { Idle, Runs, Waits, Ended, Failed, Paused };
