@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// This process's way to one store: for the access by hash of variables and shared functions.
+// This process's access to one store: finds variables and shared functions by their hash.
 
 #pragma once
 
@@ -19,17 +19,17 @@ class Attachment {
  public:
   // Opens the store of `node`. Errors: those of Store::attach.
   static Result<Attachment> open(const std::string& node);
-  // Uses the node's own store, which the caller keeps.
+  // Uses the node's own store, which the caller owns.
   explicit Attachment(vars::Store& store);
   Attachment(Attachment&&) = default;
   Attachment& operator=(Attachment&&) = delete;
 
   [[nodiscard]] const std::string& node() const noexcept { return node_; }
   [[nodiscard]] vars::Store& store() const noexcept { return borrowed_ != nullptr ? *borrowed_ : *owned_; }
-  // True if a newer block has taken the node's name. Real-time safe.
+  // Returns true if a newer block has replaced this one. Real-time safe.
   [[nodiscard]] bool retired() const noexcept { return store().retired(); }
 
-  // Null if the node does not know the function. Real-time safe.
+  // Returns null if the node does not know the function. Real-time safe.
   [[nodiscard]] vars::CallFunction* function(std::uint64_t name_hash) const noexcept;
   [[nodiscard]] std::uint32_t index_of(const vars::CallFunction& function) const noexcept {
     return static_cast<std::uint32_t>(&function - functions_.data());
@@ -46,7 +46,7 @@ class Attachment {
   vars::Store* borrowed_ = nullptr;
   std::string node_;
   std::byte* block_ = nullptr;
-  std::span<vars::CallFunction> functions_;  // sorted by name hash; empty if what the block says cannot be true
+  std::span<vars::CallFunction> functions_;  // sorted by name hash; empty if the block's data is inconsistent
 };
 
 }  // namespace indurop::runtime

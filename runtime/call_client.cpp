@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's side of shared functions. A slot belongs to whoever holds its robust mutex, so the slot of a killed
-// caller is simply the next caller's; what the state word says then decides what is left to clean up.
+// The caller's side of shared functions. A slot belongs to the holder of its robust mutex, so the slot of a killed
+// caller simply passes to the next one; the state word then shows what must be cleaned up.
 
 #include <indurop/detail/call.h>
 #include <indurop/result.h>
@@ -23,14 +23,14 @@ using vars::CallFunction;
 using vars::CallSlot;
 using vars::CallState;
 
-constexpr std::int64_t kLookNs = 5'000'000;  // how often a waiting caller looks whether the server lives
+constexpr std::int64_t kLookNs = 5'000'000;  // interval at which a waiting caller checks that the server is alive
 
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): what a thread keeps from call to call
 [[gnu::tls_model("initial-exec")]] thread_local CallSlot* t_slot = nullptr;  // held by this thread
-[[gnu::tls_model("initial-exec")]] thread_local std::uint32_t t_first = 0;   // where this thread looks first
+[[gnu::tls_model("initial-exec")]] thread_local std::uint32_t t_first = 0;   // first slot to try
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
-// Ok: somebody serves it. NotFound: nobody. Dead: the server died and no other has come.
+// Returns Ok if a server serves it, NotFound if there is none, Dead if the server died and no other has started.
 Errc look_for_server(CallFunction& function) noexcept {
   switch (rt::try_lock(function.serving)) {
     case rt::LockResult::Timeout:
@@ -42,13 +42,13 @@ Errc look_for_server(CallFunction& function) noexcept {
     case rt::LockResult::Locked:
       break;
   }
-  // A server that ends in order takes its pid away.
+  // A server that ends normally clears its pid.
   const bool died = function.server_pid.load(std::memory_order_relaxed) != 0;
   rt::unlock(function.serving);
   return died ? Errc::Dead : Errc::NotFound;
 }
 
-// The slot is ours by its mutex. True if nobody else is busy with it.
+// The caller holds the slot's mutex. Returns true if no server is working on it.
 bool make_free(CallSlot& slot) noexcept {
   std::uint64_t word = slot.state.load(std::memory_order_acquire);
   for (;;) {
@@ -56,7 +56,7 @@ bool make_free(CallSlot& slot) noexcept {
       case CallState::Free:
       case CallState::Done:
         return true;
-      case CallState::Ready:  // its caller died before the server took it
+      case CallState::Ready:  // its caller died before the server accepted it
         if (slot.state.compare_exchange_weak(word, word_of(sequence_of(word), CallState::Free))) {
           return true;
         }
@@ -89,7 +89,7 @@ CallSlot* take_slot(const Attachment& attachment, const CallFunction& function) 
   return nullptr;
 }
 
-// Nobody waits for request `sequence` any more. False if its answer has come meanwhile.
+// Abandons request `sequence`. Returns false if its answer has arrived meanwhile.
 bool give_up(CallSlot& slot, std::uint64_t sequence) noexcept {
   std::uint64_t word = word_of(sequence, CallState::Ready);
   if (slot.state.compare_exchange_strong(word, word_of(sequence, CallState::Free))) {
@@ -99,7 +99,7 @@ bool give_up(CallSlot& slot, std::uint64_t sequence) noexcept {
   return slot.state.compare_exchange_strong(word, word_of(sequence, CallState::Abandoned));
 }
 
-// Waits for the answer to `sequence`. Ok: it is there.
+// Waits for the answer to `sequence`. Returns Ok if it has arrived.
 Errc wait_for_answer(CallFunction& function, CallSlot& slot, std::uint64_t sequence, std::int64_t deadline) noexcept {
   for (;;) {
     (void)slot.reply.wait_until(rt::mono_time(std::min(deadline, rt::now_ns() + kLookNs)));
@@ -125,7 +125,7 @@ Errc exchange(const Attachment& attachment, CallFunction& function, const detail
   t_slot = slot;
   auto* bytes = reinterpret_cast<std::byte*>(slot);
   const std::uint64_t sequence = sequence_of(slot->state.load(std::memory_order_relaxed)) + 1;
-  while (slot->reply.try_wait()) {  // wake-ups for callers that did not wait for them
+  while (slot->reply.try_wait()) {  // wake-ups for callers that no longer waited for them
   }
   if (request.args_size > 0) {
     std::memcpy(bytes + vars::kCallArgsOffset, request.args, request.args_size);
@@ -167,7 +167,7 @@ Errc call_now(const detail::CallRequest& request) noexcept {
   return code == Errc::Ok ? exchange(*attachment, *function, request) : code;
 }
 
-// A run that is repeated gets what it got then.
+// A repeated run gets the recorded answer.
 Errc call(const detail::CallRequest& request) noexcept {
   const auto is_good = [](std::int64_t code) { return code == static_cast<std::int64_t>(Errc::Ok); };
   return static_cast<Errc>(answer(request.result, request.result_size, is_good,

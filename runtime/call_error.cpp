@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a call of a shared function failed, in words.
+// Text of the reason why a call of a shared function failed.
 
 #include <indurop/function.h>
 

@@ -30,10 +30,10 @@ using vars::CallFunction;
 using vars::CallSlot;
 using vars::CallState;
 
-constexpr std::int64_t kLookNs = 100'000'000;  // how often an idle server looks for a new store
+constexpr std::int64_t kLookNs = 100'000'000;  // interval at which an idle server checks for a new store
 constexpr int kTriesBeforeComplaint = 5;
 
-// What a module offers, told apart by the file it was loaded from.
+// A function offered by a module; modules are distinguished by the file they were loaded from.
 struct Served {
   FunctionOffer* offer = nullptr;
   CallFunction* function = nullptr;  // null: not (yet) served
@@ -114,7 +114,7 @@ class FunctionServers::Server {
     t_served = &served_;
     const rt::HandlerStack stack;
     guard_.enter();
-    // A crash of an implementation comes back here (in the node, whose handlers call catch_fault()).
+    // A crash of an implementation jumps back to this point (in the node, whose handlers call catch_fault()).
     if (sigsetjmp(guard_.target(), 0) != 0) {
       crashed();
     } else {
@@ -141,7 +141,7 @@ class FunctionServers::Server {
     }
   }
 
-  // Takes over every function that is not served yet in the store the process is bound to now.
+  // Starts serving every function that is not served yet in the store to which the process is bound now.
   void enter() {
     Attachment* now = hot.attachment.load(std::memory_order_acquire);
     if (now != attachment_) {
@@ -170,7 +170,7 @@ class FunctionServers::Server {
       return;
     }
     if (!rt::is_locked(rt::lock_within(function->serving))) {
-      if (++served.tries == kTriesBeforeComplaint) {  // a server that is just ending still has it
+      if (++served.tries == kTriesBeforeComplaint) {  // a server that is just ending still holds it
         Process::get().report(
             fmt::format("shared function {}: implemented twice, process {} serves it already: "
                         "implement it in one module only",
@@ -189,7 +189,7 @@ class FunctionServers::Server {
     function->server_pid.store(::getpid(), std::memory_order_relaxed);
   }
 
-  // What a server that died was working on gets its answer; what nobody waits for is freed.
+  // Answers the calls that a dead server was working on; frees slots that no caller waits for.
   void clean_up(CallFunction& function) noexcept {
     for (std::size_t i = 0; i < vars::kCallSlots; ++i) {
       CallSlot& slot = attachment_->slot(function, i);

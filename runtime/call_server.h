@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The implementing side of shared functions: one thread for each loaded file that implements some, which serves the
-// calls of all of them one after the other.
+// The implementing side of shared functions: one thread for each loaded file that implements some, which serves all
+// their calls one after the other.
 
 #pragma once
 
@@ -17,10 +17,10 @@
 
 namespace indurop::runtime {
 
-// Runs an implementation; Failed if it throws, which is reported. The calling thread's own stack.
+// Runs an implementation; returns Failed if it throws, which is reported. Uses the calling thread's own stack.
 Errc invoke_contained(const detail::FunctionOffer& offer, const void* arguments, void* result) noexcept;
 
-// The offer of that function if the calling thread is the one that serves it, else null.
+// Returns the offer of that function if the calling thread is the one that serves it, else null.
 const detail::FunctionOffer* offer_of_this_server(std::uint64_t name_hash) noexcept;
 
 class FunctionServers {
@@ -30,11 +30,11 @@ class FunctionServers {
   FunctionServers(const FunctionServers&) = delete;
   FunctionServers& operator=(const FunctionServers&) = delete;
 
-  // At load and unload of a module.
+  // Called at load and unload of a module.
   void offer(detail::FunctionOffer& offer);
   void withdraw(const detail::FunctionOffer& offer);
 
-  // See host.h. Servers that run already go on.
+  // See host.h. Servers that already run continue.
   Status start(int fifo_priority, int core);
   void stop();
 
@@ -42,8 +42,8 @@ class FunctionServers {
   class Server;
   struct Offered {
     detail::FunctionOffer* offer;
-    const void* owner;     // the loaded file it came from
-    std::uint32_t module;  // that was current when it was loaded
+    const void* owner;     // the loaded file that offers it
+    std::uint32_t module;  // the module that was current when it was loaded
   };
   std::mutex mutex_;
   std::vector<Offered> offers_;

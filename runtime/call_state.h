@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state word of a call slot: request number and CallState in one atomic, so that an answer to a request nobody
-// waits for can never be taken for the answer to the next one.
+// The state word of a call slot: request number and CallState in one atomic, so that an answer to an abandoned request
+// can never be mistaken for the answer to the next one.
 
 #pragma once
 

@@ -26,9 +26,9 @@ namespace schema = indurop::schema;
 using indurop::Errc;
 using indurop::Status;
 
-constexpr std::int64_t kRetryNs = 100'000'000;  // how often a handle without a node looks for it
+constexpr std::int64_t kRetryNs = 100'000'000;  // interval at which a handle without a node searches for it
 
-// A name that was looked up, or the reason why that failed.
+// A name that was resolved, or the reason why that failed.
 struct Resolved {
   const indurop::vars::DirectoryEntry* entry = nullptr;
   std::uint32_t offset = 0;
@@ -75,7 +75,7 @@ bool is_made_of(const Resolved& part, detail::Basic basic) noexcept {
 
 struct Handle::Impl {
   std::string node = runtime::default_node();
-  std::optional<runtime::Attachment> own;           // of a node this process is not bound to
+  std::optional<runtime::Attachment> own;           // for a node this process is not bound to
   const runtime::Attachment* attachment = nullptr;  // in use; the names below belong to it
   std::map<std::string, Resolved, std::less<>> names;
   std::int64_t next_try_ns = 0;
@@ -209,7 +209,7 @@ std::ptrdiff_t access_now(Handle::Impl& impl, std::string_view name, std::size_t
 
 }  // namespace
 
-// A run that is repeated reads what it read then.
+// A repeated run reads the recorded values.
 std::ptrdiff_t detail::access(Handle& handle, std::string_view name, std::size_t size, void* value, Basic basic,
                               bool is_write) {
   const auto is_read = [is_write](std::int64_t code) { return !is_write && code >= 0; };

@@ -29,12 +29,12 @@ using scheduler::ModuleType;
 using scheduler::NodeState;
 using scheduler::RunBlock;
 
-constexpr std::int64_t kIdleNs = 100'000'000;  // how often a waiting process looks after its node
+constexpr std::int64_t kIdleNs = 100'000'000;  // interval at which a waiting process checks its node
 constexpr unsigned kIdlesPerThoroughLook = 10;
 constexpr int kExitFailed = 1;
 constexpr int kExitSchemaMismatch = 8;
 
-// The node that this process belongs to has lost its memory, and ends too. In a signal handler.
+// The memory of this process's node was lost; the process ends too. Called in a signal handler.
 void end_without_memory(void* /*context*/, const char* file) {
   constexpr std::string_view kSaid = ": somebody cut this shared memory of the node; this program ends\n";
   (void)!::write(STDERR_FILENO, "indurop: error: ", 16);
@@ -51,7 +51,7 @@ std::string_view text_of(const char* text, std::size_t size) {
   return {text, strnlen(text, size)};
 }
 
-// The module this process is: what the node said, else the process module made of the same file.
+// Returns the module that this process is: as set by the node, else the process module with the same file.
 std::uint32_t find_module(const RunBlock& run) {
   const std::uint32_t told = hot.process_module.load(std::memory_order_relaxed);
   if (told < run.module_count && run.modules()[told].type == ModuleType::Process) {
@@ -74,7 +74,7 @@ int exit_code_of(Errc code) noexcept {
   return code == Errc::TypeMismatch || code == Errc::VersionMismatch ? kExitSchemaMismatch : EXIT_FAILURE;
 }
 
-// With a limit on locked memory, locking what is still to come would make later allocations fail.
+// With a limit on locked memory, locking future memory would make later allocations fail.
 bool may_lock_everything() noexcept {
   rlimit limit{};
   return ::geteuid() == 0 || (::getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
@@ -124,7 +124,7 @@ Enrolment::Outcome Enrolment::enrol(Again again) {
         fmt::format("node '{}' does not run any more; start it with: indurop run module.xml --node {}", node_, node_)};
   }
   if (again == Again::Yes && mapping->block().state.load(std::memory_order_acquire) != NodeState::Running) {
-    return {Errc::NotFound, {}};  // it is still starting: wait whether it brings its own process for this module
+    return {Errc::NotFound, {}};  // it is still starting: wait for whether it starts its own process for this module
   }
   std::size_t unbound = 0;
   if (const Status status = Process::get().attach(node_, unbound); !status) {
@@ -175,15 +175,15 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
     retold_ = std::move(retold).value();
   }
   holder_ = holder;
-  enrolled_as_ = is_launched ? launched : pid_;  // a script may stand between the node and this program
+  enrolled_as_ = is_launched ? launched : pid_;  // a script may run between the node and this program
   phase_ = Phase::Prepared;
   (void)Process::get().servers().start(record.fifo_priority, record.core);
   return {};
 }
 
-// From here on the node releases this process: only once it waits, so that its own preparations are no overruns.
+// From now on the node releases this process: only once it waits, so that its own preparations are no overruns.
 void Enrolment::publish() {
-  // Nothing that an earlier process of this module left undone is ours.
+  // Discards releases that an earlier process of this module left unfinished.
   seen_ = slot_->released.load(std::memory_order_acquire);
   slot_->done.store(seen_, std::memory_order_release);
   slot_->obtained_fifo.store(rt::fifo_priority(), std::memory_order_relaxed);
@@ -275,7 +275,7 @@ bool Enrolment::wait() {
     if (slot_->stop.load(std::memory_order_acquire) != 0) {
       end_wanted_ = true;
     } else if (take_release()) {
-      (void)slot_->wake.try_wait();  // this release's own wake-up, if it did not wake us
+      (void)slot_->wake.try_wait();  // this release's own wake-up, if it did not wake this process
       Process::get().refresh();
       return true;
     } else if (slot_->wake.wait_until(rt::mono_time(rt::now_ns() + kIdleNs))) {
@@ -312,7 +312,7 @@ void Enrolment::try_again() {
   }
   std::fprintf(stderr, "indurop: waitPeriod: %s\n", outcome.text.c_str());
   end_wanted_ = true;
-  // Another process of this module is nothing wrong.
+  // Another process of this module is not an error.
   exit_code_ = outcome.code == Errc::Busy ? EXIT_SUCCESS : exit_code_of(outcome.code);
 }
 
@@ -329,7 +329,7 @@ bool Enrolment::stop_requested() noexcept {
   if (Process::get().hosted()) {
     return false;
   }
-  // A node that was killed cannot ask for anything; the next one brings its own processes.
+  // A killed node cannot ask for anything; the next one starts its own processes.
   const std::int64_t now = rt::now_ns();
   if (now < next_look_ns_.load(std::memory_order_relaxed)) {
     return false;

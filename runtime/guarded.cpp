@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads of a module: a crash ends the work that one does, not the node.
+// Threads of a module: a crash ends the work of that thread, not the node.
 #include <indurop/guarded.h>
 
 #include <csetjmp>

@@ -12,7 +12,7 @@ namespace indurop::runtime {
 
 namespace {
 
-// Initial-exec: found at a fixed place, never allocated at first use.
+// Initial-exec: at a fixed address, never allocated at first use.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): which module a thread runs
 [[gnu::tls_model("initial-exec")]] thread_local std::uint32_t t_module = kNoModule;
 
@@ -64,7 +64,7 @@ void note_answer(std::int64_t code, const void* bytes, std::size_t size) noexcep
 }
 
 std::int64_t see_confirmed(std::int64_t confirmed) noexcept {
-  // As a code, the lowest number means something else.
+  // As a code, the lowest number has another meaning.
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
   const std::int64_t code = answer([confirmed] { return confirmed == abi::kNeverConfirmed ? kNever : confirmed; });
   return code == kNever ? abi::kNeverConfirmed : code;

@@ -56,14 +56,14 @@ bool push_message(RunBlock& run, std::uint32_t module, std::string_view text, rt
       ticket = ring.head.load(std::memory_order_relaxed);
     }
   }
-  std::atomic_thread_fence(std::memory_order_release);  // who looks on sees the ticket taken before any of its text
+  std::atomic_thread_fence(std::memory_order_release);  // readers must see the ticket taken before any of its text
   const std::size_t length = std::min(text.size(), scheduler::kMessageText);
   const std::uint32_t words[2] = {module, static_cast<std::uint32_t>(length)};
   detail::copy_to_shared(&place.entry->module, words, sizeof words);
   const std::int64_t stamp = rt::to_ns(time);
   detail::copy_to_shared(&place.entry->time_ns, &stamp, sizeof stamp);
   detail::copy_to_shared(place.entry->text, text.data(), length);
-  // Fails if the reader gave this entry up because we were stopped for too long.
+  // Fails if the reader abandoned this entry because this thread was stopped for too long.
   return place.entry->sequence.compare_exchange_strong(place.free, place.free + 1, std::memory_order_release,
                                                        std::memory_order_relaxed);
 }
@@ -99,7 +99,7 @@ bool MessageReader::next_of(std::uint32_t index, Message& message, rt::MonoTime 
     if (ring.head.load(std::memory_order_relaxed) == ticket) {
       return false;
     }
-    // Somebody took the ticket and has not filled the entry.
+    // A producer took the ticket and has not filled the entry.
     Stuck& stuck = stuck_[index];
     if (stuck.ticket != ticket + 1) {
       stuck = {ticket + 1, now};

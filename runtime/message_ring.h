@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text from real-time code on its way to a normal thread: one ring per module in the run block, any number of
-// producers, one consumer. An entry's sequence is 2 * lap when free and 2 * lap + 1 when filled, so a zeroed ring is an
-// empty one. A producer that dies between taking a ticket and filling its entry delays the reader, no longer.
+// Transfers text from real-time code to a normal thread: one ring per module in the run block, any number of producers,
+// one consumer. An entry's sequence is 2 * lap when free and 2 * lap + 1 when filled, so a zeroed ring is an empty one.
+// A producer that dies between taking a ticket and filling its entry only delays the reader.
 
 #pragma once
 
@@ -14,8 +14,9 @@
 
 namespace indurop::runtime {
 
-// Puts a message of module `module` (kNoModule: of the node) into its ring. False if it is full: counted in the ring
-// and in the module's lost_messages. Longer text is cut at the entry's size. Real-time safe, any thread, any process.
+// Writes a message of module `module` (kNoModule: of the node) to its ring. Returns false if it is full: counted in the
+// ring and in the module's lost_messages. Longer text is cut at the entry's size. Real-time safe, any thread, any
+// process.
 bool push_message(scheduler::RunBlock& run, std::uint32_t module, std::string_view text, rt::MonoTime time) noexcept;
 
 struct Message {
@@ -24,14 +25,14 @@ struct Message {
   std::string_view text;  // as printed, usually with a newline; valid until the next call
 };
 
-// Takes the messages of all rings of a run block out. One reader per run block. Not real-time safe.
+// Reads the messages of all rings of a run block. One reader per run block. Not real-time safe.
 class MessageReader {
  public:
   explicit MessageReader(scheduler::RunBlock& run);
 
-  // The next message, ring after ring, in order within each ring. False if there is none now.
+  // Returns the next message, ring after ring, in order within each ring. Returns false if there is none now.
   bool next(Message& message, rt::MonoTime now);
-  // Messages that were dropped because a ring was full, or never finished by a producer that died.
+  // Number of messages that were dropped because a ring was full, or never finished by a producer that died.
   [[nodiscard]] std::uint64_t lost() const noexcept;
 
  private:
@@ -47,7 +48,7 @@ class MessageReader {
   scheduler::MessageEntry copy_{};
 };
 
-// How long a reader waits for an entry somebody has begun to fill.
+// The time a reader waits for an entry that a producer has begun to fill.
 inline constexpr std::chrono::seconds kUnfinishedMessage{1};
 
 }  // namespace indurop::runtime

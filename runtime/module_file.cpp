@@ -32,7 +32,7 @@ std::string path_of(const void* address) {
   if (::dladdr(address, &info) == 0 || info.dli_fname == nullptr) {
     return {};
   }
-  // The program itself is reported as it was called, which need not be a path.
+  // The program itself is reported as it was invoked, which need not be a path.
   return std::strcmp(info.dli_fname, program_invocation_name) == 0 ? "/proc/self/exe" : info.dli_fname;
 }
 

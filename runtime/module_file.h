@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the file a table of variables came from says about them, for messages: read only when something does not fit.
+// Facts about the file that a table of variables came from, for messages: read only when something does not match.
 
 #pragma once
 
@@ -17,11 +17,11 @@ struct ModuleFacts {
   schema::Schema schema;
 
   [[nodiscard]] const schema::Variable* variable(std::uint64_t name_hash) const noexcept;
-  // Does the code of the file read or write the variable? True if the file cannot tell.
+  // Returns whether the code of the file reads or writes the variable; true if that is unknown.
   [[nodiscard]] bool uses(std::uint64_t name_hash) const noexcept;
 };
 
-// `address`: anything inside the loaded file. Not real-time safe.
+// `address`: any address inside the loaded file. Not real-time safe.
 ModuleFacts read_module_of(const void* address);
 // Path of the loaded file that holds `address`, "" if unknown.
 std::string path_of(const void* address);

@@ -36,7 +36,7 @@ class Writer {
     used_ += fits;
     cut_ = cut_ || fits < length;
   }
-  // snprintf to where we are.
+  // snprintf to the current position.
   template <class... Value>
   void print(const char* spec, Value... value) noexcept {
 #pragma GCC diagnostic push
@@ -93,7 +93,7 @@ class Formatter {
     const Conversion conversion = parse();
     const bool known = conversion.type != 0 && std::strchr("diouxXeEfFgGaAcspDUO", conversion.type) != nullptr;
     if (!known || next_ >= arguments_.size()) {
-      out_.put(begin, static_cast<std::size_t>(at_ - begin));  // shown as written: the mistake is plain to see
+      out_.put(begin, static_cast<std::size_t>(at_ - begin));  // shown as written, so that the mistake is visible
       return;
     }
     print(conversion, arguments_[next_++]);
@@ -193,7 +193,7 @@ class Formatter {
         out_.print(spec(c, "ll", c.type == 'U' ? 'u' : (c.type == 'O' ? 'o' : c.type)), c.width, c.precision,
                    static_cast<unsigned long long>(narrowed(c, argument)));
         return;
-      default:  // d, i, s, p: as the number it is
+      default:  // d, i, s, p: as a number
         if (is_signed) {
           const long long value = c.narrow == 0   ? argument.as_signed
                                   : c.narrow == 1 ? static_cast<short>(argument.as_signed)
@@ -205,7 +205,7 @@ class Formatter {
     }
   }
 
-  // The bits an unsigned conversion shows: those of the argument's own type, or fewer with h and hh.
+  // The bits that an unsigned conversion shows: those of the argument's own type, or fewer with h and hh.
   static std::uint64_t narrowed(const Conversion& c, const PrintArgument& argument) noexcept {
     const unsigned bytes = c.narrow == 0 ? argument.size : (c.narrow == 1 ? 2 : 1);
     return bytes >= 8 ? argument.as_unsigned : argument.as_unsigned & ((std::uint64_t{1} << (bytes * 8)) - 1);
@@ -222,7 +222,7 @@ class Formatter {
     out_.print(c.left ? "%-*.*s" : "%*.*s", c.width, limited ? c.precision : length, argument.as_text);
   }
 
-  // "%" flags "*" [".*"] length type; a precision of -1 counts as none.
+  // "%" flags "*" [".*"] length type; a precision of -1 counts as not given.
   const char* spec(const Conversion& c, const char* length, char type) noexcept {
     char* to = spec_;
     *to++ = '%';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// C's format strings over arguments that know their type. Never reads what is not there: a conversion that does not
-// fit its argument prints the argument as what it is.
+// C's format strings for arguments that know their type. Never reads beyond the arguments: if a conversion does not
+// match its argument, the argument is printed according to its own type.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where shared variables live as long as no node is there: memory of this process with their initial values, one entry
-// per name and type however many modules declare it.
+// Memory for shared variables while there is no node: private to this process, with their initial values, one entry per
+// name and type however many modules declare it.
 
 #pragma once
 
@@ -16,7 +16,8 @@ namespace indurop::runtime {
 
 class PrivateMemory {
  public:
-  // The variable's entry, made at the first call. Never null: without memory for it the process ends with a message.
+  // Returns the variable's entry, created at the first call. Never null: if there is no memory the process ends with a
+  // message.
   void* entry_of(const abi::Ref& ref);
 
  private:

@@ -20,7 +20,7 @@ constinit Hot hot;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables
 
 namespace {
 
-// How many mappings that were replaced stay for threads that may still be looking at them.
+// Number of replaced mappings that are kept for threads that may still be reading them.
 constexpr std::size_t kKeptMappings = 4;
 
 template <class T>
@@ -32,7 +32,7 @@ T* keep(std::deque<std::unique_ptr<T>>& all, T newest) {
   return all.back().get();
 }
 
-// A process started by a node finds its messages and properties without asking for anything.
+// A process started by a node finds its messages and properties without any call.
 [[gnu::constructor]] void map_run_at_load() {
   if (std::getenv("INDUROP_MODULE") != nullptr) {  // NOLINT(concurrency-mt-unsafe): before main
     if (auto mapping = RunMapping::open(default_node())) {
@@ -59,7 +59,7 @@ std::string named_node() {
   return node != nullptr ? node : "";
 }
 
-// A program that was given no node has to do with the usual one only while that runs, not with what it left behind.
+// A program without a given node binds to the default one only while that runs, not to what it left behind.
 bool binds_at_load() {
   return !named_node().empty() || vars::running_node(default_node()) != 0;
 }
@@ -127,7 +127,7 @@ void Process::refresh() noexcept {
   const Attachment* current = hot.attachment.load(std::memory_order_acquire);
   if (current != nullptr && current->retired() && !hosted()) [[unlikely]] {
     std::size_t unbound = 0;
-    (void)attach(current->node(), unbound);  // not there at this moment: the old block stays usable, tried again
+    (void)attach(current->node(), unbound);  // not there at this moment: the old block stays usable, retried later
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What libindurop knows in this process: variables, the store they are bound to, the node's run block, the module this
-// process is. One object per process, because generated headers register themselves when they are loaded; it lives
-// until the process ends.
+// The state of libindurop in this process: variables, the store they are bound to, the node's run block, the module
+// that this process is. One object per process, because generated headers register themselves when they are loaded; it
+// lives until the process ends.
 
 #pragma once
 
@@ -24,7 +24,7 @@
 
 namespace indurop::runtime {
 
-// What real-time code looks at: plain words, valid from the first instruction of the process on.
+// The words that real-time code reads: plain atomics, valid from the first instruction of the process on.
 struct Hot {
   std::atomic<Attachment*> attachment{nullptr};
   std::atomic<scheduler::RunBlock*> run{nullptr};
@@ -42,17 +42,17 @@ class Process {
  public:
   static Process& get();
 
-  // At load: binds to the default node if it is there. Later ones join whatever the process is bound to.
+  // At load: binds to the default node if it exists. Later calls bind to whatever the process is bound to.
   void register_refs(abi::Ref* refs, std::uint32_t count);
   void unregister_refs(const abi::Ref* refs);
 
-  // Binds to `node` unless that is the case already and its block is the current one. `unbound`: variables the program
-  // uses that could not be bound; the first time one of them is met it goes to stderr. Errors: those of Store::attach.
+  // Binds to `node` unless already bound to its current block. `unbound`: number of variables used by the program that
+  // could not be bound; each is reported once on stderr. Errors: those of Store::attach.
   Status attach(const std::string& node, std::size_t& unbound);
   // Attaches again if the block was replaced. Otherwise costs one load.
   void refresh() noexcept;
 
-  // Messages and properties go through this run block from now on; the one before stays mapped for threads still in it.
+  // Messages and properties use this run block from now on; the previous one stays mapped for threads still using it.
   RunMapping* adopt_run(RunMapping&& mapping);
 
   // The node's own process.
@@ -60,10 +60,10 @@ class Process {
   void unhost();
   [[nodiscard]] bool hosted() const noexcept { return hosted_.load(std::memory_order_acquire); }
 
-  // Remembers a line for take_errors() in the node, prints it to stderr elsewhere; each text once.
+  // Stores a line for take_errors() in the node, prints it to stderr elsewhere; each text once.
   void report(const std::string& text);
   std::vector<std::string> take_errors();
-  // True the first time it is asked about `text`.
+  // Returns true at the first call with `text`.
   bool first_time(const std::string& text);
 
   FunctionServers& servers() noexcept { return servers_; }

@@ -40,7 +40,7 @@ std::optional<Module> calling_module() {
                 {run->at<char>(record.property_offset), record.property_size}};
 }
 
-// Cuts one NUL-terminated text off the front; empty view without data if there is none.
+// Removes one NUL-terminated text from the front; returns an empty view without data if there is none.
 std::string_view take_text(std::string_view& from) {
   const std::size_t end = from.find('\0');
   if (end == std::string_view::npos) {
@@ -61,7 +61,7 @@ bool complain(const char* name, std::string_view text, std::string_view expected
   return false;
 }
 
-// Integer in C notation. The sign is the caller's business.
+// Integer in C notation. The caller handles the sign.
 bool parse_unsigned(std::string_view text, std::uint64_t& value) {
   const bool hex = text.starts_with("0x") || text.starts_with("0X");
   const char* end = text.data() + text.size();

@@ -55,7 +55,7 @@ void RefTables::bind_table(Table& table, const Attachment* to, std::vector<Bindi
         problems.push_back(describe(table, ref, *to));
       }
     }
-    // Other threads may be looking at the old entry, which stays mapped.
+    // Other threads may be using the old entry, which stays mapped.
     __atomic_store_n(&ref.entry, entry != nullptr ? entry : private_.entry_of(ref), __ATOMIC_RELEASE);
   }
   bindings_done.fetch_add(1, std::memory_order_release);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of variables of everything loaded into this process, and where each variable's entry is.
+// The tables of variables of everything loaded into this process, and the address of each variable's entry.
 
 #pragma once
 
@@ -19,18 +19,18 @@ namespace indurop::runtime {
 // A variable that stays in private memory although there is a store.
 struct BindingProblem {
   std::string text;   // "variable knu::Robot::joints: this program was built with ...: rebuild ..."
-  bool used = false;  // the code of the module accesses it; otherwise nobody would notice
+  bool used = false;  // the code of the module accesses it; otherwise the problem has no effect
 };
 
 class RefTables {
  public:
-  // Makes the rows known and binds them, to private memory if `to` is null. Returns what did not fit.
+  // Registers the rows and binds them, to private memory if `to` is null. Returns the problems.
   std::vector<BindingProblem> add(abi::Ref* refs, std::uint32_t count, const Attachment* to);
   void remove(const abi::Ref* refs);
   // Binds all rows again.
   std::vector<BindingProblem> bind(const Attachment* to);
   [[nodiscard]] bool empty() const noexcept { return tables_.empty(); }
-  // How often rows of any table were bound. Any thread; real-time safe.
+  // Number of times that rows of any table were bound. Any thread; real-time safe.
   [[nodiscard]] static std::uint32_t bindings() noexcept;
 
  private:

@@ -21,7 +21,7 @@ class RunMapping {
   [[nodiscard]] scheduler::RunBlock& block() const noexcept {
     return *reinterpret_cast<scheduler::RunBlock*>(file_.data());
   }
-  // The node process that made it lives. Not real-time safe.
+  // Returns true if the node process that created it is alive. Not real-time safe.
   [[nodiscard]] bool node_alive() const noexcept;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The calls of <indurop/irp.h> about the life of a process and the schedule.
+// Functions of <indurop/irp.h> for the life of a process and the schedule.
 
 #include <indurop/irp.h>
 
@@ -34,7 +34,7 @@ const RunBlock* current_run() noexcept {
   return runtime::hot.run.load(std::memory_order_acquire);
 }
 
-// Of threads that no run is on: the basic period that the node is in.
+// For threads that run no run of a module: the basic period that the node is in.
 std::uint64_t present_tick(const RunBlock& run) noexcept {
   const std::uint64_t begun = run.tick.load(std::memory_order_acquire);
   return begun > 0 ? begun - 1 : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the inline code of generated headers calls for its variables.
+// Functions that the inline code of generated headers calls for its variables.
 
 #include <indurop/detail/abi.h>
 #include <indurop/detail/freshness.h>
@@ -27,7 +27,7 @@ extern "C" {
 
 void indurop_register_refs(indurop::abi::Ref* refs, std::uint32_t count, std::uint32_t abi_version) {
   if (abi_version != indurop::abi::kVersion) {
-    // The rows have another layout, so the variables cannot even be given private memory.
+    // The rows have another layout, so the variables cannot even be bound to private memory.
     std::fprintf(
         stderr,
         "indurop: this program was built for version %u of the variables' layout, libindurop.so has %u: rebuild it\n",
