@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A memory barrier on all processors at once, so that those who look often need none.
+// A memory barrier on all processors at once, so that frequent readers need none.
 
 #pragma once
 
 namespace indurop::rt {
 
-// When it returns, whatever a processor stored before it could see what the caller had stored can be seen by all. Not
+// When it returns, everything that a processor stored before it could see the caller's stores is visible to all. Not
 // real-time safe: may take some milliseconds.
 void let_all_processors_see() noexcept;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one time base of everything: CLOCK_MONOTONIC in nanoseconds; beside it CLOCK_REALTIME for stamps that another
-// machine compares with its own. Two types, so that neither is taken for the other. Real-time safe.
+// The common time base: CLOCK_MONOTONIC in nanoseconds; in addition CLOCK_REALTIME for time stamps that another machine
+// compares with its own. Two types, so that neither is mistaken for the other. Real-time safe.
 
 #pragma once
 
@@ -13,7 +13,7 @@ namespace indurop::rt {
 
 inline constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 
-// A clock of the system as one of std::chrono. The clock is the tag of its times: those of two clocks do not mix.
+// A clock of the system as one of std::chrono. The clock is the tag of its times: times of two clocks do not mix.
 template <clockid_t kId, bool kSteady>
 struct SystemTime {
   using duration = std::chrono::nanoseconds;
@@ -32,11 +32,11 @@ struct SystemTime {
 using MonoClock = SystemTime<CLOCK_MONOTONIC, true>;
 using MonoTime = MonoClock::time_point;
 
-// Its epoch is 1970: for stamps that another machine compares with its own; may jump.
+// Its epoch is 1970: for time stamps that another machine compares with its own; may jump.
 using WallClock = SystemTime<CLOCK_REALTIME, false>;
 using WallTime = WallClock::time_point;
 
-// To and from the plain numbers of shared memory and of the wire: nanoseconds since the clock's epoch.
+// Conversion to and from the plain numbers of shared memory and of the network: nanoseconds since the clock's epoch.
 constexpr MonoTime mono_time(std::int64_t ns) noexcept {
   return MonoTime{std::chrono::nanoseconds{ns}};
 }
@@ -48,7 +48,7 @@ constexpr std::int64_t to_ns(std::chrono::time_point<SystemTime<kId, kSteady>> t
   return time.time_since_epoch().count();
 }
 
-// The same at once, for what counts in numbers.
+// The present time as a plain number.
 inline std::int64_t now_ns() noexcept {
   return to_ns(MonoClock::now());
 }

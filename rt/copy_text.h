@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text into a field of fixed size, as the structures in shared memory have them.
+// Copies text into a field of fixed size, as the structures in shared memory have them.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace indurop::rt {
 
-// As much of `from` as fits, always with an end. What is behind that end stays. Real-time safe.
+// Copies as much of `from` as fits, always terminated. Bytes after the terminator stay unchanged. Real-time safe.
 template <std::size_t N>
 void copy_text(char (&to)[N], std::string_view from) noexcept {
   const std::size_t length = std::min(from.size(), N - 1);

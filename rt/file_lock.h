@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lock of an open file: held until the last copy of its descriptor is closed, by whatever end of the process.
+// The lock of an open file: held until the last copy of its descriptor is closed, however the process ends.
 
 #pragma once
 
@@ -9,10 +9,10 @@ namespace indurop::rt {
 
 enum class FileLock { Shared, Exclusive };  // Shared: the file is open for reading; Exclusive: for writing
 
-// Errors: Busy (somebody else has it), System. A call that may wait waits until it is free. Not real-time safe.
+// Errors: Busy (another process holds it), System. lock_file_when_free() waits until it is free. Not real-time safe.
 Status lock_file(int file, FileLock kind) noexcept;
 Status lock_file_when_free(int file, FileLock kind) noexcept;
-// Somebody has it for writing; `file` is open for reading. Not real-time safe.
+// Returns true if a process holds it for writing; `file` is open for reading. Not real-time safe.
 bool is_locked(int file) noexcept;
 
 }  // namespace indurop::rt

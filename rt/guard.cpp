@@ -39,14 +39,14 @@ void install_guard_handlers() noexcept {
   for (const int number : kFaultSignals) {
     install_fault_handler(number);
   }
-  // Orders queue up while their thread gets no processor. Without SA_NODEFER they are delivered one after the other;
+  // Commands queue up while their thread gets no processor. Without SA_NODEFER they are delivered one after the other;
   // all at once their frames would overflow the handler's stack.
   install_in_front(order_signal(), on_order, 0);
 }
 
 bool catch_fault(int number, void* address) noexcept {
   const bool survived = number == SIGBUS && replace_lost_page(address);
-  // A module does not go on with zeros in place of its values.
+  // A module must not continue with zeros instead of its values.
   if (t_guard != nullptr && t_guard->armed()) {
     t_guard->on_signal(number, address);
   }
@@ -102,7 +102,7 @@ void Guard::order_end(pthread_t thread, std::uint64_t run) noexcept {
 
 void Guard::on_signal(int number, void* address) noexcept {
   if (number == kOrder && ordered_run_.load(std::memory_order_acquire) != current_run()) {
-    return;  // too late: that run has ended by itself
+    return;  // too late: that run has ended normally
   }
   armed_.store(false, std::memory_order_release);
   signal_ = number;

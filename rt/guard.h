@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs code that may crash or never return, and gets the thread back: SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and an
-// order from a watchdog end the guarded code by a jump, not the process. Destructors of the guarded code do not run;
-// what it held of the C library's locks stays held. Containment, not repair: the code must not be entered again.
+// Runs code that may crash or never return, and recovers the thread: SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and a
+// command from a watchdog end the guarded code by a jump, not the process. Destructors of the guarded code do not run;
+// locks of the C library that it held stay held. Containment, not repair: the code must not be entered again.
 
 #pragma once
 
@@ -17,15 +17,16 @@ namespace indurop::rt {
 // Installs the handlers, once per process. Not real-time safe.
 void install_guard_handlers() noexcept;
 
-// What the handlers do first: they replace a lost page (rt/lost_pages.h) and jump to the calling thread's guard if it
-// is armed. If it returns: whether the thread can go on. Real-time safe.
+// The first step of the handlers: replaces a lost page (rt/lost_pages.h) or jumps to the calling thread's guard if it
+// is armed. If it returns: whether the thread can continue. Real-time safe.
 bool catch_fault(int number, void* address) noexcept;
-// A library of the program has its own copy of this code, with the guards of its threads and its mappings: the handlers
-// call its catch_fault() after their own. Null: there is none.
+// A library of the program has its own copy of this code, with its own guards and mappings: the handlers call its
+// catch_fault() after their own. Null: there is none.
 using CatchFault = bool (*)(int number, void* address) noexcept;
 void catch_faults_also_by(CatchFault library) noexcept;
 
-// Gives the calling thread a stack of its own for handlers, so that even a stack overflow is survived; freed with it.
+// Gives the calling thread a separate stack for signal handlers, so that even a stack overflow is survived; freed with
+// it.
 class HandlerStack {
  public:
   HandlerStack() noexcept;
@@ -45,7 +46,7 @@ class Guard {
   // Makes this the calling thread's guard.
   void enter() noexcept;
   void leave() noexcept;
-  // For whoever runs several threads of a program on one of the system: the guard until now.
+  // For a thread that runs several fibers: replaces the current guard and returns the previous one.
   static Guard* exchange_current(Guard* guard) noexcept;
   sigjmp_buf& target() noexcept { return target_; }
 
@@ -60,9 +61,9 @@ class Guard {
 
   [[nodiscard]] int signal_number() const noexcept { return signal_; }
   [[nodiscard]] const void* fault_address() const noexcept { return address_; }
-  static constexpr int kOrder = 0;  // signal_number() when the watchdog ordered the end
+  static constexpr int kOrder = 0;  // signal_number() if the watchdog commanded the end
 
-  // From another thread: ends the guarded run `run` of `thread` if it is still the one in progress.
+  // From another thread: ends the guarded run `run` of `thread` if it is still in progress.
   [[nodiscard]] std::uint64_t current_run() const noexcept { return run_.load(std::memory_order_relaxed); }
   [[nodiscard]] bool armed() const noexcept { return armed_.load(std::memory_order_acquire); }
   void order_end(pthread_t thread, std::uint64_t run) noexcept;

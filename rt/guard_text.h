@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ended guarded code, in words.
+// Describes in words what ended guarded code.
 
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace indurop::rt {
 
-// "SIGSEGV (invalid memory access) at address 0x10"; `stack`: of the thread that ran it. The end was no order.
-// Real-time safe.
+// Writes "SIGSEGV (invalid memory access) at address 0x10"; `stack`: of the thread that ran it. Requires that the end
+// was not commanded. Real-time safe.
 void describe_fault(const Guard& guard, const StackBounds& stack, char* text, std::size_t size) noexcept;
 
 }  // namespace indurop::rt

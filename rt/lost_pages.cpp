@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of mappings only grows and its elements are used again, so a handler may walk it at any time.
+// The list of mappings only grows and its elements are reused, so a handler may walk it at any time.
 #include "rt/lost_pages.h"
 
 #include <sys/mman.h>
@@ -59,7 +59,7 @@ bool put_zeros(std::uintptr_t from, std::size_t bytes, bool writable) noexcept {
   return ::mmap(at, bytes, writable ? PROT_READ | PROT_WRITE : PROT_READ, kKind, -1, 0) != MAP_FAILED;
 }
 
-// With registration() held.
+// Requires that registration() is held.
 Region& free_region() {
   Region* const first = g_regions.load(std::memory_order_relaxed);
   for (Region* one = first; one != nullptr; one = one->next) {
@@ -134,7 +134,7 @@ bool replace_lost_page(const void* address) noexcept {
   if (region == nullptr) {
     return false;
   }
-  // Everything behind a missing page is missing too. A limit of locked memory may allow no more than the page.
+  // Everything after a missing page is missing too. A limit of locked memory may allow no more than the page.
   const std::uintptr_t from = at / region->page * region->page;
   region->lost.store(true, std::memory_order_release);
   const bool replaced = put_zeros(from, region->end.load(std::memory_order_relaxed) - from, region->writable) ||

@@ -36,7 +36,7 @@ long read_number(const char* path, long fallback) noexcept {
   return value;
 }
 
-// Gives up pages of code and constants; they come back from their file when they are used.
+// Releases pages of code and constants; they are read from their file again when used.
 void let_go_of(std::uintptr_t begin, std::uintptr_t end) noexcept {
   auto* const memory = reinterpret_cast<void*>(begin);  // NOLINT(performance-no-int-to-ptr): the loader gives numbers
   (void)::munlock(memory, end - begin);
@@ -67,7 +67,7 @@ struct Range {
   std::uintptr_t end = 0;
 };
 
-// From the first to the last of its mappings: after a fork it may be in several pieces.
+// From the first to the last of its mappings: after a fork it may consist of several.
 Range heap() noexcept {
   Range found;
   std::FILE* const maps = std::fopen("/proc/self/maps", "re");
@@ -87,14 +87,14 @@ Range heap() noexcept {
   return found;
 }
 
-// Starting up frees tens of megabytes between what stays. mlockall() puts memory behind all of it, so the free pages
-// can only be given back afterwards; those in use remain locked, the others are again when somebody allocates them.
+// Startup frees tens of megabytes between memory that stays. mlockall() backs all of it with memory, so the free pages
+// can only be released afterwards; those in use remain locked, the others are locked again when they are allocated.
 void let_go_of_free_heap() noexcept {
   const Range range = heap();
   auto* const memory = reinterpret_cast<void*>(range.begin);  // NOLINT(performance-no-int-to-ptr): read as text
   if (range.end > range.begin && ::munlock(memory, range.end - range.begin) == 0) {
     ::malloc_trim(0);
-    const Range rest = heap();  // its end may have been given back too
+    const Range rest = heap();  // its end may have been released too
     (void)::mlock2(memory, rest.end - range.begin, MLOCK_ONFAULT);
   }
 }
@@ -102,9 +102,10 @@ void let_go_of_free_heap() noexcept {
 }  // namespace
 
 Status lock_memory(std::span<const std::string_view> except, std::span<const char> code) noexcept {
-  // A heap of its own for each thread that comes would take 64 MB of the limit of locked memory, and stay.
+  // A separate heap for each new thread would take 64 MB of the limit of locked memory, and stay.
   ::mallopt(M_ARENA_MAX, 1);
-  // What comes later is locked from its first use on: else memory that others ask for and never touch would be taken.
+  // Later memory is locked from its first use on: otherwise memory that is allocated and never touched would be locked
+  // too.
   if (::mlockall(MCL_CURRENT) == 0 && ::mlockall(MCL_FUTURE | MCL_ONFAULT) == 0) {
     let_go_of_free_heap();
     ::dl_iterate_phdr(&let_go, &except);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the machine can do for real time and what was obtained from it: locked memory, short idle states, kernel.
+// Real-time capabilities of the machine and what was obtained from it: locked memory, short idle states, kernel.
 
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace indurop::rt {
 
-// Locks the memory of this process: what it has now, and what it gets later page by page with the first use. Not locked
-// are code and constants of libraries whose path contains one of `except`, and `code`, whole pages of this program.
-// Errors: PermissionDenied, NoSpace (the limit is too small).
+// Locks the memory of this process: present memory, and later memory page by page at first use. Not locked are code and
+// constants of libraries whose path contains one of `except`, and `code`, whole pages of this program. Errors:
+// PermissionDenied, NoSpace (the limit is too small).
 Status lock_memory(std::span<const std::string_view> except = {}, std::span<const char> code = {}) noexcept;
 
-// Keeps the processors out of deep idle states while it lives (/dev/cpu_dma_latency held open at 0): halves the
-// wake-up time and is what cyclictest does too.
+// Keeps the processors out of deep idle states during its lifetime (/dev/cpu_dma_latency held open at 0): halves the
+// wake-up time, as cyclictest does too.
 class ShortIdle {
  public:
   ShortIdle() = default;
@@ -35,15 +35,15 @@ class ShortIdle {
 
 bool kernel_is_preempt_rt() noexcept;
 
-// Is CLOCK_REALTIME kept in step with others (PTP, NTP, chrony), and how wrong may it be at most.
+// The state of CLOCK_REALTIME: synchronized with others (PTP, NTP, chrony) or not, and its maximum error.
 struct ClockSync {
   bool synchronised = false;
   std::int64_t max_error_ns = 0;
 };
 ClockSync clock_sync() noexcept;
-// Bytes that wait in a socket at most (net.core.rmem_max); 0 if unknown.
+// Maximum size of a socket's receive buffer in bytes (net.core.rmem_max); 0 if unknown.
 std::size_t largest_receive_buffer() noexcept;
-// Share of a core the kernel leaves to real-time threads, in 1/1000; 1000 if unlimited or unknown.
+// Share of a core that the kernel allows real-time threads, in 1/1000; 1000 if unlimited or unknown.
 int throttle_permille() noexcept;
 
 }  // namespace indurop::rt

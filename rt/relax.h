@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells the processor that we wait in a loop: it saves power and lets the other half of a core run. Real-time safe.
+// Hints to the processor that this is a wait loop: saves power and lets the other hardware thread of a core run.
+// Real-time safe.
 
 #pragma once
 

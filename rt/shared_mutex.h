@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lock that processes share: it outlives its holder (who may be killed), inherits priority (its holder may be
-// preempted) and is never waited for without limit (its holder may be stopped). Free functions: it lies in shared
-// memory.
+// A lock shared by processes: it outlives its holder (who may be killed), inherits priority (its holder may be
+// preempted) and every wait has a limit (its holder may be stopped). Free functions, because it is in shared memory.
 
 #pragma once
 
@@ -18,32 +17,33 @@ inline constexpr std::chrono::milliseconds kLockLimit{5};
 
 enum class LockResult {
   Locked,
-  OwnerDied,     // locked; the previous holder ended while holding it, what it was changing may be half done
+  OwnerDied,     // locked; the previous holder ended while holding it, its change may be half done
   Timeout,       // not free within the limit
-  HeldByCaller,  // the calling thread has it already
+  HeldByCaller,  // the calling thread already holds it
   Broken,        // not a usable lock: its memory was overwritten, or its owner does not exist
 };
 constexpr bool is_locked(LockResult result) noexcept {
   return result == LockResult::Locked || result == LockResult::OwnerDied;
 }
 
-// A thread, among all of the machine.
+// A thread, unique on the machine.
 enum class ThreadId : std::uint64_t {};
 ThreadId this_thread() noexcept;
 
-// Two programs can share a lock only if this number is the same in both: what the bytes of a lock mean.
+// Two programs can share a lock only if this number, which identifies the lock's memory format, is the same in both.
 extern const std::uint64_t kLockKind;
 
-// Makes a lock of zeroed or other memory nobody uses yet. False if the system has no such locks.
+// Creates a lock in memory that is not in use yet, zeroed or not. Returns false if the system has no such locks.
 bool init_shared_mutex(SharedMutex& mutex) noexcept;
 
-// Of a lock in memory whose maker may have ended: what the maker had from it, the calling process has now. Nobody else
-// does this at the same time. Not real-time safe.
+// For a lock in memory whose creator may have ended: transfers to the calling process what the creator held of it. No
+// other process may do this at the same time. Not real-time safe.
 void inherit_shared_mutex(SharedMutex& mutex) noexcept;
 
-// Takes it if that needs no waiting and no looking. 0: locked; else what lock_refused() has to be told.
+// Takes the lock if that needs neither waiting nor checking. Returns 0 if locked; else the error to pass to
+// lock_refused().
 int take_free(SharedMutex& mutex) noexcept;
-// What to do about a lock that take_free() refused with `error`: waits if somebody has it.
+// Handles the `error` of take_free(): waits if another thread holds the lock.
 LockResult lock_refused(SharedMutex& mutex, int error, std::chrono::nanoseconds limit) noexcept;
 
 // Real-time safe: no system call if the lock is free, priority inheritance while waiting (rt/posix/: among the threads
@@ -53,15 +53,15 @@ inline LockResult lock_within(SharedMutex& mutex, std::chrono::nanoseconds limit
   return error == 0 ? LockResult::Locked : lock_refused(mutex, error, limit);
 }
 
-// Never waits; Timeout if another thread has it.
+// Never waits; returns Timeout if another thread holds it.
 LockResult try_lock(SharedMutex& mutex) noexcept;
 
 // Real-time safe.
 bool held_by(const SharedMutex& mutex, ThreadId thread) noexcept;
 
-// 0; or what keeps it from being let go: the calling thread does not hold it.
+// Returns 0; or an error if it cannot be released: the calling thread does not hold it.
 int let_go(SharedMutex& mutex) noexcept;
-// False, and nothing happened, if the calling thread does not hold it. Real-time safe.
+// Returns false, without effect, if the calling thread does not hold it. Real-time safe.
 inline bool unlock(SharedMutex& mutex) noexcept {
   return let_go(mutex) == 0;
 }

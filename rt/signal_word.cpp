@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How it is waited for until a time is the system's own: linux/ and posix/.
+// Waiting with a deadline depends on the system: see linux/ and posix/.
 #include "rt/signal_word.h"
 
 #include <semaphore.h>

@@ -71,8 +71,8 @@ std::size_t page_bytes() noexcept {
   return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-// Thread-local variables of the program and its libraries lie at the upper end of each stack, and room that the C
-// library keeps for those of libraries that are loaded later (less than a page). In whole pages.
+// Thread-local variables of the program and its libraries are at the upper end of each stack, with space that the C
+// library reserves for those of libraries loaded later (less than a page). In whole pages.
 std::size_t thread_local_bytes() noexcept {
   std::size_t bytes = page_bytes();
   (void)::dl_iterate_phdr(
@@ -93,12 +93,12 @@ void* thread_entry(void* argument) {
   if (start->settings.core >= 0) {
     (void)pin_to_core(start->settings.core);
   }
-  // Memory that is locked is cleared at once: 0.2 ms, which others of this priority on this core would have to wait.
+  // Locking memory clears it at once: 0.2 ms, for which other threads of this priority on this core would have to wait.
   std::optional<HandlerStack> handler_stack;
   if (start->settings.runs_modules) {
     handler_stack.emplace();
   }
-  // Inherited settings are not wanted: a normal thread started by a real-time one must be normal.
+  // Inherited settings must not apply: a normal thread started by a real-time one must be normal.
   if (!set_fifo(start->settings.fifo_priority) && start->settings.fifo_priority > 0) {
     (void)set_fifo(0);
   }
@@ -174,8 +174,8 @@ void request_exact_timers() noexcept {
   ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }
 
-// The page below the stack is a guard. What a real-time thread may use of it is touched once, so that no page fault
-// happens there later; the others take what they use.
+// The page below the stack is a guard. The part that a real-time thread may use is touched once, so that no page fault
+// happens there later; other threads get pages as they use them.
 Stack::Stack(std::size_t bytes, bool touched) noexcept : bytes_(page_bytes() + bytes) {
   void* const memory =
       ::mmap(nullptr, bytes_, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK | MAP_NORESERVE, -1, 0);
@@ -223,7 +223,7 @@ Result<Thread> Thread::start(const ThreadSettings& settings, std::function<void(
   if (code != 0) {
     return from_errno(code, "create a thread");
   }
-  (void)start.release();  // owned by the thread now
+  (void)start.release();  // the thread owns it now
   thread.running_ = true;
   return thread;
 }

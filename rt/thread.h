@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads with a real-time priority and a core, and what the operating system really granted.
+// Threads with a real-time priority and a core, and what the operating system actually granted.
 
 #pragma once
 
@@ -14,27 +14,28 @@
 
 namespace indurop::rt {
 
-// Cores this process may use, ascending. Not real-time safe.
+// Returns the cores this process may use, ascending. Not real-time safe.
 std::vector<int> allowed_cores();
 
-// Priority of the calling thread under SCHED_FIFO; 0 puts it back to normal scheduling. Errors: PermissionDenied.
+// Sets the priority of the calling thread under SCHED_FIFO; 0 returns it to normal scheduling. Errors:
+// PermissionDenied.
 Status set_fifo(int priority) noexcept;
 // The same for another process (its main thread). Errors: PermissionDenied, NotFound.
 Status set_fifo_of(pid_t process, int priority) noexcept;
-// FIFO priority the calling thread has now, 0 if it has none.
+// Returns the FIFO priority of the calling thread, 0 if it has none.
 int fifo_priority() noexcept;
 
-// Binds the calling thread, and those it will start, to one core or to a set of them. Errors: InvalidArgument (no such
-// core, none at all).
+// Binds the calling thread, and those it will start, to one core or to a set of cores. Errors: InvalidArgument (no such
+// core, or an empty set).
 Status pin_to_core(int core) noexcept;
 Status pin_to_cores(const std::vector<int>& cores) noexcept;
 Status pin_process_to_core(pid_t process, int core) noexcept;
 
-// The calling thread's stack. Not real-time safe to ask for.
+// The calling thread's stack. Querying it is not real-time safe.
 struct StackBounds {
   const char* lowest = nullptr;
   std::size_t bytes = 0;
-  // An access there means the stack was too small: just below it, where the guard pages are.
+  // Returns true if an access to this address means a stack overflow: just below the stack, where the guard pages are.
   [[nodiscard]] bool overflowed_at(const void* address) const noexcept;
 };
 StackBounds own_stack() noexcept;
@@ -43,15 +44,15 @@ StackBounds own_stack() noexcept;
 void request_exact_timers() noexcept;
 
 struct ThreadSettings {
-  std::string name;                                   // at most 15 characters are shown by the system
+  std::string name;                                   // the system shows at most 15 characters
   int fifo_priority = 0;                              // 0: normal scheduling
   int core = -1;                                      // -1: not pinned
-  std::size_t stack_bytes = std::size_t{512} * 1024;  // whole pages, beside thread-local variables
+  std::size_t stack_bytes = std::size_t{512} * 1024;  // whole pages, in addition to thread-local variables
   bool runs_modules = false;                          // has a HandlerStack (rt/guard.h)
 };
 
-// Memory for a thread's stack. Ours and not the C library's, which keeps the stacks of threads that have ended, and
-// locked memory would hold them for good.
+// Memory for a thread's stack. Not taken from the C library, which caches the stacks of ended threads; locked memory
+// would then hold them permanently.
 class Stack {
  public:
   Stack() = default;
@@ -65,16 +66,16 @@ class Stack {
   [[nodiscard]] std::uint8_t* lowest() const noexcept;
 
  private:
-  std::uint8_t* memory_ = nullptr;  // with the guard page
+  std::uint8_t* memory_ = nullptr;  // including the guard page
   std::size_t bytes_ = 0;
 };
 
-// A thread that starts with its settings applied and, if it has a priority, its stack touched, and is joined by its
-// destructor.
+// A thread that starts with its settings applied and, if it has a priority, its stack already touched. Its destructor
+// joins it.
 class Thread {
  public:
   Thread() = default;
-  // `body` runs after the settings were tried; a refused priority does not keep it from running (ask
+  // Calls `body` after trying the settings; a rejected priority does not prevent it from running (check
   // fifo_priority()). Not real-time safe. Errors: System, NoSpace.
   static Result<Thread> start(const ThreadSettings& settings, std::function<void()> body);
   Thread(Thread&& other) noexcept;
@@ -88,7 +89,7 @@ class Thread {
   [[nodiscard]] pthread_t handle() const noexcept { return handle_; }
 
  private:
-  Stack stack_;  // given back once the thread has ended
+  Stack stack_;  // released once the thread has ended
   pthread_t handle_{};
   bool running_ = false;
 };

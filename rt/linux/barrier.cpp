@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel interrupts all processors; one that is too old for it is waited for.
+// The kernel interrupts all processors; if it is too old for that, the function waits.
 #include "rt/barrier.h"
 
 #include <linux/membarrier.h>
@@ -12,7 +12,7 @@ namespace indurop::rt {
 
 void let_all_processors_see() noexcept {
   if (::syscall(SYS_membarrier, MEMBARRIER_CMD_GLOBAL, 0, 0) != 0) {
-    constexpr std::int64_t kStoresAreOutNs = 10'000'000;  // a processor keeps a store back for well below a microsecond
+    constexpr std::int64_t kStoresAreOutNs = 10'000'000;  // a processor delays a store for well below a microsecond
     sleep_until(now_ns() + kStoresAreOutNs);
   }
 }

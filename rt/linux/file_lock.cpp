@@ -31,7 +31,7 @@ Status lock_file_when_free(int file, FileLock kind) noexcept {
   return lock(file, operation_of(kind));
 }
 
-// There is no other way to ask: whoever wants the lock at this very moment has to try again.
+// There is no other way to check: a process that tries to lock at this very moment has to try again.
 bool is_locked(int file) noexcept {
   const bool is_free = ::flock(file, LOCK_SH | LOCK_NB) == 0;
   if (is_free) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C library's robust mutex with priority inheritance: the kernel tells the next one that a holder has died.
+// The C library's robust mutex with priority inheritance: the kernel reports to the next holder that the previous one
+// died.
 
 #include "rt/shared_mutex.h"
 
@@ -34,7 +35,8 @@ std::uint32_t lock_word(const SharedMutex& mutex) noexcept {
   return __atomic_load_n(reinterpret_cast<const std::uint32_t*>(mutex.bytes), __ATOMIC_ACQUIRE);
 }
 
-// True if the word names a thread that does not exist. The C library aborts the process when the kernel tells it so.
+// Returns true if the word names a thread that does not exist. The C library aborts the process when the kernel reports
+// that.
 bool has_impossible_owner(const SharedMutex& mutex) noexcept {
   const std::uint32_t before = lock_word(mutex);
   const std::uint32_t owner = before & kOwnerMask;
@@ -99,7 +101,7 @@ bool init_shared_mutex(SharedMutex& mutex) noexcept {
   return good;
 }
 
-void inherit_shared_mutex(SharedMutex& /*mutex*/) noexcept {}  // the kernel makes no difference between processes
+void inherit_shared_mutex(SharedMutex& /*mutex*/) noexcept {}  // the kernel does not distinguish between processes
 
 bool held_by(const SharedMutex& mutex, ThreadId thread) noexcept {
   return (lock_word(mutex) & kOwnerMask) == static_cast<std::uint64_t>(thread);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nobody can be told; but no processor keeps a store back for long.
+// Processors cannot be notified, but none delays a store for long.
 #include "rt/barrier.h"
 
 #include <atomic>
@@ -9,7 +9,7 @@
 namespace indurop::rt {
 
 void let_all_processors_see() noexcept {
-  constexpr std::int64_t kStoresAreOutNs = 10'000'000;  // a processor keeps a store back for well below a microsecond
+  constexpr std::int64_t kStoresAreOutNs = 10'000'000;  // a processor delays a store for well below a microsecond
   std::atomic_thread_fence(std::memory_order_seq_cst);
   sleep_until(now_ns() + kStoresAreOutNs);
 }

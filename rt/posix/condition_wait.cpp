@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conditions have the clock of the wall only, as semaphores do (signal_word.cpp).
+// Conditions support only the wall clock, as semaphores do (signal_word.cpp).
 #include "rt/condition_wait.h"
 
 namespace indurop::rt {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same without robust mutexes. A word says who has the lock, and only who changes it from free to his own name has
-// it. A holder that was killed is found by that name. Waiting with priority inheritance needs a mutex, and a mutex
-// whose holder is killed is lost (the C library even aborts those who wait for it). So this one, the queue, is for the
-// threads of one process only, which all end together: the home of the lock. All others look at the word every now and
-// then.
+// The shared lock without robust mutexes. A word names the holder, and only a thread that changes it from free to its
+// own name gets the lock. A holder that was killed is detected by that name. Waiting with priority inheritance needs a
+// mutex, and a mutex whose holder is killed is lost (the C library even aborts those who wait for it). So this mutex,
+// the queue, is for the threads of one process only, which all end together: the home of the lock. All other processes
+// poll the word.
 
 #include "rt/shared_mutex.h"
 
@@ -26,9 +26,9 @@ namespace {
 
 struct Lock {
   std::atomic<std::uint64_t> word;
-  Lock* next;                       // of those its holder has; for that thread only
+  Lock* next;                       // next lock of its holder; used by that thread only
   std::atomic<std::uint64_t> home;  // a process
-  pthread_mutex_t queue;            // for its threads
+  pthread_mutex_t queue;            // for threads of the home process
 };
 static_assert(sizeof(Lock) <= sizeof(SharedMutex));
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
@@ -37,12 +37,12 @@ static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 constexpr std::uint64_t kName = (1ULL << 56U) - 1;
 constexpr std::uint64_t kProcess = (1ULL << 32U) - 1;
 constexpr std::uint64_t kHeld = 1ULL << 56U;
-constexpr std::uint64_t kQueued = 2ULL << 56U;  // by somebody who has the queue, too
+constexpr std::uint64_t kQueued = 2ULL << 56U;  // also if set by a thread that holds the queue
 constexpr std::uint64_t kLeft = 4ULL << 56U;    // free: its holder's thread ended with it
-constexpr std::uint64_t kFree = 0xAULL << 60U;  // the mark, and nobody's name
+constexpr std::uint64_t kFree = 0xAULL << 60U;  // the mark, and no name
 constexpr std::uint64_t kMark = 0xFULL << 60U;
 
-constexpr std::int64_t kPauseNs = 50'000;  // between two looks at the word
+constexpr std::int64_t kPauseNs = 50'000;  // polling interval of the word
 
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): a thread's name, and what it holds
 [[gnu::tls_model("initial-exec")]] thread_local std::uint64_t t_name = 0;
@@ -65,7 +65,7 @@ bool is_of(std::uint64_t word, std::uint64_t name) noexcept {
   return (word & kHeld) != 0 && (word & kName) == name;
 }
 
-// A thread ends: what it holds becomes free, but not as good as new.
+// A thread ends: its locks become free, but are marked as left.
 void leave(void* /*unused*/) noexcept {
   while (Lock* const lock = t_held) {
     t_held = lock->next;
@@ -80,7 +80,7 @@ void leave(void* /*unused*/) noexcept {
   t_name = 0;
 }
 
-// Made when the program starts at the latest: the first lock of a real-time thread is no time for it.
+// Created at program start at the latest: not at the first lock of a real-time thread.
 class EndOfThreads {
  public:
   EndOfThreads() noexcept
@@ -89,7 +89,7 @@ class EndOfThreads {
   void watch_this() const noexcept { ::pthread_setspecific(key_, this); }
 
  private:
-  // What the parent holds is not the child's.
+  // A child process does not hold its parent's locks.
   static void forked() noexcept {
     t_name = 0;
     t_held = nullptr;
@@ -98,7 +98,7 @@ class EndOfThreads {
   bool good_;
 };
 const EndOfThreads& end_of_threads() noexcept {
-  static const EndOfThreads kEnd;  // some variables have locks before other objects of the program are made
+  static const EndOfThreads kEnd;  // some variables create locks before other objects of the program exist
   return kEnd;
 }
 const bool kMade = end_of_threads().good();
@@ -112,7 +112,7 @@ std::uint64_t own_name() noexcept {
   return t_name;
 }
 
-// A child that has ended keeps its number until it is waited for.
+// A child that has ended keeps its number until its parent waits for it.
 bool has_ended(std::uint64_t process) noexcept {
   const auto pid = static_cast<pid_t>(process);
   if (pid == static_cast<pid_t>(own_name() & kProcess)) {
@@ -142,8 +142,9 @@ bool is_home(const Lock& lock) noexcept {
   return lock.home.load(std::memory_order_relaxed) == (own_name() & kProcess);
 }
 
-// Sets the word if nobody has the lock, or nobody who lives. Who has the queue of a free lock is about to take it or
-// has just left it, and is not overtaken by others of this process (`polite`). `queued`: that is the caller.
+// Sets the word if no thread, or only a dead one, holds the lock. A thread that holds the queue of a free lock is about
+// to take it or has just released it, and is not overtaken by others of this process (`polite`). `queued`: the caller
+// holds it.
 LockResult set_word(Lock& lock, bool queued, bool polite) noexcept {
   const std::uint64_t name = own_name();
   std::uint64_t word = lock.word.load(std::memory_order_acquire);
@@ -166,7 +167,7 @@ LockResult set_word(Lock& lock, bool queued, bool polite) noexcept {
   }
 }
 
-// Locks have the clock of the wall only.
+// Mutexes support only the wall clock.
 int wait_in_queue(Lock& lock, std::int64_t deadline_ns) noexcept {
   const timespec until = to_timespec(wall_ns() + deadline_ns - now_ns());
   return ::pthread_mutex_timedlock(&lock.queue, &until);

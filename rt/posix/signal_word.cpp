@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Semaphores have the clock of the wall only. Where it is put forward the wait is taken up again; where it is put back
-// while somebody waits, a wait that nobody wakes ends that much later.
+// Semaphores support only the wall clock. If it is set forward the wait is resumed; if it is set back during a wait, a
+// wait without a wake-up ends that much later.
 #include "rt/signal_word.h"
 
 #include <semaphore.h>
