@@ -26,7 +26,7 @@ bool is_sound(const BatchEntry& entry, std::span<const DirectoryEntry> directory
          std::uint64_t{entry.data} + entry.size <= kMostBatchBytes;
 }
 
-// One order of the tick thread. Whatever is written is prepared before the first of it can be seen.
+// One request to the tick thread. Everything is prepared before the first change becomes visible.
 class Order {
  public:
   Order(const Store& store, const BatchBlock& block) noexcept : store_(store), block_(block) {}
@@ -38,7 +38,7 @@ class Order {
     }
   }
 
-  // Done, Busy, or Wrong.
+  // Returns Done, Busy, or Wrong.
   BatchState carry_out() noexcept {
     const std::size_t count = std::min<std::size_t>(block_.count, kMostBatchValues);
     for (std::size_t i = 0; i < count; ++i) {
@@ -68,7 +68,7 @@ class Order {
   }
   [[nodiscard]] void* place(std::size_t i) const noexcept { return store_.entry(variable(i).name_hash, 0); }
 
-  // Parts of one variable stand side by side.
+  // Parts of one variable are adjacent.
   bool prepare(std::size_t i) noexcept {
     const BatchEntry& entry = block_.entries[i];
     const bool same = i > 0 && block_.entries[i - 1].variable == entry.variable;
@@ -91,7 +91,7 @@ class Order {
   unsigned char* slot_ = nullptr;
 };
 
-// Whoever asks, alone.
+// The process that makes a request, exclusively.
 class Asking {
  public:
   explicit Asking(BatchBlock& block) noexcept : block_(block), locked_(rt::is_locked(rt::lock_within(block.lock))) {}
@@ -113,7 +113,7 @@ bool is_open(BatchState state) noexcept {
   return state == BatchState::Staged || state == BatchState::Working;
 }
 
-// False if that takes until `end`.
+// Returns false if it is not done by `end`.
 bool wait_until_done(const BatchBlock& block, rt::MonoTime end) {
   constexpr std::chrono::microseconds kPause{200};
   while (is_open(block.state.load(std::memory_order_acquire))) {
@@ -202,7 +202,7 @@ Result<std::uint64_t> change_in_one_tick(const std::string& node, const Store& s
     return Error{Errc::InvalidArgument, 0, "more than one tick may change"};
   }
   block->state.store(BatchState::Staged, std::memory_order_release);
-  constexpr std::chrono::milliseconds kCopy{100};  // of a tick that has begun with it
+  constexpr std::chrono::milliseconds kCopy{100};  // for a tick that has begun to apply it
   auto expected = BatchState::Staged;
   if (!wait_until_done(*block, end) &&
       (block->state.compare_exchange_strong(expected, BatchState::Free) || !wait_until_done(*block, end + kCopy))) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several values that change in one tick: somebody outside the node puts them into a file of shared memory, and the
-// tick carries them out before anything of it runs, all or none. A tick without such an order costs a load.
+// Several values that change in one tick: a process outside the node writes them into a file of shared memory, and the
+// tick applies them before anything of it runs, all or none. A tick without such a request costs one load.
 
 #pragma once
 
@@ -19,39 +19,39 @@
 
 namespace indurop::vars {
 
-// What a tick may be asked to do at once, so that it stays short.
+// Limits of one request, so that the tick stays short.
 inline constexpr std::size_t kMostBatchValues = 512;
 inline constexpr std::size_t kMostBatchBytes = std::size_t{32} << 10U;
 
 enum class BatchState : std::uint32_t { Free, Staged, Working, Done, Busy, Wrong };
 
 struct BatchEntry {
-  std::uint32_t variable;  // in the store's directory
+  std::uint32_t variable;  // index in the store's directory
   std::uint32_t offset;    // of the part
   std::uint32_t size;
-  std::uint32_t data;  // where its bytes are
+  std::uint32_t data;  // position of its bytes
 };
 
 struct BatchBlock {
   std::atomic<std::uint64_t> magic;  // stored last
-  std::uint64_t layout_hash;         // of the store that this is for
-  abi::SharedMutex lock;             // for those who ask
+  std::uint64_t layout_hash;         // of the store that it belongs to
+  abi::SharedMutex lock;             // for processes that make requests
   std::atomic<BatchState> state;
   std::uint32_t count;
-  std::atomic<std::uint64_t> tick;  // that carried it out
+  std::atomic<std::uint64_t> tick;  // the tick that applied it
   BatchEntry entries[kMostBatchValues];
   unsigned char data[kMostBatchBytes];
 };
 
 std::string batch_file(const std::string& node);  // indurop.<node>.batch
 
-// The node's side.
+// The node's end.
 class Batch {
  public:
-  // For one run of a node, in place of the file of an earlier one. Errors: as of ShmFile::create, System.
+  // Creates the file for one run of a node; replaces that of an earlier run. Errors: as of ShmFile::create, System.
   static Result<Batch> create(const std::string& node, const Store& store);
-  // On the tick thread, before anything of the tick runs. Real-time safe: a variable that somebody is just writing is
-  // not waited for, the next tick tries again.
+  // Applies a request; on the tick thread, before anything of the tick runs. Real-time safe: does not wait for a
+  // variable that is just being written, the next tick tries again.
   void carry_out(const Store& store, std::uint64_t tick) noexcept {
     if (block().state.load(std::memory_order_relaxed) == BatchState::Staged) [[unlikely]] {
       carry_out_staged(store, tick);
@@ -73,10 +73,10 @@ struct Change {
   std::span<const std::uint8_t> bytes;
 };
 
-// Asks the node that runs for the changes and waits until they are done. Returns the tick.
-// Errors: NotFound (the node is of a version that cannot do this), InvalidArgument (more than a tick may do),
-// TypeMismatch (its variables are others by now), Busy (somebody else's are not done, or a variable is being written by
-// somebody who is stopped), Timeout (no tick came; they are not done and will not be), PermissionDenied.
+// Asks the running node for the changes and waits until they are done. Returns the tick. Errors: NotFound (the node is
+// of a version that does not support this), InvalidArgument (more than the limits of one tick), TypeMismatch (its
+// variables have changed meanwhile), Busy (another process's request is not done, or a stopped process is writing a
+// variable), Timeout (no tick came; they are not done and will not be), PermissionDenied.
 Result<std::uint64_t> change_in_one_tick(const std::string& node, const Store& store, std::span<const Change> changes,
                                          std::chrono::nanoseconds patience);
 

@@ -28,7 +28,7 @@ bool scalar_size(std::uint64_t size) noexcept {
   return size == 1 || size == 2 || size == 4 || size == 8;
 }
 
-// Not cryptographic: finds damage and differences, and changes when anything two processes must agree on does.
+// Not cryptographic: detects damage and differences, and changes with everything that two processes must agree on.
 class Hash {
  public:
   void add(const void* bytes, std::size_t size) noexcept {
@@ -83,7 +83,7 @@ bool unique(std::vector<std::uint64_t> hashes) {
   return std::adjacent_find(hashes.begin(), hashes.end()) == hashes.end();
 }
 
-// Strictly ascending: sorted for the search, and no name twice.
+// Strictly ascending: sorted for the search, and no duplicate name.
 bool ordered(std::span<const DirectoryEntry> directory) noexcept {
   return std::adjacent_find(directory.begin(), directory.end(),
                             [](const auto& a, const auto& b) { return a.name_hash >= b.name_hash; }) == directory.end();
@@ -125,7 +125,7 @@ void place_entries(BlockPlan& plan) {
   plan.total_size = round_up(at + call_area_size(plan.schema), kPage);
 }
 
-// Part of `memory` given by offset and count, or empty if it does not lie inside.
+// Copies the part of `memory` given by offset and count; returns false if it is not inside.
 template <class Entry>
 bool copy_table(std::span<const std::byte> memory, std::uint64_t offset, std::uint64_t count, std::vector<Entry>& to) {
   if (offset % alignof(Entry) != 0 || offset > memory.size() || count > (memory.size() - offset) / sizeof(Entry)) {

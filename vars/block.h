@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The block's bytes from a schema, and the proof that bytes found somewhere are a block. No files here.
+// Builds the block's bytes from a schema, and checks whether given bytes are a block. No files here.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace indurop::vars {
 
-// Everything about a block but its values.
+// Everything about a block except its values.
 struct BlockPlan {
   schema::Schema schema;  // sorted by name, so that the order of modules does not matter
   std::vector<DirectoryEntry> directory;
@@ -31,19 +31,19 @@ struct BlockPlan {
 // type), AlreadyExists (a name twice), Overflow (a variable of 4 GiB or more).
 Result<BlockPlan> plan_block(const schema::Schema& schema);
 
-// Writes the plan and the initial values into zeroed memory of plan.total_size bytes, all but the magic.
-// Errors: Unsupported (the system has no robust locks).
+// Writes the plan and the initial values into zeroed memory of plan.total_size bytes, except the magic. Errors:
+// Unsupported (the system has no robust locks).
 Status fill_block(std::byte* memory, const BlockPlan& plan, const std::string& node);
 
 // Errors: Busy (not yet complete), VersionMismatch (another ABI), Corrupt (not a store's header, or of another size).
 Status check_header(std::span<const std::byte> memory);
 
-// The block's unchanging parts, copied so that nobody can change them under us.
+// The block's constant parts, copied so that no process can change them during use.
 struct BlockIndex {
   std::vector<DirectoryEntry> directory;
   schema::Schema schema;
 };
-// Errors: Busy (not yet complete), VersionMismatch (another ABI), Corrupt (anything that does not add up).
+// Errors: Busy (not yet complete), VersionMismatch (another ABI), Corrupt (anything inconsistent).
 Result<BlockIndex> check_block(std::span<const std::byte> memory);
 
 BlockHeader* header_of(std::byte* memory) noexcept;

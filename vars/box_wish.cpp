@@ -25,7 +25,7 @@ std::filesystem::path refusal_of(const std::string& node) {
   return state_directory(node) / "keep-box.not-before";
 }
 
-// What is further away than it can be is of another boot.
+// A time further in the future than possible is from an earlier boot.
 bool refuses(const std::string& node) {
   const auto text = base::read_file(refusal_of(node), kLongest);
   std::int64_t until_ns = 0;

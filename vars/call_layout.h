@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes of the shared functions in the store's block: one CallFunction per function, sorted by name hash, each with
-// kCallSlots slots through which callers hand over arguments and get results. Store::create reserves
-// call_area_size() bytes at BlockHeader::functions_offset and calls init_call_area() while the block is still Building;
-// an adopted block keeps its area as it is. Any change here is a new abi::kVersion.
+// Layout of the shared functions in the store's block: one CallFunction per function, sorted by name hash, each with
+// kCallSlots slots through which callers pass arguments and get results. Store::create reserves call_area_size() bytes
+// at BlockHeader::functions_offset and calls init_call_area() while the block is still Building; an adopted block keeps
+// its area unchanged. Any change here requires a new abi::kVersion.
 
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace indurop::vars {
 
-inline constexpr std::size_t kCallSlots = 16;  // calls of one function that can be under way at once
+inline constexpr std::size_t kCallSlots = 16;  // maximum number of concurrent calls of one function
 
 struct alignas(64) CallFunction {
   std::uint64_t name_hash;
@@ -31,10 +31,10 @@ struct alignas(64) CallFunction {
   std::uint32_t schema_index;             // into Schema::functions
   std::atomic<std::uint32_t> wake_index;  // the CallFunction whose `wake` its server sleeps on
   abi::SharedMutex serving;               // held by the server's thread for as long as it serves: free = no server
-  std::atomic<std::int32_t> server_pid;   // for people; 0: none yet, or ended in order
+  std::atomic<std::int32_t> server_pid;   // for display; 0: none yet, or ended normally
   std::uint32_t reserved;
   std::atomic<std::uint64_t> calls;     // answered
-  std::atomic<std::uint64_t> given_up;  // no answer in time
+  std::atomic<std::uint64_t> given_up;  // no result in time
   rt::SignalWord wake;
 };
 static_assert(std::is_standard_layout_v<CallFunction>);
@@ -45,10 +45,10 @@ enum class CallState : std::uint8_t {
   Ready,      // arguments are there
   Running,    // the server is working on it
   Done,       // result or error is there
-  Abandoned,  // nobody waits any more; the server frees the slot when it is through
+  Abandoned,  // the caller no longer waits; the server frees the slot when it is done
 };
 
-// A caller owns a slot while it holds `caller`; a caller that is killed leaves it to the next one.
+// A caller owns a slot while it holds `caller`; if it is killed, the next caller gets the slot.
 struct alignas(64) CallSlot {
   abi::SharedMutex caller;
   std::atomic<std::uint64_t> state;
@@ -63,7 +63,7 @@ static_assert(std::is_standard_layout_v<CallSlot>);
 std::size_t call_area_size(const schema::Schema& schema);
 
 // Fills the zeroed area that begins `functions_offset` bytes (a multiple of 64) into `block`. Not real-time safe.
-// False if the system refuses to make such a lock.
+// Returns false if the system cannot create such a lock.
 bool init_call_area(std::byte* block, std::uint64_t functions_offset, const schema::Schema& schema);
 
 }  // namespace indurop::vars

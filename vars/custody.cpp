@@ -18,9 +18,9 @@ namespace {
 constexpr std::uint64_t kCustodyMagic = 0x31545355'43524e49ULL;
 constexpr std::size_t kName = 64;
 constexpr std::size_t kReason = 160;
-constexpr std::size_t kMostNotes = kMostForces + 16;  // some are of forces that end meanwhile
+constexpr std::size_t kMostNotes = kMostForces + 16;  // some belong to forces that end meanwhile
 
-// As it lies in memory.
+// The format in memory.
 struct Line {
   std::uint64_t variable;  // name hash; 0: free
   std::uint32_t offset;
@@ -38,7 +38,7 @@ struct Place {
 
 struct CustodyBlock {
   std::atomic<std::uint64_t> magic;  // stored last
-  rt::SharedMutex mutex;             // for those who write
+  rt::SharedMutex mutex;             // for writers
   Place lock;
   Place notes[kMostNotes];
 };
@@ -78,7 +78,7 @@ void write(Place& place, const Line& line) noexcept {
   place.version.store(version + 1, std::memory_order_release);
 }
 
-// Nothing while it is being written for long: its writer was killed.
+// Returns nothing if it stays odd for long: its writer was killed.
 std::optional<Line> read(const Place& place) noexcept {
   constexpr int kTries = 1000;
   for (int i = 0; i < kTries; ++i) {
@@ -124,8 +124,8 @@ bool is_forced(const std::vector<Force>& forces, const Line& line) {
   });
 }
 
-// The place of a note about the same part, else one that is free: nobody's, or of what is forced no more. Those just
-// `taken` are of forces that come yet.
+// Returns the slot of a note about the same part, else a free one: unused, or of a part that is no longer forced. Those
+// just `taken` belong to forces that follow.
 Place* place_for(CustodyBlock& block, const std::vector<Force>& forces,
                  const std::vector<std::pair<Place*, Line>>& taken, const Line& wanted) {
   Place* free = nullptr;
@@ -211,7 +211,7 @@ LockNote Custody::lock() const {
     fill(note, *line);
     note.lock = static_cast<WriteLock>(std::min(line->kind, static_cast<std::uint32_t>(WriteLock::All)));
   } else {
-    note.lock = WriteLock::All;  // somebody was killed while changing it
+    note.lock = WriteLock::All;  // a process was killed while changing it
   }
   return note;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who may write to a node from outside and who forces what: its write lock, and a note for each force, in a file of
-// shared memory beside the block. Nothing in a tick looks at it; it stops slips, not somebody with rights who is bent
-// on writing. Not real-time safe.
+// Which external users may write to a node, and who forces which variable: its write lock, and a note for each force,
+// in a file of shared memory next to the block. No tick reads it; it prevents mistakes, not deliberate writes by a user
+// with rights. Not real-time safe.
 
 #pragma once
 
@@ -21,13 +21,13 @@ namespace indurop::vars {
 
 enum class WriteLock : std::uint32_t {
   None,
-  Tune,  // parameters alone may be written
-  All,   // nothing
+  Tune,  // only parameters may be written
+  All,   // nothing may be written
 };
 const char* word_of(WriteLock lock) noexcept;  // "tune"
 std::optional<WriteLock> write_lock_of(std::string_view word) noexcept;
 
-// Who did it and why; texts are cut to 63 bytes (reason: 159).
+// Who made a change and why; texts are cut to 63 bytes (reason: 159).
 struct Note {
   std::string who;
   std::string from;
@@ -40,30 +40,32 @@ struct LockNote : Note {
 };
 
 struct ForceNote : Note {
-  bool lease = false;  // it ends with whoever forces
+  bool lease = false;  // it ends with the process that forces
 };
 
-// What somebody outside wants to do.
+// An action requested from outside the node.
 enum class Act { SetParameter, Set, Force, Command };
-// Why the lock forbids it, and what to do; nothing if it does not.
+// Returns why the lock forbids it, and what to do; nothing if it is allowed.
 std::optional<std::string> refusal(const LockNote& lock, Act act);
 
 std::string custody_file(const std::string& node);  // indurop.<node>.custody
 
 class Custody {
  public:
-  // For a run of a node: the lock of the run before stays, notes of forces go. Errors: as of ShmFile::create, System.
+  // Creates the file for a run of a node: keeps the lock of the previous run, removes notes of forces. Errors: as of
+  // ShmFile::create, System.
   static Result<Custody> create(const std::string& node);
   // Errors: NotFound (no node of this version ran), as of ShmFile::open.
   static Result<Custody> open(const std::string& node, Mode mode);
 
   [[nodiscard]] LockNote lock() const;
-  // Errors: Busy (somebody who changes it is stopped), PermissionDenied (read-only).
+  // Errors: Busy (a process that changes it is stopped), PermissionDenied (read-only).
   Status set_lock(const LockNote& note);
 
-  // vars::hold() with a note about each part that is there before its force: no force is seen without who made it.
-  // Notes of what is no longer forced make room. Where somebody who writes notes is stopped, the values are held
-  // without. Errors: PermissionDenied (read-only), those of vars::hold(); the notes are then as they were.
+  // Like vars::hold(), with a note about each part that is written before its force: no force is visible without its
+  // author. Notes of parts that are no longer forced are overwritten. If a process that writes notes is stopped, the
+  // values are held without notes. Errors: PermissionDenied (read-only), those of vars::hold(); the notes are then
+  // unchanged.
   Status hold(Store& store, std::span<const HeldValue> values, rt::MonoTime until, const ForceNote& note);
   [[nodiscard]] std::optional<ForceNote> note_of(const DirectoryEntry& variable, std::uint32_t offset) const;
 
@@ -72,11 +74,11 @@ class Custody {
   ShmFile file_;
 };
 
-// As Custody::hold() of the node; without notes if no node of this version ran.
+// Like Custody::hold() of the node; without notes if no node of this version ran.
 Status hold(const std::string& node, Store& store, std::span<const HeldValue> values, rt::MonoTime until,
             const ForceNote& note);
 
-// None if no node of this version ran.
+// Returns no lock if no node of this version ran.
 LockNote lock_of(const std::string& node);
 
 }  // namespace indurop::vars

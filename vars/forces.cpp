@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writers of a ring look at the table under the ring's lock. Writers of a scalar have no lock: they look before and
-// after they write. A force is announced first, then all processors pass a barrier, then the value is written: whoever
-// did not see the announcement has written before the barrier, and is overwritten; all others see it.
+// Writers of a ring check the table under the ring's lock. Writers of a scalar have no lock: they check before and
+// after they write. A force is announced first, then all processors pass a barrier, then the value is written: a writer
+// that did not see the announcement has written before the barrier, and is overwritten; all others see it.
 
 #include "vars/forces.h"
 
@@ -37,7 +37,7 @@ struct Held {
   rt::MonoTime until;
 };
 
-// Nothing if the slot is free or just being filled.
+// Returns nothing if the slot is free or just being filled.
 std::optional<Held> part_in(const ForceSlot& slot) noexcept {
   const std::uint64_t version = slot.version.load(std::memory_order_acquire);
   const std::uint64_t where = slot.where.load(kRelaxed);
@@ -94,7 +94,7 @@ void write_word(void* entry, std::uint32_t size, std::uint64_t value) noexcept {
   }
 }
 
-// Whoever changes the table. A holder that was killed leaves at most one half-filled slot.
+// A process that changes the table. A holder that was killed leaves at most one half-filled slot.
 class Changing {
  public:
   explicit Changing(ForceTable& table) noexcept : table_(table), result_(rt::lock_within(table.lock)) {
@@ -151,7 +151,7 @@ void fill(ForceSlot& slot, const void* entry, const Force& what) noexcept {
   slot.version.store(version + 2, std::memory_order_release);
 }
 
-// Writers need not look any more once no slot is about the variable.
+// Writers need no check any more once no slot refers to the variable.
 void unmark_unforced(BlockHeader& header, const DirectoryEntry& variable) noexcept {
   void* const entry = entry_of(header, variable);
   std::atomic<std::int64_t>& mark = abi::forces_offset_of(entry, variable.kind);

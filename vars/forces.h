@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forced parts of variables: numbers that keep the value somebody forced, whoever writes them. The table is in the
-// block, so that a force holds in every process of the board, without the node's or its maker's help.
+// Forced parts of variables: numbers held at a value against all writers. The table is in the block, so that a force
+// holds in every process of the board, without help of the node or of the process that forced it.
 
 #pragma once
 
@@ -33,26 +33,27 @@ struct Force {
 // False if the system has no robust locks.
 bool init_forces(ForceTable& table) noexcept;
 
-// Forces one more part, or one that is forced already to another value or time. Not real-time safe: waits until every
-// processor has seen it. Errors: InvalidArgument (size), NoSpace (kMostForces parts are forced), Busy (somebody who
-// changes the table is stopped, or a writer of the variable).
+// Forces one more part, or changes the value or time of a forced one. Not real-time safe: waits until every processor
+// has seen it. Errors: InvalidArgument (size), NoSpace (kMostForces parts are forced), Busy (a process that changes the
+// table, or a writer of the variable, is stopped).
 Status force(BlockHeader& header, const Force& what) noexcept;
-// A later end, if `was` is still its end: nobody else has forced it or let it go. Errors: NotFound (else), Busy.
+// Sets a later end, if `was` is still its end: no other user has re-forced or released it. Errors: NotFound
+// (otherwise), Busy.
 Status prolong(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t offset, rt::MonoTime was,
                rt::MonoTime until) noexcept;
-// The part keeps its value until somebody writes it. Errors: NotFound (it is not forced), Busy.
+// Releases a force: the part keeps its value until the next write. Errors: NotFound (it is not forced), Busy.
 Status let_go(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t offset) noexcept;
-// Frees the places of those whose time is over. Does nothing while somebody else changes the table.
+// Frees the slots of expired forces. Does nothing while another process changes the table.
 void let_overdue_go(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept;
-// All of them, for the node that takes over a block: nobody else changes the table now.
+// Releases all forces, for the node that takes over a block: no other process may change the table now.
 void let_all_go(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept;
 
-// Those whose time is not over at `now`. Points into the directory.
+// Returns the forces that have not expired at `now`. Points into the directory.
 std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory);
 
-// What writers do, real-time safe. See indurop_hold_scalar().
+// The writers' part, real-time safe. See indurop_hold_scalar().
 bool hold_scalar(void* entry) noexcept;
-// Puts forced values into the version that is about to be committed.
+// Copies forced values into the version that is about to be committed.
 void hold_parts(abi::RingHeader& ring, unsigned char* version) noexcept;
 
 }  // namespace indurop::vars

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kWord = 8;
 
-// Calls `use(leaf, offset)` for every number, text or character of a value, as far as the value goes.
+// Calls `use(leaf, offset)` for every number, text or character of a value, up to its end.
 template <class Use>
 void for_each_leaf(const schema::Type& type, std::uint32_t offset, const Use& use) {
   std::uint64_t count = 1;
@@ -51,7 +51,7 @@ bool holds_same(const Force& force, const HeldValue& value, const HeldPart& part
   return is_held_by(force, value, part) && std::equal(bytes.begin(), bytes.end(), force.bytes().begin());
 }
 
-// A text that was held longer keeps nothing of it behind its new end.
+// Releases the forces of a longer earlier text after the end of the new one.
 Status let_texts_go(Store& store, const HeldValue& value, const std::vector<Force>& before) {
   Status status;
   for_each_leaf(value.type, value.offset, [&](const schema::Type& leaf, std::uint32_t offset) {
@@ -91,7 +91,7 @@ Status for_each_own(Store& store, std::span<const HeldValue> values, rt::MonoTim
 
 std::vector<HeldPart> parts_to_hold(const schema::Type& type, std::string_view text,
                                     std::span<const std::uint8_t> bytes) {
-  // What is the same after reading the text into zeros and into ones was said.
+  // Bytes that are equal after parsing the text over zeros and over ones were given in the text.
   std::vector<std::uint8_t> zeros(type.size(), 0x00);
   std::vector<std::uint8_t> ones(type.size(), 0xFF);
   std::string message;

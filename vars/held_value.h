@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of any type held by forces: a force is of one number, so a struct, an array or a text is held number by
+// Values of any type held by forces: a force holds one number, so a struct, an array or a text is held number by
 // number. Not real-time safe.
 
 #pragma once
@@ -15,13 +15,13 @@
 
 namespace indurop::vars {
 
-// What one force can hold of a value.
+// The part of a value that one force can hold.
 struct HeldPart {
   std::uint32_t offset = 0;  // in the value
   std::uint32_t size = 0;    // 1, 2, 4 or 8
 };
 
-// A part of a variable and what of it is to be held, at which bytes.
+// A part of a variable and what to hold of it, with its bytes.
 struct HeldValue {
   const DirectoryEntry* variable = nullptr;
   std::uint32_t offset = 0;  // of the value in the variable
@@ -30,8 +30,8 @@ struct HeldValue {
   std::vector<HeldPart> parts;
 };
 
-// The parts that `text` speaks of, if parse_value() understands it, else all: `{x: 1}` holds x alone. A text is held by
-// 8 characters up to its end.
+// Returns the parts that `text` names, if parse_value() can parse it, else all: `{x: 1}` holds x alone. A text is held
+// in pieces of 8 characters up to its end.
 std::vector<HeldPart> parts_to_hold(const schema::Type& type, std::string_view text,
                                     std::span<const std::uint8_t> bytes);
 
@@ -39,13 +39,13 @@ std::vector<HeldPart> parts_to_hold(const schema::Type& type, std::string_view t
 // Store::force().
 Status hold(Store& store, std::span<const HeldValue> values, rt::MonoTime until);
 
-// Later ends for those that still have the same value, and `was` as their end: that nobody else has forced or let go
-// since. NotFound: one at least was not; the others are held until `until`.
+// Sets later ends for those that still have the same value, and `was` as their end: no other user has re-forced or
+// released them since. Returns NotFound if this is not true for at least one; the others are held until `until`.
 Status prolong(Store& store, std::span<const HeldValue> values, rt::MonoTime was, rt::MonoTime until);
-// Lets those go of which the same is true.
+// Releases those for which the same is true.
 Status let_go(Store& store, std::span<const HeldValue> values, rt::MonoTime was);
 
-// What is forced, by the names people use: the words of a text are one.
+// A forced part, by the name people use: the words of a text are one part.
 struct ForcedPart {
   std::string name;  // "PLC_ROBOT::O[3]"
   schema::Type type;

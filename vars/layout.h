@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes of the store's block: header, directory sorted by name hash, schema text, variable entries, call slots.
-// Any change here is a new abi::kVersion.
+// Any change here requires a new abi::kVersion.
 
 #pragma once
 
@@ -19,17 +19,17 @@ inline constexpr std::size_t kMaxNodeName = 48;
 
 enum class BlockState : std::uint32_t { Building = 0, Ready = 1, Retired = 2 };
 
-// A part of a variable whose writers are ignored, see vars/forces.h.
+// A forced part of a variable, whose writers are ignored; see vars/forces.h.
 struct ForceSlot {
-  std::atomic<std::uint64_t> version;  // odd while it is filled
+  std::atomic<std::uint64_t> version;  // odd while it is being filled
   std::atomic<std::int64_t> entry;     // bytes from here to the variable's entry, 0: free
   std::atomic<std::uint64_t> where;    // offset of the part << 32 | its size
   std::atomic<std::uint64_t> value;    // first bytes of it
-  std::atomic<std::int64_t> until_ns;  // CLOCK_MONOTONIC, INT64_MAX: until it is let go
+  std::atomic<std::int64_t> until_ns;  // CLOCK_MONOTONIC, INT64_MAX: until it is released
 };
 inline constexpr std::size_t kMostForces = 64;
 struct ForceTable {
-  abi::SharedMutex lock;  // for those who change the table
+  abi::SharedMutex lock;  // for processes that change the table
   ForceSlot slots[kMostForces];
 };
 
@@ -42,7 +42,7 @@ struct BlockHeader {
   std::atomic<std::uint64_t> generation;
   std::atomic<BlockState> state;
   std::atomic<std::int32_t> node_pid;          // 0: no node runs
-  std::atomic<std::uint64_t> node_start_time;  // field 22 of /proc/PID/stat, tells a reused pid
+  std::atomic<std::uint64_t> node_start_time;  // field 22 of /proc/PID/stat, detects a reused pid
   std::atomic<std::int64_t> heartbeat_ns;      // CLOCK_MONOTONIC
   std::atomic<std::int64_t> virtual_ns;        // time of the node's simulation; 0: it runs in real time
   std::uint32_t variable_count;
@@ -56,7 +56,7 @@ struct BlockHeader {
   ForceTable forces;
 };
 
-// The node's time: what forces, ages and modules go by. Real-time safe.
+// The time of the node, which forces, ages and modules use. Real-time safe.
 inline rt::MonoTime time_of(const BlockHeader& header) noexcept {
   const std::int64_t simulated = header.virtual_ns.load(std::memory_order_relaxed);
   return simulated != 0 ? rt::mono_time(simulated) : rt::MonoClock::now();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names that somebody wants and no variable has.
+// Requested names that match no variable.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace indurop::vars {
 
-// Of these names and globs, those that match no variable in use, in their order. Not real-time safe.
+// Returns those of the names and globs that match no variable in use, in their order. Not real-time safe.
 std::vector<std::string> names_of_nothing(const Store& store, const std::vector<std::string>& globs);
 
 }  // namespace indurop::vars

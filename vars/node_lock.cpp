@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lock is that of a file; its text "PID START_TIME" only serves to say who has it. The file may be removed by
-// the one who holds the lock, so whoever got a lock looks whether its file still has the name.
+// The lock is that of a file; its text "PID START_TIME" only identifies the holder. The file may be removed by the
+// holder of the lock, so a process that got a lock checks whether its file still has the name.
 
 #include "vars/node_lock.h"
 
@@ -33,7 +33,7 @@ namespace indurop::vars {
 
 namespace {
 
-// Others cannot open it: who can open a file can lock it, and so keep a node from starting.
+// Other users cannot open it: a process that can open a file can lock it, and so prevent a node from starting.
 constexpr mode_t kLockMode = 0660;
 constexpr int kTries = 100;
 constexpr std::chrono::milliseconds kPause{1};
@@ -63,7 +63,7 @@ bool has_name(int file, const std::string& path) noexcept {
          ours.st_ino == named.st_ino;
 }
 
-// The living process that wrote its name into the file, else 0.
+// The living process that wrote its pid into the file, else 0.
 pid_t read_holder(int file) noexcept {
   char text[64];
   const ssize_t length = ::pread(file, text, sizeof(text) - 1, 0);
@@ -99,7 +99,7 @@ pid_t pid_in_block(const std::string& node) {
   return process_alive(pid, header.node_start_time.load()) ? pid : 0;
 }
 
-// For whoever may not open the file. The kernel shows all locks, with the numbers of their files.
+// For users who may not open the file. The kernel shows all locks, with the numbers of their files.
 bool locked_by_anybody(const struct stat& file) {
   char wanted[64];
   std::snprintf(wanted, sizeof wanted, " %02x:%02x:%llu ", major(file.st_dev), minor(file.st_dev),
@@ -113,19 +113,20 @@ bool locked_by_anybody(const struct stat& file) {
   return false;
 }
 
-// The process is one of this user: else whoever copied a lock's text would show a process of somebody else as a node.
+// Checks that the process belongs to this user: otherwise anyone could copy a lock's text and present another user's
+// process as a node.
 bool belongs_to(pid_t pid, uid_t user) {
   std::ifstream status("/proc/" + std::to_string(pid) + "/status");
   for (std::string line; std::getline(status, line);) {
     if (line.starts_with("Uid:")) {
-      return std::strtoull(line.c_str() + 4, nullptr, 10) == user;  // the real one
+      return std::strtoull(line.c_str() + 4, nullptr, 10) == user;  // the real user id
     }
   }
   return false;
 }
 
-// A name of the network namespace, which nobody can remove while the node runs. Containers that share a network have
-// memory of their own each, and so nodes of the same name.
+// A name of the network namespace, which no user can remove while the node runs. Containers that share a network have
+// memory of their own, and so may have nodes of the same name.
 sockaddr_un address_of(const std::string& node, socklen_t& length) noexcept {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -160,7 +161,7 @@ int take_socket(const std::string& node) noexcept {
   return -1;
 }
 
-// The process that has the name of the socket, 0 if that is not to be learnt.
+// The process that has the name of the socket, 0 if that cannot be determined.
 pid_t holder_by_socket(const std::string& node) noexcept {
   socklen_t length = 0;
   const sockaddr_un address = address_of(node, length);
@@ -175,7 +176,7 @@ pid_t holder_by_socket(const std::string& node) noexcept {
   return known ? peer.pid : 0;
 }
 
-// Root takes over the name of another user whose node is gone; from then on the lock is root's.
+// Root takes over the name of another user whose node has ended; from then on the lock is root's.
 void make_ours(int file) noexcept {
   struct stat info {};
   if (::geteuid() == 0 && ::fstat(file, &info) == 0 && info.st_uid != 0) {
@@ -194,7 +195,7 @@ Result<NodeLock> NodeLock::acquire(const std::string& node, pid_t& holder) {
   for (int i = 0; i < kTries && holder == 0; ++i) {
     const int number = open_lock(path);
     if (number < 0) {
-      if (errno == EEXIST || errno == ENOENT) {  // made or removed by somebody at this moment
+      if (errno == EEXIST || errno == ENOENT) {  // created or removed by another process at this moment
         continue;
       }
       return os_error(errno, "open the node's lock file");
@@ -211,7 +212,7 @@ Result<NodeLock> NodeLock::acquire(const std::string& node, pid_t& holder) {
         write_holder(number);
         return lock;
       }
-      // The files of a node that runs were removed, or it is just ending.
+      // The files of a running node were removed, or it is just ending.
       if (i + 1 == kTries) {
         holder = holder_by_socket(node);
       }
@@ -221,7 +222,7 @@ Result<NodeLock> NodeLock::acquire(const std::string& node, pid_t& holder) {
     if (locked.error().code != Errc::Busy) {
       return os_error(locked.error().sys_errno, "lock the node's name");
     }
-    // A holder that is ending, or one that is just removing the node's files, is gone in a moment.
+    // A holder that is ending, or that is just removing the node's files, is gone in a moment.
     holder = read_holder(number);
     if (holder == 0) {
       std::this_thread::sleep_for(kPause);

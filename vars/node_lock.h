@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One node per name: a lock on a file that the kernel frees whatever way the node ends, and a socket of the node's name
-// that holds when somebody removed the file. Not real-time safe.
+// Ensures one node per name: a lock on a file that the kernel releases however the node ends, and a socket with the
+// node's name, which still protects if the file was removed. Not real-time safe.
 
 #pragma once
 
@@ -25,8 +25,8 @@ class NodeLock {
   NodeLock& operator=(const NodeLock&) = delete;
   ~NodeLock();
 
-  // The lock file is still there under its name. If not, make_again() gives the name a file of this process, unless
-  // somebody else was faster.
+  // Returns true if the lock file still exists under its name. If not, make_again() creates a file of this process
+  // there, unless another process was faster.
   [[nodiscard]] bool named(const std::string& node) const;
   bool make_again(const std::string& node);
 
@@ -38,16 +38,17 @@ class NodeLock {
 
 // Name or number of a user.
 std::string user_name(uid_t user);
-// User whose store of a node it is, by number; nothing if there is no such store.
+// Returns the uid of the owner of a node's store; nothing if there is no such store.
 std::optional<uid_t> owner_of(const std::string& node);
-// User who has the files of a node of this name, by name or number; empty if it is us or nobody.
+// Returns the user who owns the files of a node of this name, by name or number; empty if it is this user or there are
+// none.
 std::string other_owner(const std::string& node);
 
-// Name of a node that was given none: "local", or "local_UID" as long as another user has the files of a "local".
+// Default name of a node: "local", or "local_UID" as long as another user owns the files of a "local".
 std::string default_node();
 
-// Pid of the process that runs the node, 0 if none does: whoever holds the lock of this name, and is a process of the
-// user whose file the lock is. What a store says of itself does not count. Any user may ask.
+// Returns the pid of the process that runs the node, 0 if none does: the process that holds the lock of this name and
+// belongs to the user who owns the lock file. The content of the store is not used. Any user may call it.
 pid_t running_node(const std::string& node);
 
 }  // namespace indurop::vars

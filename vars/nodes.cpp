@@ -25,7 +25,7 @@ namespace indurop::vars {
 
 namespace {
 
-// Processes that are still attached learn that the block is no longer the node's.
+// Notifies processes that are still attached that the block is no longer the node's.
 void retire_block(const std::string& node) {
   auto file = ShmFile::open(block_file(node), Mode::ReadWrite);
   if (file && check_block({file->data(), file->size()})) {
@@ -56,7 +56,7 @@ std::uint32_t store_format(const std::string& node) {
 
 namespace {
 
-// Whoever looks without being asked to look at everybody does not even open what others than these made.
+// Unless asked for all nodes, the search does not even open files that other users created.
 bool is_near(const std::string& file) {
   struct stat info {};
   if (::lstat((std::string(kShmDirectory) + "/" + file).c_str(), &info) != 0 || !S_ISREG(info.st_mode)) {
@@ -98,7 +98,7 @@ std::vector<std::string> list_nodes(Nodes which) {
     }
   }
   std::sort(nodes.begin(), nodes.end());
-  std::vector<std::string> bare;  // the store is not there yet, or not any more
+  std::vector<std::string> bare;  // the store does not exist yet, or no longer exists
   std::copy_if(locks.begin(), locks.end(), std::back_inserter(bare), [&](const std::string& node) {
     return !std::binary_search(nodes.begin(), nodes.end(), node) && running_node(node) != 0;
   });
@@ -125,7 +125,7 @@ Status remove_node(const std::string& node) {
   }
   retire_block(node);
   Status result;
-  // The lock file last: until then nobody else can start a node of this name.
+  // Remove the lock file last: until then no other process can start a node of this name.
   for (const std::string& name :
        {block_file(node), run_file(node), tape_file(node), batch_file(node), custody_file(node), mirror_file(node),
         external_file(node), retold_file(node), block_file(node) + ".kernel", lock_file(node)}) {

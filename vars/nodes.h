@@ -9,7 +9,7 @@
 
 namespace indurop::vars {
 
-// Would list_nodes() name this one? Looks at its own files only, however many others there are.
+// Returns whether list_nodes() would include this node. Checks its own files only, however many others there are.
 bool has_node(const std::string& node, Nodes which = Nodes::Near);
 
 }  // namespace indurop::vars

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the operating system's refusals mean to callers of this room.
+// Maps errors of the operating system to error codes of this folder.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::vars {
 
-// `error` is an errno. Everything without a better name is Errc::System.
+// `error` is an errno. Everything without a specific code is Errc::System.
 inline Error os_error(int error, const char* where) noexcept {
   switch (error) {
     case ENOENT:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells a living process from a dead one whose pid was given to somebody else.
+// Distinguishes a living process from a dead one whose pid was reused.
 
 #pragma once
 
@@ -13,7 +13,7 @@ namespace indurop::vars {
 // Not real-time safe.
 std::uint64_t process_start_time(pid_t pid) noexcept;
 
-// True if `pid` exists, is no zombie, and started at `start_time`.
+// Returns true if `pid` exists, is no zombie, and started at `start_time`.
 bool process_alive(pid_t pid, std::uint64_t start_time) noexcept;
 
 }  // namespace indurop::vars

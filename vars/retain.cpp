@@ -31,7 +31,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint64_t kRetainMagic = 0x3154455255444e49ULL;  // "INDURET1"
 constexpr std::uint32_t kRetainVersion = 2;
-constexpr std::uint32_t kWithoutTypes = 1;  // is read, too
+constexpr std::uint32_t kWithoutTypes = 1;  // still readable
 constexpr std::array<const char*, 2> kNames{"retain.a", "retain.b"};
 constexpr const char* kLosses = "retain.lost";
 constexpr std::size_t kMostBytes = std::numeric_limits<std::size_t>::max() / 2;
@@ -58,7 +58,7 @@ void append(Bytes& to, const void* from, std::size_t size) {
   to.insert(to.end(), at, at + size);
 }
 
-// Text for people, empty if the copy is sound.
+// Text for people, empty if the copy is valid.
 std::string damage_of(std::span<const std::uint8_t> bytes) {
   FileHeader header{};
   if (bytes.size() < sizeof(header)) {
@@ -83,7 +83,7 @@ struct Record {
   std::span<const std::uint8_t> value;
 };
 
-// Takes one record off `rest`. False at the end, and at anything that cannot be a record.
+// Removes one record from `rest`. Returns false at the end, and at anything that cannot be a record.
 bool next_record(std::span<const std::uint8_t>& rest, Record& record) {
   if (rest.size() < sizeof(RecordHeader)) {
     return false;
@@ -100,7 +100,7 @@ bool next_record(std::span<const std::uint8_t>& rest, Record& record) {
   return true;
 }
 
-// The types at the begin of `rest`, which they are taken off.
+// Reads the types at the start of `rest` and removes them.
 schema::Schema take_types(std::span<const std::uint8_t>& rest) {
   std::uint32_t length = 0;
   if (rest.size() < sizeof length) {
@@ -111,10 +111,10 @@ schema::Schema take_types(std::span<const std::uint8_t>& rest) {
   length = static_cast<std::uint32_t>(std::min<std::size_t>(length, rest.size()));
   auto types = schema::from_json({reinterpret_cast<const char*>(rest.data()), length});
   rest = rest.subspan(length);
-  return types ? std::move(types).value() : schema::Schema{};  // of another version: only equal types are restored
+  return types ? std::move(types).value() : schema::Schema{};  // another version: only equal types are restored
 }
 
-// Of the retained variables what a later run needs to know.
+// The types of the retained variables, as a later run needs them.
 std::string types_of(const Store& store) {
   schema::Schema out;
   for (const DirectoryEntry& entry : store.directory()) {

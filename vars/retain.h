@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of `retain` variables on disk: two copies, written in turn, each complete or absent after a power loss at any
-// moment. For a normal thread: nothing here is real-time safe.
+// Values of `retain` variables on disk: two copies, written alternately, each complete or absent after a power loss at
+// any moment. For a normal thread: nothing here is real-time safe.
 
 #pragma once
 
@@ -22,27 +22,27 @@ std::filesystem::path state_directory(const std::string& node);
 
 struct RetainReport {
   std::size_t restored = 0;        // variables
-  std::vector<std::string> notes;  // one line each for people: what was found damaged
-  std::vector<std::string> lost;   // the same: what has no place in the variables of today, and where it is kept
+  std::vector<std::string> notes;  // one line each for people: damage that was found
+  std::vector<std::string> lost;   // the same: values that fit no present variable, and where they are kept
 };
 
-// The two files retain.a and retain.b in one directory. One object per directory at a time: the node lock sees to it.
+// The two files retain.a and retain.b in one directory. One object per directory at a time: the node lock ensures it.
 class RetainFile {
  public:
   explicit RetainFile(std::filesystem::path directory);
 
-  // Writes the newest sound copy's values into the store's retain variables of the same name; of another type what
-  // fits (schema/carry.h). If something is lost, the file of before is kept as retain.before.N, and losses() are on the
-  // disk until a load without any. Without any file nothing happens; a damaged copy is a note. For a store of
-  // Origin::Fresh. With `only_changed` for one that is CarriedOver, where variables of the same type are newer.
-  // Errors: PermissionDenied, System (a file exists but cannot be read).
+  // Writes the newest valid copy's values into the store's retain variables of the same name; if the type differs,
+  // whatever fits (schema/carry.h). If something is lost, the older file is kept as retain.before.N, and losses() stay
+  // on the disk until a load without any. Without any file nothing happens; a damaged copy is a note. For a store of
+  // Origin::Fresh. With `only_changed` for one that is CarriedOver, where variables of the same type are newer. Errors:
+  // PermissionDenied, System (a file exists but cannot be read).
   Result<RetainReport> load(Store& store, bool only_changed = false);
 
-  // What the last load has lost, one line each.
+  // Returns the losses of the last load, one line each.
   [[nodiscard]] std::vector<std::string> losses() const;
 
-  // Puts the present values where the older copy was; does not touch the disk if they are what was saved last.
-  // `written` (may be null) tells which. Errors: NoSpace, PermissionDenied, System; both older copies are kept then.
+  // Writes the present values over the older copy; does not touch the disk if they equal the last saved ones. `written`
+  // (may be null) returns whether it wrote. Errors: NoSpace, PermissionDenied, System; both older copies are kept then.
   Status save(const Store& store, bool* written = nullptr);
 
   // Removes both copies: the next start has initial values. Errors: PermissionDenied, System.
@@ -60,7 +60,7 @@ class RetainFile {
 
   std::filesystem::path directory_;
   bool scanned_ = false;
-  int newest_ = -1;                 // 0: a, 1: b, -1: none is sound
+  int newest_ = -1;                 // 0: a, 1: b, -1: none is valid
   Copy copy_;                       // contents of the newest
   std::string types_;               // of the retained variables, as text
   std::uint64_t types_layout_ = 0;  // of the store they are of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why four slots and no undo: a reader of version v fails only if version v + 4 is begun before it is done, and a
-// writer that dies has touched nothing but a slot that was never published.
+// Reason for four slots and no undo: a reader of version v fails only if version v + 4 is begun before it is done, and
+// a writer that dies has changed nothing but a slot that was never published.
 
 #include "vars/ring.h"
 
@@ -50,14 +50,14 @@ void copy_span(unsigned char* to, const unsigned char* from, std::uint64_t begin
 #endif
 }
 
-// Copies `span` but not what lies in `hole`.
+// Copies `span` except what is in `hole`.
 void copy_around(unsigned char* to, const unsigned char* from, Span span, Span hole) noexcept {
   copy_span(to, from, span.begin, std::min(span.end, hole.begin));
   copy_span(to, from, std::max(span.begin, hole.end), span.end);
 }
 
-// Brings the slot of version `now + 1` up to version `now` outside `hole`. The slot holds version now - 3, so they
-// differ where versions now - 2, now - 1 and now were dirty, and where an unfinished write left its traces.
+// Updates the slot of version `now + 1` to version `now` outside `hole`. The slot holds version now - 3, so they differ
+// where versions now - 2, now - 1 and now were dirty, and where an unfinished write left traces.
 void catch_up(RingHeader& ring, std::uint64_t now, unsigned char* to, const unsigned char* from, Span hole) noexcept {
   std::array<Span, kSlots> spans{load_dirty(ring, now), load_dirty(ring, now - 1), load_dirty(ring, now - 2)};
   std::size_t count = kSlots - 1;
@@ -67,7 +67,8 @@ void catch_up(RingHeader& ring, std::uint64_t now, unsigned char* to, const unsi
     announced = {std::min(hole.begin, spans[count].begin), std::max(hole.end, spans[count].end)};
     ++count;
   }
-  // Told before anything is touched, in this order, so that whoever finds this write unfinished knows where.
+  // Announced before anything is changed, in this order, so that a process that finds this write unfinished knows
+  // where.
   store_dirty(ring, now + 1, announced);
   std::atomic_signal_fence(std::memory_order_seq_cst);
   __atomic_store_n(&ring.begun, now + 1, __ATOMIC_RELAXED);
@@ -81,7 +82,7 @@ void catch_up(RingHeader& ring, std::uint64_t now, unsigned char* to, const unsi
   }
 }
 
-// A holder died: which of its stores became visible is not relied on, everything is copied once.
+// A holder died: it is unknown which of its stores became visible, so everything is copied once.
 [[gnu::noinline, gnu::cold]] void mark_all_dirty(RingHeader& ring) noexcept {
   for (std::uint64_t i = 0; i < kSlots; ++i) {
     store_dirty(ring, i, {0, ring.value_size});
@@ -98,7 +99,7 @@ void catch_up(RingHeader& ring, std::uint64_t now, unsigned char* to, const unsi
   return false;
 }
 
-// Out of the way of the common case: whole writes of small values need none of this.
+// Kept out of the common path: whole writes of small values need none of this.
 [[gnu::noinline]] void bring_up_to_date(RingHeader& ring, unsigned char* to, Span hole) noexcept {
   const std::uint64_t now = ring.seq.load(std::memory_order_relaxed);
   const unsigned char* from = detail::slot(&ring, now, ring.slot_stride);
@@ -109,7 +110,7 @@ void catch_up(RingHeader& ring, std::uint64_t now, unsigned char* to, const unsi
   }
 }
 
-// With the lock.
+// Requires the lock.
 inline unsigned char* open_slot(RingHeader& ring, std::uint32_t offset, std::uint32_t length) noexcept {
   const std::uint64_t now = ring.seq.load(std::memory_order_relaxed);
   // A reader that sees any byte of the new version must see `seq` as it is now, or a later one.
@@ -215,7 +216,8 @@ void read_slow(RingHeader& ring, void* to, std::uint32_t offset, std::uint32_t l
 
 void read_slow(RingHeader& ring, std::uint32_t value_size, void* to, std::uint32_t offset,
                std::uint32_t length) noexcept {
-  // Ends: without the lock nobody commits for long, and with a holder that is stopped or dead nobody commits at all.
+  // This loop ends: without the lock no writer commits for long, and while a stopped or dead holder has it none
+  // commits.
   while (!try_read(ring, value_size, offset, to, length)) {
     const rt::LockResult result = rt::lock_within(ring.lock);
     if (result == rt::LockResult::OwnerDied) {

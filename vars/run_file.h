@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared memory of one run of a node, as bytes: whoever made it knows what they mean. Its first eight bytes are a
-// magic number that its maker stores last, when everything else is in place.
+// The shared memory of one run of a node, as bytes: their meaning is defined by the creator. The first eight bytes are
+// a magic number that the creator stores last, when everything else is in place.
 
 #pragma once
 
@@ -16,9 +16,9 @@ namespace indurop::vars {
 
 class RunFile {
  public:
-  // Zeroed bytes; takes the place of an older run's file, which processes that have it open keep. Only the holder of
-  // the node lock may call it. Errors: InvalidArgument (node name), NoSpace, PermissionDenied (the older file is
-  // another user's), System. Nothing is left behind.
+  // Creates zeroed bytes; replaces an older run's file, which processes that have it open keep. Only the holder of the
+  // node lock may call it. Errors: InvalidArgument (node name), NoSpace, PermissionDenied (the older file is another
+  // user's), System. On error no file is left.
   static Result<RunFile> create(const std::string& node, std::size_t size);
 
   // Errors: InvalidArgument (node name), NotFound, PermissionDenied, Corrupt (shorter than `smallest`, or another

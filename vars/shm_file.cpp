@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// iceoryx 2.0.3 reports why a mapping failed only by printing it, so each is tried before it is asked. Its object that
-// opens by name is not used: it sets the umask of the whole process to 0 for a moment and maps more than the file has.
+// iceoryx 2.0.3 reports why a mapping failed only by printing it, so each is tried before iceoryx is called. Its object
+// that opens by name is not used: it sets the umask of the whole process to 0 for a moment and maps more than the file
+// has.
 
 #include "vars/shm_file.h"
 
@@ -88,7 +89,7 @@ Status inspect(const Descriptor& file, struct stat& info) noexcept {
   if (!S_ISREG(info.st_mode) || info.st_size <= 0) {
     return Error{Errc::Corrupt, 0, "shared memory file is empty or not a regular file"};
   }
-  // What create() made has all its memory. A file of holes may claim any size without costing its maker anything.
+  // A file from create() has all its memory allocated. A sparse file may claim any size at no cost to its creator.
   constexpr off_t kBlock = 512;
   if (info.st_blocks * kBlock < info.st_size) {
     return Error{Errc::Corrupt, 0, "shared memory file has holes"};
@@ -210,7 +211,7 @@ Result<ShmCopy> ShmCopy::of(const std::string& name) {
     const ssize_t got = ::pread(file.get(), reinterpret_cast<char*>(copy.words_.data()) + copy.bytes_,
                                 size - copy.bytes_, static_cast<off_t>(copy.bytes_));
     if (got <= 0) {
-      break;  // it was cut meanwhile
+      break;  // it was truncated meanwhile
     }
     copy.bytes_ += static_cast<std::size_t>(got);
   }
@@ -273,7 +274,7 @@ void ShmFile::prefault() const noexcept {
   if (::madvise(data(), size(), advice) == 0) {
     return;
   }
-  // Kernels before 5.14: reading is enough to have the page, the first write may still cost a minor fault.
+  // Kernels before 5.14: a read makes the page present, the first write may still cost a minor fault.
   constexpr std::size_t kSmallestPage = 4096;
   for (std::size_t i = 0; i < size(); i += kSmallestPage) {
     static_cast<void>(__atomic_load_n(reinterpret_cast<const unsigned char*>(data()) + i, __ATOMIC_RELAXED));

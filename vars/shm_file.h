@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files in shared memory, mapped whole: made under a temporary name and renamed when complete, so that nobody ever
-// sees half a file. The only place that knows iceoryx; not its headers here.
+// Files in shared memory, mapped whole: created under a temporary name and renamed when complete, so that no process
+// ever sees a partial file. The only place that uses iceoryx, whose headers are not included here.
 
 #pragma once
 
@@ -32,21 +32,21 @@ std::string tape_file(const std::string& node);      // indurop.<node>.tape
 std::string retold_file(const std::string& node);    // indurop.<node>.retold
 std::string lock_file(const std::string& node);      // indurop.<node>.lock
 
-// Who may do what: the owner and its group write, everybody reads. Set explicitly, the umask plays no part.
+// Permissions: the owner and its group write, everyone reads. Set explicitly, independent of the umask.
 inline constexpr mode_t kShmMode = 0664;
 
 class ShmFile {
  public:
-  // Maps an existing file whole. A file that is cut meanwhile ends nobody: see lost(). Errors: NotFound,
+  // Maps an existing file whole. If the file is truncated meanwhile, no process crashes: see lost(). Errors: NotFound,
   // PermissionDenied, Corrupt (empty, or not a regular file), NoSpace (limit of locked memory), System.
   static Result<ShmFile> open(const std::string& name, Mode mode);
 
-  // A zeroed file of exactly `size` bytes, all of it really there, mapped read-write, not yet visible under its name.
-  // Errors: NoSpace, PermissionDenied (the temporary name is another user's), System. Nothing is left behind.
+  // Creates a zeroed file of exactly `size` bytes, all of it allocated, mapped read-write, not yet visible under its
+  // name. Errors: NoSpace, PermissionDenied (the temporary name is another user's), System. On error no file is left.
   static Result<ShmFile> create(const std::string& name, std::size_t size);
 
-  // Gives the file its name, replacing an older file of that name for everybody who opens it from now on.
-  // Errors: PermissionDenied (the older file is another user's), System.
+  // Gives the file its name, replacing an older file of that name for every process that opens it from now on. Errors:
+  // PermissionDenied (the older file is another user's), System.
   Status publish() noexcept;
 
   ShmFile(ShmFile&&) noexcept;
@@ -58,14 +58,14 @@ class ShmFile {
   [[nodiscard]] std::byte* data() const noexcept;  // page aligned; read-only memory if opened so
   [[nodiscard]] std::size_t size() const noexcept;
   [[nodiscard]] Mode mode() const noexcept;
-  // False if somebody of another user and group could have made or changed the file.
+  // Returns false if another user outside the group could have created or changed the file.
   [[nodiscard]] bool trusted() const noexcept;
-  // It was cut by somebody who may write it, and what is read now may be zeros. Real-time safe.
+  // Returns true if a process that may write the file truncated it; values read now may be zeros. Real-time safe.
   [[nodiscard]] bool lost() const noexcept;
-  // What lies under its name. Not real-time safe.
+  // Status of the file name in the file system. Not real-time safe.
   enum class Named { Whole, Cut, Gone };  // Gone: nothing, or another file
   [[nodiscard]] Named named() const noexcept;
-  // Makes every page present now, so that no access pays for it later. Not real-time safe.
+  // Makes every page present now, so that no later access causes a page fault. Not real-time safe.
   void prefault() const noexcept;
 
  private:
@@ -74,7 +74,7 @@ class ShmFile {
   std::unique_ptr<Impl> impl_;
 };
 
-// What a file held when it was looked at: nobody can change it afterwards. For whoever looks once.
+// A copy of a file's content at one moment: no process can change it afterwards. For a single inspection.
 class ShmCopy {
  public:
   // Errors: as of ShmFile::open().
@@ -87,11 +87,11 @@ class ShmCopy {
   std::size_t bytes_ = 0;
 };
 
-// Another one whenever another store of this node takes the place of the one before; 0: there is none.
+// Returns a number that changes whenever a new store of this node replaces the previous one; 0: there is none.
 std::uint64_t store_number(const std::string& node) noexcept;
-// Removes what a killed creator of the file left. Errors: PermissionDenied, System.
+// Removes a file that a killed creator left unfinished. Errors: PermissionDenied, System.
 Status remove_unfinished(const std::string& name) noexcept;
-// Removes a file; fine if there is none. Errors: PermissionDenied, System.
+// Removes a file; succeeds if there is none. Errors: PermissionDenied, System.
 Status remove_shm_file(const std::string& name) noexcept;
 
 }  // namespace indurop::vars

@@ -32,7 +32,7 @@ struct Store::Impl {
   [[nodiscard]] abi::RingHeader& ring(const DirectoryEntry& variable) const noexcept {
     return *reinterpret_cast<abi::RingHeader*>(file.data() + variable.offset);
   }
-  // False for a part outside the value, and for an entry that is not of this store.
+  // Returns false for a part outside the value, and for an entry that is not of this store.
   [[nodiscard]] bool contains(const DirectoryEntry& variable, std::uint64_t offset, std::uint64_t size) const noexcept {
     const std::uint64_t entry = abi::entry_size(variable.kind, variable.value_size);
     return offset + size <= variable.value_size && variable.offset % abi::kAlign == 0 &&
@@ -47,7 +47,7 @@ struct Store::Impl {
 namespace {
 
 constexpr std::int64_t kReadLimitNs = 50'000'000;
-constexpr int kSwapTries = 100;  // a millisecond each
+constexpr int kSwapTries = 100;  // one millisecond each
 
 const DirectoryEntry* search(const std::vector<DirectoryEntry>& directory, std::uint64_t name_hash) noexcept {
   const auto at =
@@ -56,7 +56,7 @@ const DirectoryEntry* search(const std::vector<DirectoryEntry>& directory, std::
   return at != directory.end() && at->name_hash == name_hash ? &*at : nullptr;
 }
 
-// The node may have been killed while it held locks, or somebody wrote across them.
+// The node may have been killed while it held locks, or a process overwrote them.
 bool rings_work(const ShmFile& file, const std::vector<DirectoryEntry>& directory) noexcept {
   return std::all_of(directory.begin(), directory.end(), [&](const DirectoryEntry& entry) {
     return entry.kind == abi::Kind::Scalar ||
@@ -95,7 +95,7 @@ Result<Previous> find_previous(const std::string& node) {
   return previous;
 }
 
-// Tells attached processes to look for the new block.
+// Makes attached processes look for the new block.
 void retire(const Previous& previous) noexcept {
   if (previous.index) {
     header_of(previous.file->data())->state.store(BlockState::Retired, std::memory_order_release);
@@ -133,7 +133,7 @@ void carry_over(const Previous& previous, const BlockPlan& plan, std::byte* memo
   }
 }
 
-// What an earlier run mirrored from another board is this one's own until a mirror says otherwise.
+// Variables that an earlier run mirrored from another board belong to this board until a mirror marks them again.
 void own_everything(const Previous& previous) noexcept {
   for (const DirectoryEntry& entry : previous.index->directory) {
     std::byte* const at = previous.file->data() + entry.offset;
@@ -210,7 +210,7 @@ Result<Store> Store::attach(const std::string& node, Mode mode) {
       return Store(std::make_unique<Impl>(std::move(file.value()), std::move(index.value()), Origin::Attached));
     }
     if (running_node(node) == 0) {
-      break;  // there is nobody who would complete it, or replace it
+      break;  // no process would complete or replace it
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -228,7 +228,7 @@ Store::~Store() {
   if (impl_ == nullptr || impl_->origin == Origin::Attached) {
     return;
   }
-  std::int32_t mine = ::getpid();  // a forked child's copy signs nobody out
+  std::int32_t mine = ::getpid();  // a forked child's copy does not sign the parent off
   impl_->header().node_pid.compare_exchange_strong(mine, 0, std::memory_order_release);
 }
 

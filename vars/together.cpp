@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// First all versions, then all copies, then all versions again: if none has moved, the values were there together in
-// between. What a mirror writes is told by its board's update word as well, because one update moves many versions.
+// Reads first all versions, then makes all copies, then reads all versions again: if none has changed, the values
+// existed together in between. For values from a mirror the update word of their board is checked as well, because one
+// update changes many versions.
 
 #include "vars/together.h"
 
@@ -18,8 +19,8 @@ namespace indurop::vars {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr int kTries = 64;      // copies of everything
-constexpr int kPauses = 2'000;  // while an update is being taken over: some 50 us
+constexpr int kTries = 64;      // attempts to copy everything
+constexpr int kPauses = 2'000;  // while an update is being applied: some 50 us
 
 abi::RingHeader& ring_of(const abi::Piece& piece) noexcept {
   return *static_cast<abi::RingHeader*>(piece.entry);
@@ -34,7 +35,7 @@ bool is_sent_with_others(const abi::Piece& piece) noexcept {
   return piece.update_offset != 0 && piece.update_offset != abi::kAlone;
 }
 
-// False if an update is just being taken over.
+// Returns false if an update is just being applied.
 bool note_versions(std::span<abi::Piece> pieces) noexcept {
   for (abi::Piece& piece : pieces) {
     piece.update_offset = abi::update_offset_of(piece.entry, piece.kind).load(std::memory_order_acquire);
@@ -47,7 +48,7 @@ bool note_versions(std::span<abi::Piece> pieces) noexcept {
   return true;
 }
 
-// False if writers overtook the copy.
+// Returns false if writers overtook the copy.
 bool copy(abi::Piece& piece) noexcept {
   if (piece.kind == abi::Kind::Scalar) {
     read_scalar(static_cast<const std::byte*>(piece.entry), piece.size, 0,
@@ -81,7 +82,7 @@ bool copy_all(std::span<abi::Piece> pieces) noexcept {
   return std::all_of(pieces.begin(), pieces.end(), still_there);
 }
 
-// Values that were there together belong together unless their board says, or cannot say, otherwise.
+// Values that existed together belong together unless their board reports, or cannot report, otherwise.
 bool belong_together(std::span<const abi::Piece> pieces) noexcept {
   return pieces.size() < 2 || std::none_of(pieces.begin(), pieces.end(), [](const abi::Piece& piece) {
            return piece.update_offset == abi::kAlone || (piece.update & abi::kPartial) != 0;

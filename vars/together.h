@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several variables read as they were together. Real-time safe, no allocation, no lock.
+// Reads several variables that belong together. Real-time safe, no allocation, no lock.
 
 #pragma once
 
@@ -10,8 +10,8 @@
 namespace indurop::vars {
 
 // Fills every piece's `to`. Variables of this board: as they were at one moment, between two commits. Variables of
-// other boards: after one update of their board, if it sends them together. False if that could not be had within some
-// tens of tries; then each value is whole by itself. Needs writable memory, as ring.h's read_slow().
+// other boards: after one update of their board, if it sends them together. Returns false if this failed within some
+// tens of tries; then each value is consistent in itself only. Needs writable memory, as ring.h's read_slow().
 bool read_together(std::span<abi::Piece> pieces) noexcept;
 
 }  // namespace indurop::vars
