@@ -24,7 +24,7 @@ bool copy_table(std::span<const std::byte> memory, std::uint64_t offset, std::ui
   return true;
 }
 
-// False if it does not add up.
+// Returns false if it is inconsistent.
 bool copy_track(const TapeTrack& from, std::span<const std::byte> memory, std::size_t variables,
                 TapeIndex::Track& track) {
   track = {from.data_offset, from.words, from.module, from.only_read, {}};

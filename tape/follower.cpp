@@ -64,13 +64,13 @@ Follower::Items Follower::items_of(std::size_t track) const noexcept {
   return {all.first(known.only_read), all.subspan(known.only_read)};
 }
 
-// Where the oldest run begins that is surely still there.
+// Position of the oldest run that is certainly still available.
 std::uint64_t Follower::oldest(const Place& place, std::uint64_t head) noexcept {
   const std::uint64_t claimed = place.shared->claimed.load(kRelaxed);
   if (claimed <= place.mask + 1) {
     return 0;
   }
-  // A part of the ring more: the writer goes on meanwhile.
+  // One part of the ring more, because the writer continues meanwhile.
   const std::uint64_t from = claimed - (place.mask + 1) + (place.mask + 1) / kMarks;
   std::uint64_t found = head;
   for (const auto& mark : place.shared->marks) {
@@ -88,7 +88,7 @@ bool Follower::copy(const Place& place, std::uint64_t from, std::uint64_t count,
   return place.shared->claimed.load(kRelaxed) - from <= place.mask + 1;
 }
 
-// The words of a run stay where they are from now on.
+// The words of a run do not move from now on.
 void Follower::point_to(const std::vector<std::pair<EntryHead, std::size_t>>& found, Run& run) const {
   for (const auto& [entry, place] : found) {
     const auto* const at = reinterpret_cast<const std::uint8_t*>(run.words.data() + place);

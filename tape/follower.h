@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reading end: runs of a node's tape, from a mapping that cannot disturb the node. Nothing the memory says is
-// believed before it was compared with its size. Not real-time safe; one thread at a time.
+// The reading end: runs of a node's tape, from a mapping that cannot disturb the node. No content of the memory is
+// trusted before it was checked against its size. Not real-time safe; one thread at a time.
 
 #pragma once
 
@@ -24,9 +24,9 @@ struct Value {
   std::span<const std::uint8_t> bytes;
 };
 
-// What a call or a channel gave it.
+// The answer of a call or a channel to a run.
 struct Told {
-  std::int64_t code = 0;  // kTooLongToTell: and nothing else is known
+  std::int64_t code = 0;  // kTooLongToTell: the rest was not recorded
   std::span<const std::uint8_t> bytes;
 };
 
@@ -35,32 +35,32 @@ struct Run {
   std::uint32_t flags = 0;
   RunTail tail;
   std::vector<Value> values;         // in the order of the track
-  std::vector<std::int64_t> clock;   // what irp::now_ns() said to it
+  std::vector<std::int64_t> clock;   // results of irp::now_ns()
   std::vector<Told> told;            // in the order of its calls
-  std::vector<std::uint64_t> words;  // what the values point into
+  std::vector<std::uint64_t> words;  // the data that the values point into
 };
 
 class Follower {
  public:
-  // `from_start`: with the oldest run that is still there; else with the next one.
+  // `from_start`: begins with the oldest run still available; else with the next one.
   // Errors: NotFound (no such node, or it has no tape), PermissionDenied, VersionMismatch, Corrupt, System.
   static Result<Follower> open(const std::string& node, bool from_start);
 
   [[nodiscard]] const TapeHeader& header() const noexcept;
   [[nodiscard]] std::span<const TapeVariable> variables() const noexcept { return index_.variables; }
-  // Before any module was started.
+  // The value before any module was started.
   [[nodiscard]] std::span<const std::uint8_t> first_value(std::uint32_t variable) const noexcept;
   [[nodiscard]] std::size_t tracks() const noexcept { return places_.size(); }
   [[nodiscard]] std::uint32_t module_of(std::size_t track) const noexcept { return places_[track].module; }
 
-  // What a track tells: variables that its module only reads, and those it writes.
+  // The variables on a track: those that its module only reads, and those it writes.
   struct Items {
     std::span<const std::uint32_t> only_read;
     std::span<const std::uint32_t> written;
   };
   [[nodiscard]] Items items_of(std::size_t track) const noexcept;
 
-  // The next run of a track; `run` is used again. False: there is none yet.
+  // Reads the next run of a track; `run` is reused. Returns false if there is none yet.
   bool next(std::size_t track, Run& run);
   // Runs of the track that were overwritten before they were read.
   [[nodiscard]] std::uint64_t lost(std::size_t track) const noexcept { return places_[track].lost; }
@@ -74,7 +74,7 @@ class Follower {
     std::uint64_t at = 0;
     std::uint64_t next_number = 0;
     std::uint64_t lost = 0;
-    bool any = false;  // a run was read, so that the numbers tell what is lost
+    bool any = false;  // a run was read, so the numbers show what is lost
   };
   enum class Reading { Whole, Overtaken, Corrupt };
 
@@ -83,7 +83,7 @@ class Follower {
   void point_to(const std::vector<std::pair<EntryHead, std::size_t>>& found, Run& run) const;
   Reading read_run(const Place& place, std::uint64_t head, Run& run, std::uint64_t& length) const;
   [[nodiscard]] static std::uint64_t oldest(const Place& place, std::uint64_t head) noexcept;
-  // False: the words are not those of this place in the track any more.
+  // Returns false if the words at this place in the track have been overwritten.
   static bool copy(const Place& place, std::uint64_t from, std::uint64_t count, std::vector<std::uint64_t>& to);
 
   vars::ShmFile file_;

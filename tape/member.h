@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The writing end of a process module: it tells its own runs, on the track that the node made for it.
+// The writing end of a process module: it records its own runs, on the track that the node created for it.
 
 #pragma once
 

@@ -11,9 +11,9 @@ namespace indurop::tape {
 namespace {
 
 constexpr std::uint64_t kLeastWords = 1024;
-constexpr std::uint64_t kLeastRuns = 8;  // of the longest kind that a track holds, so that readers can follow
+constexpr std::uint64_t kLeastRuns = 8;  // minimum runs of the longest kind on a track, so that readers can follow
 constexpr std::uint64_t kLargestShare = 8;
-constexpr std::uint64_t kReadingsWords = 4;  // two of the clock
+constexpr std::uint64_t kReadingsWords = 4;  // two clock readings
 
 void sort_once(std::vector<std::uint32_t>& indices) {
   std::sort(indices.begin(), indices.end());
@@ -35,7 +35,7 @@ TrackPlan sort_out(const ModuleAccess& access, const std::vector<bool>& taped) {
   return track;
 }
 
-// Of a run in which everything changed, before and while it ran; one value is told again.
+// Words of a run in which everything changed, before and during the run; one value is recorded again.
 std::uint64_t longest_run(const TrackPlan& track, std::span<const vars::DirectoryEntry> directory) {
   std::uint64_t words = 1 + kRunWords + kReadingsWords;
   std::uint64_t largest = 0;
@@ -51,7 +51,7 @@ std::uint64_t longest_run(const TrackPlan& track, std::span<const vars::Director
   return words + largest;
 }
 
-// Of a ring that is to hold so many runs for a reader, who begins behind what is being overwritten, at a mark.
+// Words of a ring that holds `runs` runs for a reader, who begins after the part being overwritten, at a mark.
 std::uint64_t words_for(double runs, std::uint64_t run) {
   return static_cast<std::uint64_t>(std::ceil((runs + 2) * static_cast<double>(run) * kMarks / (kMarks - 2)));
 }
@@ -61,7 +61,7 @@ struct Need {
   double wanted = 0;        // words
 };
 
-// Halves rings until they keep to `bytes`, as far as each has what it needs at least: always that which tells longest.
+// Halves rings until they fit into `bytes`, as far as each keeps its minimum: always the one with the longest history.
 void shrink(std::vector<TrackPlan>& tracks, const std::vector<Need>& needs, std::uint64_t bytes) {
   std::uint64_t sum = 0;
   for (const TrackPlan& track : tracks) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run of a process module was told, as a replay gives it to the process once more: readings of the clock, and
-// what functions, channels and other boards answered. In shared memory that the node writes before each release.
+// The input record of a process module's run, as a replay gives it to the process again: readings of the clock, and
+// answers of functions, channels and other boards. In shared memory that the node writes before each release.
 
 #pragma once
 
@@ -19,16 +19,16 @@ namespace indurop::tape {
 
 inline constexpr std::uint32_t kRetoldAbi = 1;
 
-// Its bytes are valid until the next run is released.
+// The bytes are valid until the next run is released.
 struct RetoldAnswer {
   std::int64_t code = 0;
   std::span<const std::uint8_t> bytes;
 };
 
-// Of the node. Its memory is gone at the end.
+// The node's end. The memory is removed at the end.
 class RetoldWriter {
  public:
-  // `pid`: of the node. Errors: those of ShmFile::create() and publish().
+  // `pid`: pid of the node. Errors: those of ShmFile::create() and publish().
   static Result<RetoldWriter> create(const std::string& node, std::int32_t pid);
   RetoldWriter(RetoldWriter&& other) noexcept : name_(std::exchange(other.name_, {})), file_(std::move(other.file_)) {}
   RetoldWriter& operator=(RetoldWriter&& other) noexcept {
@@ -40,7 +40,8 @@ class RetoldWriter {
   RetoldWriter& operator=(const RetoldWriter&) = delete;
   ~RetoldWriter();
 
-  // For the run that is released next, while none is under way. What there is no room for, the run asks anew.
+  // Writes the inputs of the run that is released next, while no run is active. If something does not fit, the run gets
+  // it live.
   void give(std::span<const std::int64_t> readings, std::span<const RetoldAnswer> answers) noexcept;
 
  private:
@@ -49,20 +50,20 @@ class RetoldWriter {
   vars::ShmFile file_;
 };
 
-// Of the process.
+// The process's end.
 class RetoldReader {
  public:
   // Errors: NotFound (the node of this pid is no replay), VersionMismatch, Corrupt, those of ShmFile::open().
   static Result<RetoldReader> open(const std::string& node, std::int32_t pid);
 
-  // Of the run that was released last. Real-time safe.
+  // The inputs of the run that was released last. Real-time safe.
   [[nodiscard]] std::span<const std::int64_t> readings() const noexcept;
   std::span<const RetoldAnswer> answers() noexcept;
 
  private:
   explicit RetoldReader(vars::ShmFile file);
   vars::ShmFile file_;
-  std::vector<RetoldAnswer> answers_;  // room for as many as a run can have
+  std::vector<RetoldAnswer> answers_;  // space for as many as a run can have
 };
 
 }  // namespace indurop::tape

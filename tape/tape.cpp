@@ -18,7 +18,7 @@ constexpr std::uint64_t up(std::uint64_t bytes) noexcept {
   return (bytes + kLine - 1) / kLine * kLine;
 }
 
-// Where everything is.
+// Offsets of all parts.
 struct Layout {
   std::uint64_t variables = up(sizeof(TapeHeader));
   std::uint64_t tracks = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tape of a node while it runs: made before the first module starts, written by the threads that run modules.
+// The tape of a running node: created before the first module starts, written by the threads that run modules.
 
 #pragma once
 
@@ -19,25 +19,25 @@ namespace indurop::tape {
 
 class Tape {
  public:
-  // Takes the place of an older tape of the node; the first values are those of now. `modules`: of the run block.
-  // The store is borrowed. Not real-time safe.
-  // Errors: NoSpace, PermissionDenied (the older file is another user's), System. Nothing is left behind.
+  // Replaces an older tape of the node; the first values are the present ones. `modules`: number of modules in the run
+  // block. The store is borrowed. Not real-time safe. Errors: NoSpace, PermissionDenied (the older file is another
+  // user's), System. On error no file is left.
   static Result<std::unique_ptr<Tape>> create(const std::string& node, const vars::Store& store, const TapePlan& plan,
                                               std::size_t modules);
 
-  // Null: nothing of this module is taped. Real-time safe.
+  // Returns the track of a module; null if nothing of it is taped. Real-time safe.
   [[nodiscard]] Track* of(std::uint32_t module) noexcept {
     return module < by_module_.size() ? by_module_[module].track : nullptr;
   }
-  // It runs soon: what the tape needs for that is fetched into the cache. On the thread that runs it. Real-time safe.
+  // Announces that the module runs soon: prefetches the needed parts of the tape into the cache. On the thread that
+  // runs it. Real-time safe.
   void soon(std::uint32_t module) const noexcept;
-  // Track::end(), of a module that is taped. Likewise.
+  // Track::end() of a taped module. Real-time safe.
   bool end(std::uint32_t module, const RunTail& times, std::uint32_t flags) noexcept;
-  // Of what no module of the schedule knows; null: there is nothing of that kind. Real-time safe.
+  // The track of variables that no module of the schedule uses; null if there are none. Real-time safe.
   [[nodiscard]] Track* others() const noexcept { return others_; }
 
-  // The process of this module is gone: what it was in the middle of is a run that ended by a fault. Not real-time
-  // safe.
+  // Ends the open run of a module whose process is gone as a run that ended by a fault. Not real-time safe.
   void end_of_dead(std::uint32_t module, const RunTail& times);
 
   void prefault() const noexcept { file_.prefault(); }
@@ -45,11 +45,11 @@ class Tape {
 
  private:
   Tape(vars::ShmFile&& file, const vars::Store& store) : file_(std::move(file)), store_(store) {}
-  // Those of modules that run one after the other lie side by side; what they lead to does not.
+  // Entries of modules that run one after the other are adjacent; the data they point to is not.
   struct Place {
     Track* track = nullptr;
     const void* shared = nullptr;
-    const void* next = nullptr;  // where its next run is written
+    const void* next = nullptr;  // position of its next run
   };
   vars::ShmFile file_;
   const vars::Store& store_;

@@ -13,8 +13,8 @@ namespace indurop::tape {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr std::uint64_t kAhead = 64;        // words claimed more than needed, so that this is not done for each entry
-constexpr std::uint64_t kLookAtClock = 16;  // variables looked at and words told in the time of a look at the clock
+constexpr std::uint64_t kAhead = 64;        // words claimed in advance, so that not each entry has to claim
+constexpr std::uint64_t kLookAtClock = 16;  // variables checked and words written in the time of a clock reading
 
 // The bits of a scalar.
 std::uint64_t load_scalar(const void* entry, std::uint32_t size) noexcept {
@@ -65,7 +65,7 @@ void Track::claim(std::uint64_t words) noexcept {
   if (at_ + words > claimed_) {
     claimed_ = at_ + words + kAhead;
     shared_.claimed.store(claimed_, kRelaxed);
-    std::atomic_thread_fence(std::memory_order_release);  // before what it announces
+    std::atomic_thread_fence(std::memory_order_release);  // before the data that it announces
   }
 }
 
@@ -78,7 +78,7 @@ void Track::put_head(EntryKind kind, std::uint32_t which) noexcept {
   put(std::bit_cast<std::uint64_t>(EntryHead{kind, which}));
 }
 
-// A value that writers keep overtaking is told the next time.
+// A value that writers keep overtaking is recorded the next time.
 void Track::tell(Item& item, EntryKind kind) noexcept {
   const std::uint64_t length = words_of(item.size);
   if (item.scalar) {
@@ -87,7 +87,7 @@ void Track::tell(Item& item, EntryKind kind) noexcept {
     put(item.seen);
     return;
   }
-  copy_[length - 1] = 0;  // what is behind the value in its last word
+  copy_[length - 1] = 0;  // the bytes after the value in its last word
   if (!vars::try_read(ring_of(item.entry), item.size, 0, copy_.data(), item.size)) {
     item.seen = ~std::uint64_t{0};
     return;
@@ -129,12 +129,12 @@ bool Track::begin() noexcept {
   return much(reads_end_, head_);
 }
 
-// About a nanosecond for each variable that was looked at and for each word that was told since `from`.
+// About a nanosecond for each variable that was checked and for each word that was written since `from`.
 bool Track::much(std::size_t looked_at, std::uint64_t from) const noexcept {
   return looked_at + (at_ - from) > kLookAtClock;
 }
 
-// What is told so far belongs to the run under way, whatever becomes of its writer.
+// The words so far belong to the open run, even if its writer dies.
 void Track::show_open() noexcept {
   if (shows_open_) {
     shared_.open.store(at_, std::memory_order_release);
@@ -216,7 +216,7 @@ void Track::tell_next_again() noexcept {
   }
 }
 
-// Written from what is at hand, and a mark without a division: this is all there is of most runs.
+// Written from data at hand, and a mark without a division: most runs consist only of this.
 void Track::publish(const RunTail& times, std::uint32_t flags) noexcept {
   claim(1 + kRunWords);
   const std::uint32_t anew = anew_.load(std::memory_order_acquire);

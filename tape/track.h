@@ -16,31 +16,32 @@ namespace indurop::tape {
 
 class alignas(kLine) Track {
  public:
-  // Whose thread writes it. A process of its own may die in the middle of a run while the node lives, which ends that
-  // run for it: it shows how far it is.
+  // The writing thread's process. A separate process may die in the middle of a run while the node lives, which then
+  // ends that run: so it publishes its progress.
   enum class Writer { Node, Process };
 
-  // Goes on behind what is on the track. `tape`: all its bytes, checked; borrowed, as the store. Not real-time safe.
+  // Continues after the present end of the track. `tape`: all its bytes, checked; borrowed, like the store. Not
+  // real-time safe.
   Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Writer writer = Writer::Node);
 
-  // The module is started anew before its next run; while it does not run, on any thread.
+  // The module restarts before its next run; call while it does not run, on any thread.
   void started_anew() noexcept { anew_.store(kAnew, std::memory_order_release); }
-  // What the run begins with. True: that was much, it took longer than a look at the clock. Real-time safe: no lock, no
-  // allocation, no system call.
+  // Records the values at the start of a run. Returns true if that was much: it took longer than a clock reading.
+  // Real-time safe: no lock, no allocation, no system call.
   bool begin() noexcept;
-  // The run was told this time. Real-time safe.
+  // Records a clock reading of the run. Real-time safe.
   void clock(std::int64_t ns) noexcept;
-  // A call or a channel gave it this. Real-time safe.
+  // Records the answer of a call or a channel. Real-time safe.
   void told(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept;
-  // What it left; from then on readers see the run. True: that was much, as above. `number` and `order` of `times` are
-  // not looked at. Real-time safe.
+  // Records the values after the run; from then on readers see the run. Returns true if that was much, as above.
+  // `number` and `order` of `times` are ignored. Real-time safe.
   bool end(const RunTail& times, std::uint32_t flags) noexcept;
-  // Whoever wrote this track died in the middle of a run: what it told of it is a run that ended by a fault. Nothing if
-  // it was in none. By one who goes on behind it, before anything else. Not real-time safe.
+  // Ends the open run of a writer that died in the middle of it as a run that ended by a fault; nothing if there was
+  // none. Called by the process that continues the track, before anything else. Not real-time safe.
   void end_of_dead(RunTail times) noexcept;
-  // Where the next run is written.
+  // Position of the next run.
   [[nodiscard]] const void* next() const noexcept { return words_ + (head_ & mask_); }
-  // A run that is only a look: nothing is written if nothing changed. Real-time safe.
+  // A run that only checks: nothing is written if nothing changed. Real-time safe.
   void look(const RunTail& times) noexcept;
 
  private:
