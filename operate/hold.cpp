@@ -39,7 +39,7 @@ std::vector<vars::HeldValue> to_hold(const std::vector<Assignment>& assignments)
   return values;
 }
 
-// What `indurop forces` shows. A node of an older version keeps no notes.
+// The note that `indurop forces` shows. A node of an older version keeps no notes.
 vars::ForceNote note_about(const Who& who, Ends ends) {
   vars::ForceNote about;
   about.who = who.name.empty() ? base::user_name() : who.name;

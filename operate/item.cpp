@@ -12,7 +12,7 @@ namespace {
 
 using base::Problem;
 
-// Full name of a part that was named without its leading namespaces.
+// Full name of a part that was given without its leading namespaces.
 std::string full_name(const std::string& text, const schema::Place& place) {
   const std::string& variable = place.variable->name;
   // The variable's last part ends where an index or a field begins.
@@ -109,7 +109,7 @@ Result<std::vector<std::uint8_t>, Problem> read(const vars::Store& store, const 
 Result<Assignment, Problem> parse(const vars::Store& store, Item item, std::string text, ReadLiteral literal) {
   const schema::Place place = item.place;
   Assignment one{std::move(item), std::vector<std::uint8_t>(place.type.size()), std::move(text), literal};
-  // Parts of a value that are not mentioned keep what they have.
+  // Parts of a value that are not mentioned keep their value.
   if (auto now = read(store, one.item)) {
     one.bytes = std::move(now).value();
   }

@@ -24,7 +24,7 @@ std::filesystem::path file_of(const std::string& node) {
   return vars::state_directory(node) / "orders.jsonl";
 }
 
-// The address that this user is logged in from, else the name of this machine.
+// The address from which this user is logged in, else the name of this machine.
 std::string origin() {
   const char* connection = std::getenv("SSH_CONNECTION");
   if (connection != nullptr && *connection != '\0') {

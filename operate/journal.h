@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The journal of orders: who set, forced, released, locked, stopped or started what of a node. Lines of JSON in the
-// node's folder, the newest few thousand. Not real-time safe.
+// The journal of commands: which user set, forced, released, locked, stopped or started what of a node. Lines of JSON
+// in the node's folder, the newest few thousand. Not real-time safe.
 
 #pragma once
 
@@ -24,14 +24,14 @@ struct Order {
   std::string reason;
 };
 
-// Appends a line. `order` has what was done and the node's time; the journal adds the wall time and, if `who` is
-// empty, the user of this process. Where the folder cannot be written nothing is noted.
+// Appends a line. `order` has the action and the node's time; the journal adds the wall time and, if `who` is empty,
+// the user of this process. If the folder cannot be written nothing is noted.
 void note(const std::string& node, Order order);
-// The orders since a time (CLOCK_REALTIME), oldest first.
+// Returns the commands since a time (CLOCK_REALTIME), oldest first.
 std::vector<Order> read_orders(const std::string& node, std::int64_t since_wall_ns);
 
 base::Json json_of(const Order& order);
-// False if it is no order; what is missing stays as it was.
+// Returns false if it is no command; missing fields stay unchanged.
 bool read_order(const base::Json& json, Order& order);
 
 }  // namespace indurop::operate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why something was not done: a kind that programs branch on, and sentences for people.
+// The reason why something was not done: a kind for programs, and sentences for people.
 
 #pragma once
 
@@ -10,9 +10,9 @@ namespace indurop::operate {
 
 enum class Why {
   Wrong,   // no such variable, no such value, or outside its declared range
-  Forced,  // what would be set is forced
+  Forced,  // a variable to be set is forced
   Locked,  // the node's write lock forbids it
-  Busy,    // a process that holds a lock was stopped; it may work later
+  Busy,    // a process that holds a lock is stopped; a later attempt may succeed
   Absent,  // the node has not run yet, or its files cannot be opened
 };
 
@@ -20,7 +20,7 @@ struct Refusal {
   Why why = Why::Wrong;
   std::vector<std::string> reasons;  // at least one; each is one line
 
-  [[nodiscard]] std::string text() const;  // all of them in one line
+  [[nodiscard]] std::string text() const;  // all reasons in one line
 };
 
 }  // namespace indurop::operate

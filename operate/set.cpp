@@ -23,7 +23,7 @@ std::optional<Refusal> not_written(const std::string& name, const Error& error) 
 }
 
 std::optional<Refusal> write(vars::Store& store, const Assignment& one) {
-  // Read again: an assignment before this one may be about another part of the same value.
+  // Read again: an earlier assignment may have changed another part of the same value.
   std::vector<std::uint8_t> bytes = one.bytes;
   if (auto now = read(store, one.item)) {
     bytes = std::move(now).value();
