@@ -81,7 +81,7 @@ struct Handle::Impl {
   std::int64_t next_try_ns = 0;
 
   Status connect();
-  // Null if there is no node. Connects again if it was replaced.
+  // Returns null if there is no node. Reconnects if it was replaced.
   const runtime::Attachment* current();
   Resolved& resolve(std::string_view name);
 };

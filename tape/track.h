@@ -71,15 +71,15 @@ class alignas(kLine) Track {
   std::uint64_t order_ = 0;
   std::uint64_t number_ = 0;
   std::uint64_t told_words_left_ = 0;
-  std::uint16_t clock_left_ = 0;     // readings of this run that may still be told
-  std::uint16_t told_left_ = 0;      // likewise
+  std::uint16_t clock_left_ = 0;     // readings of this run that may still be recorded
+  std::uint16_t told_left_ = 0;      // answers of this run that may still be recorded
   std::atomic<std::uint32_t> anew_;  // kAnew or 0
   TapeTrack& shared_;
   std::uint64_t* words_;
   std::uint64_t mask_;
   std::uint8_t part_shift_;  // a part of the ring has 1 << part_shift_ words
   bool shows_open_;
-  bool all_ = true;    // nothing was told yet, or what was told is not published
+  bool all_ = true;    // nothing was recorded yet, or the record is not published
   bool open_ = false;  // a run has begun and not ended
   std::uint32_t reads_end_;
   std::uint32_t writes_begin_;

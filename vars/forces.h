@@ -30,7 +30,7 @@ struct Force {
   }
 };
 
-// False if the system has no robust locks.
+// Returns false if the system has no robust locks.
 bool init_forces(ForceTable& table) noexcept;
 
 // Forces one more part, or changes the value or time of a forced one. Not real-time safe: waits until every processor

@@ -311,7 +311,7 @@ void RetainFile::keep_losses(RetainReport& report) const {
   for (const std::string& one : report.lost) {
     text += one + "\n";
   }
-  static_cast<void>(base::replace_file(losses, text, base::Durable::No));  // it was said at the start
+  static_cast<void>(base::replace_file(losses, text, base::Durable::No));  // already reported at the start
 }
 
 std::vector<std::string> RetainFile::losses() const {
@@ -372,7 +372,7 @@ Status RetainFile::write_copy(const std::filesystem::path& target, const Bytes& 
   if (const auto written = base::replace_file(target, text, base::Durable::Yes, kMode); !written) {
     return os_error(written.error().sys_errno, "write the file of retained values");
   }
-  if (::chmod(target.c_str(), kMode) != 0) {  // whatever the umask is: tools of other users look at it
+  if (::chmod(target.c_str(), kMode) != 0) {  // whatever the umask is: tools of other users read it
     return os_error(errno, "write the file of retained values");
   }
   return {};

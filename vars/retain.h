@@ -62,8 +62,8 @@ class RetainFile {
   bool scanned_ = false;
   int newest_ = -1;                 // 0: a, 1: b, -1: none is valid
   Copy copy_;                       // contents of the newest
-  std::string types_;               // of the retained variables, as text
-  std::uint64_t types_layout_ = 0;  // of the store they are of
+  std::string types_;               // types of the retained variables, as text
+  std::uint64_t types_layout_ = 0;  // layout hash of the store that they belong to
 };
 
 }  // namespace indurop::vars

@@ -122,7 +122,7 @@ std::int64_t now_ns() noexcept;
 // (docs/recording.md).
 std::int64_t learned(std::int64_t what) noexcept;
 
-// True once the node wants this module to end: for the loops of non-real-time modules,
+// Returns true once the node asks this module to end: for the loops of non-real-time modules,
 // `while (!irp::stop_requested()) { ... }`. Outside a node always false. Cheap, but not real-time safe.
 bool stop_requested() noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Room for a lock in shared memory. What lies in it depends on the system: rt/shared_mutex.h knows, nobody else.
+// Space for a lock in shared memory. Its content depends on the system: only rt/shared_mutex.h knows it.
 
 #pragma once
 

@@ -83,7 +83,7 @@ class Debugger {
     breakpoints_.clear();
   }
 
-  // Tells where the program stands, waits until it is to go on, and learns how far.
+  // Reports where the program is halted, waits until it is resumed, and receives up to which point.
   void ask(char kind, std::uint32_t number, std::string_view why);
   void append_frames(std::string& out) const;
   [[nodiscard]] std::size_t depth() const;
