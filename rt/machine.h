@@ -17,7 +17,7 @@ namespace indurop::rt {
 Status lock_memory(std::span<const std::string_view> except = {}, std::span<const char> code = {}) noexcept;
 
 // Keeps the processors out of deep idle states during its lifetime (/dev/cpu_dma_latency held open at 0): halves the
-// wake-up time, as cyclictest does too.
+// wake-up time; cyclictest does the same.
 class ShortIdle {
  public:
   ShortIdle() = default;

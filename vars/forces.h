@@ -48,7 +48,7 @@ void let_overdue_go(BlockHeader& header, std::span<const DirectoryEntry> directo
 // Releases all forces, for the node that takes over a block: no other process may change the table now.
 void let_all_go(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept;
 
-// Returns the forces that have not expired at `now`. Points into the directory.
+// Returns the forces that have not expired now. Points into the directory.
 std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory);
 
 // The writers' part, real-time safe. See indurop_hold_scalar().

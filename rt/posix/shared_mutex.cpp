@@ -37,7 +37,7 @@ static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 constexpr std::uint64_t kName = (1ULL << 56U) - 1;
 constexpr std::uint64_t kProcess = (1ULL << 32U) - 1;
 constexpr std::uint64_t kHeld = 1ULL << 56U;
-constexpr std::uint64_t kQueued = 2ULL << 56U;  // also if set by a thread that holds the queue
+constexpr std::uint64_t kQueued = 2ULL << 56U;  // its holder holds the queue, too
 constexpr std::uint64_t kLeft = 4ULL << 56U;    // free: its holder's thread ended with it
 constexpr std::uint64_t kFree = 0xAULL << 60U;  // the mark, and no name
 constexpr std::uint64_t kMark = 0xFULL << 60U;

@@ -92,7 +92,7 @@ Element& element(Place place, const Pointer<T>& pointer, std::int64_t index) {
   return *reinterpret_cast<Element*>(at);
 }
 
-// s[first] is the first character of a text. Counted from 0, the index after the longest text is accessible too; it
+// s[first], the first character of a text. If counted from 0, the index after the longest text is accessible, too; it
 // remains the terminator.
 template <class Letter, std::int64_t first, class Text>
 Letter& character(Place place, Text& text, std::int64_t index) {

@@ -70,8 +70,8 @@ struct Command {
   double transition = 0;    // mm, with blending: at most this far before the previous motion's end the path turns
 };
 
-// The table of a cam: the master's position increases from point to point. Both positions are in the units of their
-// axes, or scaled by them.
+// The table of a cam: the master's position increases from point to point. Both columns are in the units of
+// their axes, or are scaled to them by the command that uses the cam.
 struct CamTable {
   std::int16_t points = 0;
   std::array<double, kCamPoints> master{};
