@@ -17,18 +17,18 @@ namespace indurop::node {
 
 class BoardMirror {
  public:
-  // All is borrowed.
+  // All arguments are borrowed.
   BoardMirror(const Options& options, Checked& checked, Prepared& prepared, const Console& console)
       : options_(options), checked_(checked), prepared_(prepared), console_(console) {}
 
-  // None is started for a module.xml, nor in the simulation of one board. `simulation` null: in real time.
+  // Starts no mirror for a module.xml, nor in the simulation of one board. `simulation` null: in real time.
   Result<void, Ending> start(Simulation* simulation);
-  // When the schedule began in real time. Once it has.
+  // Announces when the schedule began in real time. Called after it has begun.
   void announce() noexcept;
-  // Something may have changed in the store. Real-time safe.
+  // Called when the store may have changed. Real-time safe.
   void notify() noexcept;
   [[nodiscard]] const mirror::MirrorBlock* block() const noexcept;
-  // The other boards see at once that this one is gone.
+  // Stops the mirror; the other boards notice at once that this one is gone.
   void stop() noexcept;
 
  private:

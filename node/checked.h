@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// First phase of a run: the configuration is read and checked, and what is wrong with it is said.
+// First phase of a run: reads and checks the configuration and reports its errors.
 
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plant in virtual time: every board is a node of its own, all of them go on together, and the network between them
-// is simulated. No board is ever further than the first message that could still reach it, so the run is the same
-// however fast each of them is.
+// Runs a plant in virtual time: every board is a node of its own, all advance together, and the network between them is
+// simulated. No board advances beyond the first message that could still reach it, so the run is the same however fast
+// each board is.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One board of a simulated plant as its conductor has it: an indurop-node, and the channel to it.
+// One board of a simulated plant, as the conductor sees it: an indurop-node, and the channel to it.
 
 #pragma once
 
@@ -25,12 +25,12 @@ class ConductorBoard {
   ConductorBoard& operator=(const ConductorBoard&) = delete;
   ~ConductorBoard();  // kills it if it runs
 
-  // Starts its program, which then stands before virtual time goes on from `place.begin_ns`. `options` are the
-  // plant's; empty `options.duration`: until it is told.
+  // Starts the board's program, which then waits before virtual time advances from `place.begin_ns`. `options` are
+  // those of the plant; empty `options.duration`: the board runs until it is told to end.
   Status start(const Options& options, const BoardPlace& place);
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  // There is somebody to talk to.
+  // Returns true if there is a channel to the board.
   [[nodiscard]] bool runs() const noexcept { return channel_.has_value(); }
   [[nodiscard]] std::int64_t next_ns() const noexcept { return answer_.next_ns; }
   [[nodiscard]] const BoardAnswer& answer() const noexcept { return answer_; }
@@ -38,16 +38,17 @@ class ConductorBoard {
   [[nodiscard]] pid_t pid() const noexcept { return pid_; }
 
   void order(const BoardOrder& order);
-  // Waits for the answer to an order, or for the first. False: it has ended without. A stop signal is passed on to a
-  // board that does not answer.
+  // Waits for the answer to an order, or for the first answer. Returns false if the board ended without one. A stop
+  // signal is passed on to a board that does not answer.
   bool await_answer(base::StopSignal& signals);
   std::vector<mirror::Message> take_sent() { return std::exchange(answer_.sent, {}); }
 
-  // From now on nobody talks to it: it ends by itself.
+  // Closes the channel: the board then ends on its own.
   void let_go() noexcept { channel_.reset(); }
   // Ends it at once, as without power.
   void kill() noexcept;
-  // Waits for its end: the exit code, 128 + number after a signal. Kills what does not end in time. 0 after kill().
+  // Waits for the board's end. Returns the exit code, 128 + number after a signal, 0 after kill(). Kills a board that
+  // does not end in time.
   int await_end();
 
  private:

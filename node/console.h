@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the node tells its user while it runs: text of the modules to stdout, faults, overruns and losses to stderr,
-// summed up so that a permanent overrun cannot flood the terminal.
+// Output of the node to its user while it runs: text of the modules to stdout, faults, overruns and losses to stderr,
+// summarized so that a permanent overrun cannot flood the terminal.
 
 #pragma once
 
@@ -21,11 +21,11 @@ class Console : public base::Log {
   Console(std::string_view node, bool quiet) : base::Log("indurop-node", node, quiet) {}
 
   void watch(scheduler::RunBlock& run);
-  // Prints what has happened since the last call. `last`: also what was held back to be summed up.
+  // Prints the events since the last call. `last`: also those held back to be summarized.
   void report(rt::MonoTime now, bool last);
-  // What modules printed since the last call.
+  // Prints what modules printed since the last call.
   void print_messages(rt::MonoTime now);
-  // How many lines of theirs were dropped since the last call.
+  // Reports how many lines of the modules were dropped since the last call.
   void report_losses();
 
  private:

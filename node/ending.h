@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a run of the node ends. A phase that cannot go on returns it instead of what it makes; it has said itself what
-// there was to say.
+// How a run of the node ends. A phase that cannot continue returns it instead of its result; it has already printed its
+// messages.
 
 #pragma once
 
@@ -15,11 +15,11 @@
 namespace indurop::node {
 
 struct Ending {
-  int code = kOk;           // of the program
+  int code = kOk;           // exit code of the program
   std::string reason = {};  // for the run block; empty: the duration is over, or it could not start
 };
 
-// The ending that a stop signal asks for, if one has come.
+// The ending that a stop signal requests, if one was received.
 std::optional<Ending> interruption(base::StopSignal& signals);
 
 // "cannot lock the file: No such file or directory"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node's part for tools of others: which of its variables they see, with which types. What goes wrong here is said
-// and never keeps modules from running.
+// The node's interface to third-party tools: which of its variables they see, with which types. Errors of this part are
+// reported and never keep modules from running.
 
 #pragma once
 
@@ -18,13 +18,13 @@ namespace indurop::node {
 
 class ExternalPart {
  public:
-  // Of a board of a plant: the variables it owns or stands by for. `board`: index into plant.boards.
+  // For a board of a plant: the variables it owns or is a standby for. `board`: index into plant.boards.
   void configure(const config::Plant& plant, const config::PlantCheck& check, std::size_t board, bool one_host);
-  // Of a module.xml: all variables.
+  // For a module.xml: all variables.
   void configure(const config::Config& config, const config::CheckResult& check);
 
-  // Loads the types and starts. `store` and `plant` (null: none) are borrowed until stop(). `cores`: the threads may
-  // run on.
+  // Loads the types and starts. `store` and `plant` (null: none) are borrowed until stop(). `cores`: cores the threads
+  // may run on.
   void start(const std::string& node, vars::Store& store, const mirror::MirrorBlock* plant, std::vector<int> cores,
              Console& console);
   void stop() noexcept { external_.reset(); }
@@ -38,7 +38,7 @@ class ExternalPart {
   mirror::ExternalSettings settings_;
   config::TypeFiles types_;
   TypeLibraries libraries_;
-  std::optional<mirror::External> external_;  // ends before its types are gone
+  std::optional<mirror::External> external_;  // destroyed before its types
 };
 
 }  // namespace indurop::node

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of this node beside its runs and values, as a text for its recordings.
+// Facts about this node in addition to its runs and values, as a text for its recordings.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values a module's configuration declares for the case that it faults: resolved before the run, written by
-// whoever notices the fault.
+// The values that a module's configuration declares for its faults: resolved before the run, written by the thread that
+// notices the fault.
 
 #pragma once
 
@@ -15,7 +15,7 @@ namespace indurop::node {
 
 class FailSafe {
  public:
-  // Values that do not resolve are left out: check_config has refused them before. Not real-time safe.
+  // Values that do not resolve are left out: check_config has rejected them before. Not real-time safe.
   FailSafe(vars::Store& store, const config::Config& config);
   // Writes all values of the module. Real-time safe.
   void apply(std::size_t module) noexcept;

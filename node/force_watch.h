@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says in the node's log what is forced and what no longer is, and takes forces whose time is over out of the way of
-// writers. Not for the real-time path.
+// Reports in the node's log which variables are forced and which no longer are, and releases forces that have expired.
+// Not for the real-time path.
 
 #pragma once
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When which variable was forced while a recording was made: what a module writes into it then is not what it holds.
+// When which variable was forced while a recording was made: the variable then did not hold the values a module wrote
+// into it.
 
 #pragma once
 
@@ -14,10 +15,11 @@ namespace indurop::node {
 class ForcedThen {
  public:
   ForcedThen() = default;
-  // From the orders that the recording tells of. A force that ended unnoted, with its client, counts to the end.
+  // Built from the commands in the recording. A force whose end was not recorded because its client ended counts to the
+  // end.
   explicit ForcedThen(const std::vector<explain::OrderFact>& orders);
 
-  // Whether a part of the variable was, somewhere between two times of the node.
+  // Returns whether a part of the variable was forced at any moment between two times of the node.
   [[nodiscard]] bool any(const std::string& variable, std::int64_t from_ns, std::int64_t to_ns) const;
   [[nodiscard]] bool empty() const noexcept { return all_.empty(); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In virtual time nothing passes while a module does not return. This looks in real time: what has not returned
-// for long, or not since somebody wants the node to end, is ended as a fault.
+// In virtual time nothing passes while a module does not return. This watchdog uses real time: a run that does not
+// return for kPatience, or for a shorter time once the node is to end, is ended as a fault.
 
 #pragma once
 
@@ -15,8 +15,8 @@ namespace indurop::node {
 
 class HangWatch {
  public:
-  // Both are called by a thread of its own: `progress` is another number whenever something returned, `end` ends what
-  // is in progress; nothing, if there is none.
+  // Both are called by a thread of this class: `progress` returns another number whenever a run has returned, `end`
+  // ends the run in progress, and does nothing if there is none.
   HangWatch(std::function<std::uint64_t()> progress, std::function<void()> end);
   ~HangWatch();
   HangWatch(const HangWatch&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A normal thread that looks at what the kernel counts for the node's threads, so that a late run can be explained.
+// A normal thread that samples the kernel's counters of the node's threads, so that a late run can be explained.
 
 #pragma once
 
@@ -11,7 +11,7 @@ namespace indurop::node {
 
 class KernelWatch {
  public:
-  // On these cores, if any are named. Where the file cannot be made nothing is looked at.
+  // Runs on these cores, if any are named. If the file cannot be created, nothing is sampled.
   KernelWatch(const std::string& node, bool realtime, std::vector<int> cores);
   ~KernelWatch();
   KernelWatch(const KernelWatch&) = delete;

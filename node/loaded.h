@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Third phase of a run: the thread modules are in this process, bound to the store, and the scheduler's tasks call
-// them.
+// Third phase of a run: the thread modules are loaded into this process and bound to the store, and the scheduler's
+// tasks call them.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace indurop::node {
 
-// The variables of this process are those of a store. At the end they go back to private memory.
+// Keeps the variables of this process attached to a store. The destructor moves them back to private memory.
 class Attached {
  public:
   Attached() = default;
@@ -29,7 +29,7 @@ class Attached {
 struct Loaded {
   std::vector<ModuleLibrary> libraries;  // one per module, empty for processes
   std::vector<scheduler::Task> tasks;
-  Attached attached;  // ends before the libraries do
+  Attached attached;  // destroyed before the libraries
 };
 
 Result<Loaded, Ending> load(const Options& options, const Checked& checked, const Prepared& prepared,

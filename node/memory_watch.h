@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared memory of a node can be cut by whoever may write it, and its names can be removed. The first ends the run
-// at once, because values are missing; the second is only reported.
+// The shared memory of a node can be truncated by any process that may write it, and its names can be removed. The
+// first ends the run at once, because values are missing; the second is only reported.
 
 #pragma once
 
@@ -15,13 +15,14 @@ namespace indurop::node {
 
 class MemoryWatch {
  public:
-  // Everything is borrowed. From here on the engine enters no module any more once a page is missing.
+  // All references are borrowed. From here on the engine enters no module once a page is missing.
   MemoryWatch(const std::string& node, Prepared& prepared, scheduler::Engine& engine, Console& console);
   ~MemoryWatch();
   MemoryWatch(const MemoryWatch&) = delete;
   MemoryWatch& operator=(const MemoryWatch&) = delete;
 
-  // Again and again, on one normal thread: why the run has to end, said on the console; empty if all is there.
+  // Called repeatedly on one normal thread. Returns why the run has to end, also reported on the console; empty if all
+  // is present.
   std::string look(rt::MonoTime now);
   [[nodiscard]] bool lost() const noexcept { return !why_.empty(); }
 
@@ -37,7 +38,7 @@ class MemoryWatch {
   std::atomic<const char*> missing_{nullptr};  // file whose page was missing
   std::string why_;
   rt::MonoTime next_names_{};
-  bool unnamed_ = false;  // reported
+  bool unnamed_ = false;  // already reported
 };
 
 }  // namespace indurop::node

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Carries out commands about single modules while the node runs: a module is taken out of the schedule and put back,
-// its start() and stop() are called beside it, the others do not notice. Called by the thread that supervises the node.
+// Executes commands about single modules while the node runs: a module is taken out of the schedule and put back, its
+// start() and stop() are called in the background, the others are not affected. Called by the thread that supervises
+// the node.
 
 #pragma once
 
@@ -19,7 +20,7 @@ namespace indurop::node {
 
 class ModuleCommands {
  public:
-  // What the commands are carried out with.
+  // The parts of the node needed to execute commands.
   struct Parts {
     const config::Config& config;
     scheduler::RunBlock& run;
@@ -34,13 +35,13 @@ class ModuleCommands {
   };
   explicit ModuleCommands(const Parts& parts) : parts_(parts) {}
 
-  // Takes new commands and goes on with those under way.
+  // Accepts new commands and continues those in progress.
   void look(rt::MonoTime now);
-  // The node ends, its schedule has: waits for calls in progress and answers what is left.
+  // Called when the schedule has ended: waits for calls in progress and answers the remaining commands.
   void end();
 
  private:
-  // Where a command is.
+  // Progress of a command.
   enum class Step { Leaving, Stopping, Starting, Launching };
   struct Work {
     std::uint32_t module;
@@ -50,7 +51,7 @@ class ModuleCommands {
     Phases::CallPointer call;
   };
   void take(std::uint32_t module, scheduler::ModuleCommand command, rt::MonoTime now);
-  // True when there is nothing left to do for it.
+  // Returns true when the command is finished.
   bool go_on(Work& work, rt::MonoTime now);
   void leave(const Work& work, rt::MonoTime now);
   bool has_left(const Work& work, rt::MonoTime now);

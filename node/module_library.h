@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread module's .so in this process: loads it and finds its functions, given by INDUROP_MODULE or as plain
+// A thread module's .so in this process: loads it and finds its functions, either from INDUROP_MODULE or as plain
 // functions start, run, stop, condition with C or C++ linkage (chapter, Figures 7 and 13). Not real-time safe.
 
 #pragma once
@@ -25,13 +25,13 @@ class ModuleLibrary {
   ModuleLibrary& operator=(const ModuleLibrary&) = delete;
   ~ModuleLibrary();
 
-  // Whether its file was replaced or removed since it was loaded: what runs is what was there before.
+  // Returns whether the file was replaced or removed since it was loaded: the older version is still running.
   [[nodiscard]] bool is_outdated() const;
 
   [[nodiscard]] const ModuleDescriptor& functions() const noexcept { return functions_; }
 
  private:
-  // Which file it was.
+  // Identifies the file that was loaded.
   struct Mark {
     std::uint64_t device = 0;
     std::uint64_t number = 0;
@@ -44,7 +44,7 @@ class ModuleLibrary {
   std::filesystem::path file_;
   Mark mark_;
   void* handle_ = nullptr;
-  int copy_ = -1;  // stays open: the dynamic linker would take a second file of the same number for this one
+  int copy_ = -1;  // stays open: the dynamic linker would mistake a second file with the same inode number for this one
   ModuleDescriptor functions_;
 };
 

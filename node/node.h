@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One run of a node from the configuration to the final report: the composition root, the only code that knows every
-// room. Each phase returns what it made, check() -> prepare() -> load() -> Running, and all of it ends in reverse.
+// One run of a node from the configuration to the final report: the composition root, the only code that knows all
+// folders. Each phase returns its result, check() -> prepare() -> load() -> Running, and all are destroyed in reverse
+// order.
 
 #pragma once
 

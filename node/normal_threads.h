@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Non-real-time thread modules: run() once, or every period as well as a normal thread can. One thread per module. In a
-// simulation the periodic ones keep virtual time, below everything else; the others run as they like.
+// Non-real-time thread modules: run() once, or every period as exactly as a normal thread can. One thread per module.
+// In a simulation the periodic ones run in virtual time, below everything else; the others run freely.
 
 #pragma once
 
@@ -24,11 +24,12 @@ class NormalThreads {
   NormalThreads& operator=(const NormalThreads&) = delete;
 
   void start();
-  // Waits for the runs in progress, 2 s at most: what does not return by then is ended like an overdue run().
+  // Waits at most 2 s for the runs in progress: a run that has not returned by then is ended like an overdue run().
   void stop();
 
-  // One of them alone. launch(): false if there is no thread for it. halt() only asks; one that does not return within
-  // the same time is ended by has_ended(), which is true then, too, for a module that has no thread.
+  // For a single module. launch() returns false if there is no thread for it. halt() only requests the end; a run that
+  // does not return within the same time is ended by has_ended(), which also returns true for a module without a
+  // thread.
   bool launch(std::uint32_t module);
   void halt(std::uint32_t module, rt::MonoTime now);
   bool has_ended(std::uint32_t module, rt::MonoTime now);
@@ -43,7 +44,7 @@ class NormalThreads {
   const std::vector<ModuleLibrary>& libraries_;
   scheduler::Hooks hooks_;
   scheduler::Kernel& kernel_;
-  scheduler::SystemKernel system_;  // of modules that run as they like: a simulation cannot have them wait
+  scheduler::SystemKernel system_;  // for modules that run freely: a simulation cannot make them wait
   scheduler::CoreTrace trace_;
   std::vector<std::unique_ptr<Normal>> normals_;
   std::atomic<bool> stop_{false};

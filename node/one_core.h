@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the programs of a simulated plant on one core as long as what they do between two words is short: waking a
+// Keeps the programs of a simulated plant on one core as long as their work between two messages is short: waking a
 // program on another core takes longer than that. The values are the same either way.
 
 #pragma once
@@ -14,13 +14,13 @@ namespace indurop::node {
 
 class OneCore {
  public:
-  // On the core the caller is on.
+  // Uses the core the caller is on.
   OneCore() noexcept;
 
-  // The main thread of a program, which has just been started.
+  // Adds the main thread of a program that has just been started.
   void add(pid_t program);
-  // All have done what they were told, and took so much processor time for it together. Looks from time to time
-  // whether they had better be spread over all cores, or gathered again.
+  // All programs have finished a round, and took this much processor time together. From time to time decides whether
+  // to spread them over all cores, or to gather them again.
   void round(std::chrono::nanoseconds took);
 
  private:

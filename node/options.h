@@ -12,11 +12,11 @@ namespace indurop::node {
 
 using Options = config::RunOptions;
 
-// Parses the command line; `node` of what it returns is a name. Empty: the program is to end with `exit_code` (help,
-// version, usage error; said already).
+// Parses the command line; `node` of the result is a name. Empty: the program must end with `exit_code` (help, version,
+// usage error; already printed).
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code);
 
-// All boards of a plant are to run in virtual time.
+// Returns true if all boards of a plant run in virtual time.
 bool simulates_plant(const Options& options);
 
 }  // namespace indurop::node

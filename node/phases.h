@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// start() and stop() of the thread modules: not real-time, guarded like run(), and a stop signal is heard meanwhile.
+// start() and stop() of the thread modules: not real-time, guarded like run(); a stop signal is accepted meanwhile.
 
 #pragma once
 
@@ -20,19 +20,19 @@ class Phases {
   Phases(const config::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
          Console& console, base::StopSignal& signals, const scheduler::Hooks& hooks, scheduler::Kernel& kernel);
 
-  // Calls one function of every thread module that has it, by priority. False if any of them failed: those modules are
-  // marked as faulted, with the reason.
-  // Modules stopped by command have had their stop() and are left out.
+  // Calls one function of every thread module that has it, by priority. Returns false if any of them failed: those
+  // modules are marked as faulted, with the reason. Modules stopped by command have had their stop() called and are
+  // left out.
   bool call_all(const char* phase, void (*ModuleDescriptor::*function)());
 
-  // One call on a thread of its own, for whoever has other things to do meanwhile.
+  // One call on a thread of its own, for a caller that must not wait.
   struct Call;
   using CallPointer = std::unique_ptr<Call, void (*)(Call*)>;
-  // Null after an error on the console.
+  // Returns null after an error, reported on the console.
   CallPointer begin(std::uint32_t index, const char* phase, void (*function)());
-  // It has returned. One that takes longer than `limit` (0: none) is ended as a fault.
+  // Returns true if the call has returned. A call that takes longer than `limit` (0: none) is ended as a fault.
   bool ended(Call& call, rt::MonoTime now, std::chrono::nanoseconds limit);
-  // After that: false if it failed; the module is marked as faulted then, with the reason.
+  // Called after that: returns false if the call failed; the module is then marked as faulted, with the reason.
   bool conclude(CallPointer call);
   static constexpr std::chrono::seconds kGrace{3};  // for stop()
 

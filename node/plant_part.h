@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a checked plant and its schedule to what one board's mirror needs. Pure translation.
+// Derives the settings of one board's mirror from a checked plant and its schedule. Pure translation.
 
 #pragma once
 
@@ -11,15 +11,15 @@
 
 namespace indurop::node {
 
-// The keys of a board; off in a plant without.
+// The keys of a board; off in a plant without keys.
 dds::Security board_security(const config::Plant& plant, const std::string& board);
-// How board number `board` finds the others of its plant, on whichever plane: domain, keys and lease are the plane's.
+// How board number `board` finds the others of its plant, on any plane: domain, keys and lease are the plane's.
 dds::NetworkSettings network_settings(const config::Plant& plant, std::size_t board);
 
-// `board`: index into plant.boards. Priority and cores are left to the caller.
+// `board`: index into plant.boards. The caller sets priority and cores.
 mirror::Settings mirror_settings(const config::Plant& plant, const config::PlantCheck& check, std::size_t board);
 
-// Says in `settings` which of the outgoing variables are written by one band only. `engine` is borrowed for as long as
+// Marks in `settings` which of the outgoing variables are written by one band only. `engine` is borrowed for as long as
 // the settings are used.
 void name_writers(mirror::Settings& settings, const config::Config& config, const config::CheckResult& check,
                   const scheduler::Engine& engine);

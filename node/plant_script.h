@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What befalls the boards of a simulated plant, and when: a file with lines like "500ms kill sensor".
+// Events that happen to the boards of a simulated plant, and when: a file with lines like "500ms kill sensor".
 
 #pragma once
 
@@ -17,9 +17,9 @@ namespace indurop::node {
 
 struct PlantEvent {
   enum class What {
-    Kill,    // it loses its power
-    Cut,     // its cable is pulled
-    Return,  // what happened to it is undone: it starts anew, or its cable is put back
+    Kill,    // the board loses power
+    Cut,     // its network cable is disconnected
+    Return,  // undoes the above: the board starts again, or its cable is connected again
   };
   std::chrono::nanoseconds at{};  // since the first tick
   What what = What::Kill;
@@ -33,8 +33,8 @@ struct PlantScript {
   std::vector<base::Diagnostic> diagnostics;
 };
 
-// What comes at `end` of the run or later is left out, with a warning; what changes nothing has one, too. `file`: what
-// the diagnostics are about.
+// Events at `end` of the run or later are left out, with a warning; events without an effect get a warning, too.
+// `file`: file name for the diagnostics.
 PlantScript read_script_text(std::string_view text, const std::string& file, const std::vector<std::string>& boards,
                              std::optional<std::chrono::nanoseconds> end = {});
 PlantScript read_script(const std::filesystem::path& file, const std::vector<std::string>& boards,

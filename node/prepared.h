@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Second phase of a run: the node's name is claimed, the rights are obtained, and the memory it shares with processes
-// and tools is there, with the values the run begins with.
+// Second phase of a run: the node's name is claimed, the rights are obtained, and the memory shared with processes and
+// tools is created, with the values the run begins with.
 
 #pragma once
 
@@ -21,8 +21,8 @@
 
 namespace indurop::node {
 
-// The name is this node's as long as this lives. Nothing of the node is left behind if nothing was there before, unless
-// somebody says keep().
+// Holds the node's name as long as it lives. If no files of the node existed before, none are left behind unless keep()
+// is called.
 class ClaimedName {
  public:
   static Result<ClaimedName, Ending> claim(const std::string& node, const Console& console);
@@ -32,7 +32,7 @@ class ClaimedName {
   ClaimedName& operator=(ClaimedName&&) = delete;
   ~ClaimedName();
   void keep() noexcept { leave_nothing_ = false; }
-  // Takes the name again if somebody removed the file of its lock. False: it had to.
+  // Claims the name again if its lock file was removed. Returns false if that was necessary.
   bool hold();
 
  private:
@@ -50,14 +50,14 @@ struct Prepared {
   vars::RunFile run_file;
   std::unique_ptr<FailSafe> failsafe;
   std::unique_ptr<Retainer> retainer;  // none in a simulation
-  std::unique_ptr<tape::Tape> tape;    // none if it was not wanted
-  vars::Batch batch;                   // values that are to change in one tick
+  std::unique_ptr<tape::Tape> tape;    // null if not requested
+  vars::Batch batch;                   // values that must change in one tick
   [[nodiscard]] scheduler::RunBlock& run() const noexcept {
     return *static_cast<scheduler::RunBlock*>(run_file.data());
   }
 };
 
-// The console watches the run from then on.
+// From then on the console reports on the run.
 Result<Prepared, Ending> prepare(const Options& options, const Checked& checked, Console& console,
                                  base::StopSignal& signals);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Process modules: launched, watched, restarted within limits, ended in order. A normal thread's business; the
+// Process modules: launched, supervised, restarted within limits, ended in order. Runs on a normal thread; the
 // real-time threads only see ModuleRecord::state and the release slots.
 
 #pragma once
@@ -22,44 +22,44 @@ namespace indurop::node {
 
 class Processes {
  public:
-  // Everything is borrowed; `tape`: null if there is none.
+  // All references are borrowed; `tape`: null if there is none.
   Processes(const config::Config& config, scheduler::RunBlock& run, std::string node, bool realtime, Console& console,
             FailSafe& failsafe, tape::Tape* tape);
   ~Processes();
   Processes(const Processes&) = delete;
   Processes& operator=(const Processes&) = delete;
 
-  // Launches all. False if one cannot be started at all (said on the console).
+  // Launches all processes. Returns false if one cannot be started at all (reported on the console).
   bool launch_all();
-  // All periodic and sporadic ones have enrolled or ended.
+  // Returns true if all periodic and sporadic ones have enrolled or ended.
   [[nodiscard]] bool ready() const noexcept;
-  // Deaths, restarts, enrolments, budgets. True if the node is to stop because of one (reason()).
-  // `now` is real time, `schedule` that of the schedule, by which restarts are due.
+  // Handles deaths, restarts, enrolments, budgets. Returns true if the node must stop because of one (reason()). `now`
+  // is real time, `schedule` that of the schedule, which restarts follow.
   bool supervise(rt::MonoTime now, rt::MonoTime schedule);
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
-  // When the next one is to be started again, by the schedule's time; nullopt: none is.
+  // When the next process is to be restarted, by the schedule's time; nullopt: none is.
   [[nodiscard]] std::optional<rt::MonoTime> next_restart() const noexcept;
-  // One of them alone. stop() only asks; supervise() sees to its end, which is no fault, and has_ended() tells of it.
-  // start(): false if it cannot be launched (said on the console).
+  // For a single process. stop() only requests the end; supervise() completes it, without a fault, and has_ended()
+  // returns true after it. start() returns false if the process cannot be launched (reported on the console).
   void stop(std::uint32_t module, rt::MonoTime now);
   [[nodiscard]] bool has_ended(std::uint32_t module) const noexcept;
   bool start(std::uint32_t module);
-  // One that does not return in a simulation, where it has all the time there is.
+  // Kills a process that does not return in a simulation, where it has unlimited time.
   void kill_hanging(std::uint32_t module);
-  // Asks all to end, waits, kills what is left.
+  // Requests all to end, waits, kills those still running.
   void end_all();
 
  private:
   struct Child {
     std::uint32_t index;
     const config::Module* module;
-    std::string digest = {};  // of its file, as it was when the node started; of what was deployed only
+    std::string digest = {};  // of its file when the node started; only for deployed files
     pid_t pid = -1;
     rt::MonoTime restart_at{};
     std::deque<rt::MonoTime> restarts;  // times of those within the window
     bool killed_for_budget = false;
     bool killed_hanging = false;
-    bool warned = false;  // that it does not expect its signal
+    bool warned = false;  // already warned that it does not expect its signal
     rt::MonoTime launched{};
     bool stopping = false;  // by command
     rt::MonoTime asked{};
@@ -68,10 +68,10 @@ class Processes {
   void ask_to_end(Child& child);
   void insist(Child& child, rt::MonoTime now);
   [[nodiscard]] bool managed(const Child& child) const noexcept;
-  // A process that was launched is ready to be released.
+  // Returns true if a launched process is ready to be released.
   bool enrolled(Child& child);
   bool launch(Child& child);
-  // The file of a deployment is what it was when the node started, which is what was deployed.
+  // Returns true if the file of a deployment is unchanged since the node started, so it is the one that was deployed.
   bool is_sound(Child& child);
   void died(Child& child, int status, rt::MonoTime schedule);
   void fault(Child& child, scheduler::FaultKind kind, const std::string& text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// --record: what is on the node's tape goes to a file, from the first run on.
+// --record: writes the node's tape to a file, from the first run on.
 
 #pragma once
 
@@ -17,25 +17,25 @@
 
 namespace indurop::node {
 
-// What a recording says of this node.
+// What a recording states about this node.
 recorder::About about_node(const Options& options, const Checked& checked, const Prepared& prepared);
 
 class RecordPart {
  public:
-  // Null if no recording is wanted. Errors are on the console.
+  // Returns null if no recording is requested. Errors are reported on the console.
   static Result<std::unique_ptr<RecordPart>, Ending> begin(const Options& options, const Checked& checked,
                                                            const Prepared& prepared, Console& console);
   ~RecordPart();
   RecordPart(const RecordPart&) = delete;
   RecordPart& operator=(const RecordPart&) = delete;
 
-  // In real time: a normal thread of its own takes what there is, on these cores if any are named.
+  // In real time: a normal thread of its own takes new entries, on these cores if any are named.
   void start(const std::vector<int>& cores);
   void take();
-  // In virtual time: the simulation calls this before the tape is full. What is older than a second is on the disk.
+  // In virtual time: the simulation calls this before the tape is full. Entries older than a second are on the disk.
   void take(rt::MonoTime now);
-  // Everything has run: the rest and the facts, and the file is closed. False: something is missing in it, said on the
-  // console.
+  // Called after all runs: writes the rest and the facts, and closes the file. Returns false if something is missing in
+  // it, reported on the console.
   bool end(const std::string& facts);
 
  private:
@@ -45,7 +45,7 @@ class RecordPart {
   rt::MonoTime flushed_{};  // in virtual time
   recorder::Recorder recorder_;
   Console& console_;
-  std::string failure_;  // why nothing more was taken; empty: all is well
+  std::string failure_;  // why no more was written; empty: no error
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

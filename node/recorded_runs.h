@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording as what it was made of: values and runs, in their order, for the variables of a store.
+// Reads a recording as values and runs, in their order, for the variables of a store.
 
 #pragma once
 
@@ -42,7 +42,7 @@ struct RecordedTold {
   recorder::ToldWords words;
 };
 
-// Why it is of no use, and the exit code that says so.
+// Why a recording cannot be used, and the exit code for that.
 struct Unfit {
   std::string text;
   int code = kFailed;
@@ -50,25 +50,25 @@ struct Unfit {
 
 class RecordedRuns {
  public:
-  // `board`: whose runs, of a file that was joined; else empty. The store is borrowed. Errors: no recording of runs, or
-  // none of this board; a variable has another type now (kSchemaMismatch).
+  // `board`: the board to replay, of a file that was joined; else empty. The store is borrowed. Errors: no recording of
+  // runs, or none of this board; a variable has another type now (kSchemaMismatch).
   static Result<RecordedRuns, Unfit> open(const std::filesystem::path& path, const std::string& board,
                                           const vars::Store& store);
 
-  // The next one; nullopt behind the last. What it points to is valid until the next call.
-  // Errors: a part of the file is damaged; the next call goes on behind it.
+  // Returns the next item; nullopt after the last. Views in it are valid until the next call.
+  // Errors: a part of the file is damaged; the next call continues after it.
   using Item = std::variant<RecordedValue, RecordedRun, RecordedClock, RecordedTold>;
   Result<std::optional<Item>, base::Problem> next();
 
-  // kRecordingFormat of who recorded it.
+  // kRecordingFormat of the program that recorded it.
   [[nodiscard]] std::int64_t format() const noexcept { return format_; }
-  // CLOCK_REALTIME less the node's time, then; 0: virtual time.
+  // CLOCK_REALTIME minus the node's time, when recorded; 0: virtual time.
   [[nodiscard]] std::int64_t real_minus_node_ns() const noexcept { return real_minus_node_ns_; }
-  // What is known of the node, its modules and of orders to it; empty: the recording does not say it.
+  // Facts about the node, its modules and commands to it; empty: the recording has none.
   [[nodiscard]] explain::Facts facts() const;
   [[nodiscard]] const std::vector<std::string>& modules() const noexcept { return modules_; }
   [[nodiscard]] const std::vector<std::string>& unknown_variables() const noexcept { return unknown_; }
-  // The recording was ended, not cut off.
+  // Returns true if the recording was closed, not cut off.
   [[nodiscard]] bool complete() const noexcept { return reader_.contents().has_summary; }
 
  private:

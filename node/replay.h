@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// --replay: the runs of a recording once more, with what each of them began with, and a comparison of what it leaves.
+// --replay: repeats the runs of a recording, each with the inputs it had, and compares what they write.
 
 #pragma once
 
@@ -29,18 +29,18 @@ inline constexpr std::uint32_t kNoSuchModule = 0xffffffff;
 
 class Replay {
  public:
-  // Everything is borrowed.
+  // All references are borrowed.
   Replay(const Options& options, Console& console, base::StopSignal& signals, Checked& checked, Prepared& prepared,
          Loaded& loaded);
   ~Replay();
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
-  // Starts the modules, runs and compares, tells the outcome, ends the modules.
+  // Starts the modules, runs and compares, reports the outcome, ends the modules.
   Ending run();
 
  private:
-  // Stands still except when a run of the recording sets it.
+  // A clock that is stopped except when a run of the recording sets it.
   class Kernel final : public scheduler::Kernel {
    public:
     explicit Kernel(std::vector<std::atomic<std::int64_t>*> shown) : shown_(std::move(shown)) {}
@@ -51,25 +51,25 @@ class Replay {
    private:
     std::vector<std::atomic<std::int64_t>*> shown_;
   };
-  // What a module's track says of one variable.
+  // What the recording contains of one variable for a module.
   struct Known {
     std::uint32_t variable = 0;
     bool read = false;
     bool written = false;
     bool told = false;
-    bool ever_told = false;  // somewhere in the recording
+    bool ever_told = false;  // anywhere in the recording
     bool ever_compared = false;
-    std::uint64_t told_run = 0;  // of Module::seen, when it was told last
+    std::uint64_t told_run = 0;  // run (Module::seen) in which it was recorded last
     std::vector<std::uint8_t> cdr;
     std::vector<std::uint8_t> bytes;
-    std::uint64_t compared = 0;   // runs whose value was compared, what they read being the same
-    std::uint64_t differing = 0;  // of these: that left another value
+    std::uint64_t compared = 0;   // runs whose value was compared because their inputs were the same
+    std::uint64_t differing = 0;  // of these: runs that wrote another value
     std::uint64_t first_tick = 0;
-    std::string first_place;  // what of it differed first
+    std::string first_place;  // first part of it that differed
     std::string first_was;
     std::string first_is;
   };
-  // What a run left, by its track.
+  // A value a run wrote, from the recording.
   struct Left {
     std::size_t place = 0;  // in Module::known
     tape::EntryKind kind{};
@@ -78,29 +78,29 @@ class Replay {
   };
   struct Module {
     bool runs = false;
-    std::string why_not;          // it does not run; empty: it is not in this configuration
-    std::string unknown_inputs;   // variables that it reads and the recording does not tell; empty: none
-    std::uint64_t left_out = 0;   // runs that were not repeated, for that
-    std::uint64_t too_early = 0;  // likewise, because not all of what they began with is told before them
+    std::string why_not;          // why it does not run; empty: it is not in this configuration
+    std::string unknown_inputs;   // variables that it reads and that are not recorded; empty: none
+    std::uint64_t left_out = 0;   // runs that were not repeated for that reason
+    std::uint64_t too_early = 0;  // not repeated because not all of their inputs are recorded before them
     std::uint64_t missing = 0;    // not repeated before the next one that is
     std::uint64_t repeated = 0;
     std::uint64_t seen = 0;  // runs in the recording
     std::vector<Known> known;
-    std::vector<Left> left;           // of the run that is being read
-    std::vector<std::int64_t> clock;  // what it was told then
-    std::vector<std::int64_t> codes;  // by functions and channels, likewise
+    std::vector<Left> left;           // of the run being read
+    std::vector<std::int64_t> clock;  // clock readings of that run
+    std::vector<std::int64_t> codes;  // by functions and channels, of that run
     std::vector<std::vector<std::uint8_t>> answers;
     [[nodiscard]] std::vector<tape::RetoldAnswer> told() const;
     std::map<std::uint32_t, std::size_t> place;  // of a variable in `known`
     scheduler::TaskState state;
     std::uint64_t count = 0;
     std::uint64_t next_number = 0;
-    bool anew = false;       // it is to be started anew before it runs again
-    bool died = false;       // its process
-    bool disturbed = false;  // somebody changed what it reads while it ran
+    bool anew = false;       // it must be restarted before it runs again
+    bool died = false;       // its process ended
+    bool disturbed = false;  // its inputs were changed while it ran
     std::uint64_t disturbed_runs = 0;
     bool faulted_alike = false;
-    bool apart = false;  // it faulted here and not there, or the other way round
+    bool apart = false;  // it faulted only in the replay or only in the recording
   };
 
   [[nodiscard]] std::uint32_t configured(std::uint32_t recorded) const noexcept;
@@ -150,18 +150,18 @@ class Replay {
   scheduler::Runner runner_;
   Phases phases_;
   Processes processes_;
-  std::optional<tape::RetoldWriter> retold_;      // to processes, if there are some
+  std::optional<tape::RetoldWriter> retold_;      // to processes, if there are any
   std::vector<std::unique_ptr<Module>> modules_;  // as in the configuration
-  std::vector<std::uint32_t> of_recording_;       // its modules among them; kNoSuchModule: none
+  std::vector<std::uint32_t> of_recording_;       // index of each module of the recording; kNoSuchModule: none
   std::int64_t real_minus_node_ns_ = 0;
   std::optional<ReplayOutput> output_;
   bool output_failed_ = false;
   bool damaged_ = false;  // parts of the recording could not be read
-  bool closed_ = false;   // the recording has its end
+  bool closed_ = false;   // the recording is complete
   std::uint64_t ticks_ = 0;
   std::uint64_t runs_ = 0;
-  std::atomic<std::uint64_t> returned_{0};  // the same, for who looks whether one hangs
-  std::uint64_t runs_not_here_ = 0;         // of modules that the configuration does not have
+  std::atomic<std::uint64_t> returned_{0};  // the same, for the check whether one hangs
+  std::uint64_t runs_not_here_ = 0;         // of modules that are not in the configuration
   std::uint64_t values_ = 0;
   std::uint64_t differences_ = 0;
   ForcedThen forced_then_;

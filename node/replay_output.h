@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the modules of a replay leave, as a recording that lies over the replayed one: the same names, the same times.
+// Writes what the modules of a replay produce, as a recording to compare with the replayed one: the same names, the
+// same times.
 
 #pragma once
 
@@ -19,13 +20,13 @@ namespace indurop::node {
 
 class ReplayOutput {
  public:
-  // `of`: the recording that is replayed. Errors: there is a file of this name already; it cannot be written.
+  // `of`: the recording that is replayed. Errors: a file of this name exists already; it cannot be written.
   static Result<ReplayOutput, base::Problem> create(const std::filesystem::path& path, const std::string& of);
 
-  // A run left this; what is as it was is not written again. Errors: those of the disk.
+  // Adds the result of a run; an unchanged value is not written again. Errors: those of the disk.
   Result<void, base::Problem> take(std::uint32_t index, const schema::Variable& variable,
                                    const std::vector<std::uint8_t>& cdr, std::int64_t time_ns);
-  // `differing`: how many runs left another value than the recorded one, by variable.
+  // `differing`: number of runs that wrote another value than the recorded one, by variable.
   Result<void, base::Problem> close(const std::map<std::string, std::uint64_t>& differing);
 
  private:

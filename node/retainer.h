@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Saves retained variables once a second if they changed, on a thread of its own: a slow disk holds up nobody.
+// Saves retained variables once a second if they changed, on a thread of its own: a slow disk delays no other thread.
 
 #pragma once
 
@@ -20,11 +20,11 @@ class Retainer {
   Retainer(const Retainer&) = delete;
   Retainer& operator=(const Retainer&) = delete;
 
-  // Values from the disk into a fresh store, or into one with values of before those of which the type has changed;
-  // says what was damaged and what is lost.
+  // Loads values from the disk into a new store, or into one with older values only those whose type has changed;
+  // reports what was damaged and what is lost.
   void load(Console& console, bool only_changed);
   void start();
-  // Last save. False if it failed, which it says on the console.
+  // Saves a last time. Returns false if that failed, which is reported on the console.
   [[nodiscard]] bool stop(Console& console);
 
  private:

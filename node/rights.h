@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the node gets of the machine for real time: a core, FIFO priorities, short idle states, locked memory. Without
-// rights it runs as well as it can and says so, or ends (--require-rt).
+// What the machine grants the node for real time: a core, FIFO priorities, short idle states, locked memory. Without
+// rights the node runs as well as it can and reports that, or ends (--require-rt).
 
 #pragma once
 
@@ -18,24 +18,24 @@ namespace indurop::node {
 struct Rights {
   rt::ShortIdle idle;
   scheduler::Obtained obtained{};
-  int core = 0;  // of the tick and of all modules that name none
+  int core = 0;  // of the tick and of all modules without a configured core
   [[nodiscard]] bool realtime() const noexcept { return obtained.fifo != 0; }
 };
 
 Result<Rights, Ending> obtain_rights(const Options& options, const config::Config& config, const Console& console);
 
-// A simulation needs none: only the core that modules are on which name none.
+// A simulation needs no rights: only the core for modules without a configured core is set.
 Rights simulated_rights(const Options& options, const config::Config& config);
 
-// Memory does not come page by page any more; says in `run` whether that worked. To be called late: what is needed no
-// longer is to be gone.
+// Locks the memory, so that no page is loaded on demand; reports in `run` whether that worked. Call it late, after
+// memory that is no longer needed has been freed.
 Result<void, Ending> lock_memory(const Options& options, const Rights& rights, scheduler::RunBlock& run,
                                  const Console& console);
 
-// Empty if modules are on each.
+// Returns an empty list if modules are on each core.
 std::vector<int> cores_without_modules(const config::Config& config, const Rights& rights);
 
-// The command line's word counts more than the file's.
+// The command line takes precedence over the file.
 config::SpinSetting spin_setting(const Options& options, const config::Config& config);
 
 }  // namespace indurop::node

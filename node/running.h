@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Last phase of a run: modules, processes, mirrors and the schedule are started, watched and ended, in this order and
-// back. A stop request is heard all the time.
+// Last phase of a run: modules, processes, mirrors and the schedule are started and supervised, and ended in reverse
+// order. A stop request is accepted at any time.
 
 #pragma once
 
@@ -27,7 +27,7 @@ namespace indurop::node {
 
 class Running {
  public:
-  // Everything is borrowed.
+  // All references are borrowed.
   Running(const Options& options, Console& console, base::StopSignal& signals, Checked& checked, Prepared& prepared,
           Loaded& loaded);
   ~Running() = default;
@@ -35,9 +35,10 @@ class Running {
   Running& operator=(const Running&) = delete;
 
   Result<void, Ending> start();
-  // Until the duration is over or something ends the run.
+  // Returns when the duration is over or something ends the run.
   Ending supervise();
-  // Ends what was started, in reverse. Once, whatever start() returned. False: a recording misses something, said.
+  // Ends what was started, in reverse. Called once, whatever start() returned. Returns false if a recording is
+  // incomplete, which is reported.
   bool stop(const std::string& why);
 
  private:
@@ -51,7 +52,7 @@ class Running {
   void secure();
   int pass();
   scheduler::Hooks hooks();
-  void change_batch(std::uint64_t tick) noexcept;  // values that somebody wants changed in one tick
+  void change_batch(std::uint64_t tick) noexcept;  // values requested to change in one tick
   scheduler::Hooks plain_hooks();
   static void set_tape(scheduler::Hooks& hooks, const tape::Tape& tape);
   [[nodiscard]] scheduler::EngineSettings engine_settings() const;
@@ -63,23 +64,23 @@ class Running {
   Prepared& prepared_;
   scheduler::RunBlock& run_;
   const std::vector<scheduler::Task>& tasks_;
-  bool started_ = false;                      // start() of the modules was called, so stop() is
+  bool started_ = false;                      // start() of the modules was called, so stop() will be
   std::atomic<std::uint32_t> stop_order_{0};  // 1 + index of the module whose policy stops the node
   scheduler::SystemKernel system_;
   std::optional<Simulation> simulation_;  // in virtual time
-  scheduler::Kernel& kernel_;             // of the two, what the schedule runs on
+  scheduler::Kernel& kernel_;             // the one of the two that the schedule runs on
   ForceWatch forces_;
   BoardMirror mirror_;
   scheduler::Engine engine_;
   MemoryWatch memory_;
-  std::optional<HangWatch> hang_watch_;  // of a simulation
+  std::optional<HangWatch> hang_watch_;  // in a simulation
   Phases phases_;
   NormalThreads normal_threads_;
   Processes processes_;
   ModuleCommands commands_;
-  std::optional<KernelWatch> kernel_watch_;  // none in a simulation, as the black box
+  std::optional<KernelWatch> kernel_watch_;  // none in a simulation, like the black box
   std::optional<BlackBox> black_box_;
-  std::unique_ptr<RecordPart> recording_;  // none if none was wanted
+  std::unique_ptr<RecordPart> recording_;  // null if not requested
 };
 
 }  // namespace indurop::node

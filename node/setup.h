@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a checked configuration to what the scheduler and the run block need. Pure translation.
+// Derives the settings of the scheduler and the run block from a checked configuration. Pure translation.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace indurop::node {
 
 struct Placement {
-  int core = 0;          // of modules that name none
+  int core = 0;          // of modules without a configured core
   bool realtime = true;  // without real-time rights nothing is pinned
 };
 
@@ -22,7 +22,7 @@ scheduler::RunBlockSetup make_run_setup(const config::Config& config, const conf
 // One task per periodic and sporadic module; run and condition of thread modules are left empty.
 std::vector<scheduler::Task> make_tasks(const config::Config& config, const config::CheckResult& check,
                                         const scheduler::RunBlockSetup& setup, int default_core);
-// In a simulation each run takes as long as <wcet> says, else as `times` does, else no time.
+// In a simulation each run takes the time of <wcet>, else that of `times`, else no time.
 void set_work_times(std::vector<scheduler::Task>& tasks, const config::Config& config,
                     const config::CheckOptions::Times& times);
 

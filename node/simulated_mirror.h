@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mirror of a board in a simulated plant: the same exchange as in a network, driven by threads of the simulated
-// kernel and carried by messages to and from the conductor.
+// kernel; its messages go to and come from the conductor.
 
 #pragma once
 
@@ -35,7 +35,7 @@ class SimulatedMirror {
   SimulatedMirror& operator=(const SimulatedMirror&) = delete;
   ~SimulatedMirror();
 
-  // Something may have changed in the store.
+  // Called when the store may have changed.
   void notify() noexcept { wake_sender_.wake(); }
   void announce(const mirror::Schedule& schedule) noexcept { schedule_ = schedule; }
   [[nodiscard]] const mirror::MirrorBlock& block() const noexcept { return exchange_->block(); }

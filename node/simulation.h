@@ -24,29 +24,29 @@ class Simulation {
   // Every run begins at the same time, and none at 0, which means real time.
   static constexpr rt::MonoTime kBegin = rt::mono_time(rt::kNanosPerSecond);
 
-  // Shows its time in the store and in the run block, both borrowed.
+  // Writes its time into the store and the run block, both borrowed.
   Simulation(const config::Simulation& settings, vars::Store& store, scheduler::RunBlock& run,
              base::StopSignal& signals, scheduler::ProcessWatch watch);
 
   scheduler::SimulatedKernel& kernel() noexcept { return kernel_; }
 
-  // Where this board is in a simulated plant; null: it is none of one, or there is none.
+  // The place of this board in a simulated plant; null: there is no such plant.
   [[nodiscard]] const BoardPlace* place() const noexcept { return conductor_ ? &place_ : nullptr; }
-  // What the board exchanges with others, and whether it has come to its end.
+  // Connects the messages between this board and others; watch_end() sets what tells whether the board has ended.
   struct Link {
     std::function<void(const mirror::Message&)> arrived;
     std::function<std::vector<mirror::Message>()> take_sent;
   };
   void connect(Link link) { link_ = std::move(link); }
   void watch_end(std::function<bool()> ended) { ended_ = std::move(ended); }
-  // Called where something from outside may have happened, before time goes on, and at the time that it said last: what
-  // is to be done for processes.
+  // Sets the callback that serves processes. Called when something from outside may have happened, before time
+  // advances, and at the time it returned last.
   void attend_by(std::function<rt::MonoTime()> attend) { attend_ = std::move(attend); }
 
-  // Lets `look` of virtual time pass, in --step mode what standard input asks for. Returns a stop signal, 0 if none has
-  // come.
+  // Lets `look` of virtual time pass, in --step mode as much as standard input requests. Returns a stop signal, 0 if
+  // none was received.
   int pass(std::chrono::nanoseconds look);
-  // Standard input of --step has ended, or asked for it; or the plant's simulation is over.
+  // Returns true if standard input of --step has ended or requested the end, or the plant's simulation is over.
   [[nodiscard]] bool left() const noexcept { return left_; }
 
  private:

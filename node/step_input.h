@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Standard input of --step: how far a simulation that stands is to go.
+// Standard input of --step: how far a paused simulation advances.
 
 #pragma once
 
@@ -14,11 +14,11 @@ namespace indurop::node {
 class StepInput {
  public:
   struct Order {
-    std::int64_t ticks = 0;  // to go on by
-    bool end = false;        // somebody does not want to go on, or nobody can say so any more
-    int signal = 0;          // came instead
+    std::int64_t ticks = 0;  // number of ticks to advance
+    bool end = false;        // the user requested the end, or the input has ended
+    int signal = 0;          // signal received instead of a line
   };
-  // Waits for a line that is understood. `basic_period_ns`: of the ticks.
+  // Waits for a valid line. `basic_period_ns`: length of a tick.
   Order next(base::StopSignal& signals, std::int64_t basic_period_ns);
 
  private:
@@ -28,7 +28,7 @@ class StepInput {
   std::string input_;
 };
 
-// Says where the simulation stands now.
+// Prints where the simulation is now.
 void tell_place(std::uint64_t tick, std::int64_t basic_period_ns);
 
 }  // namespace indurop::node

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tape of a node: what is on it follows from who reads and writes what.
+// The tape of a node: its content follows from which modules read and write which variables.
 
 #pragma once
 
@@ -15,8 +15,8 @@
 
 namespace indurop::node {
 
-// Null if the options want none. Says on the console if it will tell of less than two seconds.
-// Errors: those of tape::Tape::create().
+// Returns null if the options request no tape. Reports on the console if it will cover less than two seconds. Errors:
+// those of tape::Tape::create().
 Result<std::unique_ptr<tape::Tape>> make_tape(const Options& options, const Checked& checked,
                                               std::int64_t basic_period_ns, const vars::Store& store,
                                               const Console& console);

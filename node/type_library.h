@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Libraries of DDS types that indurop_add_glb(... TYPES) builds, loaded to look up descriptors by name.
+// Libraries of DDS types built by indurop_add_glb(... TYPES), loaded to look up descriptors by name.
 
 #pragma once
 
@@ -19,14 +19,14 @@ class TypeLibraries {
   TypeLibraries& operator=(const TypeLibraries&) = delete;
   ~TypeLibraries();
 
-  // Libraries that cannot be loaded are left out and told in `problems`.
+  // Libraries that cannot be loaded are left out and reported in `problems`.
   void load(const config::TypeFiles& files, std::vector<std::string>& problems);
 
   struct Found {
-    const void* descriptor = nullptr;  // valid as long as the libraries are loaded; null: nobody has it
+    const void* descriptor = nullptr;  // valid as long as the libraries are loaded; null: not found
     std::string library;               // as written in the XML
   };
-  // In the first library that has it.
+  // Returns the match in the first library that has one.
   [[nodiscard]] Found find(const std::string& symbol) const;
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One band at run time: its releases, what happens when it is not done by the next one, and who must finish first.
+// One band at run time: its releases, what happens when a run is not done by the next release, and which bands must
+// finish first.
 
 #pragma once
 
@@ -22,10 +23,10 @@ struct Release {
 
 class Band {
  public:
-  // Releases that may be outstanding under OverrunPolicy::CatchUp; more are skipped.
+  // Maximum number of outstanding releases under OverrunPolicy::CatchUp; more are skipped.
   static constexpr std::uint64_t kBacklog = 16;
 
-  // `processes`: sporadic process modules a Handler band signals after its threads (chapter, Figure 6).
+  // `processes`: sporadic process modules that a Handler band signals after its threads (chapter, Figure 6).
   Band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<TaskState*> processes, RunBlock& block,
        Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::int64_t basic_period_ns);
 
@@ -36,46 +37,47 @@ class Band {
 
   // Bands that must have finished their part of a tick before this one starts it, nearest last. Set once, before start.
   void set_predecessors(std::vector<Band*> bands) { predecessors_ = std::move(bands); }
-  // Then a process module, too, has a thread here, which wakes it when these are done.
+  // Returns true if the band waits for predecessors. A process module then has a thread here, too, which wakes it when
+  // they are done.
   [[nodiscard]] bool waits_for_others() const noexcept { return !predecessors_.empty(); }
 
-  // Tick thread: does what is due in ticks (last seen, tick]. Several missed releases become one, the rest are
+  // Tick thread: releases what is due in ticks (last seen, tick]. Several missed releases become one, the rest are
   // counted as skipped.
   void release_due(std::uint64_t tick, rt::MonoTime epoch) noexcept;
 
-  // Tick thread, at the end of the run: counts as skipped what was due in ticks before `end_tick` that never began.
+  // Tick thread, at the end of the run: counts as skipped the releases due in ticks before `end_tick` that never began.
   void miss_due(std::uint64_t end_tick) noexcept;
 
-  // Tick thread, only bands that run in it: here and now. `lost` = ticks that never began.
+  // Tick thread, only for bands that run in it: runs the band at once. `lost` = ticks that never began.
   void run_inline(std::uint64_t tick, rt::MonoTime release, std::uint64_t lost) noexcept;
 
-  // Band thread (of a process: the one that waits in its place): body. Returns when stop() was called.
+  // Body of the band thread (for a process: of the thread that waits in its place). Returns when stop() was called.
   void loop() noexcept;
   void stop() noexcept;
-  // The part of it between two sleeps: runs every outstanding release whose predecessors are done.
+  // The part of loop() between two sleeps: runs every outstanding release whose predecessors are done.
   void drain() noexcept;
 
-  // Releases so far, and whether all up to this one are done: for whoever waits until a module that is not entered any
-  // more has left. Any thread.
+  // Number of releases so far, and whether all up to `release` are done: for a caller that waits until a module that is
+  // no longer entered has left. Any thread.
   [[nodiscard]] std::uint64_t released() const noexcept { return released_.load(std::memory_order_seq_cst); }
   [[nodiscard]] bool has_done(std::uint64_t release) const noexcept {
     return done_.load(std::memory_order_seq_cst) >= release;
   }
 
-  // If it sleeps until a predecessor is done, it looks again. Any thread.
+  // If the band sleeps until a predecessor is done, it checks again. Any thread.
   void look_again() noexcept;
 
-  // Changes with every run and is odd from a release until its run is over. Real-time safe, any thread.
+  // Changes with every run; odd from a release until its run is over. Real-time safe, any thread.
   [[nodiscard]] std::uint64_t activity() const noexcept;
 
   [[nodiscard]] Runner& runner() noexcept { return runner_; }
   [[nodiscard]] std::span<TaskState* const> tasks() const noexcept { return tasks_; }
-  // Called when a band has finished a tick and others may wait for it.
+  // Sets the callback for when the band has finished a tick and others may wait for it.
   void set_done_callback(void (*callback)(void*) noexcept, void* context) noexcept {
     on_done_ = callback;
     on_done_context_ = context;
   }
-  // Counts the last run of a process module and what the jitter reference still holds. After the threads ended.
+  // Counts the last run of a process module and the samples the jitter reference still holds. After the threads ended.
   void finish() noexcept;
 
  private:
@@ -104,7 +106,7 @@ class Band {
   std::uint64_t period_ticks_;
   std::uint64_t offset_ticks_;
   std::uint64_t next_due_;
-  std::uint64_t owed_ = 0;  // inline catch-up: runs still to be made good
+  std::uint64_t owed_ = 0;  // inline catch-up: runs still to be made up for
   std::vector<Band*> predecessors_;
   void (*on_done_)(void*) noexcept = nullptr;
   void* on_done_context_ = nullptr;

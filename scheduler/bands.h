@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bands: maximal runs of neighbours in priority order that are released together and executed one after the other by
-// one thread. Fewer threads and wake-ups than one per module, same order as Table 3. Pure arithmetic.
+// Bands: longest sequences of neighbours in priority order that are released together and executed one after the other
+// by one thread. Fewer threads and wake-ups than one per module, same order as Table 3. Pure arithmetic.
 
 #pragma once
 
@@ -15,7 +15,7 @@ namespace indurop::scheduler {
 
 enum class BandKind {
   Inline,     // runs in the core's tick thread: the top band, if it is released in every basic period
-  AfterBase,  // likewise, right behind it on the primary core: sporadic modules that are not to wait
+  AfterBase,  // in the same thread, directly after Inline on the primary core: sporadic modules that must not wait
   Thread,     // one FIFO thread
   Process,    // one process module
   Handler,    // the event handler: sporadic modules, after everything periodic
@@ -39,15 +39,15 @@ struct BandPlan {
 inline constexpr int kWatchdogPriority = 99;
 inline constexpr int kTickPriority = 90;
 inline constexpr int kServicePriority = 89;    // servers of shared functions
-inline constexpr int kTopBandPriority = 88;    // further bands count down from here
+inline constexpr int kTopBandPriority = 88;    // further bands count down from this
 inline constexpr int kLowestBandPriority = 4;  // event handler and sporadic processes need the levels below
 inline constexpr int kHandlerPriority = 3;
 inline constexpr int kSporadicProcessPriority = 2;
 inline constexpr int kMirrorPriority = 1;
 
-// Bands of the periodic tasks in execution order, that of their first tasks. Uses all of one FIFO level per band and
-// core. CoreOrder::Data: neighbours on one core, whatever runs on others between them; a band begins with a task that
-// waits for one of another core, and ends with one that such a task waits for, so bands never wait in a circle.
+// Makes the bands of the periodic tasks, in the execution order of their first tasks. Uses one FIFO level per band and
+// core. CoreOrder::Data: neighbours on one core, whatever runs on other cores between them; a band begins with a task
+// that waits for one of another core, and ends with one that such a task waits for, so bands never wait in a circle.
 // A band runs inline if it is the first on its core, has the basic period and no offset, consists of thread modules,
 // and no band of another core has to run before it in the same tick.
 std::vector<BandPlan> make_bands(std::span<const Task> periodic, std::int64_t basic_period_ns,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much work each core is given in each tick, and for how long that keeps it busy. Order does not matter for that.
+// How much work each core gets in each tick, and for how long that keeps it busy. The order of the work does not matter
+// for this.
 
 #pragma once
 
@@ -10,19 +11,19 @@
 
 namespace indurop::scheduler {
 
-// Modules that go to a core together.
+// Modules that are placed on a core together.
 struct LoadUnit {
   Modules modules;
-  int core = -1;            // bound to
-  std::int64_t shifts = 1;  // ticks its releases may be moved by, less than this
-  std::int64_t period = 0;  // shortest, in ticks
+  int core = -1;            // core the modules are bound to
+  std::int64_t shifts = 1;  // number of possible shifts: releases are moved by 0 to shifts - 1 ticks
+  std::int64_t period = 0;  // shortest period, in ticks
   struct Piece {
     std::int64_t tick;
     std::int64_t ns;
   };
   std::vector<Piece> work;   // in one macro period
-  std::int64_t weight = 0;   // all of it
-  std::int64_t largest = 0;  // of a tick
+  std::int64_t weight = 0;   // sum of the work, in ns
+  std::int64_t largest = 0;  // most work in one tick, in ns
 };
 
 class CoreLoads {
@@ -31,10 +32,10 @@ class CoreLoads {
 
   void add(int core, const LoadUnit& unit, std::int64_t shift);
   void remove(int core, const LoadUnit& unit, std::int64_t shift);
-  // From the begin of a tick until nothing is left to do, at most, in nanoseconds.
+  // Maximum time from the begin of a tick until nothing is left to do, in nanoseconds.
   [[nodiscard]] std::int64_t busiest(int core) const { return busiest_[index(core)]; }
   [[nodiscard]] std::int64_t busiest() const;
-  // The same if `unit` (null: none) came and `gone` went.
+  // The same if `unit` (null: none) were added and `gone` removed.
   [[nodiscard]] std::int64_t busiest_with(int core, const LoadUnit* unit, std::int64_t shift,
                                           const LoadUnit* gone = nullptr, std::int64_t gone_shift = 0) const;
   [[nodiscard]] std::int64_t ticks() const noexcept { return ticks_; }
@@ -45,7 +46,7 @@ class CoreLoads {
   [[nodiscard]] std::int64_t longest(const std::vector<std::int64_t>& load) const;
 
   std::int64_t ticks_;
-  std::int64_t room_;  // of a tick
+  std::int64_t room_;  // ns available in a tick
   std::int64_t tick_cost_;
   std::vector<std::vector<std::int64_t>> loads_;  // by core, then tick
   std::vector<std::int64_t> busiest_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scheduler of one node: tick threads on one absolute grid, bands below them, event handler, watchdog.
+// The scheduler of one node: tick threads on one absolute time grid, bands below them, event handler, watchdog.
 
 #pragma once
 
@@ -23,9 +23,9 @@ struct EngineSettings {
   std::int64_t basic_period_ns = 0;
   int primary_core = 0;
   CoreOrder order = CoreOrder::Total;
-  bool realtime = true;  // false: SCHED_FIFO is not to be had; order is then kept by waiting
+  bool realtime = true;  // false: SCHED_FIFO is not available; the order is then kept by waiting
   SpinSettings spin;
-  // Tick 0 falls on a time that leaves the remainder `phase_ns` when divided by `grid_ns`; 0: as soon as possible.
+  // Tick 0 falls on a time that leaves the remainder `phase_ns` when divided by `grid_ns` (0: as soon as possible).
   std::int64_t grid_ns = 0;
   std::int64_t phase_ns = 0;
   std::int64_t stop_grace_ns = 1'000'000'000;  // how long a module may still run once the node stops
@@ -33,7 +33,7 @@ struct EngineSettings {
 
 class Engine {
  public:
-  // `block` has its module records filled in; tasks refer to them by index. Writes fifo_priority into the records.
+  // The module records of `block` are filled in; tasks refer to them by index. Writes fifo_priority into the records.
   // Not real-time safe.
   Engine(RunBlock& block, std::span<const Task> tasks, const EngineSettings& settings, const Hooks& hooks,
          Kernel& kernel);
@@ -47,29 +47,30 @@ class Engine {
 
   // Ends the run at the next tick. Real-time safe, any thread, any number of times.
   void request_stop() noexcept { stop_.store(true, std::memory_order_release); }
-  // No module is entered any more, and the run ends at the next tick. Any thread; safe in a signal handler.
+  // From now on no module is entered, and the run ends at the next tick. Any thread; safe in a signal handler.
   void halt() noexcept;
   [[nodiscard]] bool stopping() const noexcept { return stop_.load(std::memory_order_acquire) || finished(); }
   [[nodiscard]] bool finished() const noexcept { return ticking_.load(std::memory_order_acquire) == 0; }
 
-  // A thread module of the schedule is not entered any more, its place stays empty: the others keep theirs. A run in
-  // progress goes on: at_rest() tells when none is. False for other modules. One normal thread calls these.
+  // Takes a thread module out of the schedule: it is no longer entered and its place stays empty, so the others keep
+  // theirs. A run in progress goes on; at_rest() returns true when none is left. Returns false for other modules.
+  // disable(), at_rest() and enable() are called by one normal thread.
   bool disable(std::uint32_t module) noexcept;
-  // Ends a run that takes longer than the grace of a stopping node, as a fault.
+  // Returns true if no run is in progress. Ends a run that takes longer than the grace of a stopping node, as a fault.
   [[nodiscard]] bool at_rest(std::uint32_t module) noexcept;
   void enable(std::uint32_t module) noexcept;
 
-  // Ends what runs at this moment as a fault of its module, however short it has run. Any thread.
+  // Ends the runs in progress as faults of their modules, however short they have run. Any thread.
   void end_runs_in_progress() noexcept;
 
   // After finished() or request_stop(): waits for all threads, ends modules that do not return, completes statistics.
   void join() noexcept;
 
-  // The band that runs a module, by its index in the block's records. Null: none, or the scheduler does not see the end
-  // of its runs (a process that handles events, or is woken by a signal). Lives as long as the engine.
+  // Returns the band that runs a module, by its index in the block's records. Null: none, or the scheduler does not see
+  // the end of its runs (a process that handles events, or is woken by a signal). Lives as long as the engine.
   [[nodiscard]] const Band* band_of(std::uint32_t module) const noexcept { return find_band(module); }
 
-  // The tick in which everything is on this core without any thread: for tests with a clock of their own.
+  // Runs one tick with everything on the calling thread and no threads: for tests with a clock of their own.
   void step(std::uint64_t tick, rt::MonoTime epoch) noexcept;
 
  private:
@@ -94,7 +95,7 @@ class Engine {
   Hooks hooks_;
   Kernel& kernel_;
   std::vector<std::unique_ptr<TaskState>> states_;
-  std::vector<std::unique_ptr<Core>> cores_;  // the primary one first
+  std::vector<std::unique_ptr<Core>> cores_;  // the primary core first
   std::vector<std::unique_ptr<Band>> bands_;  // periodic ones in execution order, then after-base, then event handler
   std::vector<std::unique_ptr<KernelThread>> threads_;
   std::unique_ptr<KernelThread> watchdog_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order in which modules are executed. Checks, plans and the engine ask here, so what is planned is what runs.
+// The order in which modules are executed. Checks, plans and the engine all use this function, so what is planned is
+// what runs.
 
 #pragma once
 
@@ -11,7 +12,8 @@
 
 namespace indurop::scheduler {
 
-// The numbers 0 to count - 1 by their priorities: the lowest value first, equal ones as they are. Not real-time safe.
+// Returns the indices 0 to count - 1 sorted by priority: the lowest value first, equal ones in input order. Not
+// real-time safe.
 template <std::invocable<std::uint32_t> PriorityOf>
 std::vector<std::uint32_t> execution_order(std::size_t count, const PriorityOf& priority_of) {
   std::vector<std::uint32_t> order(count);

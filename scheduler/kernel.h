@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the scheduler asks of the system below it: time, waiting, threads. An interface, so that simulation and tests
-// can be that system.
+// What the scheduler needs from the system below it: time, waiting, threads. An interface, so that simulation and tests
+// can replace the system.
 
 #pragma once
 
@@ -37,14 +37,14 @@ class KernelThread {
   virtual void join() noexcept = 0;
 };
 
-// Here what a system with real threads does; a simulation does otherwise.
+// The default implementations are those of a system with real threads; a simulation overrides them.
 class Kernel : public Clock {
  public:
-  // Waits for a wake-up that a thread of the same process gives.
+  // Waits for a wake-up by a thread of the same process.
   virtual void wait(rt::SignalWord& word) noexcept;
-  // Wakes a process module for the release that its slot tells of, or by its signal.
+  // Wakes a process module for the release recorded in its slot, or by its signal.
   virtual void wake_process(const Task& task, ProcessSlot& slot, ModuleRecord& record) noexcept;
-  // Runs take the time that Task::work_ns says, by work(): the calling thread works this long.
+  // Returns true if runs take the time of Task::work_ns, by work(): the calling thread works this long.
   [[nodiscard]] virtual bool is_virtual() const noexcept { return false; }
   virtual void work(std::int64_t ns) noexcept;
   // Errors: those of rt::Thread::start().

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Modules that share data, directly or through others, and what they do in the ticks.
+// Groups of modules that share data, directly or through others, and their work in each tick.
 
 #pragma once
 

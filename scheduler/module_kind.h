@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What kinds of modules there are (chapter, Figures 1 and 9), in the words of module.xml. The numbers stand in shared
-// memory: append only.
+// The kinds of modules (chapter, Figures 1 and 9), named as in module.xml. The numbers are stored in shared memory:
+// append only.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::scheduler {
 
-inline constexpr std::size_t kNameLength = 96;  // of a module, with the final 0
+inline constexpr std::size_t kNameLength = 96;  // maximum length of a module's name, with the final 0
 
 enum class ModuleType : std::uint32_t { Thread, Process };
 enum class Operation : std::uint32_t { Periodic, Sporadic, NonReal };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Basic period (GCD), macro period (LCM) and the table of what is released in each basic period (chapter, Table 3).
-// Pure arithmetic: no clock, no threads.
+// Basic period (GCD), macro period (LCM) and the table of releases in each basic period (chapter, Table 3). Pure
+// arithmetic: no clock, no threads.
 
 #pragma once
 
@@ -16,7 +16,8 @@ namespace indurop::scheduler {
 
 using Nanos = std::chrono::nanoseconds;
 
-// One periodic module as the table sees it. Lowest priority value runs first; equal priorities keep input order.
+// The data of one periodic module that the table needs. Lowest priority value runs first; equal priorities keep input
+// order.
 struct PeriodicItem {
   Nanos period;
   Nanos offset;  // first release after tick 0; 0 <= offset < period
@@ -41,11 +42,11 @@ inline constexpr std::uint64_t kMaxSlots = 100'000;
 // period exceeds 2^63 ns). An empty input gives an empty table.
 Result<PeriodTable> make_period_table(std::span<const PeriodicItem> items);
 
-// Items released in basic period `tick`, counted from 0 without end. Real-time safe if `out` has capacity.
+// Returns whether an item is released in basic period `tick`, counted from 0 without end. Real-time safe.
 bool is_released(const PeriodicItem& item, Nanos basic_period, std::uint64_t tick) noexcept;
 
-// The nearest periods whose GCD is at least `minimum`, each changed as little as possible (rounded to a multiple of
-// the best common basic period >= minimum). Same order as the input.
+// Returns the nearest periods whose GCD is at least `minimum`, each changed as little as possible (rounded to a
+// multiple of the best common basic period >= minimum). Same order as the input.
 std::vector<Nanos> adjust_periods(std::span<const Nanos> periods, Nanos minimum);
 
 }  // namespace indurop::scheduler

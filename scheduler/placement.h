@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which module runs on which core, and in which order, so that all end in time and no core is busy for longer than
-// needed. What shares data stays on one core unless told otherwise, so it keeps its order there and waits for nobody.
-// Small schedules are searched through, large ones are improved until nothing helps. The same problem gives the same
-// answer on every machine. Pure arithmetic.
+// Chooses the core and the order for each module, so that all end in time and no core is busy for longer than needed.
+// Modules that share data stay on one core unless configured otherwise, so they keep their order there and wait for no
+// other core. Small schedules are searched completely, large ones are improved until no step helps. The same problem
+// gives the same answer on every machine. Pure arithmetic.
 
 #pragma once
 
@@ -16,9 +16,9 @@ namespace indurop::scheduler {
 struct Placeable {
   Nanos period{};
   Nanos offset{};
-  Nanos execution{};  // longest
+  Nanos execution{};  // longest execution time
   Nanos deadline{};   // from its release
-  int core = -1;      // it is bound to; -1: any
+  int core = -1;      // core the module is bound to; -1: any
   bool keeps_offset = false;
   std::vector<std::uint32_t> shares{};  // modules before it in the order that it shares data with
 };
@@ -33,10 +33,10 @@ struct PlacementProblem {
 
 struct Placement {
   std::vector<int> core;  // by module
-  // By module. Changed only if it does not hold otherwise, and for modules that share data by the same time.
+  // By module. Changed only if the deadlines do not hold otherwise, and by the same time for modules that share data.
   std::vector<Nanos> offset;
-  // Modules, first to last. As given unless it does not hold otherwise, or, with split_sharing, a core is done earlier;
-  // what shares data keeps its order.
+  // Modules, first to last. In the given order unless the deadlines do not hold otherwise, or, with split_sharing, a
+  // core is done earlier; modules that share data keep their order.
   std::vector<std::uint32_t> order;
   bool holds = false;  // every module ends by its deadline
   Nanos busiest{};     // WorstResponses::busiest

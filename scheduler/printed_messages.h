@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What modules and the node printed, read from the rings of a run block: an entry stays there until it is used again.
+// Messages that modules and the node printed, read from the rings of a run block: an entry stays there until it is
+// reused.
 
 #pragma once
 
@@ -17,8 +18,9 @@ struct PrintedMessage {
   std::string text;  // without the line's end
 };
 
-// The newest `most` of them, oldest first. `module_count` and `size` (bytes of the block) were checked by the caller;
-// rings that lie elsewhere are left out, and so is what is printed meanwhile. Only reads; not real-time safe.
+// Returns the newest `most` messages, oldest first. `module_count` and `size` (bytes of the block) were checked by the
+// caller; rings outside the block are left out, and so are messages printed during the call. Only reads; not real-time
+// safe.
 std::vector<PrintedMessage> printed_messages(const RunBlock& block, std::uint64_t size, std::uint32_t module_count,
                                              std::size_t most);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One Distribution of the run block condensed to the figures people ask for. For readers (tools, the node's report):
-// takes a copy of what it reads, so the figures of one Summary fit together although the writer goes on.
+// Condenses one Distribution of the run block to a few values. For readers (tools, the node's report): works on a copy,
+// so the values of one Summary are consistent although the writer continues.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace indurop::scheduler {
 
-// All in ns; all 0 if nothing was counted yet.
+// All in ns; all 0 if nothing has been counted yet.
 struct Summary {
   std::uint64_t count = 0;
   std::int64_t min = 0;
@@ -25,7 +25,7 @@ struct Summary {
   std::int64_t max = 0;
 };
 
-// The counts of a histogram at one moment, as far as a reader beside a running writer can have it.
+// The counts of a histogram at one moment, as consistent as a reader can get them while the writer runs.
 struct HistogramCounts {
   std::array<std::uint64_t, Histogram::kBuckets> counts{};
   std::uint64_t total = 0;
@@ -39,8 +39,8 @@ inline void copy_counts(const Histogram& histogram, HistogramCounts& to) noexcep
   }
 }
 
-// Smallest value that `fraction` (0..1) of the samples do not exceed, interpolated inside its bucket: off by 6 % at
-// most. 0 if there are no samples.
+// Returns the smallest value that `fraction` (0..1) of the samples do not exceed, interpolated inside its bucket: error
+// at most 6 %. 0 if there are no samples.
 inline std::int64_t quantile(const HistogramCounts& histogram, double fraction) noexcept {
   if (histogram.total == 0) {
     return 0;
@@ -61,7 +61,7 @@ inline std::int64_t quantile(const HistogramCounts& histogram, double fraction) 
   return static_cast<std::int64_t>(Histogram::upper_bound(Histogram::kBuckets - 1));
 }
 
-// Quantiles never lie outside [min, max], which are exact.
+// Quantiles are never outside [min, max], which are exact.
 inline Summary summarize(const Distribution& distribution) noexcept {
   Summary out;
   HistogramCounts histogram;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one run of a node shows to the outside and shares with its process modules: a shared-memory block the
-// real-time threads write without locks and everybody else only reads. Fixed layout, offsets instead of pointers.
+// What one run of a node publishes and shares with its process modules: a shared-memory block that the real-time
+// threads write without locks and all others only read. Fixed layout, offsets instead of pointers.
 
 #pragma once
 
@@ -41,7 +41,7 @@ struct Distribution {
   Histogram histogram;
 };
 
-// A module, as the node knows it and as it ran so far.
+// A module's configuration as the node loaded it, and its counters so far.
 struct ModuleRecord {
   // Written before the run, constant afterwards.
   char name[kNameLength];  // unique; <name>, or the file name without directory and ending: "cntr1"
@@ -71,7 +71,7 @@ struct ModuleRecord {
   std::atomic<std::uint32_t> fault_kind;     // FaultKind of the last fault
   std::atomic<std::uint64_t> fault_tick;
   char last_fault[kTextLength];  // "SIGSEGV at address 0x0"; valid once fault_kind is set
-  // Commands from outside, see module_command.h.
+  // Commands from other processes, see module_command.h.
   std::atomic<std::uint64_t> command;
   std::atomic<std::uint64_t> answer;
   std::int64_t last_start_ns;  // CLOCK_MONOTONIC, of the run in progress or the last one
@@ -83,7 +83,7 @@ struct ModuleRecord {
   Distribution response;  // release to end of run(), ns
 };
 
-// How a process module is driven. Written by node and module process. `released` and `done` count releases.
+// The release of a process module. Written by node and module process. `released` and `done` count releases.
 struct ProcessSlot {
   rt::SignalWord wake;                   // the node wakes the process
   std::atomic<std::uint64_t> released;   // last release number, 0: none yet
@@ -98,7 +98,7 @@ struct ProcessSlot {
   std::atomic<std::int32_t> obtained_fifo;  // priority obtained, 0 none
 };
 
-// A number that one thread writes while others may read it; what belongs together is told by a sequence number.
+// A number that one thread writes while others may read it; a sequence number elsewhere keeps related ones consistent.
 template <class T>
 class Relaxed {
  public:
@@ -112,7 +112,7 @@ class Relaxed {
   std::atomic<T> value_;
 };
 
-// One entry of the slot log: who ran when. Ring, newest overwrites oldest.
+// One entry of the slot log: which module ran when. Ring, newest overwrites oldest.
 struct SlotEntry {
   std::atomic<std::uint64_t> sequence;  // entry number + 1, stored last; 0 while being written
   Relaxed<std::uint64_t> tick;
@@ -124,7 +124,7 @@ struct SlotEntry {
   Relaxed<std::uint32_t> reserved;
 };
 
-// One overrun: who, when, what it used itself, who ran before it in that basic period.
+// One overrun: which module, when, the time it used itself, and what ran before it in that basic period.
 struct OverrunEntry {
   std::atomic<std::uint64_t> sequence;  // entry number + 1, stored last
   Relaxed<std::uint64_t> tick;
@@ -132,7 +132,7 @@ struct OverrunEntry {
   Relaxed<std::int64_t> own_ns;       // time since its start, or 0 if it had not started
   Relaxed<std::int64_t> latency_ns;   // its own release-to-run latency
   Relaxed<std::int32_t> previous;     // module that ran before it in the slot, -1 none
-  Relaxed<std::int64_t> previous_ns;  // and how long that took
+  Relaxed<std::int64_t> previous_ns;  // execution time of that module
   Relaxed<std::uint32_t> started;     // 0: it was still waiting for its turn
   Relaxed<std::uint32_t> module;
 };
@@ -152,10 +152,10 @@ struct MessageRing {
   std::atomic<std::uint64_t> dropped;
   std::uint32_t capacity;  // power of two
   std::uint32_t reserved;
-  std::uint64_t entries_offset;  // of MessageEntry[capacity], from the block's start
+  std::uint64_t entries_offset;  // offset of MessageEntry[capacity] from the block's start
 };
 
-// What the operating system granted, not what was asked for.
+// What the operating system granted, which may be less than was requested.
 struct Obtained {
   std::uint32_t fifo;  // 1: SCHED_FIFO
   std::int32_t tick_priority;
@@ -165,7 +165,7 @@ struct Obtained {
   std::int32_t tick_core;
   std::uint32_t preempt_rt;         // kernel is PREEMPT_RT
   std::uint32_t throttle_permille;  // sched_rt_runtime / sched_rt_period, 1000: unlimited
-  char why[kTextLength];            // first thing that was refused, and what to do
+  char why[kTextLength];            // first request that was refused, and what to do
 };
 
 struct RunBlock {
@@ -175,9 +175,9 @@ struct RunBlock {
   std::uint64_t total_size;
   char node_name[48];
   char config_file[256];
-  char board[48];  // of a plant, and the plant's file; empty: none
+  char board[48];  // name in the plant, and the plant's file; empty: none
   char plant_file[256];
-  char deployment[72];  // id of what was deployed; empty: the node was started by hand
+  char deployment[72];  // id of the deployment; empty: the node was started by hand
   std::atomic<std::int32_t> node_pid;
   std::uint64_t node_start_time;  // field 22 of /proc/PID/stat
   std::int64_t started_wall_ns;   // CLOCK_REALTIME
@@ -194,7 +194,7 @@ struct RunBlock {
   char stop_reason[kTextLength];
   std::uint64_t modules_offset;  // ModuleRecord[module_count]
   std::uint64_t slots_offset;    // ProcessSlot[module_count]
-  std::uint64_t rings_offset;    // MessageRing[module_count + 1], the last is the node's own
+  std::uint64_t rings_offset;    // MessageRing[module_count + 1], the last one of the node itself
   std::uint64_t slot_log_offset;
   std::uint32_t slot_log_capacity;  // power of two
   std::uint32_t overrun_log_capacity;

@@ -30,8 +30,8 @@ struct ModuleSetup {
 struct RunBlockSetup {
   std::string node_name;
   std::string config_file;
-  std::string board;       // of a plant; empty: none
-  std::string plant_file;  // likewise
+  std::string board;       // name in the plant; empty: none
+  std::string plant_file;  // empty: none
   std::string deployment;
   std::int64_t basic_period_ns = 0;
   std::int64_t macro_period_ns = 0;
@@ -39,10 +39,10 @@ struct RunBlockSetup {
   std::vector<ModuleSetup> modules;
 };
 
-// Bytes a block for this setup needs.
+// Returns the size in bytes of a block for this setup.
 std::size_t run_block_size(const RunBlockSetup& setup);
 
-// `block` points to that many zero bytes. The magic is stored last.
+// `block` points to run_block_size() zero bytes. The magic is stored last.
 void init_run_block(RunBlock& block, const RunBlockSetup& setup);
 
 }  // namespace indurop::scheduler

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Executes thread modules one after the other on the calling real-time thread, measures them, and keeps a fault of one
-// (exception, crash, order of the watchdog) from reaching the others.
+// (exception, crash, intervention of the watchdog) from affecting the others.
 
 #pragma once
 
@@ -18,36 +18,36 @@
 
 namespace indurop::scheduler {
 
-// A task with what changes while it runs. Address stays fixed for the life of the engine.
+// A task and its state while it runs. The address stays fixed for the life of the engine.
 struct TaskState {
   Task task;
   ModuleRecord* record = nullptr;
   ProcessSlot* slot = nullptr;  // process modules
   JitterReference jitter;
   std::atomic<bool> enabled{true};  // false: stopped or faulted, not entered
-  std::uint64_t last_release = 0;   // of its band that may have entered it before disable()
+  std::uint64_t last_release = 0;   // last release of its band that may have entered it before disable()
   std::uint64_t accounted = 0;      // process modules: last release whose run was counted
-  bool logged = true;               // false: its runs are no part of the schedule and stay out of the slot log
+  bool logged = true;               // false: its runs are not part of the schedule and stay out of the slot log
 };
 
-// What the embedding program wants to know, called on real-time threads: no allocation, no lock, no system call.
+// Callbacks into the embedding program, called on real-time threads: no allocation, no lock, no system call.
 struct Hooks {
   void* context = nullptr;
-  // Code of the module comes next, of its run of this tick and release.
+  // The module's code is entered next, for its run of this tick and release.
   void (*entering)(void* context, std::uint32_t module, std::uint64_t tick, std::int64_t release_ns) noexcept = nullptr;
-  // A few modules later this one is entered, or asked for its condition: for what is to be in the cache then.
+  // The module is entered, or its condition evaluated, a few modules later: for loading its data into the cache.
   void (*soon)(void* context, std::uint32_t module) noexcept = nullptr;
-  // A run of a thread module begins: the condition, if it has one, was true. True: this took longer than a look at the
-  // clock, and is no time of the run.
+  // A run of a thread module begins: its condition, if it has one, was true. Returns true if the callback took longer
+  // than reading the clock; that time is not counted as execution time.
   bool (*begins)(void* context, std::uint32_t module) noexcept = nullptr;
-  // It is over. True: as above, this is no time of the run that follows.
+  // The run is over. Returns true as above; that time is not counted for the run that follows.
   bool (*ended)(void* context, std::uint32_t module, std::uint64_t tick, const RunTimes& times,
                 bool faulted) noexcept = nullptr;
-  // A basic period has begun, nothing of it has run.
+  // A basic period has begun; nothing of it has run.
   void (*ticks)(void* context, std::uint64_t tick, std::int64_t release_ns) noexcept = nullptr;
   void (*faulted)(void* context, std::uint32_t module) noexcept = nullptr;  // after the record was filled in
   void (*stop_node)(void* context, std::uint32_t module, const char* reason) noexcept = nullptr;
-  // Modules have run and may have written something; may wake a thread, nothing more.
+  // Modules have run and may have written variables; the callback may wake a thread, nothing more.
   void (*worked)(void* context) noexcept = nullptr;
 };
 
@@ -57,28 +57,28 @@ struct CoreTrace {
   std::atomic<std::int64_t> exec_ns{0};
 };
 
-// Writes what went wrong into the module's record. Real-time safe.
+// Writes a fault into the module's record. Real-time safe.
 void record_fault(ModuleRecord& record, FaultKind kind, std::uint64_t tick, std::string_view text) noexcept;
-// Marks the module as faulted, quarantines it and tells the hooks. Real-time safe.
+// Marks the module as faulted, quarantines it and calls the hooks. Real-time safe.
 void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char* text, const Hooks& hooks) noexcept;
 
 class Runner {
  public:
   Runner(RunBlock& block, Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::size_t most_tasks);
 
-  // On the thread that will run modules, before and after its loop.
+  // Called on the thread that runs modules, before and after its loop.
   void attach_thread() noexcept;
   void detach_thread() noexcept;
 
   // Runs the enabled tasks in order. Sporadic ones run only if condition() is true.
   void run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::MonoTime release) noexcept;
 
-  // The task executed at the moment, null if none; readable from other threads.
+  // The task being executed, null if none; readable from other threads.
   [[nodiscard]] TaskState* current() const noexcept { return current_.load(std::memory_order_acquire); }
   [[nodiscard]] std::int64_t current_start() const noexcept { return current_start_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::int32_t previous_module() const noexcept { return previous_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::int64_t previous_exec() const noexcept { return previous_exec_.load(std::memory_order_relaxed); }
-  // Times of the last run(): end of position i; 0 if it did not run.
+  // Times of the task at `position` in the last run(); its end is 0 if it did not run.
   [[nodiscard]] const RunTimes& times(std::size_t position) const noexcept { return times_[position]; }
 
   // Ends the module in progress if it exceeds its budget, or `grace_ns` once the node is stopping. Watchdog thread.
@@ -109,7 +109,7 @@ class Runner {
   std::size_t position_ = 0;
   std::uint64_t tick_ = 0;
   std::int64_t release_ns_ = 0;
-  bool told_much_ = false;  // since the clock was read last
+  bool told_much_ = false;  // the hooks took noticeable time since the clock was read last
   std::vector<RunTimes> times_;
   std::atomic<TaskState*> current_{nullptr};
   std::atomic<std::int64_t> current_start_{0};

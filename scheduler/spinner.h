@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Waits for a grid time exactly: sleeps until a margin before it, then spins. The margin follows the machine's own
-// wake-up cost (about its 99th percentile), so as little as possible is spent spinning, as far as its price allows.
+// wake-up cost (about its 99th percentile), so that as little as possible is spent spinning, within a limit on its
+// cost.
 
 #pragma once
 
@@ -19,12 +20,12 @@ struct SpinSettings {
 
 class Spinner {
  public:
-  // Auto never spins longer than half the period, for the kernel stops real-time threads that use all of a core, nor
-  // longer than kMostSpinNs: a machine whose wake-ups are later than that is not made exact by any price. And it spins
-  // no longer than this on average, whatever the machine does: a tenth of a period of 100 us, a fiftieth of 1 ms.
+  // Auto never spins longer than half the period, because the kernel stops real-time threads that use all of a core,
+  // nor longer than kMostSpinNs: a machine with later wake-ups does not become exact at any cost. The average spin is
+  // limited as well, whatever the machine does: a tenth of a period of 100 us, a fiftieth of 1 ms.
   static constexpr std::int64_t kMostSpinNs = 150'000;
   static constexpr std::int64_t kMostMeanNs = 20'000;
-  static constexpr std::int64_t kMostMeanShare = 10;  // one part in so many of the period
+  static constexpr std::int64_t kMostMeanShare = 10;  // one part in this many of the period
   Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept;
 
   // Returns the time at which the wait ended, at or after the deadline. Real-time safe.
@@ -37,8 +38,8 @@ class Spinner {
   Clock& clock_;
   SpinMode mode_;
   std::int64_t limit_;
-  std::int64_t budget_;  // mean spin
-  std::int64_t credit_;  // of the budgets of all ticks, what was not spun yet
+  std::int64_t budget_;  // maximum mean spin, ns
+  std::int64_t credit_;  // unused spin budget of all ticks so far, ns
   std::int64_t quantile_;
   std::int64_t margin_ = 0;
 };

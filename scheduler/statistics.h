@@ -27,13 +27,14 @@ inline void add_sample(Distribution& to, std::int64_t value) noexcept {
 }
 
 // J_n = T_0 + n * period - T_n with T_0 the first execution. One late first execution would shift every J_n, so the
-// reference is the median of the first kSamples executions, each taken back to its own place on the grid.
+// reference is the median of the first kSamples executions, each moved back to its own place on the grid.
 class JitterReference {
  public:
   static constexpr std::size_t kSamples = 8;
-  // `offset` = T_n minus the grid time of release n. Records |J_n|, late for the first kSamples runs, all counted.
+  // `offset` = T_n minus the grid time of release n. Records |J_n|, delayed for the first kSamples runs; all are
+  // counted.
   void add(Distribution& jitter, std::int64_t offset) noexcept;
-  // At the end of a run with fewer executions: records what is held back.
+  // At the end of a run with fewer executions: records the samples held back.
   void flush(Distribution& jitter) noexcept;
 
  private:
@@ -49,10 +50,10 @@ struct RunTimes {
   std::int64_t end_ns;
 };
 
-// Everything the module's record learns from one finished run. Real-time safe.
+// Updates the module's record from one finished run. Real-time safe.
 void account_run(ModuleRecord& record, JitterReference& reference, const RunTimes& times) noexcept;
 
-// Rings of the run block. Real-time safe, any thread.
+// Entries for the rings of the run block. Real-time safe, any thread.
 struct SlotLogLine {
   std::uint64_t tick;
   std::uint32_t module;

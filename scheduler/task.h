@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One module as the scheduler sees it: what to call or whom to wake, and its rules. No files, no names, no XML.
+// One module as the scheduler sees it: what to call or which process to wake, and its rules. No files, no names, no
+// XML.
 
 #pragma once
 
@@ -22,13 +23,13 @@ struct Task {
   std::int64_t period_ns = 0;  // periodic only
   std::int64_t offset_ns = 0;
   std::int64_t budget_ns = 0;  // longest allowed execution, 0: no limit
-  bool after_base = false;     // sporadic: evaluated right after the inline band
+  bool after_base = false;     // sporadic: evaluated directly after the inline band
   std::int64_t work_ns = 0;    // simulation only: how long a run takes; 0: no time
   int legacy_signal = 0;       // process woken by this signal instead of its slot
   void (*run)() = nullptr;     // thread modules
   Condition condition;         // sporadic thread modules
-  // CoreOrder::Data: tasks (by `index`, earlier in the order) that have to be done with a tick before this one begins
-  // it. Does nothing between tasks of one core, which are in order anyway.
+  // CoreOrder::Data: tasks (by `index`, earlier in the order) that must be done with a tick before this one begins it.
+  // No effect between tasks of one core, which are in order anyway.
   std::vector<std::uint32_t> after;
 };
 

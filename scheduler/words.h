@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words users read and write for the states and kinds of a run: one table for every program.
+// The text for the states and kinds of a run that users read and write: one table for every program.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::scheduler {
 
-// "unknown" for a value that is none of them: it may come from a damaged file. Thread and real-time safe.
+// Returns "unknown" for any other value: it may come from a damaged file. Thread and real-time safe.
 const char* to_text(NodeState state) noexcept;
 const char* to_text(ModuleType type) noexcept;
 const char* to_text(Operation operation) noexcept;
