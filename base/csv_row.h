@@ -14,17 +14,18 @@ namespace indurop::base {
 struct CsvCell {
   std::string text;        // without its quotes
   std::size_t line = 1;    // of its first character, from 1
-  std::size_t column = 1;  // likewise, in bytes
+  std::size_t column = 1;  // of its first character, in bytes, from 1
 };
 
-// Takes one row with its line end off the front of `text`, which is not empty. The row begins in line `line`, which
-// becomes that of the next row.
+// Removes one row with its line end from the front of `text`, which is not empty. The row begins in line `line`, which
+// is advanced to that of the next row.
 std::vector<CsvCell> take_csv_row(std::string_view& text, char separator, std::size_t& line);
 
-// A cell as it stands in such a row: in quotes if it has to be, quotes doubled.
+// Returns a cell as written in such a row: in quotes if necessary, quotes doubled.
 std::string csv_field(std::string_view text);
 
-// Seconds per unit of a column of times by its name: time or time_s, time_ms, time_us, time_ns; 0: it is none.
+// Returns the seconds per unit of a time column by its name: time or time_s, time_ms, time_us, time_ns; 0: not a time
+// column.
 double csv_time_unit(std::string_view name) noexcept;
 
 }  // namespace indurop::base

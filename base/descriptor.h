@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An open file of the operating system, closed at the end of its scope.
+// An open file descriptor, closed at the end of its scope.
 
 #pragma once
 
@@ -12,7 +12,7 @@ namespace indurop::base {
 class Descriptor {
  public:
   Descriptor() = default;
-  // Takes over `number`; negative: nothing is open.
+  // Takes ownership of `number`; negative: nothing is open.
   explicit Descriptor(int number) noexcept : number_(number) {}
   Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   Descriptor& operator=(Descriptor&& other) noexcept {
@@ -25,7 +25,7 @@ class Descriptor {
 
   [[nodiscard]] int get() const noexcept { return number_; }
   [[nodiscard]] bool is_open() const noexcept { return number_ >= 0; }
-  // Some file systems tell only here that a write has failed: 0, or -1 with errno.
+  // Returns 0, or -1 with errno: some file systems report only here that a write has failed.
   int close() noexcept {
     const int number = std::exchange(number_, -1);
     return number >= 0 ? ::close(number) : 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exit codes of all programs: the one list. Help texts and man pages are made from kExitCodes, docs/cli.md is compared
-// with it. A program returns a code of this list, or that of the program it started (indurop run, indurop plc build).
+// Exit codes of all programs: the only list. Help texts and man pages are made from kExitCodes, and docs/cli.md is
+// compared with it. A program returns a code of this list, or that of the program it started (indurop run, indurop plc
+// build).
 
 #pragma once
 
@@ -17,16 +18,16 @@ inline constexpr int kRolledBack = 5;
 inline constexpr int kUnreachable = 6;
 inline constexpr int kNoRealTime = 7;
 inline constexpr int kSchemaMismatch = 8;
-inline constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells say it
+inline constexpr int kInterrupted = 130;  // 128 + SIGINT, as in shells
 inline constexpr int kTerminated = 143;   // 128 + SIGTERM
 
 struct ExitCode {
   int value;
   std::string_view name;  // one word, for programs that name codes
-  std::string_view text;  // one line for people
+  std::string_view text;  // one line for users
 };
 
-// In rising order of value. A number once given is never given another meaning.
+// Sorted by value. A number in use never changes its meaning.
 inline constexpr std::array kExitCodes{
     ExitCode{kOk, "ok", "ok"},
     ExitCode{kFailed, "failed", "failed: the message says why"},

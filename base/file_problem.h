@@ -14,14 +14,14 @@ struct FileProblem {
     System,      // the operating system refused: sys_errno
     Directory,   // it is a directory
     NotRegular,  // it is a pipe, a device or a socket
-    TooLarge,    // it is longer than the caller takes
+    TooLarge,    // it is longer than the caller accepts
   };
   Kind kind = Kind::System;
   int sys_errno = 0;
   std::string text;  // the reason alone, to follow "cannot read FILE: "
 };
 
-// Of an errno.
+// Makes the problem for an errno.
 FileProblem file_problem(int error);
 // "cannot read FILE: No such file or directory".
 std::string cannot_read(const std::filesystem::path& file, const FileProblem& problem);

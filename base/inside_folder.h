@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a project of somebody else may name: files of its own folder.
+// Limits what another user's project may name to files in its own folder.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::base {
 
-// Whether the file lies in the folder or deeper, with all symbolic links followed.
+// Returns whether the file is in the folder or below it, with all symbolic links followed.
 [[nodiscard]] bool lies_inside(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 }  // namespace indurop::base

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A JSON value, for documents we write and small ones we read. Objects keep the order of their members. A narrow door
-// to the JSON library, which costs seconds in every file that includes it.
+// A JSON value, for documents we write and small ones we read. Objects keep the order of their members. Hides the JSON
+// library, which costs seconds of compile time in every file that includes it.
 
 #pragma once
 
@@ -42,20 +42,20 @@ class Json {
 
   static Json array();
   static Json object();
-  // Nothing if `text` is not JSON, or is nested deeper than 64 levels.
+  // Returns nothing if `text` is not JSON, or is nested deeper than 64 levels.
   static std::optional<Json> parse(std::string_view text);
 
   // ---- writing
-  // The member `key`, made if it is not there; null becomes an object. Of arrays and scalars: not to be called.
+  // Returns the member `key`, created if missing; null becomes an object. Must not be called for arrays and scalars.
   Json& operator[](std::string_view key);
-  // Null becomes an array.
+  // Appends to an array; null becomes an array.
   void push_back(Json value);
-  // Takes over the members of another object.
+  // Copies the members of another object into this one.
   void update(const Json& other);
-  // One line, or lines indented by `indent` >= 0. Invalid UTF-8 is replaced.
+  // Writes one line, or lines indented by `indent` >= 0. Invalid UTF-8 is replaced.
   [[nodiscard]] std::string dump(int indent = -1) const;
 
-  // ---- reading: nothing is thrown, what is not there is null or nothing
+  // ---- reading: nothing is thrown; a missing value is null or nothing
   [[nodiscard]] Type type() const noexcept { return type_; }
   [[nodiscard]] bool is_null() const noexcept { return type_ == Type::Null; }
   [[nodiscard]] bool is_text() const noexcept { return type_ == Type::Text; }
@@ -81,14 +81,14 @@ class Json {
   void write(std::string& out, int indent, int depth) const;
 
   Type type_ = Type::Null;
-  std::uint64_t integer_ = 0;  // of Integer as two's complement, of Boolean 0 or 1
+  std::uint64_t integer_ = 0;  // of Integer in two's complement, of Boolean 0 or 1
   double number_ = 0;
   std::string text_;
   std::vector<Json> values_;
-  std::vector<std::string> keys_;  // of an object, beside values_
+  std::vector<std::string> keys_;  // of an object, parallel to values_
 };
 
-// Reads the member `key` of `object`. False if it is not there or of another type; `to` is then as it was.
+// Reads the member `key` of `object`. Returns false if it is missing or of another type; `to` is then unchanged.
 bool read(const Json& object, std::string_view key, std::string& to);
 bool read(const Json& object, std::string_view key, std::int64_t& to);
 bool read(const Json& object, std::string_view key, std::uint64_t& to);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file of lines that several processes append to. When it has grown too large it is put aside as FILE.1, in place of
-// the one that was put aside before.
+// A file of lines that several processes append to. When it has grown too large it is renamed to FILE.1, which replaces
+// the earlier FILE.1.
 
 #pragma once
 
@@ -18,14 +18,15 @@ namespace indurop::base {
 
 struct LineJournal {
   std::filesystem::path file;
-  std::uintmax_t most_bytes = 0;  // beyond that it is put aside
-  mode_t mode = 0;                // of a new file, less the umask
+  std::uintmax_t most_bytes = 0;  // above this size it is renamed
+  mode_t mode = 0;                // of a new file, minus the umask
   Durable durable = Durable::No;
 };
 
-// Appends `line`, which ends without '\n', whole; makes the folder. Returns why that failed, else nothing.
+// Appends `line`, which has no '
+// ' at its end, as a whole; creates the folder. Returns why that failed, else an empty string.
 std::string append_line(const LineJournal& journal, std::string line);
-// Calls `use` for each line, oldest first, those of FILE.1 too. For none if there is no such file.
+// Calls `use` for each line, oldest first, including those of FILE.1; for none if there is no such file.
 void each_line(const std::filesystem::path& file, const std::function<void(std::string_view)>& use);
 
 }  // namespace indurop::base

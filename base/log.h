@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program without a terminal of its own tells its user: lines on stderr that begin with who speaks.
+// Messages of a program without a terminal of its own: lines on stderr that begin with the program's name.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with a command line, in the words of our messages instead of CLI11's.
+// Describes errors of a command line in our own words instead of CLI11's.
 
 #pragma once
 
@@ -13,7 +13,7 @@ class ParseError;
 
 namespace indurop::base {
 
-// `app` has failed to parse the options that `command` describes.
+// Call after `app` has failed to parse the options that `command` describes.
 std::string wrong_words(const CLI::ParseError& error, const CLI::App& app, const CommandText& command);
 
 }  // namespace indurop::base

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Man pages and shell completion, made from the options that were declared. Pure functions.
+// Man pages and shell completion, generated from the declared options. Pure functions.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop::base {
 
-// Exit codes, one per line; of an empty list all.
+// Returns the exit codes, one per line; all of them for an empty list.
 std::string exit_codes_text(const std::vector<int>& which = {});
 
 std::string man_page(const CommandText& program);  // troff, section 1
@@ -29,10 +29,10 @@ void each_command(const CommandText& command, const std::string& words, const Us
   }
 }
 
-// `text` with `by` wherever `what` was.
+// Returns `text` with every `what` replaced by `by`.
 std::string replaced(std::string text, std::string_view what, std::string_view by);
 
-// `form` is man, markdown, bash, zsh or fish; nothing for another.
+// `form` is man, markdown, bash, zsh or fish; returns nothing for any other.
 std::optional<std::string> page_of(const CommandText& program, std::string_view form);
 
 }  // namespace indurop::base

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text of others on a terminal: nothing in it may move the cursor, change colours or stand for a line that we said.
+// Makes text from other programs safe for a terminal: it cannot move the cursor, change colours or pass for a line of
+// ours.
 
 #pragma once
 
@@ -8,7 +9,7 @@
 
 namespace indurop::base {
 
-// Control characters and what is no UTF-8 become '?'; the rest is as it was. `kept`: control characters that stay.
+// Replaces control characters and invalid UTF-8 by '?'. `kept`: control characters that are not replaced.
 std::string printable(std::string_view text, std::string_view kept = {});
 
 }  // namespace indurop::base

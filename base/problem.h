@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What went wrong, in words for whoever runs a program: the error of calls whose reason a number cannot tell, as in
-// Result<Plan, Problem>. If it is about a place in a file: base/diagnostic.h.
+// An error in words for the user of a program: the error type of calls whose reason does not fit into a number, as in
+// Result<Plan, Problem>. For errors about a place in a file: base/diagnostic.h.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 namespace indurop::base {
 
 struct Problem {
-  std::string text;   // what, and what to do; one line, without "error:"
-  int sys_errno = 0;  // what the system said when a file could not be written; 0: it was something else
+  std::string text;   // what is wrong, and what to do; one line, without "error:"
+  int sys_errno = 0;  // errno when a file could not be written; 0: another cause
 };
 
 }  // namespace indurop::base

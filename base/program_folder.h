@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where this program lies: what was built or installed with it is found from there.
+// The folder of this program, from which the files built or installed with it are found.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::base {
 
-// Folder of the running program's file, links resolved. Empty if the system does not say.
+// Returns the folder of the running program's file, links resolved. Empty if the system does not report it.
 std::filesystem::path program_folder();
 
 }  // namespace indurop::base

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading a whole file. What is not an ordinary file is refused, so that nobody waits for a pipe that nobody writes to.
+// Reads a whole file. Only regular files are accepted, so that no program waits for a pipe without a writer.
 
 #pragma once
 
@@ -22,11 +22,11 @@ struct OpenFile {
   std::uint64_t size = 0;  // when it was opened
 };
 
-// Opens an ordinary file for reading. Never blocks, and never opens a device or a pipe, which may have effects.
+// Opens a regular file for reading. Never blocks, and never opens a device or a pipe, which may have side effects.
 // Errors: all kinds but TooLarge.
 Result<OpenFile, FileProblem> open_file(const std::filesystem::path& path);
 
-// All bytes of an ordinary file that has at most `most` of them. Errors: all kinds.
+// Returns all bytes of a regular file with at most `most` bytes. Errors: all kinds.
 Result<std::string, FileProblem> read_file(const std::filesystem::path& path, std::size_t most = kMostFileBytes);
 
 }  // namespace indurop::base

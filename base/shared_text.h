@@ -25,7 +25,7 @@ class SharedText {
     }
     version_.store(now + 2, std::memory_order_release);
   }
-  // Empty while it is being changed again and again.
+  // Returns an empty text if it is changed again and again meanwhile.
   [[nodiscard]] std::string get() const {
     constexpr int kTries = 100;
     for (int i = 0; i < kTries; ++i) {

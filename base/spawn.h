@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starting another program. The memory of this process is left alone (no fork, unless the program is to end with us),
-// so real-time threads do not fault on their pages afterwards.
+// Starts another program. The memory of this process is left alone (no fork, unless the program is to end with us), so
+// real-time threads do not fault on their pages afterwards.
 
 #pragma once
 
@@ -15,27 +15,28 @@
 namespace indurop::base {
 
 struct Launch {
-  // Ctrl-C in the terminal reaches the group of the program in front, the end of the terminal its session.
+  // Ctrl-C in a terminal reaches the foreground process group, the end of the terminal its session.
   enum class Group { Ours, Own, OwnSession };
 
   std::vector<std::string> words;  // the program's name as it sees it, then its arguments
-  std::filesystem::path program;   // empty: words[0], looked for in PATH
+  std::filesystem::path program;   // empty: words[0], searched in PATH
   std::optional<std::vector<std::string>> environment = std::nullopt;  // "NAME=value"; ours if not given
   Group group = Group::Ours;
   int input = -1;     // an open file for standard input; -1: ours
   int output = -1;    // an open file for standard output and error; -1: ours
   int inherits = -1;  // an open file the program gets under the same number, although others are closed to it; -1: none
-  bool fresh_signals = false;  // blocks and ignores nothing, whatever we do
-  // The signal it gets when the thread that starts it ends; 0: it lives on. Costs a fork: not in real-time processes.
+  bool fresh_signals = false;  // no signal is blocked or ignored, whatever we do
+  // The signal the program gets when the thread that starts it ends; 0: it lives on. Costs a fork: not in real-time
+  // processes.
   int ends_with_us = 0;
 };
 
-// Starts a program; the caller waits for it. Files are passed on only as said, if they are opened with O_CLOEXEC.
-// Errors: System, with the errno; a program that cannot be run is told by exit code 127 if it is to end with us.
-// Not real-time safe.
+// Starts a program; the caller waits for it. Files opened with O_CLOEXEC are passed on only as stated above. Errors:
+// System, with the errno; with ends_with_us, a program that cannot be run is reported by exit code 127. Not real-time
+// safe.
 Result<pid_t> spawn(const Launch& launch);
 
-// The exit code of a status of waitpid as shells tell it: 128 + number after a signal.
+// Returns the exit code of a status of waitpid as shells do: 128 + number after a signal.
 int exit_code_of(int wait_status) noexcept;
 
 }  // namespace indurop::base

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIGINT, SIGTERM and SIGHUP as something to ask for. They are blocked in every thread, so construct it before any.
+// Turns SIGINT, SIGTERM and SIGHUP into a state to poll. They are blocked in every thread, so construct it before any.
 
 #pragma once
 
@@ -11,7 +11,7 @@ namespace indurop::base {
 class StopSignal {
  public:
   StopSignal() noexcept;
-  // Waits at most this long for a stop signal or the end of a child. Returns the stop signal that has come so far, 0 if
+  // Waits at most `timeout` for a stop signal or the end of a child. Returns the stop signal received so far, 0 if
   // none.
   int wait(std::chrono::nanoseconds timeout) noexcept;
   [[nodiscard]] int received() const noexcept { return received_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes SVG pictures: shapes and text with a white ground, readable with any viewer. The one place that escapes text
-// and writes numbers and the head of the document. Knows nothing of what is drawn.
+// Writes SVG pictures: shapes and text on a white background, readable with any viewer. The only place that escapes
+// text and writes numbers and the head of the document. Knows nothing of the content.
 
 #pragma once
 
@@ -9,21 +9,21 @@
 
 namespace indurop::base {
 
-// To a tenth of a pixel: "12", "4.5".
+// Rounds to a tenth of a pixel: "12", "4.5".
 [[nodiscard]] std::string svg_number(double value);
 
 // A piece of a picture. `attributes` are written as they are: "fill=\"none\"", "class=\"grid\"".
 class SvgPart {
  public:
   void line(double x1, double y1, double x2, double y2, std::string_view attributes);
-  // `title` is shown by viewers that hover over it.
+  // `title` is shown by viewers while the pointer is over the rectangle.
   void rect(double x, double y, double width, double height, std::string_view attributes, std::string_view title = "");
   void circle(double x, double y, double radius, std::string_view attributes);
   // `commands`: "M4 5h8"; numbers that are not whole by svg_number().
   void path(std::string_view commands, std::string_view attributes);
   void text(double x, double y, std::string_view text, std::string_view attributes);
   void raw(std::string_view svg) { out_ += svg; }
-  // Another piece, moved there.
+  // Adds another piece, moved by (x, y).
   void part(int x, int y, const SvgPart& other);
   void add(const SvgPart& other) { out_ += other.out_; }
 
@@ -34,7 +34,7 @@ class SvgPart {
   std::string out_;
 };
 
-// The whole document; text has 12 pixels where its attributes or the style sheet `style` say nothing else.
+// Returns the whole document; text has 12 pixels unless its attributes or the style sheet `style` set another size.
 [[nodiscard]] std::string svg_document(int width, int height, const SvgPart& content, std::string_view style = "");
 
 // A document whose shapes are described by their colours.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who runs this program.
+// The user who runs this program.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::base {
 
-// "ana"; "user 1000" where the system has no name for it.
+// Returns "ana"; "user 1000" if the system has no name for the user.
 std::string user_name();
 
 }  // namespace indurop::base

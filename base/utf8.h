@@ -11,16 +11,16 @@
 
 namespace indurop::base {
 
-// Length in bytes of the character at the start of `text`, which is not empty; 0 if there is none.
+// Returns the length in bytes of the character at the start of `text`, which is not empty; 0 if it is not valid.
 std::size_t utf8_length(std::string_view text) noexcept;
 
-// Offset of the first byte that is not UTF-8, if any.
+// Returns the offset of the first byte that is not UTF-8, if any.
 std::optional<std::size_t> first_invalid_utf8(std::string_view text) noexcept;
 
 // Appends a character, at most U+10FFFF and no surrogate.
 void append_utf8(std::string& to, std::uint32_t code);
 
-// True for a byte that goes on with a character begun before.
+// Returns true for a byte that continues a character.
 constexpr bool continues_utf8(char c) noexcept {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one word of a configuration means as a value. Without a .cpp, for libraries that stand alone.
+// Reads one word of a configuration as a value. Without a .cpp, for libraries that stand alone.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop::base {
 
-// A finite number, also with a plus before it.
+// Reads a finite number, also with a plus before it.
 inline std::optional<double> number_in(std::string_view word) noexcept {
   word.remove_prefix(word.starts_with('+') ? 1 : 0);
   double value = 0;
@@ -20,7 +20,7 @@ inline std::optional<double> number_in(std::string_view word) noexcept {
   return whole ? std::optional(value) : std::nullopt;
 }
 
-// true, 1, on, yes; false, 0, off, no.
+// Reads true, 1, on, yes; false, 0, off, no.
 inline std::optional<bool> flag_in(std::string_view word) noexcept {
   for (const std::string_view yes : {"true", "1", "on", "yes"}) {
     if (word == yes) {

@@ -13,12 +13,12 @@
 
 namespace indurop::base {
 
-// The root element, or empty after at least one mistake: too large, in another encoding than UTF-8, nested too deep,
-// not well-formed. Reads any bytes, whatever they contain. Not real-time safe.
+// Returns the root element, or nothing after at least one mistake: too large, in another encoding than UTF-8, nested
+// too deep, not well-formed. Accepts any bytes. Not real-time safe.
 [[nodiscard]] std::optional<Element> read_xml(std::string_view bytes, const XmlRules& rules,
                                               std::vector<XmlMistake>& mistakes);
 
-// Name of the root element, however damaged the rest of the document is; empty if there is none.
+// Returns the name of the root element, even if the rest of the document is damaged; empty if there is none.
 [[nodiscard]] std::string xml_root_name(std::string_view bytes, const XmlRules& rules);
 
 }  // namespace indurop::base

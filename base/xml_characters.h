@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What characters may be in an XML document.
+// The characters allowed in an XML document.
 
 #pragma once
 
@@ -19,7 +19,7 @@ constexpr bool continues_xml_name(char c) noexcept {
   return begins_xml_name(c) || (c >= '0' && c <= '9') || c == '.' || c == '-';
 }
 
-// What is wrong with the reference that begins with the '&' before `text`; empty: nothing.
+// Returns what is wrong with the reference that begins with the '&' before `text`; empty: nothing.
 [[nodiscard]] std::string mistake_of_reference(std::string_view text);
 
 }  // namespace indurop::base

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An XML element as plain data with places, so that what the elements mean is kept apart from how XML is read.
+// An XML element as plain data with places, so that the meaning of elements is kept apart from how XML is read.
 
 #pragma once
 
@@ -20,7 +20,7 @@ struct Attribute {
 struct Element {
   std::string name;
   SourcePlace place;       // of '<'
-  std::string text;        // own text without that of children, white space around it removed
+  std::string text;        // without that of children and without white space around it
   SourcePlace text_place;  // of its first character; that of the element if it has no text
   std::vector<Attribute> attributes;
   std::vector<Element> children;

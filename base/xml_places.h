@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Line and column of every tag, attribute and text of an XML document, which the XML library does not tell, and the
-// mistakes it lets pass. Knows nothing of what elements mean. Any bytes are accepted, whatever they contain.
+// Finds line and column of every tag, attribute and text of an XML document, which the XML library does not report, and
+// the mistakes it accepts. Knows nothing of what elements mean. Any bytes are accepted.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace indurop::base {
 
-// What a document should be, and how much of it is read.
+// The form a document must have, and how much of it is read.
 struct XmlRules {
   const char* name = "";  // for messages: a <name> is <form>, no <purpose> needs that
   const char* form = "";
@@ -22,8 +22,8 @@ struct XmlRules {
   std::size_t most_bytes = 0;
   std::size_t most_depth = 0;  // less than 100
   std::size_t most_attributes = 32;
-  // For what programs wrote, not people: what the XML library accepts is no mistake, and texts and values keep the
-  // white space around them. Where the scanner loses its way, places are lines only.
+  // For files written by programs: what the XML library accepts is no mistake, and texts and values keep the white
+  // space around them. Where the scanner cannot follow, places are lines only.
   bool tolerant = false;
 };
 
