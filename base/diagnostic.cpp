@@ -36,7 +36,7 @@ std::string to_string(const Diagnostic& diagnostic, std::string_view program) {
   text += (text.empty() ? "" : ": ") + std::string(word(diagnostic.severity)) + ": ";
   text += diagnostic.within.empty() ? diagnostic.text : diagnostic.within + ": " + diagnostic.text;
   for (char& c : text) {
-    c = static_cast<unsigned char>(c) < 0x20 ? ' ' : c;  // one line, whatever a name in the file holds
+    c = static_cast<unsigned char>(c) < 0x20 ? ' ' : c;  // one line, even if a name in the file contains line breaks
   }
   return text;
 }

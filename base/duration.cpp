@@ -14,8 +14,8 @@ constexpr std::int64_t kLongest = std::numeric_limits<std::int64_t>::max();
 
 struct Unit {
   std::string_view name;
-  std::int64_t nanos;  // of one; 0: a frequency
-  std::int64_t hertz;  // of one; 0: a time
+  std::int64_t nanos;  // of one unit; 0: a frequency
+  std::int64_t hertz;  // of one unit; 0: a time
 };
 constexpr std::array<Unit, 12> kUnits{{
     {"", 1, 0},
@@ -45,7 +45,7 @@ struct Decimal {
   std::int64_t scale = 1;
 };
 
-// Takes a decimal number off the front of `text`. Empty: does not start with one, or has more digits than fit.
+// Removes a decimal number from the front of `text`. Empty: does not start with one, or has more digits than fit.
 std::optional<Decimal> take_decimal(std::string_view& text, bool& too_large) {
   Decimal number;
   bool any = false;
@@ -84,7 +84,7 @@ DurationText problem(std::string text) {
   return {std::nullopt, std::move(text)};
 }
 
-// A text that is being read, for messages about it.
+// The text being read, for messages about it.
 struct Subject {
   std::string_view text;
   std::string_view forms;

@@ -17,7 +17,7 @@ bool lies_inside(const std::filesystem::path& file, const std::filesystem::path&
   if (failed) {
     return false;
   }
-  const auto end = root.has_filename() ? root.end() : std::prev(root.end());  // "" behind the last '/'
+  const auto end = root.has_filename() ? root.end() : std::prev(root.end());  // "" after the last '/'
   return std::mismatch(root.begin(), end, whole.begin(), whole.end()).first == end;
 }
 

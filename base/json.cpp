@@ -8,7 +8,7 @@
 namespace indurop::base {
 namespace {
 
-constexpr std::size_t kMostLevels = 64;  // what we destroy and write by recursion
+constexpr std::size_t kMostLevels = 64;  // limit for recursive destruction and writing
 
 // Builds a Json from the parser's events.
 class Reader {
@@ -39,7 +39,7 @@ class Reader {
  private:
   struct Level {
     Json value;
-    std::string key;  // of the member that comes next
+    std::string key;  // of the next member
   };
 
   bool put(Json value) {

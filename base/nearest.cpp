@@ -43,7 +43,7 @@ std::string nearest(std::string_view name, std::span<const std::string> candidat
   if (name.empty() || name.size() > kLongest) {
     return {};
   }
-  std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;  // found: fewer edits than this
+  std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;  // the best must have fewer edits than this
   const std::string* found = nullptr;
   for (const std::string& candidate : candidates) {
     const std::size_t longer = std::max(name.size(), candidate.size());
@@ -51,7 +51,7 @@ std::string nearest(std::string_view name, std::span<const std::string> candidat
     if (longer - shorter >= best) {
       continue;
     }
-    // Replacing every letter is no likeness: "a" is not near "b".
+    // Replacing every letter is no similarity: "a" is not near "b".
     const std::size_t edits = distance(name, candidate);
     if (edits < best && edits < longer) {
       best = edits;

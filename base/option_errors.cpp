@@ -14,7 +14,7 @@
 namespace indurop::base {
 namespace {
 
-// The command itself and those of its commands that were named.
+// Collects the options of the command itself and of those of its commands that were named.
 void options_of(const CommandText& command, const CLI::App& app, std::vector<OptionText>& all) {
   all.insert(all.end(), command.options.begin(), command.options.end());
   for (const CLI::App* chosen : app.get_subcommands()) {
@@ -58,7 +58,7 @@ std::string without_dashes(const std::string& name) {
   return name.substr(std::min(name.find_first_not_of('-'), name.size()));
 }
 
-// CLI11 begins its message with the option's name, of flags without dashes.
+// Returns the option named in a message. CLI11 begins its message with the option's name, for flags without dashes.
 const OptionText* named_in(const std::string& message, const std::vector<OptionText>& options) {
   const std::string name = without_dashes(message.substr(0, message.find_first_of(": ")));
   const auto found = std::find_if(options.begin(), options.end(), [&](const OptionText& option) {
@@ -89,7 +89,7 @@ std::string wrong_words(const CLI::ParseError& error, const CLI::App& app, const
   std::vector<OptionText> options;
   options_of(command, app, options);
   std::vector<std::string> extra = app.remaining(true);
-  std::erase(extra, "--");  // where an error stopped the parser, it is left like a word
+  std::erase(extra, "--");  // after an error the parser leaves it like a word
   const bool strange = std::any_of(extra.begin(), extra.end(), [](const auto& word) { return word.starts_with('-'); });
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || strange) {
     return too_many(extra, options);

@@ -14,7 +14,7 @@ bool has_details(const CommandText& command) {
   return command.details.find_first_not_of(" \n") != std::string::npos;
 }
 
-// "-o, --output FORM", with `around` put around the words that are typed and `value` around those that stand for some.
+// Returns "-o, --output FORM", `around` and `value` being put before literals and placeholders.
 std::string heading(const OptionText& option, std::string_view around, std::string_view after, std::string_view value) {
   std::string out;
   for (const std::string& name : {option.short_name, option.positional ? std::string() : option.long_name}) {
@@ -41,7 +41,7 @@ std::vector<ExitCode> exit_codes(const std::vector<int>& which) {
 
 // ---- man
 
-// Text in which troff sees nothing special.
+// Escapes text for troff.
 std::string roff(std::string text) {
   text = replaced(replaced(std::move(text), "\\", "\\e"), "-", "\\-");
   text = replaced(replaced(std::move(text), "'", "\\(aq"), "`", "\\(ga");
@@ -52,7 +52,7 @@ std::string roff(std::string text) {
   return replaced(std::move(text), "\n.", "\n\\&.");
 }
 
-// Paragraphs of `text` as they are, line by line: examples and lists are among them.
+// Formats the paragraphs of `text` unchanged, line by line: they contain examples and lists.
 std::string roff_lines(const std::string& text) {
   const auto begin = text.find_first_not_of('\n');
   const auto end = text.find_last_not_of(" \n");
@@ -85,7 +85,7 @@ std::string man_options(const CommandText& command) {
   return out;
 }
 
-// A verb below ".SS verb"; its own verbs follow.
+// Describes a verb below ".SS verb"; its own verbs follow.
 std::string man_command(const CommandText& command, const std::string& before) {
   CommandText named = command;
   named.name = before + command.name;

@@ -29,7 +29,7 @@ constexpr const char* kFormatFlag = "--help-format";
 constexpr const char* kHelpHelp = "Print help and exit";
 constexpr const char* kVersionHelp = "Print the version and exit";
 
-// CLI11 takes "-2" for an option and splits "[1,2]" into two: such words are marked before it sees them.
+// CLI11 mistakes "-2" for an option and splits "[1,2]" into two: such words are marked before it sees them.
 constexpr char kMark = '\x01';
 
 std::vector<std::string> marked(std::vector<std::string> words) {

@@ -32,7 +32,8 @@ std::string with_unit(std::size_t bytes) {
 }  // namespace
 
 Result<OpenFile, FileProblem> open_file(const std::filesystem::path& path) {
-  // Asked before it is opened: opening some devices does something. Asked again, as it may be another one by then.
+  // Checked before it is opened: opening some devices has side effects. Checked again, as it may be another file by
+  // then.
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
     return file_problem(errno);
@@ -55,7 +56,7 @@ Result<std::string, FileProblem> read_file(const std::filesystem::path& path, st
   if (!opened) {
     return std::move(opened).error();
   }
-  // The size is a hint: files of the kernel have none, others may grow. One byte more than allowed tells too large.
+  // The size is a hint: kernel files have none, others may grow. One byte more than allowed shows that it is too large.
   constexpr std::size_t kStep = std::size_t{64} << 10U;
   std::string bytes;
   std::size_t used = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The new content gets no name before it is complete where the file system can do that (O_TMPFILE), so that even a kill
-// leaves nothing behind; elsewhere it has a name of its own.
+// Where the file system supports it (O_TMPFILE), the new content has no name before it is complete, so that even a kill
+// leaves nothing behind; elsewhere it has a temporary name.
 
 #include "base/replace_file.h"
 
@@ -26,7 +26,7 @@ using Done = Result<void, FileProblem>;
 constexpr int kMostTries = 100;
 constexpr int kMostLinks = 40;
 
-// 0, or an errno.
+// Returns 0, or an errno.
 int write_all(int file, std::string_view bytes) noexcept {
   while (!bytes.empty()) {
     const ssize_t written = ::write(file, bytes.data(), bytes.size());
@@ -43,7 +43,7 @@ fs::path folder_of(const fs::path& path) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
-// Another one at each call. Short, however long the name of the file to be replaced is.
+// Returns a new name at each call. Short, however long the name of the file to be replaced is.
 fs::path fresh_name(const fs::path& folder) {
   std::uint64_t number = 0;
   (void)::getrandom(&number, sizeof number, GRND_NONBLOCK);
@@ -73,7 +73,7 @@ class Fresh {
     }
   }
 
-  // All return 0 or an errno; the first error stays.
+  // All return 0 or an errno; the first error is kept.
   int fill(std::string_view bytes, const std::optional<struct stat>& old, Durable durable) noexcept {
     keep_rights(old);
     error_ = error_ != 0 ? error_ : write_all(file_.get(), bytes);
@@ -95,7 +95,7 @@ class Fresh {
     }
     return error_;
   }
-  // Like become(), but never in place of anything.
+  // Like become(), but never replaces a file.
   int become_new(const fs::path& target) {
     if (error_ == 0 && (name_.empty() ? link_open(target) : ::link(name_.c_str(), target.c_str())) != 0) {
       error_ = errno;
@@ -142,7 +142,7 @@ Done done(int error) {
   return error == 0 ? Done{} : Done{file_problem(error)};
 }
 
-// A device or a pipe. Opening does not wait for a reader, writing may.
+// Writes to a device or a pipe. Opening does not wait for a reader, writing may.
 Done write_into(const fs::path& path, bool pipe, std::string_view bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (!file.is_open()) {
@@ -155,7 +155,7 @@ Done write_into(const fs::path& path, bool pipe, std::string_view bytes) {
   return done(error == 0 && file.close() != 0 ? errno : error);
 }
 
-// Where the file is that a link leads to, there already or not.
+// Returns the path of the file that a link leads to, whether it exists or not.
 fs::path behind_links(fs::path path) {
   std::error_code error;
   for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
@@ -165,7 +165,7 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
-// The open standard output or error that `path` is another name of ("/dev/stdout" > FILE); -1: none.
+// Returns the open standard output or error that `path` is another name of ("/dev/stdout" > FILE); -1: none.
 int standard_stream(const struct stat& status) noexcept {
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
     struct stat open {};
@@ -219,8 +219,7 @@ Result<void, FileProblem> create_file(const fs::path& path, std::string_view byt
 
 Result<void, FileProblem> sync_to_disk(const fs::path& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!file.is_open() ||
-      (::fsync(file.get()) != 0 && errno != EINVAL)) {  // EINVAL: nothing that could be brought there
+  if (!file.is_open() || (::fsync(file.get()) != 0 && errno != EINVAL)) {  // EINVAL: it cannot be synced
     return done(errno);
   }
   return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tab completion for bash, zsh and fish, made from the options that were declared.
+// Tab completion for bash, zsh and fish, generated from the declared options.
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ std::string command_words(const CommandText& command) {
   return out;
 }
 
-// In single quotes of a shell.
+// Puts text in single quotes of a shell.
 std::string quoted(const std::string& text) {
   return "'" + replaced(text, "'", "'\\''") + "'";
 }
@@ -56,7 +56,7 @@ const char* lister(Completion what) {
   }
 }
 
-// What bash does for a value; empty: nothing is known of it.
+// Returns the action of bash for a value; empty: there is none.
 std::string bash_action(const OptionText& option, const std::string& function) {
   if (!option.choices.empty()) {
     return fmt::format("{}_words '{}'", function, fmt::join(option.choices, " "));
@@ -109,7 +109,7 @@ std::string zsh_action(const OptionText& option) {
   }
 }
 
-// Text inside the brackets of an _arguments specification.
+// Escapes text inside the brackets of an _arguments specification.
 std::string zsh_text(const std::string& text) {
   return replaced(replaced(replaced(replaced(text, "\\", "\\\\"), "[", "\\["), "]", "\\]"), ":", "\\:");
 }
@@ -130,7 +130,7 @@ std::string zsh_specification(const OptionText& option) {
 
 }  // namespace
 
-// Long: it holds the script.
+// Long because it contains the script.
 std::string bash_completion(const CommandText& program) {
   const std::string function = function_name(program);
   std::string options;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kShown = 120;  // characters of a source line
 
-// One element per character; what a terminal might misread becomes '?'.
+// Returns one element per character; characters that a terminal might misread become '?'.
 std::vector<std::string> shown_characters(std::string_view line) {
   std::vector<std::string> out;
   for (std::size_t i = 0; i < line.size();) {

@@ -23,7 +23,7 @@ std::vector<char*> pointers(const std::vector<std::string>& words) {
   return all;
 }
 
-// The C library's description of what a child does before it becomes the program.
+// The C library's description of the actions of a child before it becomes the program.
 class Preparation {
  public:
   explicit Preparation(const Launch& launch) {
@@ -50,7 +50,7 @@ class Preparation {
       ::posix_spawn_file_actions_adddup2(&actions_, launch.output, STDERR_FILENO);
     }
     if (launch.inherits >= 0) {
-      ::posix_spawn_file_actions_adddup2(&actions_, launch.inherits, launch.inherits);  // takes O_CLOEXEC away
+      ::posix_spawn_file_actions_adddup2(&actions_, launch.inherits, launch.inherits);  // clears O_CLOEXEC
     }
   }
   Preparation(const Preparation&) = delete;
@@ -77,7 +77,7 @@ class Preparation {
   }
   ::prctl(PR_SET_PDEATHSIG, launch.ends_with_us);
   if (::getppid() != parent) {
-    ::_exit(1);  // it ended before we asked to be told
+    ::_exit(1);  // the parent ended before the signal was requested
   }
   if (launch.fresh_signals) {
     for (int number = 1; number < NSIG; ++number) {

@@ -22,9 +22,9 @@ struct Launch {
   std::filesystem::path program;   // empty: words[0], searched in PATH
   std::optional<std::vector<std::string>> environment = std::nullopt;  // "NAME=value"; ours if not given
   Group group = Group::Ours;
-  int input = -1;     // an open file for standard input; -1: ours
-  int output = -1;    // an open file for standard output and error; -1: ours
-  int inherits = -1;  // an open file the program gets under the same number, although others are closed to it; -1: none
+  int input = -1;              // an open file for standard input; -1: ours
+  int output = -1;             // an open file for standard output and error; -1: ours
+  int inherits = -1;           // a file the program gets under the same number, although closed to others; -1: none
   bool fresh_signals = false;  // no signal is blocked or ignored, whatever we do
   // The signal the program gets when the thread that starts it ends; 0: it lives on. Costs a fork: not in real-time
   // processes.

@@ -16,7 +16,7 @@ StopSignal::StopSignal() noexcept {
   }
   ::pthread_sigmask(SIG_BLOCK, &set_, nullptr);
   std::signal(SIGPIPE, SIG_IGN);  // a closed terminal or pipe must not end a running robot
-  std::signal(SIGXFSZ, SIG_IGN);  // nor a limit of file sizes: the write fails, and somebody says so
+  std::signal(SIGXFSZ, SIG_IGN);  // nor a limit of file sizes: the write fails, and that is reported
 }
 
 int StopSignal::wait(std::chrono::nanoseconds timeout) noexcept {

@@ -17,7 +17,7 @@ std::string_view without_mark(std::string_view xml) {
   return xml.starts_with("\xEF\xBB\xBF") ? xml.substr(3) : xml;
 }
 
-// What shows before the first tag is looked for.
+// Returns a mistake that is visible before the first tag is searched for.
 std::optional<XmlMistake> mistake_of_bytes(std::string_view bytes, const XmlRules& rules) {
   if (bytes.size() > rules.most_bytes) {
     return XmlMistake{{},
@@ -37,7 +37,7 @@ std::optional<XmlMistake> mistake_of_bytes(std::string_view bytes, const XmlRule
   return std::nullopt;
 }
 
-// Copies the library's tree. Its elements come in the order of the start tags, so the places are taken one by one.
+// Copies the library's tree. Its elements come in the order of the start tags, so the places are used one by one.
 class Copier {
  public:
   Copier(const XmlPlaces& places, bool keep_space) : places_(places), keep_space_(keep_space) {}
@@ -84,7 +84,7 @@ class Copier {
   std::size_t next_ = 0;
 };
 
-// Where the text of a line begins: the library knows no columns.
+// Returns where the text of a line begins: the library reports no columns.
 SourcePlace begin_of_line(std::string_view xml, int line) {
   std::size_t begin = 0;
   for (int passed = 1; passed < line; ++passed) {

@@ -83,7 +83,7 @@ class Scanner {
       advance();
     }
   }
-  // Up to behind `end`; false if the text ends before.
+  // Advances past `end`; returns false if the text ends before.
   bool skip_behind(std::string_view end) {
     const std::size_t found = xml_.find(end, pos_);
     if (found == std::string_view::npos) {
@@ -248,7 +248,7 @@ class Scanner {
     }
   }
 
-  // Up to behind '>' of a start tag. True: it was "/>".
+  // Advances past '>' of a start tag. Returns true if it was "/>".
   bool attributes(TagPlaces& tag) {
     while (!stopped_) {
       const bool separated = !at_end() && is_xml_space(peek());
@@ -341,7 +341,7 @@ class Scanner {
     value_character();
   }
 
-  // What is before a text belongs to it; alone it is no text.
+  // White space before a text belongs to the text; alone it is no text.
   void white_space() {
     const SourcePlace start = here();
     skip_space();

@@ -8,7 +8,7 @@ namespace indurop::scheduler {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr std::chrono::microseconds kPoll{50};  // how often a process that must finish first is looked at
+constexpr std::chrono::microseconds kPoll{50};  // how often a process that must finish first is polled
 
 void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
   counter.store(counter.load(kRelaxed) + by, kRelaxed);
@@ -42,7 +42,7 @@ bool Band::any_enabled() const noexcept {
   return !processes_.empty();
 }
 
-// Releases that have not begun to be dealt with, or, of threads, that are not over.
+// Returns true if releases have not been started yet, or, for threads, are not finished.
 bool Band::outstanding() const noexcept {
   return done_.load(std::memory_order_seq_cst) != released_.load(std::memory_order_seq_cst);
 }
@@ -190,7 +190,7 @@ void Band::release_process(TaskState& state, const Release& release) noexcept {
     }
     const bool started = slot.start_ns.load(kRelaxed) >= slot.release_ns.load(kRelaxed);
     record_overrun(state, release.tick, started, slot.release_ns.load(kRelaxed));
-    count(record.skipped);  // a process has one release slot: what it missed cannot be caught up
+    count(record.skipped);  // a process has one release slot: missed releases cannot be caught up
     return;
   }
   account_process(state);
@@ -230,7 +230,7 @@ void Band::find_inline_overrun(std::uint64_t tick, std::int64_t release_ns) noex
   if (i == tasks_.size()) [[likely]] {
     return;
   }
-  // The first to pass the next release is the culprit; those behind it were only pushed.
+  // The first to pass the next release is the culprit; those after it were only delayed.
   TaskState& culprit = *tasks_[i];
   const RunTimes& times = runner_.times(i);
   count(culprit.record->overruns);

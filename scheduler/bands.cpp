@@ -9,10 +9,10 @@
 namespace indurop::scheduler {
 namespace {
 
-// What the data asks for between cores, by task.
+// The waiting between cores that data flow requires, by task.
 struct Crossing {
   std::vector<bool> waits;    // for a task of another core
-  std::vector<bool> awaited;  // by one
+  std::vector<bool> awaited;  // by a task of another core
 };
 
 Crossing crossing_of(std::span<const Task> tasks) {
@@ -39,7 +39,7 @@ bool alike(const BandPlan& band, std::span<const Task> tasks, const Task& task) 
          tasks[band.tasks.back()].type == ModuleType::Thread;
 }
 
-// `before`: the bands so far, the last of them is the one to join. A module of equal priority on another core may run
+// `before`: the bands so far; the last one is the candidate to join. A module of equal priority on another core may run
 // at the same time as the front of that band but has to be done before one of a lower priority.
 bool joins(std::span<const BandPlan> before, std::span<const Task> tasks, const Task& task) noexcept {
   const BandPlan& band = before.back();
@@ -51,7 +51,7 @@ bool joins(std::span<const BandPlan> before, std::span<const Task> tasks, const 
   return !passes_other && alike(band, tasks, task);
 }
 
-// The band this task becomes a part of; null: it begins one.
+// Returns the band this task joins; null: it begins a new one.
 BandPlan* band_for(std::vector<BandPlan>& bands, std::span<const Task> tasks, std::uint32_t task, CoreOrder order,
                    const Crossing& crossing) {
   if (order == CoreOrder::Total) {

@@ -22,7 +22,7 @@ void CoreLoads::apply(std::vector<std::int64_t>& load, const LoadUnit& unit, std
 std::int64_t CoreLoads::longest(const std::vector<std::int64_t>& load) const {
   std::int64_t left = 0;
   std::int64_t most = 0;
-  // What a macro period leaves goes into the next one.
+  // Work left at the end of a macro period carries over into the next one.
   for (int round = 0; round < (ticks_ > 1 ? 2 : 1); ++round) {
     for (const std::int64_t added : load) {
       left = std::max<std::int64_t>(left - room_, 0) + added;

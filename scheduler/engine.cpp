@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The story of a tick. Each core has one tick thread, which sleeps until the absolute time of the next tick; ticks it
-// missed are counted and not made up for. It runs the band at the top of its core itself and releases the other bands
+// How a tick proceeds. Each core has one tick thread, which sleeps until the absolute time of the next tick; missed
+// ticks are counted and not made up for. It runs the band at the top of its core itself and releases the other bands
 // that are due: threads with lower FIFO priorities, so that a quick band preempts a slow one. Where these priorities do
-// not give the order (several cores, data that flows), a band waits for its predecessors. Sporadic modules run after
-// everything periodic, or right after the base modules. A watchdog ends runs that exceed their budget.
+// not give the order (several cores, data flow), a band waits for its predecessors. Sporadic modules run after all
+// periodic ones, or directly after the base modules. A watchdog ends runs that exceed their budget.
 #include "scheduler/engine.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr std::int64_t kLeadNs = 2'000'000;  // between creating the threads and
 constexpr std::int64_t kWatchdogFastest = 1'000'000;
 constexpr std::int64_t kWatchdogSlowest = 10'000'000;
 
-// Whole basic periods, at least three of them, in which the tick threads wake up and nothing is run.
+// Whole basic periods, at least three, in which the tick threads wake up and no module runs.
 std::int64_t warm_up_ns(std::int64_t basic_period_ns) noexcept {
   return std::max<std::int64_t>(kWarmUpNs / basic_period_ns, 3) * basic_period_ns;
 }
@@ -36,8 +36,8 @@ bool data_flows(const Band& from, const Band& to) noexcept {
   });
 }
 
-// What a band has to find done when it starts. Event handling waits for everything periodic; what is handled right
-// after the base modules does not wait for others, nor they for it.
+// Returns true if `band` must wait for `other`. Event handling waits for all periodic bands; bands handled directly
+// after the base modules neither wait for others nor are waited for.
 bool comes_before(const Band& other, const Band& band, CoreOrder order) noexcept {
   if (other.plan().kind == BandKind::AfterBase || band.plan().kind == BandKind::AfterBase) {
     return false;
@@ -56,7 +56,7 @@ struct Engine::Core {
   bool primary = false;
   CoreTrace trace;
   std::vector<Band*> here;      // run in this core's tick thread, execution order
-  std::vector<Band*> released;  // by this core's tick thread, execution order
+  std::vector<Band*> released;  // released by this core's tick thread, execution order
 };
 
 Engine::Engine(RunBlock& block, std::span<const Task> tasks, const EngineSettings& settings, const Hooks& hooks,
@@ -158,8 +158,8 @@ void Engine::build_sporadic(const std::vector<TaskState*>& sporadic) {
   }
 }
 
-// Needed only where FIFO priorities of one core do not already give the order: several cores, no real-time rights, or
-// a band that waits for another core and so lets those behind it pass.
+// Needed only where FIFO priorities of one core do not already give the order: several cores, no real-time rights, or a
+// band that waits for another core and so lets later ones pass.
 void Engine::connect_predecessors() {
   if (!gated_) {
     return;
@@ -210,7 +210,7 @@ Status Engine::start_band_threads() {
 Status Engine::start_watchdog() {
   rt::ThreadSettings settings;
   settings.name = "irp-watchdog";
-  settings.stack_bytes = std::size_t{128} * 1024;  // it only looks
+  settings.stack_bytes = std::size_t{128} * 1024;  // it only checks
   settings.fifo_priority = settings_.realtime ? kWatchdogPriority : 0;
   const auto allowed = rt::allowed_cores();
   // On another core, if there is one, its wake-ups cannot delay a tick.
@@ -275,7 +275,7 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
   for (std::int64_t t = epoch_ns_ - warm_up_ns(basic); t < epoch_ns_; t += basic) {
     spinner.wait_until(rt::mono_time(t));
   }
-  std::uint64_t missed = 0;  // ticks since the last that was run
+  std::uint64_t missed = 0;  // ticks since the last one that was run
   WorkTime work;
   for (std::uint64_t tick = 0; !stop_.load(std::memory_order_acquire); ++tick) {
     const std::int64_t planned = epoch_ns_ + static_cast<std::int64_t>(tick) * basic;
@@ -362,7 +362,7 @@ void Engine::watchdog_loop() noexcept {
       period = std::min(period, std::max(state->task.budget_ns / 2, kWatchdogFastest));
     }
   }
-  // Half a basic period behind a tick, where its waking delays none, should they share a core.
+  // Half a basic period after a tick, where the wake-up delays no tick if they share a core.
   const std::int64_t grid = period >= settings_.basic_period_ns ? settings_.basic_period_ns : period;
   while (!stop_watchdog_.load(std::memory_order_acquire)) {
     const std::int64_t earliest = rt::to_ns(kernel_.now()) + period - epoch_ns_;
@@ -376,7 +376,7 @@ void Engine::watchdog_loop() noexcept {
 }
 
 void Engine::join() noexcept {
-  // A run that ended by itself (ticks) stops its bands too.
+  // A run that ended on its own (ticks) stops its bands, too.
   while (!finished() && !stop_.load(std::memory_order_acquire)) {
     kernel_.sleep_until(kernel_.now() + std::chrono::nanoseconds(kWatchdogFastest));
   }

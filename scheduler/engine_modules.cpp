@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Single modules while the schedule runs: left out, at rest, back again.
+// Single modules while the schedule runs: disable, check that they are at rest, enable.
 
 #include <algorithm>
 

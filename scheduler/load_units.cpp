@@ -8,8 +8,8 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::int64_t kMostTicks = 4096;  // beyond: as if all were released at once
-constexpr std::int64_t kMostShifts = 64;   // that are tried of one unit
+constexpr std::int64_t kMostTicks = 4096;  // with more ticks, all are treated as released at once
+constexpr std::int64_t kMostShifts = 64;   // shifts tried for one unit
 
 std::int64_t macro_ticks(const PlacementProblem& problem) {
   std::int64_t macro = 1;

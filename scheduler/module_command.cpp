@@ -4,7 +4,7 @@
 namespace indurop::scheduler {
 namespace {
 
-// A ticket and, in the lowest byte, what it is about.
+// A ticket and, in the lowest byte, the command or result.
 constexpr unsigned kTicketShift = 8;
 constexpr std::uint64_t kWhat = 0xff;
 

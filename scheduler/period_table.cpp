@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GCD and LCM arithmetic of the period table, checked for overflow, and the search for periods that a minimum allows.
+// GCD and LCM arithmetic of the period table, checked for overflow, and the search for periods that satisfy a minimum.
 
 #include "scheduler/period_table.h"
 
@@ -19,7 +19,8 @@ constexpr std::int64_t kLongest = std::numeric_limits<std::int64_t>::max();
 // Effort of adjust_periods: candidates for the basic period, over all periods together.
 constexpr std::size_t kMaxCandidates = 32'768;
 
-// Nearest positive multiple of `basic`; the shorter one if both are equally near or the longer one does not fit.
+// Returns the nearest positive multiple of `basic`; the shorter one if both are equally near or the longer one does not
+// fit.
 std::int64_t nearest_multiple(std::int64_t period, std::int64_t basic) {
   const std::int64_t rest = period % basic;
   if (period < basic) {
@@ -67,8 +68,8 @@ std::vector<std::int64_t> basic_period_candidates(std::span<const Nanos> periods
   return candidates;
 }
 
-// A basic period that people write, if it changes the periods by 0.05 % each more than `basic` at most: 1 ms, not
-// 1000.001 us.
+// Returns a basic period that users would write, if it changes the periods by at most 0.05 % each more than `basic`: 1
+// ms, not 1000.001 us.
 std::int64_t round_basic_period(std::span<const Nanos> periods, std::int64_t basic, std::int64_t minimum) {
   constexpr std::array<std::int64_t, 13> kUnits{10'000'000, 5'000'000, 2'000'000, 1'000'000, 500'000, 200'000, 100'000,
                                                 50'000,     20'000,    10'000,    5'000,     2'000,   1'000};

@@ -12,7 +12,7 @@ constexpr std::int64_t kMostLevelSteps = 20'000'000;
 
 Demand demand_of(const PlacementProblem& problem, std::uint32_t module, Nanos offset) {
   const Placeable& placed = problem.modules[module];
-  // Neighbours share a thread, so this is more than it costs where many have one period.
+  // Neighbours share a thread, so this overestimates the cost where many have the same period.
   const bool own_thread = placed.period != problem.basic_period || offset != Nanos::zero();
   return {placed.period, offset, placed.execution, own_thread};
 }
@@ -41,7 +41,7 @@ bool holds(const PlacementProblem& problem, const Modules& order, const std::vec
   return true;
 }
 
-// May `module` come last of `rest`: none of the others has to come after it.
+// Returns whether `module` may come last in `rest`: none of the others has to come after it.
 bool may_be_last(const PlacementProblem& problem, const Modules& rest, std::uint32_t module) {
   return std::none_of(rest.begin(), rest.end(), [&](std::uint32_t other) {
     const auto& earlier = problem.modules[other].shares;
@@ -91,7 +91,7 @@ std::optional<Modules> order_that_holds(const PlacementProblem& problem, const M
   Modules rest = modules;
   Modules backwards;
   while (!rest.empty()) {
-    // The last one that can be last: so the given order changes as little as possible.
+    // Chooses the last one possible, so that the given order changes as little as possible.
     const auto last = std::find_if(rest.rbegin(), rest.rend(), [&](std::uint32_t module) {
       if (!may_be_last(problem, rest, module)) {
         return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Modules one by one on cores, where those that share data wait for one another: first what most work hangs on, each
-// where it can begin first. A few modules are searched through, many are improved by moving one at a time. What is
-// looked at is the tick in which all are released.
+// Places modules one by one on cores, where those that share data wait for one another: first the module on which most
+// work depends, each on the core where it can begin first. A few modules are searched completely, many are improved by
+// moving one at a time. Only the tick in which all are released is considered.
 
 #include <algorithm>
 #include <numeric>
@@ -11,9 +11,9 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::size_t kFewModules = 9;           // are searched through
+constexpr std::size_t kFewModules = 9;           // up to this number: complete search
 constexpr std::int64_t kMostNodes = 400'000;     // of that search
-constexpr std::int64_t kMostSteps = 30'000'000;  // of improving, a module in a tick each
+constexpr std::int64_t kMostSteps = 30'000'000;  // of improving, one step is a module in a tick
 constexpr Nanos kNever = Nanos::max();
 
 class SplitSearch {
@@ -51,7 +51,7 @@ class SplitSearch {
     } else {
       improve(best);
     }
-    // The given order where another one gains nothing.
+    // Keeps the given order if another one gains nothing.
     Modules given(count_);
     std::iota(given.begin(), given.end(), 0U);
     Placement as_given = placement_of(given, best.core);
@@ -80,7 +80,7 @@ class SplitSearch {
            std::all_of(earlier.begin(), earlier.end(), [&](std::uint32_t other) { return core_[other] >= 0; });
   }
 
-  // When it would end there.
+  // Returns when the module would end on this core.
   [[nodiscard]] Nanos end_on(std::size_t module, int core) const {
     const Placeable& placed = problem_.modules[module];
     Nanos begin = free_[static_cast<std::size_t>(core)];
@@ -98,7 +98,7 @@ class SplitSearch {
     return problem_.modules[module].core < 0 || problem_.modules[module].core == core;
   }
 
-  // `by_tail`: among those that may begin, first what most work hangs on; else the given order.
+  // `by_tail`: of the modules that may begin, takes the one on which most work depends; else the given order.
   Placement in_list_order(bool by_tail) {
     clear();
     while (order_.size() < count_) {
@@ -126,7 +126,7 @@ class SplitSearch {
     order_.push_back(static_cast<std::uint32_t>(module));
   }
 
-  // Every way to go on from here that could be better.
+  // Tries every continuation that could be better.
   void look_at(Nanos busiest) {
     if (order_.size() == count_) {
       found_order_ = order_;
@@ -196,7 +196,7 @@ class SplitSearch {
   const PlacementProblem& problem_;
   std::size_t count_;
   std::vector<Modules> next_;
-  std::vector<Nanos> tail_;  // of executions, from the begin of a module to the end of all that hangs on it
+  std::vector<Nanos> tail_;  // execution time from the begin of a module to the end of all that depends on it
   std::vector<int> core_;    // -1: not placed
   std::vector<Nanos> ends_;
   std::vector<Nanos> free_;  // by core

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Units of modules that share data, put on cores: the largest first on the emptiest core, then single moves and
-// exchanges as long as they help, and where there are few units all that could be better.
+// Places units of modules that share data on cores: the largest first on the emptiest core, then single moves and
+// exchanges as long as they help, and where there are few units all placements that could be better.
 
 #include <algorithm>
 #include <limits>
@@ -13,8 +13,8 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::int64_t kMostSteps = 60'000'000;  // of improving, a tick of a core each
-constexpr std::size_t kFewUnits = 14;            // are searched through
+constexpr std::int64_t kMostSteps = 60'000'000;  // of improving, one step is a tick of a core
+constexpr std::size_t kFewUnits = 14;            // up to this number: complete search
 constexpr std::int64_t kMostNodes = 200'000;     // of that search
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
@@ -49,7 +49,7 @@ class Search {
     std::int64_t shift = 0;
   };
 
-  // No placement keeps all cores busy for less.
+  // Lower bound: no placement keeps all cores busy for less.
   [[nodiscard]] std::int64_t least_possible(const LoadUnits& units) const {
     std::vector<std::int64_t> load(static_cast<std::size_t>(units.ticks()));
     std::int64_t least = 0;
@@ -108,10 +108,10 @@ class Search {
     return order_that_holds(problem_, modules_on(core), offsets()).has_value();
   }
 
-  // `in_time`: only where all deadlines of the core hold, as long as there is such a core.
+  // `in_time`: uses only cores on which all deadlines hold, as long as there is one.
   void spread(bool in_time) {
     clear();
-    std::int64_t left = kMostSteps;  // without any: where it is, with what was found so far
+    std::int64_t left = kMostSteps;  // 0: no more shifts are tried
     for (std::size_t i = 0; i < units_.size(); ++i) {
       Spot best;
       std::int64_t least = kNever;
@@ -144,7 +144,7 @@ class Search {
     return units_[unit].core < 0 || units_[unit].core == core;
   }
 
-  // Moves a unit of the busiest core to another one, or exchanges it with one there, while that helps.
+  // Moves a unit of the busiest core to another one, or exchanges it with one there, as long as that helps.
   void improve() {
     const std::int64_t steps_of_try = 2 * loads_.ticks();
     for (std::int64_t left = kMostSteps; left > 0 && loads_.busiest() > least_;) {
@@ -174,11 +174,11 @@ class Search {
   }
   struct Change {
     std::size_t unit;
-    std::size_t other;  // none: a move
-    int core;           // it goes to; -1: nothing helps
+    std::size_t other;  // unit to exchange with; none: a move
+    int core;           // target core; -1: nothing helps
     std::int64_t busiest;
   };
-  // How many were tried.
+  // Returns how many changes were tried.
   std::int64_t best_change(std::size_t unit, Change& best) const {
     const int from = spots_[unit].core;
     const std::int64_t shift = spots_[unit].shift;
@@ -206,7 +206,7 @@ class Search {
     return tried;
   }
 
-  // Keeps what is there now if it is better than what was found before.
+  // Stores the current placement if it is better than the best found so far.
   void remember() {
     bool holds = true;
     for (int core = 0; core < problem_.cores && holds; ++core) {
@@ -220,7 +220,7 @@ class Search {
     }
   }
 
-  // All placements of the units from this one on that could be better. Cores without units are alike.
+  // Tries all placements of the units from this one on that could be better. Cores without units are equivalent.
   void look_at(std::size_t unit) {
     if (unit == units_.size()) {
       remember();
@@ -255,7 +255,7 @@ class Search {
     placement.core.resize(problem_.modules.size());
     for (std::size_t i = 0; i < units_.size(); ++i) {
       for (const std::uint32_t module : units_[i].modules) {
-        const int bound = problem_.modules[module].core;  // where users split what shares data
+        const int bound = problem_.modules[module].core;  // where users split modules that share data
         placement.core[module] = bound >= 0 ? bound : spots_[i].core;
       }
     }
@@ -265,7 +265,7 @@ class Search {
     return placement;
   }
 
-  // The orders of the cores as one, as near as possible to the given one.
+  // Returns the orders of the cores merged into one, as near as possible to the given order.
   [[nodiscard]] Modules merged_order(const std::vector<Nanos>& offsets) const {
     std::vector<Modules> orders;
     for (int core = 0; core < problem_.cores; ++core) {
@@ -316,7 +316,7 @@ class Search {
   CoreLoads loads_;
   std::vector<Spot> spots_;  // by unit
   std::int64_t least_;
-  std::vector<bool> bound_ = bound_cores();  // by core: something has to be on it
+  std::vector<bool> bound_ = bound_cores();  // by core: a module is bound to it
   std::vector<Spot> best_;
   bool best_holds_ = false;
   std::int64_t best_busiest_ = kNever;

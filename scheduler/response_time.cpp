@@ -8,7 +8,7 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::int64_t kMostSteps = 20'000'000;  // a module in a tick; a tenth of a second
+constexpr std::int64_t kMostSteps = 20'000'000;  // one step is a module in a tick; takes a tenth of a second
 
 class Walk {
  public:
@@ -22,7 +22,7 @@ class Walk {
     used_.resize(known.size());
   }
 
-  // Until ticks repeat themselves: at once without offsets, else after the longest offset and two macro periods (Leung
+  // Number of ticks until they repeat: one without offsets, else after the longest offset and two macro periods (Leung
   // and Merrill, 1980). 0: beyond kMostSteps.
   [[nodiscard]] std::int64_t ticks() const {
     std::int64_t macro = 1;
@@ -43,7 +43,7 @@ class Walk {
       execute(tick);
     }
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      // The first of all releases is the worst one; of later ones some are still under way.
+      // The first of all releases is the worst one; some later ones are not finished.
       if (jobs_[i].left > Nanos::zero() && jobs_[i].released == Nanos::zero() && !with_offsets_) {
         found_.worst[i] = WorstResponses::kNotDone;
       }
@@ -55,7 +55,7 @@ class Walk {
   struct Job {
     Nanos left{};
     Nanos released{};
-    Nanos ended{};  // in this tick; its end if it is not over then
+    Nanos ended{};  // end in this tick; the tick's end if it is not finished then
   };
 
   void release(std::int64_t tick) {

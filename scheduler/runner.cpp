@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kSoon = 3;  // modules ahead: memory answers in about the time of two of the shortest runs
 
-// A simulated run has used up its budget.
+// Thrown when a simulated run has used up its budget.
 class TooLong : public std::exception {};
 
 }  // namespace
@@ -23,7 +23,7 @@ void record_fault(ModuleRecord& record, FaultKind kind, std::uint64_t tick, std:
   rt::copy_text(record.last_fault, text);
   record.fault_tick.store(tick, std::memory_order_relaxed);
   record.fault_kind.store(static_cast<std::uint32_t>(kind), std::memory_order_release);
-  record.faults.fetch_add(1, std::memory_order_release);  // whoever sees it sees the text
+  record.faults.fetch_add(1, std::memory_order_release);  // a reader that sees the count sees the text
 }
 
 void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char* text, const Hooks& hooks) noexcept {
@@ -64,7 +64,8 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::Mono
   release_ns_ = rt::to_ns(release);
   position_ = 0;
   guard_.enter();
-  // A fault comes back here, behind the module that caused it. No signal mask is saved: that would be a system call.
+  // A fault jumps back to this point, after the module that caused it. No signal mask is saved: that would be a system
+  // call.
   if (sigsetjmp(guard_.target(), 0) != 0) [[unlikely]] {
     contain_jump();
     ++position_;
@@ -86,7 +87,7 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::Mono
   account();
 }
 
-// Two functions of one text: what a simulation adds costs a real run nothing.
+// Two functions from one text: the simulation's part costs a real run nothing.
 template <bool kVirtualTime>
 void Runner::call_current() noexcept {
   TaskState& state = *tasks_[position_];
@@ -139,7 +140,7 @@ void Runner::call_current() noexcept {
   conclude(ran, threw ? text : nullptr);
 }
 
-// `threw`: what, null if it returned. `ran`: false if its condition was not met.
+// `threw`: description of the exception, null if it returned. `ran`: false if its condition was not met.
 void Runner::conclude(bool ran, const char* threw) noexcept {
   TaskState& state = *tasks_[position_];
   const std::int64_t start = current_start_.load(std::memory_order_relaxed);
@@ -158,7 +159,7 @@ void Runner::conclude(bool ran, const char* threw) noexcept {
   }
 }
 
-// In a simulation: lets the time of the run pass, but not more than it may take.
+// In a simulation: lets the time of the run pass, but at most its budget.
 void Runner::spend_time(const Task& task) {
   if (task.budget_ns > 0 && task.work_ns > task.budget_ns) {
     kernel_.work(task.budget_ns);
@@ -175,7 +176,7 @@ void Runner::contain_jump() noexcept {
   FaultKind kind = FaultKind::Signal;
   if (guard_.signal_number() == rt::Guard::kOrder) {
     kind = FaultKind::Budget;
-    // In virtual time no time has passed.
+    // In virtual time, no time has passed.
     end == start ? std::snprintf(text, sizeof text, "did not return")
                  : std::snprintf(text, sizeof text, "did not return within %lld us",
                                  static_cast<long long>((end - start) / 1000));
@@ -199,7 +200,7 @@ void Runner::contain(FaultKind kind, const char* text) noexcept {
   tell_end(true);
 }
 
-// What is done for it is no time of the run, unless reading the clock would take longer.
+// Time spent in the hook is not counted as execution time, unless reading the clock would take longer.
 void Runner::tell_begin() noexcept {
   if (hooks_.begins != nullptr && hooks_.begins(hooks_.context, tasks_[position_]->task.index)) {
     told_much_ = true;

@@ -13,13 +13,13 @@ namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
 constexpr int kAnyCore = -1;
-constexpr int kLooksBeforeSleep = 2000;          // at a process that runs: some 20 us
-constexpr std::chrono::microseconds kPause{50};  // then between two looks
+constexpr int kLooksBeforeSleep = 2000;          // polls of a running process: some 20 us
+constexpr std::chrono::microseconds kPause{50};  // between two polls after that
 constexpr std::size_t kLeastStack = std::size_t{256} * 1024;
 
 enum class State {
   Ready,     // has code to run
-  Working,   // its code has run, the time for it has not passed
+  Working,   // its code has run, the time for it has not passed yet
   Sleeping,  // until a time
   Waiting,   // for a wake-up
   Ended,
@@ -34,12 +34,12 @@ struct SimulatedKernel::Thread {
   rt::Fiber fiber;
   State state = State::Ready;
   std::uint64_t ready_since = 0;   // place among those of the same priority
-  std::int64_t until_ns = 0;       // Sleeping; Waiting: at most
+  std::int64_t until_ns = 0;       // Sleeping; Waiting: latest time
   std::int64_t left_ns = 0;        // Working
   rt::SignalWord* word = nullptr;  // Waiting
 };
 
-// The simulated thread that stands for a process module: it has the process run when its turn comes.
+// The simulated thread that represents a process module: it makes the process run when it is scheduled.
 struct SimulatedKernel::Process {
   Task task;
   ProcessSlot& slot;
@@ -135,14 +135,14 @@ void SimulatedKernel::work(std::int64_t ns) noexcept {
 void SimulatedKernel::take_wake_ups() noexcept {
   for (const auto& thread : threads_) {
     if (thread->state == State::Waiting && thread->word->try_wait()) {
-      thread->word = nullptr;  // it was woken, its time has not passed
+      thread->word = nullptr;  // it was woken before its time
       thread->state = State::Ready;
       thread->ready_since = ++became_ready_;
     }
   }
 }
 
-// Of a core's threads that are ready or working: the first of the highest priority.
+// Returns the first of the highest priority among a core's threads that are ready or working.
 const SimulatedKernel::Thread* SimulatedKernel::top_of(int core) const noexcept {
   const Thread* top = nullptr;
   for (const auto& thread : threads_) {
@@ -165,7 +165,7 @@ SimulatedKernel::Thread* SimulatedKernel::next_to_run() const noexcept {
       }
     }
   }
-  // There is always a core for those that any will do, behind the others.
+  // There is always a core for threads without a fixed core, after the others.
   const auto any = std::find_if(threads_.begin(), threads_.end(), [](const auto& thread) {
     return thread->settings.core == kAnyCore && thread->state == State::Ready;
   });
@@ -194,7 +194,7 @@ void SimulatedKernel::run(Thread& thread) noexcept {
   }
 }
 
-// Its work goes on: nobody of a higher priority has its core.
+// Returns true if the work of a thread progresses: no thread of a higher priority occupies its core.
 bool SimulatedKernel::at_work(const Thread& thread) const noexcept {
   return thread.state == State::Working &&
          (thread.settings.core == kAnyCore || top_of(thread.settings.core) == &thread);
@@ -224,7 +224,7 @@ void SimulatedKernel::pass_time(rt::MonoTime until) noexcept {
       }
     }
     set_time(next);
-    // What ends now ends before what begins now: a run that takes just as long as it may is no overrun.
+    // Work that ends now ends before other work begins: a run that takes exactly its maximum time is no overrun.
     for (Thread* thread : working_) {
       thread->left_ns -= passed;
       if (thread->left_ns == 0) {
@@ -285,7 +285,7 @@ void SimulatedKernel::run_process(Process& process) noexcept {
     }
   }
   if (process.task.work_ns > 0) {
-    // The process is done and waits; for the schedule it is not until its time has passed.
+    // The process is done and waits; for the schedule it is not done until its time has passed.
     slot.done.store(release - 1, std::memory_order_release);
     work(process.task.work_ns);
     slot.end_ns.store(now_ns_.load(kRelaxed), kRelaxed);

@@ -12,7 +12,7 @@ constexpr std::int64_t kFirstGuess = 20'000;
 // Steps up and down in the ratio 100 : 1, so the estimate settles where 1 % of the wake-ups are later.
 constexpr std::int64_t kStepUp = 400;
 constexpr std::int64_t kStepDown = 4;
-// Ticks within which what was spun beyond the budget is saved again.
+// Number of ticks within which spinning beyond the budget is saved again.
 constexpr std::int64_t kSettle = 64;
 
 }  // namespace
@@ -34,7 +34,7 @@ Spinner::Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period
 void Spinner::learn(std::int64_t wake_cost, std::int64_t spin) noexcept {
   quantile_ += wake_cost > quantile_ ? kStepUp : -kStepDown;
   const std::int64_t wanted = std::min(quantile_ + quantile_ * 15 / 100 + 1000, limit_);
-  // Not more is saved up than is wanted soon: a machine that becomes slow must not spend it all at once.
+  // Limits the credit to what will be needed soon: a machine that becomes slow must not use it all at once.
   credit_ = std::clamp<std::int64_t>(credit_ + budget_ - spin, 0, 2 * wanted * kSettle);
   margin_ = std::min(wanted, credit_ / kSettle);
 }
