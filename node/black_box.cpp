@@ -25,12 +25,12 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::milliseconds kAfterwards{200};  // what follows a fault tells something too
+constexpr std::chrono::milliseconds kAfterwards{200};  // the runs shortly after a fault help to explain it
 constexpr std::chrono::minutes kBetween{1};
 constexpr std::chrono::milliseconds kLookForWish{100};
 constexpr std::uint64_t kManyOverruns = 10;  // within a second
 
-// The oldest ones go, so that there is room for one more. Their names rise with time.
+// Deletes the oldest boxes, so that there is room for one more. Their names rise with time.
 void make_room(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::vector<std::filesystem::path> boxes;
@@ -45,7 +45,7 @@ void make_room(const std::filesystem::path& folder) {
   }
 }
 
-// Writes all that is on the tape. Where it is, or why not.
+// Writes the whole tape. Returns the file's path, or why it could not be written.
 Result<std::filesystem::path, base::Problem> write_box(recorder::About about, const vars::Store& store,
                                                        const std::string& reason) {
   auto follower = tape::Follower::open(about.node, true);
@@ -149,7 +149,7 @@ void keep_box_of_crash(const std::string& node, const Console& console) {
 BlackBox::BlackBox(const Options& options, const Checked& checked, const Prepared& prepared, const BoardMirror& mirror,
                    Console& console)
     : options_(options), checked_(checked), prepared_(prepared), mirror_(mirror), console_(console) {
-  vars::refuse_boxes_until(options.node, 0);  // of an earlier run
+  vars::refuse_boxes_until(options.node, 0);  // left by an earlier run
 }
 
 BlackBox::~BlackBox() {
@@ -200,7 +200,8 @@ void BlackBox::end() {
   }
 }
 
-// One wish may follow another after ten seconds; one that comes while a box is about to be kept is part of it.
+// A request may follow another after ten seconds; one that arrives while a box is about to be written is part of that
+// box.
 void BlackBox::look_for_wish(rt::MonoTime now) {
   if (now - wish_looked_ < kLookForWish) {
     return;
@@ -217,7 +218,7 @@ void BlackBox::look_for_wish(rt::MonoTime now) {
   }
 }
 
-// Of the last second; empty: there were few.
+// Describes the overruns of the last second; empty: there were few.
 std::string BlackBox::many_overruns(rt::MonoTime now) {
   if (now - overruns_looked_ < std::chrono::seconds(1)) {
     return {};

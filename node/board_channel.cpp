@@ -20,7 +20,7 @@ using mirror::Message;
 constexpr suseconds_t kMomentUs = 20'000;
 constexpr std::size_t kAtOnce = std::size_t{64} * 1024;
 
-// The numbers of each, in the order in which they travel.
+// The numbers of each message, in the order in which they are sent.
 template <class Order>
 auto numbers_of_order(Order& order) {
   return std::tie(order.end, order.signal, order.until_ns);
@@ -84,7 +84,7 @@ bool BoardChannel::send(const std::vector<std::uint8_t>& body) {
   return true;
 }
 
-// A whole word is in word_ then.
+// Returns Got::Word when word_ holds a complete message.
 BoardChannel::Got BoardChannel::receive() {
   for (;;) {
     std::uint32_t size = 0;

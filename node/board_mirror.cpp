@@ -23,7 +23,7 @@ Result<void, Ending> BoardMirror::start_in_network() {
   mirror::Settings& settings = *checked_.mirror;
   const bool realtime = prepared_.rights.realtime();
   settings.network.fifo_priority = realtime ? scheduler::kMirrorPriority : 0;
-  // Not where the modules are, if there is another core.
+  // On cores without modules, if there are any.
   const std::vector<int> cores = cores_without_modules(checked_.config, prepared_.rights);
   const auto spin = spin_setting(options_, checked_.config);
   settings.spin = !cores.empty() && spin.mode != config::SpinSetting::Mode::Off && realtime;

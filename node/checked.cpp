@@ -23,7 +23,7 @@ struct Reading {
   }
 };
 
-// Files that take the place of a module's, by its name or that of its file. False: one fits no module.
+// Files that replace a module's file, selected by its name or that of its file. Returns false if one fits no module.
 bool take_files(const std::vector<std::string>& files, config::Config& config,
                 std::vector<base::Diagnostic>& diagnostics) {
   bool ok = true;
@@ -48,7 +48,7 @@ bool take_files(const std::vector<std::string>& files, config::Config& config,
   return ok;
 }
 
-// The node's core, from the command line: <cores> spreads modules around it.
+// Applies the node's core from the command line: <cores> spreads modules around it.
 void take_core(const Options& options, config::Config& config) {
   if (config.cores && options.core) {
     config.core = *options.core;
@@ -120,7 +120,7 @@ Result<Checked, Ending> check(const Options& options, const Console& console) {
   }
   Reading reading = plant ? read_plant(options) : read_modules(options);
   for (const base::Diagnostic& diagnostic : reading.diagnostics) {
-    // Where all boards are on one host, whoever starts them says warnings once.
+    // Where all boards are on one host, the program that starts them prints warnings once.
     const bool said = diagnostic.severity == base::Diagnostic::Severity::Note ||
                       (options.one_host && diagnostic.severity == base::Diagnostic::Severity::Warning);
     if (!said) {

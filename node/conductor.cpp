@@ -90,8 +90,8 @@ class Conductor {
   std::vector<ConductorBoard> boards_;
   BoardPlace place_;
   std::int64_t now_ns_ = 0;
-  std::int64_t epoch_ns_ = kNever;         // of the first tick of all
-  std::int64_t basic_period_ns_ = kNever;  // the shortest
+  std::int64_t epoch_ns_ = kNever;         // of the first tick of all boards
+  std::int64_t basic_period_ns_ = kNever;  // the shortest of all boards
   std::int64_t stands_at_ns_ = kNever;     // --step
   std::vector<bool> returned_;
   OneCore core_;
@@ -118,7 +118,7 @@ Ending Conductor::start() {
   now_ns_ = place_.begin_ns;
   for (std::size_t i = 0; i < boards_.size(); ++i) {
     if (!boards_[i].await_answer(signals_)) {
-      return Ending{kFailed};  // it has said why
+      return Ending{kFailed};  // it has printed the reason
     }
     epoch_ns_ = std::min(epoch_ns_, boards_[i].answer().epoch_ns);
     basic_period_ns_ = std::min(basic_period_ns_, boards_[i].answer().basic_period_ns);
@@ -130,7 +130,7 @@ Ending Conductor::start() {
   return {};
 }
 
-// Up to here no board can get anything that is not known yet.
+// The time up to which no board can receive a message that is not known yet.
 std::int64_t Conductor::reachable() const {
   std::int64_t first = kNever;
   for (std::size_t i = 0; i < boards_.size(); ++i) {
@@ -151,7 +151,7 @@ void Conductor::take_answer(std::size_t number, std::int64_t until_ns) {
   }
 }
 
-// `all`: also boards that have nothing to do until then.
+// `all`: also boards that have no event until then.
 void Conductor::advance(std::int64_t until_ns, bool all) {
   std::vector<bool> asked(boards_.size());
   for (std::size_t i = 0; i < boards_.size(); ++i) {
@@ -206,7 +206,7 @@ void Conductor::befall(const PlantEvent& event) {
 void Conductor::bring_back(std::size_t number) {
   (void)boards_[number].await_end();
   Options options = options_;
-  options.duration.reset();  // with the others
+  options.duration.reset();  // ends with the others
   place_.begin_ns = now_ns_;
   returned_[number] = true;
   if (!start_board(number, options)) {
@@ -219,7 +219,7 @@ void Conductor::bring_back(std::size_t number) {
   }
 }
 
-// Those that were there from the beginning have ended.
+// Returns true if the boards that were started at the beginning have ended.
 bool Conductor::over() const {
   bool any = false;
   for (std::size_t i = 0; i < boards_.size(); ++i) {
@@ -233,7 +233,7 @@ bool Conductor::over() const {
   if (!any) {
     return next_event_ == events_.size();
   }
-  // The rest has no duration of its own.
+  // The others have no duration of their own.
   return options_.duration && now_ns_ >= epoch_ns_ + options_.duration->count();
 }
 
@@ -248,7 +248,7 @@ int Conductor::keep_pace() {
   return signals_.wait(left);
 }
 
-// Behind a tick of all boards, until standard input says to go on.
+// Pauses after a tick of all boards, until standard input requests to continue.
 std::optional<Ending> Conductor::stand() {
   tell_place(static_cast<std::uint64_t>((stands_at_ns_ + 1 - epoch_ns_) / basic_period_ns_), basic_period_ns_);
   const StepInput::Order order = input_.next(signals_, basic_period_ns_);

@@ -19,10 +19,10 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::seconds kBoardGrace{10};  // a node gives its own modules and processes a few seconds
+constexpr std::chrono::seconds kBoardGrace{10};  // a node waits a few seconds for its own modules and processes
 constexpr std::chrono::milliseconds kEndPoll{1};
 
-// "r.json" of board "left" is "r.left.json", and "r.left.2.json" when it was started again.
+// Returns "r.left.json" for "r.json" of board "left", and "r.left.2.json" when it was started again.
 std::filesystem::path file_of(const std::filesystem::path& file, const std::string& board, int start) {
   std::filesystem::path named = file;
   if (!file.empty()) {
@@ -67,7 +67,7 @@ Status ConductorBoard::start(const Options& options, const BoardPlace& place) {
   launch.words.insert(launch.words.begin(), "indurop-node");
   launch.program = "/proc/self/exe";
   launch.inherits = ends[1];
-  launch.group = base::Launch::Group::Own;  // Ctrl-C reaches us alone; we end the boards
+  launch.group = base::Launch::Group::Own;  // only we get Ctrl-C; we end the boards
   launch.fresh_signals = true;
   launch.ends_with_us = SIGKILL;
   const auto started = base::spawn(launch);
@@ -84,7 +84,7 @@ Status ConductorBoard::start(const Options& options, const BoardPlace& place) {
 }
 
 void ConductorBoard::order(const BoardOrder& order) {
-  (void)channel_->send(order);  // an end is seen when the answer is waited for
+  (void)channel_->send(order);  // if the board has ended, await_answer() notices
 }
 
 bool ConductorBoard::await_answer(base::StopSignal& signals) {
@@ -110,7 +110,7 @@ void ConductorBoard::kill() noexcept {
     (void)::waitpid(pid_, nullptr, 0);
     pid_ = -1;
   }
-  channel_.reset();  // not before: it would end in order
+  channel_.reset();  // not before: it would end in an orderly way
 }
 
 int ConductorBoard::await_end() {

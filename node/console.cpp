@@ -14,7 +14,7 @@ double in_microseconds(std::int64_t ns) noexcept {
   return static_cast<double>(ns) / 1000;
 }
 
-// The newest record of an overrun of `module`, null if it was overwritten.
+// Returns the newest record of an overrun of `module`, null if it was overwritten.
 const scheduler::OverrunEntry* newest_overrun(const scheduler::RunBlock& run, std::uint32_t module) {
   const auto* entries = run.at<scheduler::OverrunEntry>(run.overrun_log_offset);
   const std::uint64_t next = run.overrun_log_next.load(std::memory_order_acquire);

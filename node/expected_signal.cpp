@@ -24,14 +24,14 @@ std::uint64_t signals_in_status(const std::filesystem::path& thread) {
   return found;
 }
 
-// While a thread is in sigwait() the kernel does not count what it waits for as blocked.
+// While a thread is in sigwait() the kernel does not count the signals it waits for as blocked.
 bool waits_for_signals(const std::filesystem::path& thread) {
   std::ifstream file(thread / "syscall");
   long number = -1;
   return file >> number && number == SYS_rt_sigtimedwait;
 }
 
-// "State:\tS (sleeping)", and the signal is in none of the sets of pending ones.
+// Returns true if the thread sleeps ("State:\tS (sleeping)") and the signal is in none of the sets of pending ones.
 bool rests(const std::filesystem::path& thread, int signal) {
   std::ifstream file(thread / "status");
   bool sleeps = false;

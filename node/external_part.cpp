@@ -120,7 +120,7 @@ void ExternalPart::find_types(const schema::Schema& schema, Console& console) {
 
 void ExternalPart::start(const std::string& node, vars::Store& store, const mirror::MirrorBlock* plant,
                          std::vector<int> cores, Console& console) {
-  (void)vars::remove_shm_file(vars::external_file(node));  // of an earlier run
+  (void)vars::remove_shm_file(vars::external_file(node));  // left by an earlier run
   if (!wanted_) {
     return;
   }

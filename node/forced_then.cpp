@@ -7,7 +7,7 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::int64_t kNotedLaterNs = 100'000'000;  // an order is noted when it has been obeyed
+constexpr std::int64_t kNotedLaterNs = 100'000'000;  // a command is recorded after it was executed
 
 bool is_part_of(const std::string& part, const std::string& whole) {
   return part == whole || (part.starts_with(whole) && (part[whole.size()] == '.' || part[whole.size()] == '['));

@@ -14,7 +14,7 @@ namespace {
 constexpr std::chrono::milliseconds kHangPoll{50};
 constexpr std::chrono::seconds kPatienceAtEnd{2};
 
-// A signal that every thread blocks waits for the main one, which is inside a module.
+// A signal that every thread blocks stays pending for the main thread, which is inside a module.
 bool end_is_wanted() {
   sigset_t pending;
   ::sigemptyset(&pending);
@@ -23,7 +23,7 @@ bool end_is_wanted() {
          ::sigismember(&pending, SIGHUP) == 1;
 }
 
-// A program that stands for `indurop plc debug` hangs for its user only.
+// A program paused by `indurop plc debug` does not hang.
 bool is_debugged() {
   return std::getenv("INDUROP_PLC_DEBUG") != nullptr;  // NOLINT(concurrency-mt-unsafe): nobody sets it
 }

@@ -12,7 +12,7 @@ namespace {
 using scheduler::ModuleType;
 using scheduler::Operation;
 
-// False: what is wrong with some of the modules was said.
+// Returns false if some of the modules have errors, which were reported.
 bool load_libraries(const config::Config& config, std::vector<ModuleLibrary>& libraries, const Console& console) {
   libraries.resize(config.modules.size());
   std::set<std::filesystem::path> known;

@@ -20,7 +20,7 @@
 
 namespace {
 
-// Until releases before 0.2 are gone: `indurop-node --agent` was what is indurop-agent now.
+// Until releases before 0.2 are gone: `indurop-node --agent` was the former name of indurop-agent.
 int become_agent(char** argv) {
   std::vector<char*> words;
   for (char** word = argv; *word != nullptr; ++word) {
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   if (indurop::node::simulates_plant(*options)) {
     return indurop::node::run_plant(*options);
   }
-  // Modules that look for their node by name, through a channel for example, are to find this one.
+  // Modules that find their node by name, through a channel for example, must find this one.
   ::setenv("INDUROP_NODE", options->node.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): before any thread
   return indurop::node::run_node(*options);
 }

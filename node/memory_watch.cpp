@@ -24,7 +24,7 @@ MemoryWatch::~MemoryWatch() {
   rt::on_lost_page(nullptr, nullptr);
 }
 
-// In a signal handler, on any thread. The name stays where it is as long as the mapping.
+// Called in a signal handler, on any thread. The name is valid as long as the mapping.
 void MemoryWatch::on_lost_page(void* context, const char* name) noexcept {
   auto& self = *static_cast<MemoryWatch*>(context);
   self.engine_.halt();

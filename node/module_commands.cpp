@@ -74,7 +74,7 @@ bool ModuleCommands::go_on(Work& work, rt::MonoTime now) {
       if (!parts_.phases.ended(*work.call, now, Phases::kGrace)) {
         return false;
       }
-      (void)parts_.phases.conclude(std::move(work.call));  // that it failed is said; stopped it is all the same
+      (void)parts_.phases.conclude(std::move(work.call));  // a failure is reported; the module is stopped all the same
       return rest(work, now);
     case Step::Starting:
       return parts_.phases.ended(*work.call, now, {}) &&
@@ -98,7 +98,7 @@ bool ModuleCommands::has_left(const Work& work, rt::MonoTime now) {
          parts_.normal_threads.has_ended(work.module, now);
 }
 
-// No run of it is in progress any more: stop() follows.
+// Called when no run of the module is in progress any more: calls stop().
 bool ModuleCommands::call_stop(Work& work, rt::MonoTime now) {
   record(work.module).state.store(ModuleState::Stopped);
   if (auto* stop = parts_.libraries[work.module].functions().stop; stop != nullptr) {
@@ -108,7 +108,7 @@ bool ModuleCommands::call_stop(Work& work, rt::MonoTime now) {
   return work.call == nullptr && rest(work, now);
 }
 
-// The last word is with the values declared for the case that it is gone.
+// Finally writes the values declared for the case that the module is stopped.
 bool ModuleCommands::rest(Work& work, rt::MonoTime now) {
   record(work.module).state.store(ModuleState::Stopped);
   parts_.failsafe.apply(work.module);
@@ -130,7 +130,7 @@ bool ModuleCommands::begin_start(Work& work, rt::MonoTime now) {
   return work.call == nullptr && answer(work, CommandResult::Failed);
 }
 
-// A thread module keeps its code as long as the node runs; whoever has built another one has to know.
+// A thread module keeps its code as long as the node runs; a user who has built another one must be informed.
 CommandResult ModuleCommands::started(std::uint32_t module) const {
   return parts_.libraries[module].is_outdated() ? CommandResult::OldCode : CommandResult::Done;
 }
@@ -170,7 +170,7 @@ void ModuleCommands::end() {
         rt::sleep_until(rt::MonoClock::now() + kCommandPoll);
       }
       if (parts_.phases.conclude(std::move(work.call)) && work.step == Step::Starting) {
-        record(work.module).state.store(ModuleState::Loaded);  // it has started, so it gets its stop()
+        record(work.module).state.store(ModuleState::Loaded);  // it has started, so its stop() will be called
       }
     }
     scheduler::answer_command(record(work.module), CommandResult::Ending);

@@ -16,7 +16,7 @@
 namespace indurop::node {
 namespace {
 
-// The dynamic linker gives the same globals to everybody who loads one file; a copy without a name is another file.
+// The dynamic linker shares the globals between all that load the same file; a copy without a name is another file.
 int copy_to_memory(const std::filesystem::path& file) {
   const int from = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (from < 0) {

@@ -36,7 +36,7 @@ Ending run_modules(const Options& options, Console& console, base::StopSignal& s
   return ending;
 }
 
-// False if values that are to be kept are not on the disk.
+// Returns false if retained values are not on the disk.
 bool save_values(Prepared& prepared, Console& console) {
   scheduler::RunBlock& run = prepared.run();
   run.state.store(scheduler::NodeState::Stopping);
@@ -50,7 +50,7 @@ bool save_values(Prepared& prepared, Console& console) {
   return saved;
 }
 
-// What was measured, for people and as a file. False: the file could not be written.
+// Reports the measurements, on the console and as a file. Returns false if the file could not be written.
 bool tell_statistics(const Options& options, const scheduler::RunBlock& run, const Console& console) {
   bool ok = true;
   if (!options.report.empty()) {
@@ -65,11 +65,11 @@ bool tell_statistics(const Options& options, const scheduler::RunBlock& run, con
   return ok;
 }
 
-// Says how the run went and writes it into the run block; returns the exit code.
+// Reports how the run ended and writes it into the run block; returns the exit code.
 int conclude(const Options& options, Console& console, scheduler::RunBlock& run, Ending ending) {
   if (replays(options)) {
     run.state.store(ending.code == kOk ? scheduler::NodeState::Stopped : scheduler::NodeState::Failed);
-    return ending.code;  // told by itself; its times are those of the recording
+    return ending.code;  // the replay has reported; its times are those of the recording
   }
   console.report(rt::MonoClock::now(), true);
   if (run.tick.load() == 0 && !ending.reason.empty() && ending.code == kFailed) {
@@ -107,7 +107,7 @@ int run_node(const Options& options) {
   rt::catch_faults_also_by(&runtime::catch_fault);
   auto checked = check(options, console);
   if (!checked) {
-    // Of a replay that code says that something differs.
+    // In a replay that code means that values differ.
     const bool replays = !options.replay.file.empty() && checked.error().code == kCheckFailed;
     return replays ? kFailed : checked.error().code;
   }

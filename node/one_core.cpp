@@ -6,8 +6,8 @@
 namespace indurop::node {
 namespace {
 
-constexpr int kRounds = 500;                              // between two looks
-constexpr std::chrono::microseconds kLongOnAverage{200};  // a round gains from more cores
+constexpr int kRounds = 500;                              // between two decisions
+constexpr std::chrono::microseconds kLongOnAverage{200};  // from this time on a round gains from more cores
 
 }  // namespace
 
@@ -38,7 +38,7 @@ void OneCore::round(std::chrono::nanoseconds took) {
   }
 }
 
-// A program that has ended meanwhile is nowhere.
+// A program that has ended meanwhile is ignored.
 void OneCore::place() const noexcept {
   for (const pid_t program : programs_) {
     (void)::sched_setaffinity(program, sizeof(cpu_set_t), gathered_ ? &one_ : &all_);

@@ -17,7 +17,7 @@ bool simulates_plant(const Options& options) {
 
 namespace {
 
-// Options that would do nothing, and what to do instead; empty: there are none.
+// Reports options without effect, and what to do instead; empty: there are none.
 std::string idle_options(const Options& options) {
   const bool replays = !options.replay.file.empty();
   if (!replays && !options.replay.board.empty()) {
@@ -69,7 +69,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     return std::nullopt;
   }
   if (!options.replay.file.empty()) {
-    options.simulation.on = true;  // it has nothing to do with this machine, and leaves nothing
+    options.simulation.on = true;  // independent of this machine, and leaves nothing behind
     options.tape_megabytes = 0;
   }
   if (options.config.empty()) {
@@ -82,7 +82,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   if (options.node.empty()) {
     options.node = options.board.empty() ? vars::default_node() : options.board;
     if (options.simulation.on) {
-      options.node = options.board.empty() ? "sim" : options.board + "-sim";  // beside the real one
+      options.node = options.board.empty() ? "sim" : options.board + "-sim";  // in addition to the real one
       options.node = options.replay.file.empty() ? options.node
                      : options.board.empty()     ? "replay"
                                                  : options.board + "-replay";

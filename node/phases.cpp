@@ -16,7 +16,7 @@ constexpr std::size_t kPhaseStack = std::size_t{8} * 1024 * 1024;
 
 }  // namespace
 
-// The scheduler's runner contains faults; this is one run of it without a schedule and without statistics.
+// The scheduler's runner contains faults; this is one of its runs without a schedule and without statistics.
 struct Phases::Call {
   Call(scheduler::RunBlock& run, scheduler::Kernel& kernel, const scheduler::Hooks& hooks)
       : runner(run, kernel, hooks, trace, 1) {}
@@ -113,7 +113,7 @@ bool Phases::call(std::uint32_t index, const char* phase, void (*function)()) {
   if (call == nullptr) {
     return false;
   }
-  // start() may take its time, until somebody wants the node to end; stop() has a limit in any case.
+  // start() has no limit until the node is to end; stop() always has a limit.
   std::chrono::nanoseconds limit{std::string_view(phase) == "stop" ? kGrace : std::chrono::seconds{0}};
   while (!ended(*call, rt::MonoClock::now(), limit)) {
     const int number = signals_.wait(kPhasePoll);

@@ -19,7 +19,7 @@ const scheduler::Band* band_of(const std::string& module, const config::Config& 
                                        : engine.band_of(static_cast<std::uint32_t>(found - config.modules.begin()));
 }
 
-// Null if nobody writes the variable, several bands do, or something that is in no band.
+// Returns null if no module writes the variable, several bands do, or a module that is in no band.
 const scheduler::Band* writer_of(const std::string& variable, const config::Config& config,
                                  const config::CheckResult& check, const scheduler::Engine& engine) {
   const auto use = std::find_if(check.uses.begin(), check.uses.end(),
@@ -100,7 +100,7 @@ void name_writers(mirror::Settings& settings, const config::Config& config, cons
     out.writers = static_cast<int>(known - bands.begin());
     if (known == bands.end()) {
       bands.push_back(band);
-      // Who is a process of its own wakes nobody here when it is done.
+      // A module in a process of its own does not wake the mirror when it is done.
       settings.writers.push_back({[band] { return band->activity(); },
                                   band->plan().kind != scheduler::BandKind::Process,
                                   std::max(kPatienceNs, 2 * band->plan().period_ns)});

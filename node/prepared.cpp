@@ -29,8 +29,8 @@ bool ended_well(const std::string& node) {
          static_cast<const scheduler::RunBlock*>(file.value().data())->state.load() == scheduler::NodeState::Stopped;
 }
 
-// What nodes of this user left that ended in an orderly way, so that their values are on the disk or not wanted. A node
-// that crashed keeps its values for its return.
+// Removes the files of this user's nodes that ended in an orderly way, so that their values are on the disk or not
+// needed. A node that crashed keeps its values for its restart.
 void forget_old_nodes() {
   constexpr std::chrono::hours kKept{24};
   for (const std::string& node : vars::list_nodes()) {
@@ -49,7 +49,7 @@ Ending no_memory(const char* what, const Error& error, const Console& console) {
   return Ending{kFailed};
 }
 
-// Values of the last run go on after a crash; an orderly new run begins with initial and retained ones.
+// Values of the last run are kept after a crash; an orderly new run begins with initial and retained ones.
 void begin_values(vars::Store& store, Retainer& retainer, bool previous_run_ended_well, Console& console) {
   if (store.origin() == vars::Origin::Fresh) {
     retainer.load(console, false);
@@ -72,8 +72,8 @@ void begin_run(scheduler::RunBlock& run, const scheduler::RunBlockSetup& setup, 
 }
 
 // Nodes that start at the same moment, as those of agents do when a plant is switched, choose their cores one after the
-// other: each is to see what the one before it has taken. The lock is that of the folder, which everybody may open; who
-// holds it for long holds up nobody for longer than this.
+// other: each must see what the previous one has taken. The lock is that of the folder, which every user may open; a
+// process that holds it too long delays the others by no more than this.
 class CoreChoice {
  public:
   explicit CoreChoice(bool is_needed) noexcept
@@ -123,14 +123,14 @@ bool ClaimedName::hold() {
   if (lock_->named(node_)) {
     return true;
   }
-  (void)lock_->make_again(node_);  // fails while somebody looks at it: at the next look
+  (void)lock_->make_again(node_);  // fails while another process checks it: then at the next check
   return false;
 }
 
 ClaimedName::~ClaimedName() {
   lock_.reset();
   if (leave_nothing_) {
-    (void)vars::remove_node(node_);  // busy: somebody has just taken the name over
+    (void)vars::remove_node(node_);  // busy: another node has just taken over the name
   }
 }
 
@@ -187,7 +187,7 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
   begin_run(run, setup, rights->obtained);
   choice.end();
   if (!checked.mirror) {
-    (void)vars::remove_shm_file(vars::mirror_file(options.node));  // of an earlier run as a board
+    (void)vars::remove_shm_file(vars::mirror_file(options.node));  // left by an earlier run as a board
   }
   auto failsafe = std::make_unique<FailSafe>(*store, checked.config);
   std::unique_ptr<Retainer> retainer;

@@ -22,7 +22,7 @@ using scheduler::ModuleState;
 using scheduler::Operation;
 
 constexpr std::chrono::seconds kProcessGrace{2};
-constexpr std::chrono::milliseconds kAsked{500};  // then SIGTERM
+constexpr std::chrono::milliseconds kAsked{500};  // after that: SIGTERM
 constexpr std::chrono::milliseconds kPoll{5};
 constexpr std::chrono::seconds kStartPatience{2};
 constexpr std::size_t kRestartsKept = 1000;
@@ -265,16 +265,16 @@ Processes::Child* Processes::find(std::uint32_t module) noexcept {
 }
 
 void Processes::ask_to_end(Child& child) {
-  slot(child).stop.store(1, std::memory_order_release);  // waitPeriod() or irp::stop_requested() tells it
+  slot(child).stop.store(1, std::memory_order_release);  // reported to it by waitPeriod() or irp::stop_requested()
   slot(child).wake.wake();
   if (child.module->signal != 0) {
-    ::kill(child.pid, SIGTERM);  // it knows nothing of us
+    ::kill(child.pid, SIGTERM);  // it knows nothing of the node
   }
 }
 
 void Processes::stop(std::uint32_t module, rt::MonoTime now) {
   if (Child* child = find(module); child != nullptr) {
-    record(*child).state.store(ModuleState::Stopped, std::memory_order_release);  // not released from here on
+    record(*child).state.store(ModuleState::Stopped, std::memory_order_release);  // from here on it is not released
     child->stopping = true;
     child->asked = now;
     if (child->pid > 0) {
@@ -290,7 +290,7 @@ void Processes::insist(Child& child, rt::MonoTime now) {
     ::kill(child.pid, SIGKILL);
     child.asked = now;
   } else if (since > kAsked) {
-    ::kill(child.pid, SIGTERM);  // it asks neither
+    ::kill(child.pid, SIGTERM);  // it does not check for a request
   }
 }
 
@@ -329,7 +329,7 @@ void Processes::end_all() {
         break;
       }
       if (!told && now > deadline - kProcessGrace + kAsked) {
-        ::kill(child.pid, SIGTERM);  // it asks neither
+        ::kill(child.pid, SIGTERM);  // it does not check for a request
         told = true;
       }
       rt::sleep_until(now + kPoll);

@@ -28,7 +28,7 @@ recorder::About about_node(const Options& options, const Checked& checked, const
   }
   about.deployment = options.deployment;
   about.basic_period_ns = prepared.setup.basic_period_ns;
-  // In a simulation the log times are virtual too, so that two runs make the same file, and boards have one time.
+  // In a simulation the log times are virtual, too, so that two runs make the same file, and boards share one time.
   about.real_minus_node_ns = options.simulation.on ? 0 : rt::wall_ns() - rt::to_ns(prepared.store->now());
   for (const config::Module& module : checked.config.modules) {
     about.modules.push_back(module.name);

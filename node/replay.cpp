@@ -18,14 +18,14 @@ using scheduler::ModuleState;
 using scheduler::ModuleType;
 using scheduler::Operation;
 
-constexpr std::chrono::seconds kReplayPatience{10};  // with a process, in real time
+constexpr std::chrono::seconds kReplayPatience{10};  // for a process, in real time
 constexpr std::chrono::microseconds kReplayPoll{50};
 
 bool names(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-// Why it is not run again; empty: it is.
+// Returns why the module is not run again; empty: it is.
 std::string reason_to_leave_out(const config::Module& module, const std::vector<std::string>& imports) {
   if (module.operation == Operation::NonReal) {
     return "it runs beside the schedule";
@@ -67,7 +67,7 @@ Replay::Replay(const Options& options, Console& console, base::StopSignal& signa
   for (const scheduler::Task& task : loaded.tasks) {
     scheduler::TaskState& state = modules_[task.index]->state;
     state.task = task;
-    state.task.condition = Condition{};  // it was true
+    state.task.condition = Condition{};  // it was true in the recording
     state.record = &run_.modules()[task.index];
     state.slot = &run_.process_slots()[task.index];
   }
@@ -101,7 +101,7 @@ const schema::Variable& Replay::variable(std::uint32_t index) const {
   return store.schema().variables[store.directory()[index].schema_index];
 }
 
-// The module of this configuration that a module of the recording is; kNoSuchModule: none.
+// Returns the module of this configuration that corresponds to a module of the recording; kNoSuchModule: none.
 std::uint32_t Replay::configured(std::uint32_t recorded) const noexcept {
   return recorded < of_recording_.size() ? of_recording_[recorded] : kNoSuchModule;
 }
@@ -187,7 +187,7 @@ std::vector<tape::RetoldAnswer> Replay::Module::told() const {
   return all;
 }
 
-// Runs before this one may be missing, and what they were told with them.
+// Runs before this one may be missing, and their inputs with them.
 void Replay::note_gap(Module& module, const recorder::RunWords& run) {
   const std::uint64_t missing = run.tail.number - module.next_number;
   module.missing += missing;
@@ -208,7 +208,7 @@ void Replay::note_gap(Module& module, const recorder::RunWords& run) {
 bool Replay::run_again(const recorder::RunWords& run) {
   const std::uint32_t index = configured(run.module);
   ticks_ = std::max(ticks_, run.tail.tick + 1);
-  if (index == kNoSuchModule && run.module < of_recording_.size()) {  // else values that nobody reads or writes
+  if (index == kNoSuchModule && run.module < of_recording_.size()) {  // else values that no module reads or writes
     ++runs_not_here_;
   }
   if (index == kNoSuchModule || modules_[index]->apart) {
@@ -234,18 +234,18 @@ bool Replay::run_again(const recorder::RunWords& run) {
   return going_on;
 }
 
-// False: it cannot go on.
+// Returns false if the replay cannot continue.
 bool Replay::repeat(Module& module, std::uint32_t index, const recorder::RunWords& run) {
   run_.epoch_ns = run.tail.release_ns - static_cast<std::int64_t>(run.tail.tick) * run_.basic_period_ns;
   run_.tick.store(run.tail.tick + 1);
-  // One that asks again and again waits for a time: behind what is known of its clock, that has come.
+  // A module that polls the clock waits for a time: after its recorded clock readings, that time has come.
   kernel_.set(module.clock.size() < std::size_t{tape::kMostReadings} ? run.tail.start_ns : run.tail.end_ns);
   give_inputs(module);
   if (std::exchange(module.anew, false)) {
     if (!start_anew(module, index)) {
       return false;
     }
-    give_inputs(module);  // its start may have written
+    give_inputs(module);  // its start may have written variables
   }
   if (module.state.task.type == ModuleType::Process) {
     run_process(module, index, run.tail);
@@ -296,7 +296,7 @@ bool Replay::start_modules() {
   return true;
 }
 
-// Started with what was there before any module was.
+// The modules are started with the values from before the first module started.
 bool Replay::replay(RecordedRuns& recorded) {
   bool started = false;
   const auto start = [&] { return std::exchange(started, true) || start_modules(); };

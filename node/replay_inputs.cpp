@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which runs of a recording can be repeated: those whose inputs it tells. It may be of chosen variables only, begin in
-// the middle, or miss runs.
+// Determines which runs of a recording can be repeated: those with recorded inputs. A recording may contain only chosen
+// variables, begin in the middle, or miss runs.
 
 #include <algorithm>
 #include <vector>
@@ -15,15 +15,15 @@ bool Replay::knows_inputs(const Module& module) noexcept {
                      [](const Known& known) { return !known.read || known.told; });
 }
 
-// What was told before may have changed since.
+// Values recorded before may have changed since.
 void Replay::forget(Module& module) noexcept {
   for (Known& known : module.known) {
     known.told = known.told && known.told_run == module.seen;
   }
 }
 
-// What is told for the first time, and as unchanged, was there from the first run of the recording on: it is known from
-// the begin. Reads until all was told, to the end at worst.
+// A value that is recorded for the first time, and as unchanged, was present from the first run of the recording on: it
+// is known from the beginning. Reads until all values are known, at worst to the end.
 void Replay::look_ahead() {
   struct Runs {
     bool any = false;
@@ -39,7 +39,7 @@ void Replay::look_ahead() {
   while (recorded && untold > 0) {
     auto item = recorded->next();
     if (!item) {
-      continue;  // told when it is replayed
+      continue;  // known when it is replayed
     }
     if (!*item) {
       break;
@@ -63,7 +63,7 @@ void Replay::look_ahead() {
   }
 }
 
-// True: it is told for the first time.
+// Returns true if the value is recorded for the first time.
 bool Replay::learn_early(const RecordedValue& value, Module& module, bool behind_a_gap) const {
   const auto place = module.place.find(value.variable);
   if (!module.runs || value.words.kind == tape::EntryKind::Run || place == module.place.end() ||

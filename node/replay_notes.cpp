@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a replay says before it begins: what of this configuration is not asked, and what the recording cannot tell.
+// Messages of a replay before it begins: which settings of this configuration it ignores, and what the recording lacks.
 
 #include <algorithm>
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace indurop::node {
 
-// Another file's condition could be true at other times.
+// The condition of another file could be true at other times.
 void Replay::tell_of_conditions() const {
   const auto& with = options_.replay.with;
   for (std::size_t i = 0; i < modules_.size(); ++i) {
@@ -39,7 +39,7 @@ void Replay::tell_of_format(const RecordedRuns& recorded) const {
   }
 }
 
-// Runs come when they came: another period or priority shows nowhere.
+// Runs are repeated at their recorded times: another period or priority has no effect.
 void Replay::tell_of_schedule(const explain::Facts& facts) const {
   for (const explain::ModuleFact& then : facts.modules) {
     for (const config::Module& now : checked_.config.modules) {

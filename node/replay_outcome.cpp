@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a replay says at its end: what differed, what could not be compared and why.
+// Messages of a replay at its end: what differed, and what could not be compared and why.
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kShown = 10;
 
-// Of a struct or an array, so much that a line holds two.
+// Shortens the value of a struct or an array, so that a line holds two.
 std::string shortened(const std::string& value) {
   constexpr std::size_t kMost = 40;
   return value.size() <= kMost ? value : value.substr(0, kMost - 3) + "...";
@@ -21,7 +21,7 @@ std::string shortened(const std::string& value) {
 
 }  // namespace
 
-// Of each variable, in the order in which they began to differ.
+// Reports each variable, in the order in which they began to differ.
 void Replay::tell_differences() {
   struct Line {
     const Known* known;
@@ -51,7 +51,7 @@ void Replay::tell_differences() {
   }
 }
 
-// False: something could not be compared that ran in the recording.
+// Returns false if something could not be compared that ran in the recording.
 bool Replay::tell_left_out() {
   bool whole = true;
   for (std::size_t i = 0; i < modules_.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a replay does about what its values do not tell: processes run and die, modules that were started anew are so
-// again.
+// How a replay repeats events that the values do not show: processes run and die, modules that were restarted are
+// restarted again.
 
 #include <thread>
 
@@ -28,7 +28,7 @@ bool Replay::call(std::uint32_t index, const char* phase, void (*function)()) {
   return call != nullptr && phases_.conclude(std::move(call));
 }
 
-// A process has all the time there is, as long as it lives. One that dies stays so until it is started anew.
+// A process has unlimited time, as long as it lives. One that dies stays dead until it is restarted.
 void Replay::run_process(Module& module, std::uint32_t index, const tape::RunTail& tail) {
   scheduler::ProcessSlot& slot = *module.state.slot;
   retold_->give(module.clock, module.told());
@@ -78,7 +78,7 @@ bool Replay::start_anew(Module& module, std::uint32_t index) {
     module.died = false;
     good = restart_process(index);
   } else {
-    (void)call(index, "stop", libraries_[index].functions().stop);  // that it failed is said
+    (void)call(index, "stop", libraries_[index].functions().stop);  // a failure is reported
     good = call(index, "start", libraries_[index].functions().start);
     module.state.record->state.store(scheduler::ModuleState::Running);
     module.state.enabled.store(true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What runs of a recording began with and left, and what they leave now.
+// The recorded inputs and outputs of runs, compared with the outputs of the repeated runs.
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@ using scheduler::ModuleState;
 
 namespace {
 
-// Of a struct or an array the number, or the text, that differs first, and where it is. What lies between the parts of
-// a value is none.
+// Returns the number or text of a struct or an array that differs first, and its position. Padding between the parts of
+// a value does not count.
 std::pair<schema::Part, std::size_t> first_different_part(const schema::Variable& variable,
                                                           const std::vector<std::uint8_t>& was,
                                                           const std::vector<std::uint8_t>& is) {
@@ -33,7 +33,7 @@ std::pair<schema::Part, std::size_t> first_different_part(const schema::Variable
 
 }  // namespace
 
-// Takes a value to what the track of its module says. A first value goes to the store. False: it is damaged.
+// Adds a value to the known ones of its module. A first value goes to the store. Returns false if it is damaged.
 bool Replay::take(const RecordedValue& value) {
   vars::Store& store = *prepared_.store;
   const vars::DirectoryEntry& entry = store.directory()[value.variable];
@@ -54,7 +54,7 @@ bool Replay::take(const RecordedValue& value) {
   Module& module = *modules_[index];
   const auto place = module.place.find(value.variable);
   if (place == module.place.end()) {
-    return true;  // a module that was changed knows it no more
+    return true;  // the changed module no longer uses it
   }
   if (value.words.kind == tape::EntryKind::Before) {
     Known& known = module.known[place->second];
@@ -105,7 +105,7 @@ void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWor
   }
   module.faulted_alike = module.faulted_alike || faulted;
   if (faulted) {
-    return;  // what it left was half a run's, and then its fail-safe values
+    return;  // its outputs were those of an incomplete run, followed by its fail-safe values
   }
   vars::Store& store = *prepared_.store;
   std::vector<std::uint8_t> now;
@@ -126,7 +126,7 @@ void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWor
     ++values_;
     known.ever_compared = true;
     known.compared += module.disturbed ? 0U : 1U;
-    // What lies between the parts of a value differs as it likes.
+    // Padding between the parts of a value may differ.
     if (!store.read(entry, 0, now).ok() || now == known.bytes ||
         (recording::to_cdr(variable(known.variable).type, now, cdr).ok() && cdr == known.cdr)) {
       put_out(known.variable, known.cdr, run.tail.end_ns);
@@ -182,7 +182,7 @@ void Replay::differs(Module& module, std::uint32_t index, Known& known, std::uin
       known.first_is = schema::format_value(part.type, std::span(now).subspan(offset, part.type.size()));
     }
   }
-  // The next run begins with what was recorded.
+  // The next run begins with the recorded value.
   (void)prepared_.store->write(prepared_.store->directory()[known.variable], 0, known.bytes);
 }
 

@@ -26,19 +26,19 @@ extern "C" {
 namespace indurop::node {
 namespace {
 
-// What cold_rooms.ld put together; nothing where the linker knows no such scripts.
+// Returns the code that cold_rooms.ld groups; nothing if the linker does not support such scripts.
 std::span<const char> cold_code() noexcept {
   const char* const begin = &kColdCodeBegin;
   return begin == nullptr ? std::span<const char>() : std::span(begin, &kColdCodeEnd);
 }
 
-// Real-time nodes that run on this host and have their tick on the core.
+// Counts the real-time nodes that run on this host and have their tick on the core.
 std::ptrdiff_t ticks_on(int core) {
   const std::vector<std::string> names = vars::list_nodes(vars::Nodes::All);
   return std::count_if(names.begin(), names.end(), [core](const std::string& name) {
     const auto run = vars::RunFile::open(name, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
     const pid_t holder = vars::running_node(name);
-    if (!run || holder == 0 || holder == ::getpid()) {  // under our name: what a former run left
+    if (!run || holder == 0 || holder == ::getpid()) {  // our own name: left by an earlier run
       return false;
     }
     const auto* block = static_cast<const scheduler::RunBlock*>(run->data());
@@ -46,7 +46,7 @@ std::ptrdiff_t ticks_on(int core) {
   });
 }
 
-// Of the cores with the fewest ticks the last one: interrupts go to the first ones.
+// Returns the last one of the cores with the fewest ticks: interrupts go to the first ones.
 int free_core(const std::vector<int>& cores) {
   const auto best =
       std::min_element(cores.rbegin(), cores.rend(), [](int a, int b) { return ticks_on(a) < ticks_on(b); });
@@ -103,7 +103,8 @@ Rights simulated_rights(const Options& options, const config::Config& config) {
 
 Result<void, Ending> lock_memory(const Options& options, const Rights& rights, scheduler::RunBlock& run,
                                  const Console& console) {
-  // Used while starting, and by the threads that record and talk to other boards, which are not real-time.
+  // Used at start-up, and by the threads for recording and for communication with other boards, which are not
+  // real-time.
   constexpr std::array<std::string_view, 7> kNotNeeded{"libddsc",     "libcrypto", "libssl", "libiceoryx",
                                                        "libtinyxml2", "libzstd",   "liblz4"};
   if (const Status locked = rt::lock_memory(kNotNeeded, cold_code()); locked) {

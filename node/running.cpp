@@ -19,7 +19,7 @@ using scheduler::ModuleType;
 
 constexpr std::chrono::milliseconds kEndCheck{10};
 constexpr std::chrono::milliseconds kEnrol{500};        // how long the first tick waits for process modules
-constexpr std::chrono::seconds kEnrolInSimulation{10};  // likewise, and later for one that was started again
+constexpr std::chrono::seconds kEnrolInSimulation{10};  // the same in a simulation, also for one that was restarted
 
 scheduler::SpinSettings to_spin(const config::SpinSetting& setting) {
   switch (setting.mode) {
@@ -81,7 +81,8 @@ scheduler::EngineSettings Running::engine_settings() const {
   settings.spin = simulation_ ? scheduler::SpinSettings{scheduler::SpinMode::Off, 0}
                               : to_spin(spin_setting(options_, checked_.config));
   if (checked_.mirror) {
-    // Boards with the same macro period begin it together, as far as their clocks agree. A long one is not waited for.
+    // Boards with the same macro period begin it together, as far as their clocks agree. They do not wait for a long
+    // one.
     settings.grid_ns = setup.macro_period_ns <= rt::kNanosPerSecond ? setup.macro_period_ns : setup.basic_period_ns;
     settings.phase_ns = simulation_ ? 0 : (rt::now_ns() - rt::wall_ns()) % settings.grid_ns;
   }
@@ -111,7 +112,7 @@ scheduler::Hooks Running::plain_hooks() {
   return hooks;
 }
 
-// Those of the schedule.
+// The hooks of the schedule.
 scheduler::Hooks Running::hooks() {
   scheduler::Hooks hooks = plain_hooks();
   hooks.entering = [](void*, std::uint32_t module, std::uint64_t tick, std::int64_t release_ns) noexcept {
@@ -130,7 +131,7 @@ void Running::change_batch(std::uint64_t tick) noexcept {
   prepared_.batch.carry_out(*prepared_.store, tick);
 }
 
-// Everything a run saw and wrote goes to the tape.
+// All inputs and outputs of a run go to the tape.
 void Running::set_tape(scheduler::Hooks& hooks, const tape::Tape& tape) {
   hooks.soon = [](void* context, std::uint32_t module) noexcept {
     static_cast<Running*>(context)->prepared_.tape->soon(module);
@@ -182,7 +183,7 @@ Result<void, Ending> Running::start() {
 }
 
 Result<void, Ending> Running::start_modules() {
-  prepared_.name.keep();  // from here on there is something to look at
+  prepared_.name.keep();  // from here on there is something to inspect
   const bool ok = phases_.call_all("start", &ModuleDescriptor::start);
   console_.report(rt::MonoClock::now(), false);
   started_ = true;
@@ -215,7 +216,8 @@ Result<void, Ending> Running::launch_processes() {
   return {};
 }
 
-// In a simulation: deaths and restarts where they are, whatever the steps. Returns when one is to be started again.
+// In a simulation: handles deaths and restarts when they happen, whatever the steps. Returns the time of the next
+// restart.
 rt::MonoTime Running::attend_processes() {
   const rt::MonoTime now = rt::MonoClock::now();
   if (processes_.supervise(now, kernel_.now()) || !await_processes(now + kEnrolInSimulation)) {
@@ -224,7 +226,7 @@ rt::MonoTime Running::attend_processes() {
   return processes_.next_restart().value_or(scheduler::SimulatedKernel::kNever);
 }
 
-// Until all of them are ready, or the time has come. False if one of them ends the run.
+// Waits until all of them are ready, or until `until`. Returns false if one of them ends the run.
 bool Running::await_processes(rt::MonoTime until) {
   while (!processes_.ready() && rt::MonoClock::now() < until && signals_.wait(kEndCheck / 10) == 0) {
     if (processes_.supervise(rt::MonoClock::now(), kernel_.now())) {
@@ -239,7 +241,7 @@ Result<void, Ending> Running::start_schedule() {
   if (checked_.mirror) {
     name_writers(*checked_.mirror, checked_.config, checked_.check, engine_);
   }
-  checked_.check = {};  // not needed any more, and what is there now stays in memory
+  checked_.check = {};  // no longer needed; what is left stays in memory
   prepared_.store->prefault();
   prepared_.run_file.prefault();
   if (!simulation_) {
@@ -293,7 +295,7 @@ Result<void, Ending> Running::start_schedule() {
   return {};
 }
 
-// 0: without end.
+// 0: unlimited.
 std::uint64_t Running::ticks() const noexcept {
   if (!options_.duration) {
     return 0;
@@ -302,7 +304,7 @@ std::uint64_t Running::ticks() const noexcept {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(1, (options_.duration->count() + basic - 1) / basic));
 }
 
-// Until it is time to look again. Returns a stop signal, 0 if none has come.
+// Waits until the next check is due. Returns a stop signal, 0 if none was received.
 int Running::pass() {
   return simulation_ ? simulation_->pass(kEndCheck) : signals_.wait(kEndCheck);
 }
@@ -339,7 +341,7 @@ Ending Running::supervise() {
     }
     console_.report(kernel_.now(), false);
   }
-  if (std::string why = memory_.look(rt::MonoClock::now()); !why.empty()) {  // that may have ended the schedule
+  if (std::string why = memory_.look(rt::MonoClock::now()); !why.empty()) {  // may have ended the schedule
     ending = {kFailed, std::move(why)};
   }
   if (const std::uint32_t order = stop_order_.load(std::memory_order_acquire); order != 0) {
@@ -354,7 +356,7 @@ Ending Running::supervise() {
   return ending;
 }
 
-// Memory was lost: what is still there gets the values that are declared for faults, and what led to it is kept.
+// Memory was lost: writes the fail-safe values to what remains, and keeps the tape for the black box.
 void Running::secure() {
   for (std::uint32_t i = 0; i < checked_.config.modules.size(); ++i) {
     prepared_.failsafe->apply(i);
@@ -385,7 +387,7 @@ bool Running::stop(const std::string& why) {
     (void)phases_.call_all("stop", &ModuleDescriptor::stop);
   }
   checked_.external.stop();
-  mirror_.stop();  // what stop() wrote still travels
+  mirror_.stop();  // values written by stop() are still sent
   return recorded;
 }
 

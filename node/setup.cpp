@@ -9,7 +9,7 @@ namespace {
 
 using scheduler::Operation;
 
-// A module that never returns is a fault even if nobody gave it a budget.
+// A module that never returns is a fault even without a configured budget.
 constexpr int kDefaultBudgetPeriods = 10;
 constexpr base::Nanos kSmallestDefaultBudget = std::chrono::milliseconds(5);
 constexpr base::Nanos kSporadicBudget = std::chrono::seconds(1);
@@ -54,7 +54,7 @@ scheduler::ModuleSetup module_setup(const config::Module& module, const Placemen
 
 scheduler::RunBlockSetup make_run_setup(const config::Config& config, const config::CheckResult& check,
                                         const std::string& node, const Placement& placement) {
-  // Without periodic modules the event handler still needs a beat.
+  // Without periodic modules the event handler still needs a period.
   constexpr base::Nanos kIdlePeriod = std::chrono::milliseconds(1);
   scheduler::RunBlockSetup setup;
   setup.node_name = node;

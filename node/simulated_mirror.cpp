@@ -77,7 +77,7 @@ Status SimulatedMirror::start_thread(const char* name, rt::SignalWord& wake,
 void SimulatedMirror::arrived(const mirror::Message& message) {
   plane_.arrived(message, *exchange_);
   if (!message.is_frame()) {
-    wake_manager_.wake();  // as a board that comes or goes does in a network
+    wake_manager_.wake();  // as a board that joins or leaves does in a network
   }
 }
 

@@ -17,7 +17,7 @@ std::int64_t thread_time_ns() {
   return time.tv_sec * rt::kNanosPerSecond + time.tv_nsec;
 }
 
-// Whoever simulates the plant says it first of all.
+// The conductor of a plant sends the place first of all.
 BoardPlace receive_place(std::optional<BoardChannel>& conductor) {
   BoardPlace place;
   place.begin_ns = rt::to_ns(Simulation::kBegin);
@@ -51,7 +51,7 @@ int Simulation::pass(std::chrono::nanoseconds look) {
   return keep_pace();
 }
 
-// With the stops that processes want.
+// Stops at the times that processes request.
 void Simulation::go_to(rt::MonoTime until) {
   for (rt::MonoTime next = attend_(); next < until && !ended_(); next = attend_()) {
     kernel_.sleep_until(std::max(next, kernel_.now()));
@@ -59,7 +59,7 @@ void Simulation::go_to(rt::MonoTime until) {
   kernel_.sleep_until(until);
 }
 
-// As far as the plant is, until so much time has passed.
+// Advances as far as the plant, until `look` of time has passed.
 int Simulation::follow(std::chrono::nanoseconds look) {
   const rt::MonoTime end = kernel_.now() + look;
   if (!std::exchange(ready_told_, true)) {
@@ -82,7 +82,7 @@ int Simulation::follow(std::chrono::nanoseconds look) {
     for (const mirror::Message& message : order.arrivals) {
       kernel_.sleep_until(rt::mono_time(message.time_ns));
       link_.arrived(message);
-      kernel_.sleep_until(kernel_.now());  // whom it woke
+      kernel_.sleep_until(kernel_.now());  // runs the threads it woke
     }
     go_to(rt::mono_time(order.until_ns));
     if (!answer()) {
@@ -92,7 +92,7 @@ int Simulation::follow(std::chrono::nanoseconds look) {
   return signals_.wait(std::chrono::nanoseconds{0});
 }
 
-// False: nobody is there to hear it.
+// Returns false if the other end is closed.
 bool Simulation::answer() {
   BoardAnswer answer;
   answer.now_ns = rt::to_ns(kernel_.now());
@@ -117,7 +117,7 @@ int Simulation::keep_pace() {
   return signals_.wait(due > now ? due - now : std::chrono::nanoseconds{0});
 }
 
-// The node stands behind a tick: all that belongs to it is done, the next has not begun.
+// The node is paused after a tick: all work of it is done, the next has not begun.
 int Simulation::step() {
   if (stands_at_ == rt::MonoTime{}) {
     stands_at_ = rt::mono_time(run_.epoch_ns) + std::chrono::nanoseconds(-1);

@@ -13,7 +13,7 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::milliseconds kInputPoll{20};  // for a stop signal, while standard input is waited for
+constexpr std::chrono::milliseconds kInputPoll{20};  // for a stop signal, while waiting for standard input
 
 }  // namespace
 

@@ -13,10 +13,10 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::int64_t kReachNs = 2'000'000'000;  // a black box that tells less is of little use
+constexpr std::int64_t kReachNs = 2'000'000'000;  // a black box that covers less is of little use
 constexpr std::uint64_t kMegabyte = 1'000'000;
 
-// Modules of the schedule whose runs are seen: a process that is woken by a signal does not say when it has ended.
+// Modules of the schedule with recorded runs: a process woken by a signal does not report when its run has ended.
 std::map<std::string, tape::ModuleAccess> scheduled(const config::Config& config, std::int64_t basic_period_ns) {
   std::map<std::string, tape::ModuleAccess> modules;
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
@@ -35,7 +35,7 @@ Result<std::unique_ptr<tape::Tape>> make_tape(const Options& options, const Chec
                                               std::int64_t basic_period_ns, const vars::Store& store,
                                               const Console& console) {
   if (options.tape_megabytes == 0) {
-    (void)vars::remove_shm_file(vars::tape_file(options.node));  // of an earlier run
+    (void)vars::remove_shm_file(vars::tape_file(options.node));  // left by an earlier run
     return std::unique_ptr<tape::Tape>();
   }
   auto modules = scheduled(checked.config, basic_period_ns);

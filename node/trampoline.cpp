@@ -34,8 +34,8 @@ std::vector<std::string> environment_for(const Launch& what) {
   return result;
 }
 
-// A module that was built in another place, or deployed from another machine, has to find libindurop: it gets the
-// node's own, whose memory it shares, unless the user's environment names another one.
+// A module that was built elsewhere, or deployed from another machine, must find libindurop: it gets the node's own,
+// with which it shares memory, unless the user's environment names another one.
 void offer_own_library() {
   constexpr const char* kVariable = "LD_LIBRARY_PATH";
   Dl_info library{};
@@ -61,7 +61,7 @@ Result<pid_t> launch(const Launch& what) {
   return base::spawn({.words = std::move(words),
                       .program = "/proc/self/exe",
                       .environment = environment_for(what),
-                      .group = base::Launch::Group::Own,  // Ctrl-C in the terminal is for the node alone
+                      .group = base::Launch::Group::Own,  // Ctrl-C in the terminal only reaches the node
                       .fresh_signals = true});
 }
 
@@ -72,7 +72,7 @@ int become_module(int argc, char** argv) {
   }
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != static_cast<pid_t>(std::strtol(argv[2], nullptr, 10))) {
-    return 1;  // the node died before we asked to be told
+    return 1;  // the node died before the signal was requested
   }
   if (const int core = static_cast<int>(std::strtol(argv[3], nullptr, 10)); core >= 0) {
     (void)rt::pin_to_core(core);
