@@ -19,7 +19,7 @@ class Option;
 
 namespace indurop::base {
 
-// What a shell offers to complete a value.
+// The words a shell offers to complete a value.
 enum class Completion { None, File, Folder, Node, Variable, Module };
 
 // An option as help, man pages and completion show it.

@@ -13,7 +13,7 @@
 
 namespace indurop::base {
 
-// Whether the content is on the disk, folder included, when the call returns. No: for files that can be made again.
+// Yes: the content is on the disk, folder included, when the call returns. No: for files that can be made again.
 enum class Durable : bool { No, Yes };
 
 inline constexpr mode_t kUsualMode = 0666;  // minus the umask of the process

@@ -15,8 +15,8 @@ namespace indurop::node {
 
 class HangWatch {
  public:
-  // Both are called by a thread of this class: `progress` returns another number whenever a run has returned, `end`
-  // ends the run in progress, and does nothing if there is none.
+  // A thread of this class calls both: `progress` returns another number whenever a run has returned, `end` ends the
+  // run in progress, and does nothing if there is none.
   HangWatch(std::function<std::uint64_t()> progress, std::function<void()> end);
   ~HangWatch();
   HangWatch(const HangWatch&) = delete;

@@ -17,7 +17,7 @@
 
 namespace indurop::node {
 
-// What a recording states about this node.
+// The description of this node in its recordings.
 recorder::About about_node(const Options& options, const Checked& checked, const Prepared& prepared);
 
 class RecordPart {

@@ -51,7 +51,7 @@ class Replay {
    private:
     std::vector<std::atomic<std::int64_t>*> shown_;
   };
-  // What the recording contains of one variable for a module.
+  // The recorded values of one variable for a module.
   struct Known {
     std::uint32_t variable = 0;
     bool read = false;

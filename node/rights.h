@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the machine grants the node for real time: a core, FIFO priorities, short idle states, locked memory. Without
-// rights the node runs as well as it can and reports that, or ends (--require-rt).
+// The rights the machine grants the node for real time: a core, FIFO priorities, short idle states, locked memory.
+// Without rights the node runs as well as it can and reports that, or ends (--require-rt).
 
 #pragma once
 

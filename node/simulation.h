@@ -32,7 +32,7 @@ class Simulation {
 
   // The place of this board in a simulated plant; null: there is no such plant.
   [[nodiscard]] const BoardPlace* place() const noexcept { return conductor_ ? &place_ : nullptr; }
-  // Connects the messages between this board and others; watch_end() sets what tells whether the board has ended.
+  // Connects the messages between this board and others; watch_end() sets the check whether the board has ended.
   struct Link {
     std::function<void(const mirror::Message&)> arrived;
     std::function<std::vector<mirror::Message>()> take_sent;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much work each core gets in each tick, and for how long that keeps it busy. The order of the work does not matter
-// for this.
+// The work of each core in each tick, and for how long that keeps it busy. The order of the work does not matter for
+// this.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the order of Table 3 is kept among modules of several cores.
+// The ways to keep the order of Table 3 among modules of several cores.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the scheduler needs from the system below it: time, waiting, threads. An interface, so that simulation and tests
-// can replace the system.
+// The services the scheduler needs from the system below it: time, waiting, threads. An interface, so that simulation
+// and tests can replace the system.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a module is working, as text for users.
+// Says in words for users whether a module is working.
 
 #pragma once
 

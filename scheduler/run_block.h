@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one run of a node publishes and shares with its process modules: a shared-memory block that the real-time
-// threads write without locks and all others only read. Fixed layout, offsets instead of pointers.
+// The data that one run of a node publishes and shares with its process modules: a shared-memory block that the
+// real-time threads write without locks and all others only read. Fixed layout, offsets instead of pointers.
 
 #pragma once
 
@@ -155,7 +155,7 @@ struct MessageRing {
   std::uint64_t entries_offset;  // offset of MessageEntry[capacity] from the block's start
 };
 
-// What the operating system granted, which may be less than was requested.
+// The rights the operating system granted, which may be less than was requested.
 struct Obtained {
   std::uint32_t fifo;  // 1: SCHED_FIFO
   std::int32_t tick_priority;
