@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The option --times of verbs that look at a schedule.
+// The option --times of verbs that compute a schedule.
 
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace indurop::config {
 
-// Adds --times FILE, a report of `indurop run --report`; fills `times` when it is given. What cannot be read is a wrong
-// command line.
+// Adds --times FILE, a report of `indurop run --report`; fills `times` when the option is given. An unreadable file is
+// a command line error.
 void add_times_option(base::Options& line, CheckOptions::Times& times);
 
 }  // namespace indurop::config

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// --network delay=200us,jitter=50us,loss=0.001,seed=7 of a simulated plant.
+// The option --network delay=200us,jitter=50us,loss=0.001,seed=7 of a simulated plant.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace indurop::config {
 
-// Changes what is named. Returns what is wrong with the text; empty: nothing.
+// Changes the settings that `text` names. Returns the error in the text; empty on success.
 std::string read_network(std::string_view text, SimulatedNetwork& network);
 
 }  // namespace indurop::config

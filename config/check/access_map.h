@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who reads and writes what: the access records of the module files plus <access> of the configuration.
+// The access map: which modules read and write which variable, from the access records of the module files and from
+// <access> of the configuration.
 
 #pragma once
 
@@ -18,15 +19,15 @@ struct VariableAccess {
 };
 
 struct AccessMap {
-  std::map<std::string, VariableAccess> variables;  // those somebody reads or writes
+  std::map<std::string, VariableAccess> variables;  // only variables that a module reads or writes
   std::vector<std::size_t> unknown_readers;         // modules that read by names known only at run time
   std::vector<std::size_t> unknown_writers;
 };
 
-// Reports names in <access> and <failsafe> that do not exist, and modules whose accesses cannot be known.
+// Reports names in <access> and <failsafe> that do not exist, and modules whose accesses cannot be determined.
 AccessMap make_access_map(CheckContext& context);
 
-// Periodic modules by execution order, then sporadic, then non-real ones: indices into Config::modules.
+// Returns indices into Config::modules: periodic modules by execution order, then sporadic, then non-real-time ones.
 std::vector<std::size_t> execution_order(const CheckResult& result);
 
 }  // namespace indurop::config

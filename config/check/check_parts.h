@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts check_config() and check_plant() are made of. Each looks at one side of the configuration and reports into
-// the same list.
+// The parts of check_config() and check_plant(). Each checks one aspect of the configuration; all report into the same
+// list.
 
 #pragma once
 
@@ -19,10 +19,10 @@
 
 namespace indurop::config {
 
-// Reads each text once: a plant of many boards has the same in most of its modules.
+// Parses each schema text only once: most modules of a plant contain the same text.
 class SchemaTexts {
  public:
-  // Errors: those of schema::from_json.
+  // Errors: as schema::from_json.
   Result<std::shared_ptr<const schema::Schema>> read(const std::string& text);
 
  private:
@@ -37,12 +37,12 @@ struct CheckContext {
   SchemaTexts& texts;
 };
 
-// Basic and macro period, --adjust. Fills table, periodic, sporadic, non_real.
+// Checks the basic and macro period; applies --adjust. Fills table, periodic, sporadic, non_real.
 void check_schedule(CheckContext& context);
-// After it, and after check_access() where files are looked at: cores of modules, number of bands, and whether what
-// says how long it executes ends in time. Fills sharing, spreading, timings.
+// Checks cores of modules, number of bands, and whether modules with a known execution time end in time. Call it after
+// check_schedule(), and after check_access() if files are checked. Fills sharing, spreading, timings.
 void check_load(CheckContext& context);
-// What bands are made of: a task for each of CheckResult::periodic, in its order.
+// Returns the tasks from which bands are made: one for each of CheckResult::periodic, in its order.
 std::vector<scheduler::Task> periodic_tasks(const CheckContext& context);
 // Parts of check_load().
 void find_sharing(CheckContext& context);
@@ -50,36 +50,37 @@ void take_measured_times(CheckContext& context);
 void place_modules(CheckContext& context);
 void check_times(CheckContext& context);
 scheduler::DispatchCost dispatch_cost(const Config& config, base::Nanos basic);
-std::vector<int> usable_cores();  // by this process, ascending
-// Cores, time that spinning leaves.
+std::vector<int> usable_cores();  // cores this process may use, ascending
+// Checks cores and the time that spinning leaves.
 void check_machine(CheckContext& context);
-// Files, ABI, symbols. Fills facts and schema.
+// Checks files, ABI and symbols. Fills facts and schema.
 void check_files(CheckContext& context);
-// Who reads and writes which variable, order and age of data, fail-safe values. Fills uses and unknown_*. After the
-// three above.
+// Checks which modules read and write which variable, order and age of data, and fail-safe values. Fills uses and
+// unknown_*. Call it after the three checks above.
 void check_access(CheckContext& context);
 
-// Modules whose runs may differ in a simulation. After check_access().
+// Reports modules whose runs may differ in a simulation. Call it after check_access().
 void check_determinism(CheckContext& context);
 
-// Do all modules that have a variable mean the same bytes, on whatever board they run.
+// Checks that all modules that share a variable use the same layout of it, on all boards.
 void check_agreement(std::span<const BoardView> boards, base::Diagnostics& report);
-// Variables that several modules write, none writes, or none reads. Nothing is missed of those `set_by_hand`.
+// Reports variables that several modules write, that none writes, or that none reads. Variables in `set_by_hand` need
+// no writer.
 void check_use(const Uses& uses, const std::set<std::string>& set_by_hand, base::Diagnostics& report);
 
-// Are the files there, and libraries.
+// Checks that the files exist and are libraries.
 void check_type_libraries(const TypeFiles& named, base::Diagnostics& report);
-// Brings the names in the rules to full names; removes rules for variables that do not exist.
+// Replaces the names in the rules by full names; removes rules for variables that do not exist.
 void resolve_rules(std::vector<VariableRule>& rules, const schema::Schema& schema, base::Diagnostics& report);
-// What rules say about tools of others. `shown`: there is an external plane. After resolve_rules().
+// Checks the rules for third-party tools. `shown`: there is an external plane. Call it after resolve_rules().
 void check_external_rules(const std::vector<VariableRule>& rules, bool shown, const Uses& uses,
                           base::Diagnostics& report);
 
-// Types that programs of others are known to misread. For an external plane that is shown.
+// Reports types that third-party programs are known to misread. Call it only if there is an external plane.
 void check_foreign_types(const TypeFiles& named, const std::vector<VariableRule>& rules, const schema::Schema& schema,
                          base::Diagnostics& report);
 
-// All of a module.xml. Returns the variables that tools may set.
+// Runs all checks of the external plane of a module.xml. Returns the variables that tools may set.
 std::set<std::string> check_external(CheckContext& context, const Uses& uses);
 
 struct NamedFile {
@@ -87,7 +88,7 @@ struct NamedFile {
   std::string as_written;
   const char* element;  // "<filename>"
 };
-// Why schema::read_module_file() failed and what to do; with `search` names that are near in the folder are proposed.
+// Returns why schema::read_module_file() failed and what to do; with `search` it proposes similar names in the folder.
 std::string unreadable_file(const Error& failure, const NamedFile& file, bool search);
 void sort_by_severity(std::vector<base::Diagnostic>& diagnostics);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A CSV file of recorded values: a first row with names, a first column with times, numbers or nothing in between.
+// A CSV file of recorded values: the first row has names, the first column has times, and the cells are numbers or
+// empty.
 
 #pragma once
 
@@ -18,22 +19,22 @@
 namespace indurop::config {
 
 struct CsvRow {
-  std::int64_t time_ns = 0;    // from the first row on, strictly rising
-  std::vector<double> values;  // as CsvTable::columns; NaN: the cell is empty
+  std::int64_t time_ns = 0;    // since the first row, strictly rising
+  std::vector<double> values;  // in the order of CsvTable::columns; NaN: the cell is empty
 };
 
 struct CsvTable {
-  std::vector<std::string> columns;  // without that of the time
+  std::vector<std::string> columns;  // without the time column
   std::vector<CsvRow> rows;
 };
 
-// Cells are separated by ',' or ';', whichever the first row has; a quoted cell may contain it. The first column is
-// called time, time_s, time_ms, time_us or time_ns. Lines that are empty or begin with '#' are skipped. Errors: all
-// that is wrong with the text of `file`, at most 20.
+// Parses `text`. Cells are separated by ',' or ';', depending on the first row; a quoted cell may contain the
+// separator. The first column is called time, time_s, time_ms, time_us or time_ns. Lines that are empty or begin with
+// '#' are skipped. Errors: all errors in the text, with places in `file`, at most 20.
 Result<CsvTable, std::vector<base::Diagnostic>> read_csv(std::string_view text, const std::string& file);
 
-// The file of a device and the column of each of its points. Errors: the file cannot be read, what is wrong in it, or
-// that it lacks columns.
+// The CSV file of a device, and the column of each of its points. Errors of read_csv_device(): the file cannot be read,
+// its content is wrong, or columns are missing.
 struct CsvSource {
   CsvTable table;
   std::vector<std::size_t> columns;

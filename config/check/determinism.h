@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Does a module do the same on every run.
+// Checks from a module's imported symbols whether its runs are repeatable.
 
 #pragma once
 
@@ -8,11 +8,12 @@
 
 namespace indurop::config {
 
-// What of the system makes a module's runs differ, by the symbols it imports: "real time (clock_gettime, time)". Empty:
-// nothing that is known. What libraries do that it links is not seen.
+// Returns the system calls and functions that make a module's runs differ, from the symbols it imports: "real time
+// (clock_gettime, time)". Empty: no known ones. Libraries that it links are not examined.
 std::vector<std::string> sources_of_chance(const std::vector<std::string>& imports);
 
-// Whether it speaks to the world beyond the shared variables: it may move something there. By its symbols too.
+// Returns true if the module communicates other than through shared variables, so that it may move something. Judged by
+// its imported symbols.
 bool talks_to_others(const std::vector<std::string>& imports);
 
 }  // namespace indurop::config

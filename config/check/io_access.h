@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an I/O module (libiodispat.so) reads and writes: its variables stand in its ioconfig.xml, not in its code.
+// The accesses of an I/O module (libiodispat.so): its variables are in its ioconfig.xml, not in its code.
 
 #pragma once
 
@@ -12,19 +12,19 @@
 namespace indurop::config {
 
 struct IoAccess {
-  std::vector<const schema::Variable*> reads;  // in the schema that was given
+  std::vector<const schema::Variable*> reads;  // in the given schema
   std::vector<const schema::Variable*> writes;
 };
 
 bool is_io_module(const schema::ModuleFile& file) noexcept;
-// The module's ioconfig.xml; empty if it names none.
+// Returns the module's ioconfig.xml; nothing if it names none.
 std::optional<std::filesystem::path> io_config_of(const Module& module, const std::filesystem::path& folder);
 
-// The module's ioconfig.xml and the files it names, those of them that are not the board's own (absolute names).
-// Nothing if it is no I/O module.
+// Returns the module's ioconfig.xml and the files it names, without the board's own files (absolute names). Empty if it
+// is not an I/O module.
 std::vector<std::filesystem::path> io_files_of(const Module& module, const std::filesystem::path& folder);
 
-// Reports what is wrong with the file, with its own places.
+// Reports errors of the file with their places in it.
 IoAccess io_access_of(const Module& module, CheckContext& context);
 
 }  // namespace indurop::config

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which variables the points of ioconfig.xml stand for.
+// Binds the points of ioconfig.xml to shared variables.
 
 #pragma once
 
@@ -12,19 +12,19 @@
 
 namespace indurop::config {
 
-// A point with the variables it stands for, parts of variables of the schema that was given.
+// A point with its variables, which are parts of variables of the given schema.
 struct BoundPoint {
   IoPoint point;
   schema::Place variable;
   std::optional<schema::Place> quality;
 };
 struct BoundDevice {
-  IoDevice device;  // its points are in `points`, with those that in="" and out="" stand for
+  IoDevice device;  // its points are in `points`, including those that in="" and out="" expand to
   std::vector<BoundPoint> points;
   std::optional<schema::Place> quality;
   std::optional<schema::Place> errors;
 };
-// Finds the variables and says what does not fit. `schema` must outlive what is returned.
+// Finds the variables and reports errors. `schema` must outlive the returned devices.
 std::vector<BoundDevice> bind_io(const IoConfig& config, const schema::Schema& schema,
                                  std::vector<base::Diagnostic>& diagnostics);
 

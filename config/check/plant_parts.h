@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of check_plant() that look at all boards together.
+// The parts of check_plant() that check all boards together.
 
 #pragma once
 
@@ -20,14 +20,14 @@ struct PlantContext {
   base::Diagnostics& report;
 };
 
-// The rule for a variable of this full name; nullptr: none.
+// Returns the rule for the variable with this full name; nullptr: none.
 const VariableRule* rule_for(const Plant& plant, const std::string& variable);
 
-// Which board owns each variable that has a writer, and which boards need it.
+// Determines the owner of each variable that has a writer, and the boards that need it.
 std::vector<Route> find_routes(PlantContext& context, PlantCheck& result);
-// Are the boards' keys there, and theirs; of an open plant that it is open.
+// Checks that the keys of the boards and of the plant exist; reports if the plant is open.
 void check_security(const Plant& plant, const CheckOptions& options, base::Diagnostics& report);
-// How old values are that come from other boards. Fills Route::oldest.
+// Determines the age of values that come from other boards. Fills Route::oldest.
 void check_ages(PlantContext& context, std::vector<Route>& routes);
 
 }  // namespace indurop::config

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long modules executed at most in a run before, from its report.
+// The longest execution times of modules in an earlier run, from its report.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::config {
 
-// The longest execution of each module in a report. Returns why the file is none; empty: it is one.
+// Reads the longest execution of each module from a report. Returns why the file is not a report; empty on success.
 std::string read_measured_times(const std::string& file, CheckOptions::Times& times);
 
 }  // namespace indurop::config

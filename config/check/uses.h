@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who reads and writes which variable, over all boards.
+// Readers and writers of each variable, over all boards.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace indurop::config {
 
-// One board in checks that look at all of them. Its name is empty where there is only one.
+// One board, for checks over all boards. The name is empty if there is only one board.
 struct BoardView {
   std::string name;
   const Config& config;
@@ -22,12 +22,12 @@ struct BoardView {
 
 struct Plant;
 struct PlantCheck;
-// Of all boards of a plant, in the order of the manifest; what is given is borrowed.
+// Returns all boards of a plant, in the order of the manifest; `plant` and `check` are borrowed.
 std::vector<BoardView> views_of(const Plant& plant, const PlantCheck& check);
 
 struct User {
-  std::size_t board = 0;   // into the views
-  std::size_t module = 0;  // into its Config::modules
+  std::size_t board = 0;   // index into the views
+  std::size_t module = 0;  // index into the board's Config::modules
 };
 
 struct Users {
@@ -37,7 +37,7 @@ struct Users {
 
 class Uses {
  public:
-  // `boards` are borrowed.
+  // Borrows `boards`.
   explicit Uses(std::span<const BoardView> boards);
 
   [[nodiscard]] const std::map<std::string, Users>& variables() const noexcept { return variables_; }
@@ -46,7 +46,7 @@ class Uses {
 
   [[nodiscard]] const BoardView& board(User user) const { return boards_[user.board]; }
   [[nodiscard]] const Module& module(User user) const { return board(user).config.modules[user.module]; }
-  // "control", in a plant "control@sensor".
+  // Returns "control", in a plant "control@sensor".
   [[nodiscard]] std::string name(User user) const;
   [[nodiscard]] std::vector<std::string> names(const std::vector<User>& users) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// module.xml as data (chapter, Figures 1 and 9), every value with the place it was written at.
+// module.xml as data (chapter, Figures 1 and 9); every value has its place in the file.
 
 #pragma once
 
@@ -22,10 +22,10 @@ using base::Nanos;
 struct Property {
   std::string name;
   std::string value;
-  base::SourcePlace place{};  // of its <value>
+  base::SourcePlace place{};  // of the <value>
 };
 
-// How a process module comes back after it died. max restarts within window, then escalation.
+// How a process module is restarted after it died: at most `max` restarts within `window`, then escalation.
 struct Restart {
   base::Nanos delay{std::chrono::milliseconds(100)};
   std::uint32_t max = 3;
@@ -40,7 +40,7 @@ struct FailSafe {
   base::SourcePlace place;
 };
 
-// Where the values of a module were written, for diagnostics; line 0: not given.
+// Places of the values of a module in the XML file, for diagnostics; line 0: not given.
 struct ModulePlaces {
   base::SourcePlace name;
   base::SourcePlace file;
@@ -59,30 +59,30 @@ struct ModulePlaces {
 
 struct Module {
   std::string name;            // <name>, else the file name without directory and extension; unique
-  std::filesystem::path file;  // absolute, relative ones taken from the XML file's directory
+  std::filesystem::path file;  // absolute; relative names start at the XML file's folder
   std::string file_as_written;
   scheduler::ModuleType type = scheduler::ModuleType::Thread;
   scheduler::Operation operation = scheduler::Operation::Periodic;
-  base::Nanos period{};  // non-real thread: 0 runs it once
+  base::Nanos period{};  // non-real-time thread: 0 runs it once
   base::Nanos offset{};
   base::Nanos deadline{};  // 0: none given (sporadic: required; periodic: the period)
-  base::Nanos wcet{};      // longest execution, not counting what preempts it; 0: not known
-  base::Nanos budget{};    // 0: default (10 periods, at least 5 ms); kNoBudget: off
+  base::Nanos wcet{};      // longest execution without preemption; 0: not known
+  base::Nanos budget{};    // 0: default (10 periods, at least 5 ms); kNoBudget: no budget
   int priority = 0;
-  int core = -1;            // -1: the node's
-  std::string standby;      // of a plant: board that runs it too and takes over; empty: none
-  bool is_standby = false;  // this is that second one
+  int core = -1;            // -1: the core of the node
+  std::string standby;      // of a plant: board that also runs it and takes over; empty: none
+  bool is_standby = false;  // this is the module on the standby board
   scheduler::OverrunPolicy overrun = scheduler::OverrunPolicy::Skip;
   bool after_base = false;  // sporadic: <position>after-base</position>
-  int signal = 0;           // legacy process: POSIX signal number each release, 0: none
+  int signal = 0;           // legacy process: POSIX signal sent at each release, 0: none
   std::vector<std::string> arguments;
-  std::vector<std::string> after;  // modules whose runs of a basic period this one's comes after, on whatever core
+  std::vector<std::string> after;  // modules that run before this one in a basic period, on any core
   std::vector<std::string> reads;  // <access> by name (channel): variables read / written
   std::vector<std::string> writes;
   Restart restart;
   std::vector<FailSafe> failsafe;
   std::vector<Property> properties;
-  base::SourcePlace place;  // of <module>
+  base::SourcePlace place;  // of the <module>
   ModulePlaces places;
 };
 inline constexpr base::Nanos kNoBudget{-1};
@@ -92,36 +92,36 @@ struct SpinSetting {
   base::Nanos fixed{};
 };
 
-// <cores>: modules without a <core> are spread over several.
+// <cores>: modules without a <core> are distributed over several cores.
 struct CoresSetting {
-  int most = 0;                 // so many; 0: all this process may use
-  bool split_sharing = false;   // also modules that share data, which then wait for one another
+  int most = 0;                 // number of cores; 0: all that this process may use
+  bool split_sharing = false;   // also distribute modules that share data; they then wait for each other
   std::filesystem::path times;  // report with execution times of modules without <wcet>; empty: none
   base::SourcePlace place;
 };
 inline constexpr int kMostSpreadCores = 64;
 
-// What <variable> says about one variable beyond its .glb declaration.
+// What <variable> sets for one variable in addition to its .glb declaration.
 struct VariableRule {
-  // What tools of others may do with it: read its topic, also write it, or not even see it.
+  // What third-party tools may do with the variable: read its topic, also write it, or not see it.
   enum class External { Read, Write, Off };
   std::string name;          // full name
-  std::string owner;         // of a plant: board whose value counts; empty: inferred from the access map
-  base::Nanos every{};       // sent at most this often; 0: with every change
-  bool best_effort = false;  // a lost value is not repeated, the next one comes soon
+  std::string owner;         // of a plant: board that owns the variable; empty: inferred from the access map
+  base::Nanos every{};       // minimum time between two transmissions; 0: sent with every change
+  bool best_effort = false;  // a lost value is not sent again, because the next one comes soon
   External external = External::Read;
   base::SourcePlace place;
   base::SourcePlace owner_place;
 };
 
-// Libraries of indurop_add_glb(... TYPES), absolute; the other two are parallel.
+// Libraries of indurop_add_glb(... TYPES), absolute paths; the other two vectors are parallel.
 struct TypeFiles {
   std::vector<std::filesystem::path> types;
   std::vector<std::string> types_as_written;
   std::vector<base::SourcePlace> type_places;
 };
 
-// What <root> of a module.xml says about tools of others; the manifest of a plant says it for all boards.
+// What <root> of a module.xml sets for third-party tools; in a plant the manifest sets it for all boards.
 struct ExternalPlane : TypeFiles {
   std::optional<int> domain;   // DDS domain of typed topics; empty: none
   bool ros2 = false;           // topics have the names and types of ROS 2
@@ -134,7 +134,7 @@ struct Config {
   std::vector<Module> modules;                // in file order
   std::optional<base::Nanos> minimum_period;  // <minimum_period>; default kDefaultMinimumPeriod
   std::optional<SpinSetting> spin;
-  int core = -1;  // -1: the last one this process may use
+  int core = -1;  // -1: the last core this process may use
   std::optional<CoresSetting> cores;
   scheduler::CoreOrder order = scheduler::CoreOrder::Data;  // <order>
   base::SourcePlace core_place;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The deployment manifest as data: which boards a plant has, which modules run on which, how variables travel between
-// them. Each board's modules are a Config like that of a module.xml.
+// The deployment manifest as data: the boards of a plant, the modules of each board, and how variables travel between
+// them. The modules of a board are a Config like that of a module.xml.
 
 #pragma once
 
@@ -18,7 +18,7 @@ namespace indurop::config {
 struct Board {
   std::string name;            // [A-Za-z0-9_-]{1,40}; the node of the board has the same name
   std::string address;         // IP address or host name for <multicast>off</multicast>; empty: found by multicast
-  std::string interface_name;  // network interface the plant is reached through; empty: DDS chooses
+  std::string interface_name;  // network interface that connects the plant; empty: DDS chooses
   Config config;
   base::SourcePlace place;
 };
@@ -28,12 +28,12 @@ struct Plant : TypeFiles {
   std::string name;
   int domain = kDefaultDomain;                        // DDS domain between the boards, 0..230
   std::optional<int> external_domain = 0;             // typed topics for other tools; empty: none
-  bool external_secure = false;                       // only holders of keys take part in it
+  bool external_secure = false;                       // only participants with keys can join it
   bool external_ros2 = false;                         // its topics have the names and types of ROS 2
   bool multicast = true;                              // false: boards find each other by <board address="">
-  std::filesystem::path security;                     // folder of its keys (docs/security.md); empty: open to anyone
+  std::filesystem::path security;                     // folder of its keys (docs/security.md); empty: open to all
   base::SourcePlace security_place;                   // of the folder, else of <plant>
-  base::Nanos lease{std::chrono::milliseconds(500)};  // a board not heard for so long is gone
+  base::Nanos lease{std::chrono::milliseconds(500)};  // a board that was silent for this time is considered lost
   SimulatedNetwork network;                           // between its boards in a simulation
   std::vector<Board> boards;                          // in file order
   std::vector<VariableRule> variables;

@@ -14,7 +14,7 @@ namespace indurop::config {
 
 std::string plan_table(const Config& config, const CheckResult& check);
 std::string plan_csv(const Config& config, const CheckResult& check);
-// Which core each periodic module is on, why, and what waits for what.
+// Explains which core each periodic module is on, why, and which modules wait for which.
 std::string plan_why(const Config& config, const CheckResult& check);
 std::string plan_why(const Plant& plant, const PlantCheck& check);
 // {"basic_period_ns","macro_period_ns","slots":[{"slot","time_ns","modules":[names in order]}],"sporadic":[...],
@@ -22,7 +22,7 @@ std::string plan_why(const Plant& plant, const PlantCheck& check);
 std::string plan_json(const Config& config, const CheckResult& check);
 std::string plan_svg(const Config& config, const CheckResult& check);
 
-// The same of all boards in the order of the manifest: tables under headings; {"plant","boards":[{"name", then as
+// The same for all boards in the order of the manifest: tables under headings; {"plant","boards":[{"name", then as
 // above}]}; the board's name in the first column; diagrams one below the other.
 std::string plan_table(const Plant& plant, const PlantCheck& check);
 std::string plan_csv(const Plant& plant, const PlantCheck& check);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all forms of the plan need from configuration and check.
+// Functions that all forms of the plan use.
 
 #pragma once
 
@@ -10,20 +10,22 @@
 
 namespace indurop::config {
 
-// Module names of one slot in execution order.
+// Returns the module names of one slot in execution order.
 std::vector<std::string> names_of(const Config& config, const CheckResult& check, const scheduler::Slot& slot);
 // "cntr3 > cntr2"
 std::string in_order(const std::vector<std::string>& names);
-// -1: the one the node chooses.
+// Returns the core of a module; -1: the node chooses it.
 int core_of(const Config& config, const Module& module);
-// Modules that have to be done with a basic period before this one begins it, if they are due in it and elsewhere.
+// Returns the modules that must end their run of a basic period before this one starts, if they are due in it and run
+// on another core.
 std::vector<std::size_t> waited_for(const Config& config, const CheckResult& check, std::size_t module);
-// Deadline, else period, less the worst response; 0 if that is not known, or there is none.
+// Returns the deadline, or else the period, minus the worst-case response; 0 if the response is not known or there is
+// no deadline.
 base::Nanos slack_of(const Module& module, const Timing& timing);
-// Share of a core that modules take which say how long they execute; sporadic ones once within their deadline.
+// Returns the share of a core used by modules with a known execution time; sporadic ones count once per deadline.
 double utilisation(const Module& module);
 double utilisation(const Config& config);
-// Nanoseconds as milliseconds, every digit: "0.1".
+// Returns nanoseconds as milliseconds with all digits: "0.1".
 std::string milliseconds(base::Nanos value);
 
 }  // namespace indurop::config

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <after>: are the modules it names there, and before this one in the order of execution.
+// Checks of <after>: the modules it names must exist and come before this one in the order of execution.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace indurop::config {
 
-// Modules have their names. Takes names away that are no use, so that later checks can rely on the rest.
+// Call it when modules have their names. Removes invalid names, so that later checks can rely on the others.
 void check_after(Config& config, base::Diagnostics& report);
 
 }  // namespace indurop::config

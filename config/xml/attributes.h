@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Attributes of one element as values. What was asked for is what the element may have: finish() reports the rest.
+// Reads the attributes of one element as values. Attributes that are not read are unknown: finish() reports them.
 
 #pragma once
 
@@ -16,19 +16,19 @@ namespace indurop::config {
 
 class Attributes {
  public:
-  // Both are borrowed.
+  // Borrows both arguments.
   Attributes(const base::Element& element, base::Diagnostics& report) : element_(element), report_(report) {}
 
-  // Each returns nothing if the attribute is absent, or wrong, which is then reported with what to write instead.
+  // Each returns nothing if the attribute is absent or wrong; a wrong one is reported with a correction.
   std::optional<std::string> text(const char* name, base::SourcePlace* place = nullptr);
   std::optional<std::int64_t> integer(const char* name, std::int64_t low, std::int64_t high);
   std::optional<double> real(const char* name, double low, double high);
   std::optional<base::Nanos> duration(const char* name, base::Nanos least, base::Nanos most);
   std::optional<std::size_t> choose(const char* name, const std::vector<std::string>& words);
-  // As text(), an error if it is absent or empty.
+  // Like text(), but it is an error if the attribute is absent or empty.
   std::optional<std::string> need(const char* name, std::string_view example, base::SourcePlace* place = nullptr);
 
-  // Reports attributes nobody asked for. `where` as in "of <device driver=\"csv\">"; empty: the element's name.
+  // Reports attributes that were not read. `where` as in "of <device driver=\"csv\">"; empty: the element's name.
   void finish(const std::string& where = {});
 
   [[nodiscard]] base::Diagnostics& report() noexcept { return report_; }

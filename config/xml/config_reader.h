@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The configuration of one board: what <root> of a module.xml and <board> of a manifest hold.
+// Reads the configuration of one board: the content of <root> in a module.xml and of <board> in a manifest.
 
 #pragma once
 
@@ -9,9 +9,10 @@
 
 namespace indurop::config {
 
-// Reads the children of `container` into `config` (whose `file` is set) and names its modules. None may be there.
+// Reads the children of `container` into `config` (whose `file` is set) and names its modules. `config` must have no
+// modules yet.
 void read_configuration(const base::Element& container, config::Config& config, base::Diagnostics& report);
-// Where relative file names of the XML file start.
+// Returns the folder at which relative file names of the XML file start.
 std::filesystem::path folder_of(const std::filesystem::path& xml_file);
 
 }  // namespace indurop::config

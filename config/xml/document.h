@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From bytes to elements with places, whatever the elements mean.
+// Parses bytes into elements with places, independent of the meaning of the elements.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace indurop::config {
 
-// What the file should have been, for diagnostics.
+// The expected kind of file, for diagnostics.
 struct DocumentKind {
   const char* name;  // "module.xml"
   const char* form;  // "<root> with one <module> per program"
@@ -24,12 +24,14 @@ struct DocumentKind {
 inline constexpr DocumentKind kModuleXml{"module.xml", "<root> with one <module> per program"};
 inline constexpr DocumentKind kPlantXml{"plant.xml", "<plant name=\"cell\"> with one <board> per board"};
 
-// The bytes of an ordinary file, at most a little more than a document may have; else what is wrong, about no line.
+// Reads the bytes of a regular file, at most slightly more than a document may have. Error: a diagnostic without a
+// line.
 Result<std::string, base::Diagnostic> read_bytes(const std::filesystem::path& file, const DocumentKind& kind);
-// The root element, or empty after errors about `file`: larger than 4 MB, nested deeper than 32, not well-formed.
+// Returns the root element, or nothing after errors about `file`: larger than 4 MB, nested deeper than 32, not
+// well-formed.
 std::optional<base::Element> read_document(std::string_view xml, const std::filesystem::path& file,
                                            const DocumentKind& kind, std::vector<base::Diagnostic>& diagnostics);
-// Name of the root element, however damaged the rest of the document is; empty if there is none.
+// Returns the name of the root element even if the rest of the document is damaged; empty if there is none.
 std::string root_name(std::string_view xml);
 
 }  // namespace indurop::config

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the elements of a module.xml or of a manifest mean.
+// Converts the elements of a module.xml or of a manifest into a configuration.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace indurop::config {
 
-// Reads what the elements below `root` mean into `config` (whose `file` is set) and appends what is wrong.
+// Converts the elements below `root` into `config` (whose `file` is set) and appends the errors.
 void interpret(const base::Element& root, Config& config, std::vector<base::Diagnostic>& diagnostics);
 struct Plant;
 void interpret_plant(const base::Element& root, Plant& plant, std::vector<base::Diagnostic>& diagnostics);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One <input> or <output> of ioconfig.xml.
+// Reads one <input> or <output> of ioconfig.xml.
 
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace indurop::config {
 
-// Reads the point, whatever is wrong with it is reported.
+// Reads the point and reports all its errors.
 IoPoint read_io_point(const base::Element& element, const IoDevice& device, base::Diagnostics& report);
 
-// Attribute "unit" of a Modbus device or point.
+// Reads the attribute "unit" of a Modbus device or point.
 std::optional<int> read_unit(Attributes& attributes, IoDriver driver);
 
-// What the points of a device say together: two that are the same, or half of another.
+// Checks the points of a device against each other: reports duplicates and overlapping points.
 void check_io_points(const IoDevice& device, base::Diagnostics& report);
 
 }  // namespace indurop::config

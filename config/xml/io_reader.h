@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading ioconfig.xml.
+// Reads ioconfig.xml.
 
 #pragma once
 
@@ -17,7 +17,7 @@ struct ReadIo {
   std::vector<base::Diagnostic> diagnostics;
   [[nodiscard]] bool ok() const noexcept { return !base::has_error(diagnostics); }
 };
-// Everything that is wrong with the file at once. Not real-time safe.
+// Reports all errors of the file at once. Not real-time safe.
 ReadIo read_io_config(const std::filesystem::path& file);
 ReadIo read_io_config_text(std::string_view xml, const std::filesystem::path& pretend_file);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The file that a <filename> means.
+// Finds the file that a <filename> refers to.
 
 #pragma once
 
@@ -8,9 +8,9 @@
 
 namespace indurop::config {
 
-// `text` is a path from `folder` on. A bare name that is no file there is looked for with what its ending and beginning
-// may be, first there, then among the modules of this installation: NAME, NAME.so, libNAME.so, NAME.exe. The plain path
-// if nothing is found.
+// `text` is a path relative to `folder`. A bare name for which no file exists is searched for with the usual prefix and
+// extensions, first in `folder`, then among the modules of this installation: NAME, NAME.so, libNAME.so, NAME.exe.
+// Returns the plain path if nothing is found.
 std::filesystem::path module_file(const std::filesystem::path& folder, const std::string& text);
 
 }  // namespace indurop::config

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the elements below one <module> mean.
+// Reads the elements below one <module>.
 
 #pragma once
 
@@ -13,19 +13,18 @@
 
 namespace indurop::config {
 
-// What a <module> was given, to judge whether that is what its kind of module needs.
+// The elements that a <module> has, to check them against what its kind of module needs.
 struct Given {
-  FirstPlaces elements;                         // by name, where the first one is
-  std::set<std::string, std::less<>> misspelt;  // names that unknown elements probably mean
+  FirstPlaces elements;                         // by name, place of the first one
+  std::set<std::string, std::less<>> misspelt;  // known names that unknown elements probably misspell
   bool type = false;                            // <moduletype> is there and valid
-  bool operation = false;                       // <operationtype> likewise
+  bool operation = false;                       // <operationtype> is there and valid
   [[nodiscard]] bool has(const char* name) const { return elements.find(name) != elements.end(); }
 };
-// Elements missing, elements without effect, times that contradict each other. Clears values without effect.
+// Reports missing elements, elements without effect, and contradictory times. Clears values without effect.
 void check_rules(config::Module& module, const Given& given, base::Diagnostics& report);
 
-// A module as far as it can be read; `folder` is where relative file names start. Its name is still empty if it has
-// no <name>.
+// Reads a module as far as possible; relative file names start at `folder`. Its name stays empty if it has no <name>.
 config::Module read_module(const base::Element& element, const std::filesystem::path& folder,
                            base::Diagnostics& report);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names and numbers a manifest may contain, and what its parts need from one another.
+// Rules for names and numbers in a manifest, and between its elements.
 
 #pragma once
 
@@ -13,19 +13,19 @@ namespace indurop::config {
 
 inline constexpr int kHighestDomain = 230;
 
-// Of plants, boards and nodes: [A-Za-z0-9_-]{1,40}.
+// Checks the name of a plant, board or node: [A-Za-z0-9_-]{1,40}.
 bool is_node_name(std::string_view name) noexcept;
-// Empty, or what is wrong with the IP address or host name and what to write.
+// Returns the error in an IP address or host name and how to correct it; empty if it is valid.
 std::string address_problem(const std::string& address);
-// Likewise for the name of a network interface.
+// Returns the error in the name of a network interface and how to correct it; empty if it is valid.
 std::string interface_problem(std::string_view name);
 
 struct PlantPlaces {
   base::SourcePlace domain;    // line 0: not given
-  base::SourcePlace external;  // likewise
+  base::SourcePlace external;  // line 0: not given
 };
-// What can be wrong between elements that are right each on its own.
-// Gives each module with <standby> a second one on that board.
+// Checks between elements that are each correct on their own. add_standbys() adds the second module of each module with
+// <standby> to its standby board.
 void add_standbys(Plant& plant, base::Diagnostics& report);
 void check_plant_rules(const Plant& plant, const PlantPlaces& places, base::Diagnostics& report);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads module.xml and its kin. Reports everything wrong in one go; unknown elements are errors with the
-// nearest known name. Not real-time safe.
+// Reads module.xml. Reports all errors at once; an unknown element is an error that proposes the nearest known name.
+// Not real-time safe.
 
 #pragma once
 
@@ -18,7 +18,7 @@ struct ReadResult {
   [[nodiscard]] bool ok() const noexcept;
 };
 
-// Files over 4 MB or nested deeper than 32 are errors, never crashes.
+// Files over 4 MB or nested deeper than 32 are reported as errors.
 ReadResult read_config(const std::filesystem::path& file);
 ReadResult read_config_text(std::string_view xml, const std::filesystem::path& pretend_file);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values written in module.xml, from text. Where the contract's functions only say no, these say why.
+// Parses values of module.xml. Where the contract's functions only return failure, these return the reason.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace indurop::config {
 
-// "10", "USR1", "SIGUSR1", "SIGRTMIN+2". Empty `value`: `problem` says why.
+// A signal: "10", "USR1", "SIGUSR1", "SIGRTMIN+2". If `value` is empty, `problem` is the reason.
 struct SignalText {
   std::optional<int> value;
   std::string problem;
@@ -20,9 +20,9 @@ struct SignalText {
 SignalText read_signal(std::string_view text);
 std::string signal_name(int signal);
 
-// Whole decimal number within [low, high]; empty otherwise.
+// Parses a whole decimal number within [low, high]; empty otherwise.
 std::optional<std::int64_t> read_integer(std::string_view text, std::int64_t low, std::int64_t high);
-// Finite number, "-0.5" or "1e-3"; empty otherwise.
+// Parses a finite number, "-0.5" or "1e-3"; empty otherwise.
 std::optional<double> read_real(std::string_view text);
 
 }  // namespace indurop::config
