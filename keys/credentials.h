@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys, certificates and signed documents as PEM and S/MIME text, made and examined with libcrypto. No files here. What
-// makes something returns nothing if libcrypto could not; crypto_problem() says why.
+// Creates and examines keys, certificates and signed documents as PEM and S/MIME text with libcrypto. Accesses no
+// files. Functions that create something return an empty text if libcrypto failed; crypto_problem() then returns the
+// reason.
 
 #pragma once
 
@@ -11,11 +12,11 @@
 
 namespace indurop::keys {
 
-using Instant = std::chrono::sys_seconds;  // of UTC
+using Instant = std::chrono::sys_seconds;  // UTC
 
 enum class KeyKind { P256, Ed25519 };
 
-// Who a certificate is for. `unit` may be empty.
+// The holder of a certificate. `unit` may be empty.
 struct Identity {
   std::string organisation;
   std::string unit;
@@ -27,14 +28,14 @@ struct Validity {
   Instant until;
 };
 
-// An authority's certificate with its private key.
+// An authority's certificate and its private key.
 struct Authority {
   std::string certificate;
   std::string key;
 };
 
 struct CertificateFacts {
-  std::string subject;  // "CN=sensor,O=cell", as documents of DDS Security name it
+  std::string subject;  // "CN=sensor,O=cell", as in documents of DDS Security
   std::string organisation;
   std::string common_name;
   std::string serial;  // hexadecimal
@@ -43,34 +44,35 @@ struct CertificateFacts {
   Identity issuer;
 };
 
-// Private key; secret.
+// Returns a private key, which is secret.
 std::string make_key(KeyKind kind);
 std::string public_half(const std::string& key);
 
 std::string make_authority(const std::string& key, const Identity& identity, const Validity& validity);
-// For the owner of `key`. It can neither issue certificates nor sign documents.
+// Makes a certificate for the owner of `key`. It can neither issue certificates nor sign documents.
 std::string make_certificate(const Authority& authority, const std::string& key, const Identity& identity,
                              const Validity& validity);
-// Of certificates with these serial numbers, besides those of `before`, which may be empty.
+// Makes a list that revokes certificates with these serial numbers, in addition to those of `before`, which may be
+// empty.
 std::string make_revocation_list(const Authority& authority, const std::string& before,
                                  const std::vector<std::string>& serials, const Validity& validity);
-// S/MIME with the text readable in it, as DDS Security wants it.
+// Returns S/MIME with the text readable in it, as DDS Security requires.
 std::string sign_document(const Authority& authority, const std::string& text);
 
-// SHA-256 of the subject a certificate of this identity has, hexadecimal. Participants of DDS Security are numbered by
-// it.
+// Returns the SHA-256 of the subject of this identity's certificate, hexadecimal. GUIDs of DDS Security participants
+// begin with it.
 std::string subject_digest(const Identity& identity);
 
 std::optional<CertificateFacts> read_certificate(const std::string& certificate);
 bool issued_by(const std::string& certificate, const std::string& authority);
 bool belongs_to(const std::string& certificate, const std::string& key);
 bool is_revoked(const std::string& certificate, const std::string& revocation_list);
-// Is it a list that this authority signed?
+// Returns true if it is a revocation list that this authority signed.
 bool revocation_list_of(const std::string& revocation_list, const std::string& authority);
-// The text of a document of sign_document(); empty if this authority did not sign it as it is.
+// Returns the text of a document made by sign_document(); empty if this authority did not sign exactly this document.
 std::string signed_text(const std::string& document, const std::string& authority);
 
-// Ed25519 signature as text of hexadecimal digits.
+// Returns an Ed25519 signature as hexadecimal digits.
 std::string signature_of(const std::string& text, const std::string& key);
 bool signature_holds(const std::string& text, const std::string& signature, const std::string& public_key);
 

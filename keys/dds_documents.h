@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two documents of DDS Security: what a plant's domains demand, and what one participant may do in them. Text only;
-// sign_document() makes them valid.
+// The two documents of DDS Security: what a plant's domains require, and what one participant may do in them. Text
+// only; sign_document() makes them valid.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop::keys {
 
-// What somebody who has a certificate of the plant may do.
+// The rights of a participant that has a certificate of the plant.
 enum class Role {
   Board,     // publishes its own variables, reads all, reports to the deployer
   Viewer,    // reads all, publishes no value
@@ -23,10 +23,10 @@ struct Holder {
   Role role = Role::Board;
   std::string plant;
   std::string name;
-  VariableRights variables = {};  // of a tool
+  VariableRights variables = {};  // for Role::Tool
 };
 
-// Nobody without a certificate; everything said is encrypted or at least signed, discovery included.
+// Admits only participants with a certificate; all traffic is encrypted or at least signed, including discovery.
 std::string governance_document();
 // `subject` as in CertificateFacts.
 std::string permissions_document(const Holder& holder, const std::string& subject, const Validity& validity);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256, by which files and deployments are named.
+// SHA-256, which identifies files and deployments.
 
 #pragma once
 
@@ -26,7 +26,7 @@ class Digest {
   Digest& operator=(const Digest&) = delete;
   ~Digest();
   void add(std::span<const std::uint8_t> bytes);
-  // 64 lower-case hexadecimal digits of all that was added. Ends the use of the object.
+  // Returns 64 lower-case hexadecimal digits for all bytes that were added. The object must not be used afterwards.
   [[nodiscard]] std::string finish();
 
  private:
@@ -35,13 +35,13 @@ class Digest {
 };
 
 std::string digest_of(std::string_view text);
-// Of a file's content.
+// Digest and size of a file's content.
 struct FileDigest {
   std::string digest;
   std::uint64_t size = 0;
 };
 Result<FileDigest, base::FileProblem> digest_of_file(const std::filesystem::path& file);
-// 64 lower-case hexadecimal digits.
+// Returns true for 64 lower-case hexadecimal digits.
 bool is_digest(std::string_view text) noexcept;
 
 }  // namespace indurop::keys

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folder of one participant: what it shows to the others, what it judges them by, and whether all of it fits
-// together.
+// The keys folder of one participant: its own credentials, those by which it verifies other participants, and a check
+// that all of them fit together.
 
 #pragma once
 
@@ -23,16 +23,16 @@ struct ParticipantKeys {
   std::filesystem::path key;
   std::filesystem::path governance;
   std::filesystem::path permissions;
-  std::filesystem::path revoked;     // certificates that are not valid any more
-  std::filesystem::path deploy_key;  // public keys of what signs deployments (keys/deploy_list.h)
+  std::filesystem::path revoked;     // certificates that are no longer valid
+  std::filesystem::path deploy_key;  // public keys that verify deployments (keys/deploy_list.h)
 };
 
-// Whose keys `--keys FOLDER` means: FOLDER's own, if it is that of a participant, else those of the first viewer or
-// deployer in the folder of a whole plant that was not revoked.
+// Finds the keys for `--keys FOLDER`: FOLDER's own, if it is the folder of a participant, else those of the first
+// viewer or deployer in the folder of a whole plant that was not revoked.
 Result<ParticipantKeys, base::Problem> keys_meant(const std::filesystem::path& folder, Role role);
 
-// What is wrong with the keys in a folder. Outdated: they hold, but permit what another release, or another list of
-// variables, wanted.
+// The fault of the keys in a folder. Outdated: they are valid, but grant the rights of another release or of another
+// list of variables.
 enum class KeyFault { None, Missing, Wrong, NotNow, Outdated };
 struct KeyCheck {
   KeyFault fault = KeyFault::None;
@@ -41,16 +41,17 @@ struct KeyCheck {
   std::string authority;  // its certificate; empty after Missing
   std::string exposed;    // exposed_key() of the private key
 };
-// As those of this holder at this time.
+// Checks the keys as those of this holder at this time.
 KeyCheck check_keys(const std::filesystem::path& folder, const Holder& holder, Instant now);
-// As those of a board of the plant.
+// Checks the keys as those of a board of the plant.
 KeyCheck check_board_keys(const std::filesystem::path& folder, const std::string& plant, const std::string& board,
                           Instant now);
 
-// What is wrong if others than its owner can read a private key; empty: nothing, or there is none.
+// Returns a problem if users other than the owner can read the private key; empty if not, or if there is no key.
 std::string exposed_key(const std::filesystem::path& file);
 
-// From when all certificates count. Long ago, so that a board that lost its time at power-off is not kept out.
+// Returns the start of validity of all certificates. It is far in the past, so that a board that lost its time at
+// power-off is not rejected.
 Instant valid_from();
 Instant instant_now();
 

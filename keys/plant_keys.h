@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plant's keys as a folder (docs/security.md): the authority in it, and one folder for each board and for the other
-// participants, which is all that they need. Private keys are readable by their owner only and never replaced.
+// The keys of a plant as a folder (docs/security.md): the authority, and one folder for each board and each other
+// participant, with all that it needs. Private keys are readable by their owner only and never replaced.
 
 #pragma once
 
@@ -24,48 +24,48 @@ struct KeyListing {
   std::filesystem::path folder;
   Validity validity;
   bool revoked = false;
-  std::string problem;       // empty: it can be used
-  VariableRights variables;  // of a tool
+  std::string problem;       // empty: the keys can be used
+  VariableRights variables;  // for Role::Tool
   std::string exposed;       // exposed_key() of its private keys
 };
 
-// Is it the certificate of a plant's authority, or one that such an authority has issued?
+// Return true for the certificate of a plant's authority, and for one that such an authority has issued.
 bool is_plant_authority(const CertificateFacts& facts);
 bool is_plant_certificate(const CertificateFacts& facts);
-// What a certificate of a plant is for; nothing: none that this release makes.
+// Returns the role of a plant's certificate; nothing if this release has no such role.
 std::optional<Role> plant_role(const CertificateFacts& facts);
 
-// A word that means a role, so that no board or tool is made of it by mistake.
+// Returns true for a word that names a role, so that no board or tool gets it as its name by mistake.
 bool reserved_name(const std::string& name);
-// "indurop keys add --viewer NAME": what makes keys for this role.
+// Returns the command that makes keys for this role: "indurop keys add --viewer NAME".
 std::string how_to_add(Role role, const std::string& name);
 
 class PlantKeys {
  public:
   explicit PlantKeys(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // A call with a problem has changed nothing.
+  // Calls that return a problem have changed nothing.
   Result<void, base::Problem> make(const std::string& plant, const std::vector<std::string>& boards,
                                    Instant until) const;
   Result<void, base::Problem> add(const std::string& board, Instant until) const;
-  // A further viewer or deployer. Deployments signed by a new deployer count where the new deploy.pub is.
+  // Adds a viewer or deployer. Boards accept deployments of a new deployer after they got the new deploy.pub.
   Result<void, base::Problem> add_viewer(const std::string& name, Instant until) const;
   Result<void, base::Problem> add_deployer(const std::string& name, Instant until) const;
-  // A program that reads and sets variables of the external plane. The lists are kept beside its keys, in
-  // variables.txt.
+  // Adds a tool, a program that reads and sets variables of the external plane. Its lists are stored in its keys
+  // folder, in variables.txt.
   Result<void, base::Problem> add_tool(const std::string& name, const VariableRights& rights, Instant until) const;
-  // A new certificate and new permissions for the old key; for a tool those that variables.txt names now.
+  // Makes a new certificate and new permissions for the old key; for a tool, those that variables.txt lists now.
   Result<void, base::Problem> renew(const KeyListing& whose, Instant until) const;
-  // The certificate counts no more for participants that have the new list, which is put into all folders. Nor do
-  // deployments of a deployer, where the new deploy.pub is.
+  // Revokes the certificate: participants that have the new list, which is copied to all folders, reject it. Boards
+  // with the new deploy.pub also reject deployments of a revoked deployer.
   Result<void, base::Problem> revoke(const KeyListing& whose) const;
-  // A new key that signs a deployer's deployments. The former one counts too, until finish_rotation().
+  // Makes a new signing key for a deployer. The old one stays valid until finish_rotation().
   Result<void, base::Problem> rotate(const KeyListing& deployer) const;
-  // Former keys count no more. How many there were.
+  // Makes old keys invalid. Returns their number.
   Result<std::size_t, base::Problem> finish_rotation() const;
 
   [[nodiscard]] bool exist() const;
-  [[nodiscard]] std::string plant() const;  // empty: there is no authority that can be read
+  [[nodiscard]] std::string plant() const;  // empty: there is no readable authority
   [[nodiscard]] std::vector<KeyListing> list(Instant now) const;
 
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
@@ -77,7 +77,7 @@ class PlantKeys {
 
  private:
   Result<void, base::Problem> add(const Holder& holder, Instant until) const;
-  // Puts a file that all have into all folders.
+  // Copies a file that all participants have to all folders.
   Result<void, base::Problem> share(const char* file, const std::string& text) const;
   std::filesystem::path folder_;
 };

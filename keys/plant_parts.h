@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the folder of a plant's keys is made of: its files, the folder of one participant, and what is found in one.
-// Inside of keys/ only.
+// Parts of the folder of a plant's keys: its files, the folder of one participant, and reading such a folder. Used in
+// keys/ only.
 
 #pragma once
 
@@ -32,7 +32,7 @@ inline constexpr mode_t kPublic = 0644;
 
 using Done = Result<void, base::Problem>;
 
-// Does the steps until one has a problem, which is returned.
+// Runs the steps until one returns a problem, and returns that problem.
 template <class... Steps>
 Done in_turn(const Steps&... steps) {
   Done done;
@@ -42,12 +42,13 @@ Done in_turn(const Steps&... steps) {
 
 std::string read_text(const std::filesystem::path& file);
 base::Problem crypto_failed();
-// A file that is not there yet.
+// Writes a new file; fails if it already exists.
 Done write_new(const std::filesystem::path& file, const std::string& text, mode_t mode);
-// A file that may be there already is replaced at once or not at all. Never for private keys.
+// Writes a file or replaces an existing one atomically. Never used for private keys.
 Done replace(const std::filesystem::path& file, const std::string& text);
 Done make_folder(const std::filesystem::path& folder);
-// Beside `folder`, where it is made before it is put in place, or taken away.
+// Returns a path next to `folder`, where a folder is made before it is moved into place, or moved to before it is
+// deleted.
 std::filesystem::path aside(const std::filesystem::path& folder);
 Done put_in_place(Done made, const std::filesystem::path& fresh, const std::filesystem::path& folder);
 
@@ -57,20 +58,21 @@ std::string authority_name(const std::string& plant);
 base::Problem not_for(Role role, const std::string& name);
 Authority read_authority(const std::filesystem::path& folder);
 
-// What `key` shows: its certificate, and permissions for exactly that name.
+// The documents for `key`: its certificate, and permissions for exactly that name.
 struct Papers {
   std::string certificate;
   std::string permissions;
 };
 Papers make_papers(const Authority& authority, const Holder& holder, const std::string& key, Instant until);
-// All certificates ever issued: "SERIAL FOLDER". Without it a renewed board's old ones could not be revoked.
+// Keeps a list of all certificates ever issued: "SERIAL FOLDER". Without it, old certificates of a renewed board could
+// not be revoked.
 Done note_issued(const std::filesystem::path& keys, const std::string& whose, const std::string& certificate);
 std::vector<std::string> issued_to(const std::filesystem::path& keys, const std::string& whose);
-// The list of deploy keys, and another key of this deployer; what it has already is former then.
+// Returns the list of deploy keys with a new key of this deployer added; its existing key is marked as former.
 std::string with_deploy_key(const std::filesystem::path& keys, const std::string& deployer, const std::string& key);
 
 Done make_top(const std::filesystem::path& folder, const std::string& plant, Instant until);
-// One participant's folder, with copies of what all have, and of a deployer the key that signs.
+// Makes one participant's folder, with copies of the shared files and, for a deployer, the signing key.
 Done make_participant(const std::filesystem::path& keys, const std::filesystem::path& folder, const Holder& holder,
                       Instant until);
 KeyListing listing_of(Role role, const std::filesystem::path& folder, const std::string& authority,
