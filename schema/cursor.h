@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside schema/: walks through the text of a value. Knows letters, words, quotes and escapes, but no types.
+// Internal to schema/: scans the text of a value. Knows letters, words, quotes and escapes, but no types.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::schema {
 
-// One character of a quoted text: a byte as it is (or written \xNN), or a Unicode character written \uNNNN.
+// One character of a quoted text: a plain byte (or one written \xNN), or a Unicode character written \uNNNN.
 struct Character {
   std::uint32_t code = 0;
   bool unicode = false;
@@ -25,14 +25,14 @@ class Cursor {
   [[nodiscard]] std::string_view rest() const noexcept { return text_.substr(at_); }
 
   void skip_spaces() noexcept;
-  // The next letter after blanks, NUL at the end.
+  // Returns the next character after blanks, NUL at the end.
   char peek() noexcept;
-  // Steps over `c` if it is next after blanks.
+  // Skips `c` if it is next after blanks.
   bool take(char c) noexcept;
-  // Letters up to a blank, bracket, comma or quote; `stop` ends it too. May be empty.
+  // Returns the letters up to a blank, bracket, comma or quote; `stop` ends it too. May be empty.
   std::string_view word(char stop = ' ') noexcept;
 
-  // Whether a quote is next, which both of the following need. They return null, or what is wrong at column().
+  // Returns true if a quote is next, as the two functions below require. They return null, or the error at column().
   bool at_quote() noexcept;
   const char* quoted(std::string& to);
   const char* quoted_unit(Character& to);

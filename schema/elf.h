@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a module file says about itself without being loaded: its shared variables, which of them its code reads
-// and writes (access map), ABI, machine, needed and defined symbols. 64-bit little-endian ELF, read with pread.
+// Reads a module file without loading it: its shared variables, which of them its code reads and writes (access map),
+// ABI, machine, needed and defined symbols. 64-bit little-endian ELF, read with pread.
 
 #pragma once
 
@@ -22,19 +22,19 @@ struct Access {
 struct ModuleFile {
   std::string schema_json;                 // contents of .indurop.schema, one text per line, empty if none
   std::map<std::uint64_t, Access> access;  // by fnv1a64 of the variable's full name
-  std::uint32_t abi = 0;                   // of its headers; kMixedAbi: of several; 0: it includes none of ours
+  std::uint32_t abi = 0;                   // ABI of its headers; kMixedAbi: several; 0: no InduRoP headers
   std::uint16_t machine = 0;               // e_machine (EM_X86_64 = 62, EM_AARCH64 = 183)
   bool shared_object = false;              // dlopen can load it: dynamic, no interpreter, no static PIE
-  std::vector<std::string> exports;        // functions it defines for others, sorted
-  std::vector<std::string> imports;        // symbols somebody else must define, weak ones left out, sorted
-  std::vector<std::string> needed;         // libraries it asks for (DT_NEEDED), in its order
+  std::vector<std::string> exports;        // functions it defines for other files, sorted
+  std::vector<std::string> imports;        // symbols other files must define, without weak ones, sorted
+  std::vector<std::string> needed;         // libraries it requires (DT_NEEDED), in its order
 };
 inline constexpr std::uint32_t kMixedAbi = 0xFFFFFFFF;
 
-// The ABI version comes from section .indurop.abi (u32 each), else from the schema text. Costs memory in proportion to
-// the sections read, whatever the file claims; 256 MiB is the limit of one section, 64 MiB of ours together.
-// Errors: NotFound, PermissionDenied, Corrupt (not a regular file, not ELF, truncated, sections out of bounds),
-// Unsupported (32-bit, big-endian, compressed sections of ours), System.
+// The ABI version comes from section .indurop.abi (u32 each), else from the schema text. Memory use is proportional to
+// the sections read, whatever sizes the file claims; the limit is 256 MiB for one section and 64 MiB for all InduRoP
+// sections together. Errors: NotFound, PermissionDenied, Corrupt (not a regular file, not ELF, truncated, sections out
+// of bounds), Unsupported (32-bit, big-endian, compressed InduRoP sections), System.
 Result<ModuleFile> read_module_file(const std::filesystem::path& file);
 
 }  // namespace indurop::schema

@@ -8,10 +8,10 @@
 
 namespace indurop::schema {
 
-// A keyword of OMG IDL 4.2, in whatever case: compilers compare them without regard to it.
+// Returns true for a keyword of OMG IDL 4.2, ignoring case, as IDL compilers do.
 [[nodiscard]] bool is_idl_keyword(std::string_view name);
 
-// The name as IDL writes it: a keyword such as `port` is `_port` there, which means `port`.
+// Returns the name as written in IDL: a keyword such as `port` is escaped as `_port`, which still means `port`.
 [[nodiscard]] std::string idl_name(std::string_view name);
 
 }  // namespace indurop::schema

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the JSON of a schema calls the types: what json_write.cpp writes and json_read.cpp reads.
+// The names of types in the JSON of a schema: json_write.cpp writes them, json_read.cpp reads them.
 
 #pragma once
 

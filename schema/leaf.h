@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in the bytes of a value.
+// Access to numbers in the bytes of a value.
 
 #pragma once
 
@@ -18,7 +18,8 @@ T load(const std::uint8_t* at) noexcept {
   return value;
 }
 
-// Calls `use` with the number at `at` in its own C++ type; false, without calling, for what is no number.
+// Calls `use` with the number at `at` in its own C++ type. Returns false, without a call, for types that are not
+// numbers.
 template <class Use>
 bool with_number(Base base, const std::uint8_t* at, Use use) {
   switch (base) {
@@ -62,7 +63,8 @@ bool with_number(Base base, const std::uint8_t* at, Use use) {
   return false;
 }
 
-// The number at `at`, that of an enumerator and of a character too; true is 1. Nothing of text and structs.
+// Returns the number at `at`, also that of an enumerator or a character; true is 1. Returns nothing for text and
+// structs.
 template <class T>
 std::optional<T> as_number(Base base, const std::uint8_t* at) noexcept {
   if (base == Base::Bool) {
@@ -74,7 +76,7 @@ std::optional<T> as_number(Base base, const std::uint8_t* at) noexcept {
   return number;
 }
 
-// Bytes between two neighbours of dimension `dim` (0 is the outermost).
+// Returns the distance in bytes between neighbours of dimension `dim` (0 is the outermost).
 inline std::uint64_t stride_of(const Type& type, std::size_t dim) noexcept {
   std::uint64_t stride = type.element_size;
   for (std::size_t i = dim + 1; i < type.dims.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the names of a .glb file are called in ROS 2, whose rules are narrower. One place for the compiler that writes
-// the messages and for the node that publishes them.
+// Converts names of a .glb file to ROS 2, which has stricter naming rules. Shared by the compiler that writes the
+// messages and by the node that publishes them.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop::schema {
 
-// "knu::Robot" has the package "knu_robot_msgs"; what is in no namespace "indurop_msgs".
+// "knu::Robot" has the package "knu_robot_msgs"; types outside namespaces are in "indurop_msgs".
 std::string ros_package(std::string_view scope);
 // "joints_t" has the message "JointsT".
 std::string ros_message(std::string_view type);
@@ -22,7 +22,7 @@ std::string ros_constant(std::string_view enumerator);
 
 // "station::state" has the topic "rt/station/state", which `ros2 topic list` shows as "/station/state".
 std::string ros_topic(std::string_view variable);
-// The variable's type as ROS 2 writes it on the wire: "station_msgs::msg::dds_::State_".
+// Returns the variable's type name as ROS 2 uses it on the wire: "station_msgs::msg::dds_::State_".
 std::string ros_type_name(const Variable& variable);
 
 }  // namespace indurop::schema

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How topics between boards begin, the same for the mirror and for the rights to topics.
+// The prefixes of topics between boards, shared by the mirror and by the access rights to topics.
 
 #pragma once
 
@@ -9,14 +9,15 @@
 
 namespace indurop::schema {
 
-// The number is that of the protocol, the layout of idl/*.idl: boards of another one do not hear each other at all, but
-// see each other's topics, which begin like this since the first release.
+// The version of the protocol, the layout of idl/*.idl. Boards with different versions receive nothing from each other,
+// but discover each other's topics, which have had this prefix since the first release.
 unsigned protocol() noexcept;
 inline std::string topic_root() {
   return "indurop/" + std::to_string(protocol()) + "/";
 }
 
-// Topic names may hold no '-': "_m" stands for it, "__" for '_', so that different names stay different.
+// Topic names must not contain '-': it is written "_m", and '_' is written "__", so that different names stay
+// different.
 inline std::string topic_part(std::string_view name) {
   std::string part;
   for (const char c : name) {
@@ -31,7 +32,7 @@ inline std::string topic_part(std::string_view name) {
   return part;
 }
 
-// What the names of all topics of a plant, of one of its boards, or of deployments begin with.
+// Prefixes of all topics of a plant, of one of its boards, and of deployments.
 inline std::string plant_topics(std::string_view plant) {
   return topic_root() + topic_part(plant) + "/";
 }
@@ -41,7 +42,7 @@ inline std::string board_topics(std::string_view plant, std::string_view board) 
 inline std::string deploy_topics() {
   return topic_root() + "deploy/";
 }
-// Of the external plane, for InduRoP's own tools: what a board shows, and what a tool wants to see.
+// Topics of the external plane for InduRoP's own tools: the variables a board offers, and those a tool requests.
 inline std::string directory_topic() {
   return topic_root() + "external/directory";
 }
@@ -49,11 +50,11 @@ inline std::string wish_topic() {
   return topic_root() + "external/wish";
 }
 
-// Whose a topic is, of whatever release; empty if it is none of InduRoP's.
+// The sender of a topic, for topics of any release; empty if it is not an InduRoP topic.
 struct TopicSpeaker {
   unsigned protocol = 0;
-  std::string plant;  // "deploy": agents and who speaks with them
-  std::string board;  // of a plant; empty: the topic does not tell
+  std::string plant;  // "deploy": agents and their clients
+  std::string board;  // of a plant; empty: not part of the topic name
 };
 std::optional<TopicSpeaker> speaker_of(std::string_view topic);
 
