@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What idlc's description of a type tells, for types from libraries of users: opaque until here.
+// Reads idlc's description of a type, for types from users' libraries, which are opaque elsewhere.
 
 #pragma once
 
@@ -11,15 +11,15 @@
 namespace indurop::dds {
 
 struct DescribedType {
-  std::string name;  // "cell::Encoder"; empty: not told
+  std::string name;  // "cell::Encoder"; empty: not known
   std::uint64_t size = 0;
   std::uint32_t keys = 0;
 };
 // `descriptor`: a TypeDescriptor.
 DescribedType described(const void* descriptor);
 
-// The same bytes under another name, which is borrowed, unless that is empty. Then without the description of the type
-// that the network is told, because DDS would refuse to connect two descriptions that differ.
+// Returns the same type under another name, which is borrowed; an empty name changes nothing. A renamed type has no
+// type description for the network, because DDS refuses to connect two different descriptions.
 TypeDescriptor renamed(const void* descriptor, const std::string& name) noexcept;
 
 }  // namespace indurop::dds

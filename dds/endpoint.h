@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A DDS reader or writer with the topic it was made for: both are deleted with their holder, so that a peer that comes
-// and goes leaves nothing behind. The one place that makes a QoS.
+// A DDS reader or writer with its topic: both are deleted with their holder, so that a peer that comes and goes leaves
+// nothing behind. All QoS are made here.
 
 #pragma once
 
@@ -23,12 +23,12 @@ using Qos = std::unique_ptr<dds_qos_t, QosDelete>;
 
 struct QosChoice {
   bool reliable = true;
-  std::int64_t block_ns = 0;    // a reliable writer waits so long for room
-  bool for_late_ones = true;    // who joins late gets what is kept
-  std::int32_t depth = 1;       // samples kept, of each key
-  std::int64_t lease_ns = 0;    // a writer not heard for so long is taken for dead; 0: as long as its participant lives
-  bool dispose_at_end = false;  // the values of a writer that leaves are gone, not only unconfirmed
-  std::string_view mark = {};   // what readers find of the writer, see is_marked()
+  std::int64_t block_ns = 0;    // maximum time that a reliable writer waits for space
+  bool for_late_ones = true;    // late joiners get the samples that are kept
+  std::int32_t depth = 1;       // samples kept per key
+  std::int64_t lease_ns = 0;    // a writer silent for this time is considered lost; 0: as long as its participant lives
+  bool dispose_at_end = false;  // values of a writer that leaves are disposed, not only no longer alive
+  std::string_view mark = {};   // mark of the writer that readers can check, see is_marked()
 };
 Qos make_qos(const QosChoice& choice);
 
@@ -36,13 +36,14 @@ struct ListenerDelete {
   void operator()(dds_listener_t* listener) const noexcept { dds_delete_listener(listener); }
 };
 using Listener = std::unique_ptr<dds_listener_t, ListenerDelete>;
-// Listeners are called by DDS's own threads; what they are given outlives whatever has the listener. A reader may call
-// before whoever makes it has it in hands: hence the handle.
+// Makes a listener. Listeners are called by DDS's own threads; their argument must outlive the owner of the listener. A
+// reader may be called before its creator has stored it: hence the handle as an argument.
 Listener data_listener(void (*call)(Handle reader, void* argument), void* argument);
-// Wakes `word` when something came.
+// Wakes `word` when data arrives.
 Listener wake_listener(rt::SignalWord& word);
-// For both ends of a topic: members of `self` without arguments when something came, with the number of readers when
-// that changes, and without arguments when somebody has another type or wants a QoS that is not offered.
+// A listener for both ends of a topic. It calls members of `self`: one without arguments when data arrives, one with
+// the number of readers when that changes, and one without arguments when another participant has another type or
+// requests a QoS that is not offered.
 template <auto DataCame, auto ReadersChanged, auto Disagreed, class Self>
 Listener endpoint_listener(Self& self) {
   Listener listener = data_listener([](Handle, void* of) { (static_cast<Self*>(of)->*DataCame)(); }, &self);
@@ -65,9 +66,9 @@ class Endpoint {
   [[nodiscard]] Handle get() const noexcept { return end_.get(); }
   [[nodiscard]] bool ok() const noexcept { return end_.ok(); }
   [[nodiscard]] std::string why() const { return topic_.ok() ? end_.why() : topic_.why(); }
-  // The keys of this participant do not permit it.
+  // Returns true if the keys of this participant do not permit it.
   [[nodiscard]] bool forbidden() const noexcept { return topic_.forbidden() || end_.forbidden(); }
-  // Waits for a listener that is running.
+  // Waits for running listener calls.
   void reset() noexcept {
     end_.reset();
     topic_.reset();
@@ -78,7 +79,7 @@ class Endpoint {
   Entity end_;  // deleted first
 };
 
-// Not ok() if DDS refuses; why() says the reason. `listener` may be null and is copied.
+// The result is not ok() if DDS refuses; why() returns the reason. `listener` may be null and is copied.
 Endpoint make_writer(Handle participant, const TypeDescriptor& type, const std::string& topic, const Qos& qos,
                      const Listener& listener = nullptr);
 Endpoint make_reader(Handle participant, const TypeDescriptor& type, const std::string& topic, const Qos& qos,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A DDS entity that is deleted with its holder, what a DDS return code means, and the loop that empties a reader.
-// Callers outside of this room name DDS's things by the words of this room; only generated types keep theirs.
+// A DDS entity that is deleted with its holder, the meaning of DDS return codes, and the loop that takes all samples of
+// a reader. Code outside dds/ uses the names of this folder for DDS things; only generated types keep their own names.
 
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace indurop::dds {
 
-// A participant, reader or writer, as DDS numbers them in this process.
+// Handles of participants, readers and writers, which DDS assigns in this process.
 using Handle = dds_entity_t;
 using InstanceHandle = dds_instance_handle_t;
-using TypeDescriptor = dds_topic_descriptor_t;  // what idlc writes for a type
+using TypeDescriptor = dds_topic_descriptor_t;  // made by idlc for each type
 
 class Entity {
  public:
@@ -43,34 +43,34 @@ class Entity {
   [[nodiscard]] Handle get() const noexcept { return handle_; }
   [[nodiscard]] bool ok() const noexcept { return handle_ > 0; }
   [[nodiscard]] std::string why() const { return dds_strretcode(-handle_); }
-  // The keys of this participant do not permit it.
+  // Returns true if the keys of this participant do not permit it.
   [[nodiscard]] bool forbidden() const noexcept { return handle_ == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY; }
 
  private:
   Handle handle_ = 0;
 };
 
-// What comes with a sample.
+// The metadata of a sample.
 struct SampleInfo {
   explicit SampleInfo(const dds_sample_info_t& info) noexcept
       : valid(info.valid_data),
         alive(info.instance_state == DDS_IST_ALIVE),
         instance(info.instance_handle),
         publication(info.publication_handle) {}
-  bool valid;  // else the sample holds its key only
-  bool alive;  // somebody who writes the instance is there
+  bool valid;  // false: the sample has only its key
+  bool alive;  // the instance has a writer
   InstanceHandle instance;
-  InstanceHandle publication;  // whose it is, see participant_of()
+  InstanceHandle publication;  // its writer, see participant_of()
 };
 
-// Takes all samples of a reader: `use(sample, info)` for each. Samples are lent: good until `use` returns.
+// Takes all samples of a reader and calls `use(sample, info)` for each. Samples are loaned: valid until `use` returns.
 template <class Sample, class Use>
 void take_all(Handle reader, Use use) {
   constexpr std::uint32_t kAtOnce = 32;
   std::array<void*, kAtOnce> samples{};
   std::array<dds_sample_info_t, kAtOnce> infos{};
   for (;;) {
-    samples[0] = nullptr;  // lend us memory
+    samples[0] = nullptr;  // DDS loans the memory
     const int count = dds_take(reader, samples.data(), infos.data(), kAtOnce, kAtOnce);
     if (count <= 0) {
       return;
@@ -82,10 +82,10 @@ void take_all(Handle reader, Use use) {
   }
 }
 
-// Takes one sample, if there is one; for readers that keep one.
+// Takes one sample, if there is one; for readers that keep only one.
 template <class Sample, class Use>
 void take_one(Handle reader, Use use) {
-  void* sample = nullptr;  // lend us memory
+  void* sample = nullptr;  // DDS loans the memory
   dds_sample_info_t info{};
   if (dds_take(reader, &sample, &info, 1, 1) > 0) {
     use(*static_cast<const Sample*>(sample), SampleInfo(info));
@@ -93,25 +93,26 @@ void take_one(Handle reader, Use use) {
   }
 }
 
-// How a write ended.
+// The result of a write.
 class Written {
  public:
   explicit Written(dds_return_t code) noexcept : code_(code) {}
   [[nodiscard]] bool ok() const noexcept { return code_ >= 0; }
-  [[nodiscard]] bool timed_out() const noexcept { return code_ == DDS_RETCODE_TIMEOUT; }        // there is no room
-  [[nodiscard]] bool bad_value() const noexcept { return code_ == DDS_RETCODE_BAD_PARAMETER; }  // not one of its type
+  [[nodiscard]] bool timed_out() const noexcept { return code_ == DDS_RETCODE_TIMEOUT; }        // no space
+  [[nodiscard]] bool bad_value() const noexcept { return code_ == DDS_RETCODE_BAD_PARAMETER; }  // wrong type
   [[nodiscard]] std::string why() const { return dds_strretcode(-code_); }
 
  private:
   dds_return_t code_;
 };
 
-// `Sample` is the type the writer was made for. Blocks at most as long as its QoS says; no heap of ours.
+// Writes a sample; `Sample` must be the type of the writer. Blocks at most as long as its QoS allows; InduRoP allocates
+// no heap.
 template <class Sample>
 Written write(Handle writer, const Sample& sample) noexcept {
   return Written(dds_write(writer, &sample));
 }
-// The same for a type that is known at run time only: the sample's bytes.
+// Writes the bytes of a sample, for a type known at run time only.
 inline Written write_bytes(Handle writer, const void* sample) noexcept {
   return Written(dds_write(writer, sample));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The number by which DDS knows a participant, reader or writer in the whole network, and who is behind a match.
+// The GUID by which DDS identifies a participant, reader or writer in the whole network, and the participant of a
+// matched endpoint.
 
 #pragma once
 
@@ -25,16 +26,16 @@ inline Guid guid_of(const dds_guid_t& guid) noexcept {
 }
 Guid guid_of(Handle entity) noexcept;
 
-// The participant behind a publication that `reader` is matched with. Empty: it is gone already.
+// Returns the participant of a publication that `reader` is matched with. Empty: it has already gone.
 std::optional<Guid> participant_of(Handle reader, InstanceHandle publication);
-// Was that publication's writer made with QosChoice::mark `mark`? False: also if it is gone already.
+// Returns true if that publication's writer was made with QosChoice::mark `mark`; false also if it has already gone.
 bool is_marked(Handle reader, InstanceHandle publication, std::string_view mark);
-// A participant of DDS Security has a number that begins with the SHA-256 of its certificate's subject, and who lets it
-// in verifies that. `subject`: that digest as hexadecimal digits.
+// Returns true if the GUID of a participant begins with `subject`, the SHA-256 of its certificate's subject as
+// hexadecimal digits. DDS Security verifies this number when it admits the participant.
 bool is_numbered_by(const Guid& participant, std::string_view subject) noexcept;
-// Readers that `writer` is matched with. Empty: the writer is gone.
+// Returns the number of readers that `writer` is matched with. Empty: the writer is gone.
 std::optional<std::uint32_t> readers_of(Handle writer);
-// Has `participant` one of them?
+// Returns true if `participant` has one of these readers.
 bool is_read_by(Handle writer, const Guid& participant);
 
 }  // namespace indurop::dds

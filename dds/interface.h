@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which network interface a board speaks through. DDS's own choice is not used: it takes loopback while the network is
-// down and stays there, and of several cards it takes one silently.
+// Chooses the network interface of a board. DDS's own choice is not used: it takes loopback while the network is down
+// and stays there, and with several network cards it takes one silently.
 
 #pragma once
 
@@ -15,9 +15,9 @@ namespace indurop::dds {
 
 struct Interface {
   std::string name;
-  std::string note;  // for the user, if the choice was not clear
+  std::string note;  // message for the user if the choice was ambiguous
 };
-// Errors: none can be used now, with what to do about it.
+// Errors: no interface can be used now, with what to do about it.
 Result<Interface, base::Problem> choose_interface(const NetworkSettings& settings);
 
 }  // namespace indurop::dds

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a plane of the mirror gets into the network and out of it again: tried until it succeeds, all or nothing.
+// Joins a plane of the mirror to the network and leaves it again: joining is retried until it succeeds completely.
 
 #pragma once
 
@@ -20,9 +20,9 @@ namespace indurop::dds {
 
 class Joining {
  public:
-  // Makes everything a plane has in the network, or says why it cannot.
+  // Creates all entities of a plane in the network, or returns why it cannot.
   using Open = std::function<Result<void, base::Problem>(Handle participant)>;
-  // Deletes all of it, also after an Open that went half way.
+  // Deletes all of them, also after an Open that failed halfway.
   using Close = std::function<void()>;
   Joining(NetworkSettings settings, Open open, Close close)
       : settings_(std::move(settings)), open_(std::move(open)), close_(std::move(close)) {}
@@ -30,15 +30,15 @@ class Joining {
   Joining& operator=(const Joining&) = delete;
   ~Joining() { leave(); }
 
-  // Tries twice a second; `problem` shows why it still has not succeeded. DDS's own threads will run where the calling
-  // thread may. False if `stop` was set meanwhile, which `wake` tells.
+  // Tries twice a second; `problem` shows why it has not succeeded yet. DDS's own threads will run on the cores of the
+  // calling thread. Returns false if `stop` was set meanwhile, which `wake` signals.
   bool join(const std::atomic<bool>& stop, rt::SignalWord& wake, base::SharedText& problem);
-  // Out of the network, if in it. Waits for listeners that are running.
+  // Leaves the network, if joined. Waits for running listener calls.
   void leave() noexcept;
   [[nodiscard]] Handle participant() const noexcept { return participant_.get(); }
 
  private:
-  // What the user should know although it succeeded.
+  // Returns a message for the user, if any, although it succeeded.
   Result<std::string, base::Problem> try_once();
 
   NetworkSettings settings_;

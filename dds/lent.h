@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory lent to a sample while it is written: the structures of C know no const, but a sample is only read, and copied
-// before dds_write returns.
+// Memory lent to a sample while it is written: C structures have no const members, but DDS only reads the sample and
+// copies it before dds_write returns.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Cyclone DDS has to say goes here instead of to stderr: it can say the same thing a thousand times a second from
-// whatever thread calls it.
+// Captures the log messages of Cyclone DDS instead of printing them to stderr: any thread may log the same message a
+// thousand times a second.
 
 #pragma once
 
@@ -9,11 +9,12 @@
 
 namespace indurop::dds {
 
-// From now on all messages of DDS in this process are counted and the last one is kept. Any number of times.
+// From now on all DDS messages in this process are counted and the last one is kept. May be called repeatedly.
 void catch_dds_log();
-// The last message, one line without DDS's own prefix; empty if there was none. Thread safe, not real-time safe.
+// Returns the last message, one line without DDS's own prefix; empty if there was none. Thread safe, not real-time
+// safe.
 std::string last_dds_message();
-// The last one that says why two participants with keys do not let each other in; empty: none.
+// Returns the last message that states why two participants with keys reject each other; empty: none.
 std::string last_refusal();
 std::uint64_t dds_message_count() noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How users say where the others are: the same options in all programs.
+// Command line options for the network, the same in all programs.
 
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace indurop::dds {
 
-// Adds --domain (of `whose`), --interface and --one-host. What `network` holds is the default. `implied` (may be null)
-// becomes true if one of them is given, and help says that it implies `implied_option`.
+// Adds --domain (of `whose`), --interface and --one-host. The values in `network` are the defaults. `implied` (may be
+// null) becomes true if one of them is given; the help then states that it implies `implied_option`.
 void add_network_options(base::Options& line, NetworkSettings& network, const std::string& whose,
                          bool* implied = nullptr, const std::string& implied_option = "");
 

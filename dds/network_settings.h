@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a participant gets into the network, and by which keys it is known there. No DDS here.
+// Settings with which a participant joins the network, and its keys. Independent of DDS.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace indurop::dds {
 
-// Files of DDS Security: what this board shows and what it judges others by. All empty: the network is open.
+// Files of DDS Security: the credentials of this board, and those by which it verifies others. All empty: no security.
 struct Security {
   std::string authority;
   std::string certificate;
@@ -22,18 +22,18 @@ struct Security {
 };
 
 struct NetworkSettings {
-  std::string board;           // shown to tools of DDS and to other releases, may be empty
+  std::string board;           // name shown to DDS tools and to other releases; may be empty
   int domain = 0;              // DDS domain, 0..230
-  std::string interface_name;  // empty: the one that has `address`, else the only one
+  std::string interface_name;  // empty: the interface that has `address`, else the only one
   std::string address;         // own IP address or host name, may be empty
-  bool multicast = true;       // false: others are found at `peers`
+  bool multicast = true;       // false: other participants are found at `peers`
   std::vector<std::string> peers;
-  bool one_host = false;     // everybody runs here: loopback only
-  std::size_t others = 0;    // how many are expected, 0: few
-  bool known_ports = false;  // may be found at its address by who names it as a peer, multicast or not
+  bool one_host = false;     // all participants run on this host: loopback only
+  std::size_t others = 0;    // expected number of other participants, 0: few
+  bool known_ports = false;  // reachable at its address as a peer of others, with or without multicast
   Security security;
-  std::int64_t lease_ns = 500'000'000;  // who is not heard for so long is gone
-  int fifo_priority = 0;                // of the threads that carry values, 0: normal scheduling
+  std::int64_t lease_ns = 500'000'000;  // a participant silent for this time is considered lost
+  int fifo_priority = 0;                // of the threads that transfer values, 0: normal scheduling
 };
 
 }  // namespace indurop::dds

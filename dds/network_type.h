@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types as DDS tells them over the network (XTypes type information) as types of variables: so that a tool can show a
-// topic of which it knows nothing beforehand.
+// Converts types that DDS announces over the network (XTypes type information) to types of variables, so that a tool
+// can show a topic of which it has no prior knowledge.
 
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace indurop::dds {
 
-// Asks the network for what it does not know yet, `timeout_ns` per type at most.
-// Errors: the type cannot be had or has parts that no variable can have (sequences, unions, text without a limit).
+// Requests unknown types from the network, with at most `timeout_ns` for each. Errors: the type is not available or has
+// parts that no variable can have (sequences, unions, text without a limit).
 Result<schema::Type, base::Problem> type_from_network(Handle participant, const dds_typeinfo_t& information,
                                                       std::int64_t timeout_ns);
 

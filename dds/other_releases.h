@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who in the network speaks another protocol of InduRoP. Nothing they say is understood or even heard, because their
-// topics have other names; but DDS tells that these topics are there, and that is enough to say it.
+// Detects participants that use another protocol version of InduRoP. Their data are not received, because their topics
+// have other names; but DDS discovers these topics, which is enough to report them.
 
 #pragma once
 
@@ -22,15 +22,15 @@ class OtherReleases {
  public:
   struct Speaker {
     schema::TopicSpeaker topic;
-    std::string host;     // empty: not told
-    std::string program;  // its name; likewise
-    std::string name;     // what it calls itself: the board, for an agent; likewise
+    std::string host;     // empty: not announced
+    std::string program;  // program name; empty: not announced
+    std::string name;     // own name, of an agent that of the board; empty: not announced
   };
   Result<void, base::Problem> open(Handle participant);
   void close() noexcept;
-  // Takes what DDS has found since. True: somebody came or went.
+  // Takes the discoveries of DDS since the last call. Returns true if a participant came or left.
   bool look();
-  // One for each participant and plant.
+  // Returns one entry for each participant and plant.
   [[nodiscard]] std::vector<Speaker> speakers() const;
 
  private:

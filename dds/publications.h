@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which topics others in the network publish, with types that nobody here needs to know beforehand. One thread uses it.
+// Topics that other participants publish, with types that need not be known beforehand. Used by one thread.
 
 #pragma once
 
@@ -22,27 +22,27 @@ namespace indurop::dds {
 struct Publication {
   Guid participant{};
   std::string topic;
-  InstanceHandle instance = 0;  // of the reader that keeps what was told
+  InstanceHandle instance = 0;  // in the reader that stores the announcement
 };
 
 class Publications {
  public:
-  // News wake `wake`, which is borrowed.
+  // Changes wake `wake`, which is borrowed.
   Result<void, base::Problem> open(Handle participant, rt::SignalWord& wake);
 
   struct News {
     Guid endpoint{};
     std::optional<Publication> publication;  // empty: it is gone
   };
-  // What has come since; own publications are left out.
+  // Returns the changes since the last call; own publications are left out.
   std::vector<News> take();
 
-  // Its type, as the network tells it: asks for what is not known yet, `timeout_ns` per type at most.
-  // Errors: it cannot be had, or no variable can have it.
+  // Returns its type as announced on the network; requests unknown types with at most `timeout_ns` for each. Errors:
+  // the type is not available, or no variable can have it.
   [[nodiscard]] Result<schema::Type, base::Problem> type_of(const Publication& publication,
                                                             std::int64_t timeout_ns) const;
 
-  // Within this room: what was told about it; false if it is gone.
+  // For dds/ only: calls `use` with the announced data; returns false if the publication is gone.
   bool with(const Publication& publication, const std::function<void(dds_builtintopic_endpoint_t&)>& use) const;
 
  private:

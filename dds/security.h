@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// DDS Security for a participant: its configuration, the plugins it needs, and what can be known to be wrong before.
+// DDS Security of a participant: its configuration, the plugins it needs, and checks in advance.
 
 #pragma once
 
@@ -13,12 +13,12 @@
 
 namespace indurop::dds {
 
-// Folder of Cyclone's three plugins: beside the library, wherever that was loaded from. Empty: they are not there.
+// Returns the folder of Cyclone's three plugins: next to the loaded library. Empty: they do not exist.
 std::filesystem::path security_plugins();
-// <Security> for the domain's configuration; empty for an open plant.
+// Returns <Security> for the domain's configuration; empty for an open plant.
 std::string security_configuration(const Security& security, const std::filesystem::path& plugins);
 
-// Errors: the plugins are not there, or a file cannot be read; with what to do about it.
+// Errors: the plugins do not exist, or a file cannot be read; with what to do about it.
 Result<void, base::Problem> security_usable(const Security& security, const std::filesystem::path& plugins);
 
 }  // namespace indurop::dds

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cyclone DDS as the platform needs it: configuration made from the settings, never the user's.
+// Sets up Cyclone DDS for the platform: its configuration is made from the settings, never from the user's environment.
 
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace indurop::dds {
 
-// The domain's configuration for a network interface. Why each line: docs/design/mirror.md.
+// Returns the domain's configuration for a network interface. Reasons for each line: docs/design/mirror.md.
 std::string domain_configuration(const NetworkSettings& settings, const std::string& interface_name);
 
-// A participant in the domain that was made for it.
+// A participant in its own DDS domain object.
 class Participant {
  public:
   Participant() = default;
@@ -24,7 +24,7 @@ class Participant {
       : domain_(std::move(domain)), participant_(std::move(participant)) {}
   [[nodiscard]] Handle get() const noexcept { return participant_.get(); }
   [[nodiscard]] bool ok() const noexcept { return participant_.ok(); }
-  // Waits for listeners that are running.
+  // Waits for running listener calls.
   void reset() noexcept {
     participant_.reset();
     domain_.reset();
@@ -37,10 +37,10 @@ class Participant {
 
 struct Joined {
   Participant participant;
-  std::string note;  // something the user should know, or empty
+  std::string note;  // message for the user, or empty
 };
-// Messages of DDS go to the log sink from now on.
-// Errors: the network cannot be had now; the caller tries again.
+// Joins the network. From now on DDS messages go to the log sink. Errors: the network is not available now; the caller
+// retries.
 Result<Joined, base::Problem> join_network(const NetworkSettings& settings);
 
 }  // namespace indurop::dds

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which topics others in the network want to read, whether anybody publishes them or not.
+// Topics that other participants want to read, published or not.
 
 #pragma once
 
@@ -18,7 +18,7 @@ class WantedTopics {
  public:
   Result<void, base::Problem> open(Handle participant);
   void close() noexcept { reader_.reset(); }
-  // Readers that were announced since; own ones are left out.
+  // Calls `use` for readers announced since the last call; own ones are left out.
   void take(const std::function<void(const std::string& topic)>& use);
 
  private:
