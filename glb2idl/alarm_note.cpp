@@ -107,7 +107,7 @@ class AlarmReader {
     return text.has_value();
   }
 
-  // Priority, delay and deadband in this order; each may be left out.
+  // Reads priority, delay and deadband in this order; each may be left out.
   bool read_options(std::span<const ast::Initializer> rest) {
     int last = 0;
     for (const ast::Initializer& one : rest) {
@@ -124,7 +124,7 @@ class AlarmReader {
     return true;
   }
 
-  // 1: a priority, 2: a delay, 3: a deadband, 0: after a message.
+  // Returns 1 for a priority, 2 for a delay, 3 for a deadband, 0 after a message.
   int read_option(const ast::Expression& expression) {
     if (is_word(expression)) {
       if (const auto priority = schema::priority_of(expression.path.parts[0])) {

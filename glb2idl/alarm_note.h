@@ -9,7 +9,7 @@
 
 namespace indurop::glb2idl {
 
-// Nothing after a message for what is wrong.
+// Returns nothing after an error message.
 [[nodiscard]] std::optional<schema::Alarm> read_alarm(Context& context, const ast::Annotation& annotation,
                                                       const schema::Type& type);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parser found in one .glb file, still without meaning: names are not resolved, nothing is computed.
+// Syntax tree of one .glb file: names are not resolved, nothing is computed.
 
 #pragma once
 
@@ -35,7 +35,7 @@ struct Expression {
   std::vector<Expression> operands;
 };
 
-// One value or a list in braces.
+// One value, or a list in braces.
 struct Initializer {
   Span at;
   std::optional<Expression> value;
@@ -63,7 +63,7 @@ struct TypeSpec {
   Span at;
   schema::Base base = schema::Base::Int32;
   Path path;                // Named
-  std::optional<Name> tag;  // Struct, Enum: the name behind the keyword
+  std::optional<Name> tag;  // Struct, Enum: the name after the keyword
   std::shared_ptr<const StructBody> structure;
   std::shared_ptr<const EnumBody> enumeration;
 };
@@ -91,7 +91,7 @@ struct Declaration {
   Span at;
   TypeSpec type;
   std::vector<Declarator> declarators;
-  std::vector<Annotation> annotations;  // in front: for all declarators
+  std::vector<Annotation> annotations;  // before the type: for all declarators
   std::string description;              // from the comment
 };
 
@@ -126,7 +126,7 @@ using Item = std::variant<Namespace, Include, Define, Declaration>;
 
 struct File {
   std::vector<Item> items;
-  std::set<std::string> broken;  // names in parts that could not be parsed: no complaint if they are missing later
+  std::set<std::string> broken;  // names in parts that could not be parsed: not reported if they are missing later
 };
 
 }  // namespace indurop::glb2idl::ast

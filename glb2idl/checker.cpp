@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declarations of a file: namespaces, constants, types, variables, shared functions.
+// Checks the declarations of a file: namespaces, constants, types, variables, shared functions.
 
 #include "glb2idl/checker.h"
 
@@ -23,7 +23,7 @@ class Checker {
  public:
   explicit Checker(Context& context) : context_(context), types_(context) {}
 
-  void operator()(const ast::Include& /*unused*/) {}  // the driver has read it
+  void operator()(const ast::Include& /*unused*/) {}  // the compiler has already read it
 
   void operator()(const ast::Namespace& found) {
     std::string scope;
@@ -208,7 +208,7 @@ class Checker {
     return fmt::format("{}:{}", path.substr(path.rfind('/') + 1), context_.sources.line_of(name.at));
   }
 
-  // Declares the name; false if something about it is wrong.
+  // Declares the name; returns false if anything about it is wrong.
   bool declare(const ast::Name& name, NameRole role, bool good) {
     const auto kind = role == NameRole::Variable ? Symbol::Kind::Variable : Symbol::Kind::Function;
     const bool usable = context_.check_name(name, role) && good;
@@ -245,7 +245,7 @@ class Checker {
       result.initial = bytes(*whole, *declarator.initial, notes.range);
       result.given = true;
       if (std::all_of(result.initial.begin(), result.initial.end(), [](std::uint8_t b) { return b == 0; })) {
-        result.initial.clear();  // memory is 0 without it
+        result.initial.clear();  // memory is already 0
       }
     } else if (notes.range && (notes.range->min > 0 || notes.range->max < 0)) {
       context_.error(

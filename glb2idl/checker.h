@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives one parsed file its meaning and adds it to the program.
+// Checks the meaning of one parsed file and adds it to the program.
 
 #pragma once
 
@@ -8,11 +8,11 @@
 
 namespace indurop::glb2idl {
 
-// `context` stands at the file's unit. Everything wrong is reported; what is right is added all the same, so that
-// later declarations find it.
+// `context` is at the file's unit. All errors are reported; valid parts are still added, so that later declarations
+// find them.
 void check_file(Context& context, const ast::File& file);
 
-// After the last file: which constants may also appear in IDL.
+// Determines which constants may also appear in IDL. Call it after the last file.
 void choose_idl_constants(Context& context);
 
 }  // namespace indurop::glb2idl

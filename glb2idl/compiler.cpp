@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads files with their includes, in the order in which they depend on each other, and checks them.
+// Reads files with their includes, in the order of their dependencies, and checks them.
 
 #include "glb2idl/compiler.h"
 
@@ -47,7 +47,7 @@ class Compiler {
   }
 
  private:
-  // The node reads a schema with limits of its own; a file beyond them must not get as far as the node.
+  // Checks the schemas against the limits of the node's reader; files beyond them must not reach the node.
   void check_schemas() {
     for (const GlbFile& unit : out_.program.units) {
       if (!schema::from_json(schema::to_json(schema_of(unit))).ok()) {
@@ -147,7 +147,7 @@ class Compiler {
     return known;
   }
 
-  // "knuRobot" of ".../knuRobot.glb"; names the outputs, so it must be unique and harmless.
+  // Returns "knuRobot" of ".../knuRobot.glb"; it names the outputs, so it must be unique and valid.
   std::optional<std::string> stem_of(const std::string& path, std::optional<Span> from) {
     const std::string name = path.substr(path.rfind('/') + 1);
     if (!name.ends_with(kExtension) || name.size() == kExtension.size()) {
@@ -191,7 +191,7 @@ class Compiler {
     return units;
   }
 
-  // What an included file sees, the including one sees too.
+  // Files visible to an included file are also visible to the including one.
   void make_visible(std::uint32_t file, std::uint32_t included) {
     auto& seen = visible_[file];
     seen.insert(included);
@@ -210,7 +210,7 @@ class Compiler {
   std::vector<std::uint32_t> open_;                           // files being read, outermost first
   std::map<std::uint32_t, std::size_t> units_;                // file -> unit
   std::map<std::string, std::string> stems_;                  // lower case stem -> path
-  std::map<std::uint32_t, std::set<std::uint32_t>> visible_;  // file -> files it sees
+  std::map<std::uint32_t, std::set<std::uint32_t>> visible_;  // file -> files visible to it
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole way from .glb files to a checked program. Used by the program glb2idl, by tests and by the PLC compiler.
+// Compiles .glb files to a checked program. Used by the program glb2idl, by tests and by the PLC compiler.
 
 #pragma once
 
@@ -14,9 +14,9 @@ namespace indurop::glb2idl {
 
 struct Compilation {
   bool ok = false;
-  std::vector<base::Diagnostic> diagnostics;  // all errors, as people read them: by file and place
-  std::vector<base::Diagnostic> notes;        // if ok: what compilers of others make wrong of the IDL
-  std::vector<std::string> files;             // every file that was read, includes too
+  std::vector<base::Diagnostic> diagnostics;  // all errors, sorted by file and place
+  std::vector<base::Diagnostic> notes;        // if ok: known errors of third-party compilers with this IDL
+  std::vector<std::string> files;             // every file that was read, including includes
   Program program;                            // complete if ok
 };
 

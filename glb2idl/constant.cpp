@@ -181,7 +181,7 @@ class Evaluator {
     result.integer = value ? 1 : 0;
     return result;
   }
-  // A number, or nullopt with a message.
+  // Returns a number, or nullopt with a message.
   std::optional<Value> operand(const ast::Expression& e) {
     auto value = run(e);
     if (value && !value->is_number()) {

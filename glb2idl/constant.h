@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of constant expressions: exact integers of up to 64 bits, doubles, texts, bools, durations.
+// Evaluates constant expressions: exact integers of up to 64 bits, doubles, texts, bools, durations.
 
 #pragma once
 
@@ -21,17 +21,17 @@ struct Value {
   Wide integer = 0;  // Bool: 0 or 1; Duration: nanoseconds
   double real = 0;
   std::string text;
-  std::string enum_type;  // full name of the enum whose value this is, else empty
+  std::string enum_type;  // full name of the enum the value belongs to, else empty
 
   [[nodiscard]] bool is_number() const noexcept { return kind != Kind::Text && kind != Kind::Duration; }
   [[nodiscard]] double as_double() const noexcept { return kind == Kind::Real ? real : static_cast<double>(integer); }
 };
 
 [[nodiscard]] std::string to_text(Wide value);
-// For messages and tables: 5, 0.5, "text", true, 10ms.
+// Text for messages and tables: 5, 0.5, "text", true, 10ms.
 [[nodiscard]] std::string to_text(const Value& value);
 
-// The constant a path names; reports and returns nullopt if there is none.
+// Finds the constant with this path; reports and returns nullopt if there is none.
 using ConstantLookup = std::function<std::optional<Value>(const ast::Path&)>;
 
 // Errors (reported, nullopt): overflow, division by zero, a shift out of range, texts in arithmetic, malformed numbers.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names and constants as seen from the place being checked.
+// Names and constants as visible from the place that is checked.
 
 #include "glb2idl/context.h"
 

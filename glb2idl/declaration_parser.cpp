@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declarations.
+// Parses declarations.
 
 #include "glb2idl/declaration_parser.h"
 
@@ -122,7 +122,7 @@ bool DeclarationParser::declarators_follow(const ast::Declaration& found, bool i
   if (!next.newline_before) {
     return true;
   }
-  // On a new line: the variable's name, or already the next declaration?
+  // A name on a new line is the variable's name or already the next declaration.
   const Token& after = in_.peek(1);
   return next.kind == TokenKind::Identifier && !is_type_word(next.text) && !contains(kStarters, next.text) &&
          (after.newline_before || (after.kind != TokenKind::Identifier && !after.is(".") && !after.is("::")));

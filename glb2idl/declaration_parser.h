@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grammar of declarations: types, variables, typed constants, shared functions; and how to go on behind a wrong one.
+// Parses declarations: types, variables, typed constants, shared functions; and recovers after errors.
 
 #pragma once
 
@@ -22,16 +22,16 @@ class DeclarationParser {
                     std::set<std::string>& broken)
       : in_(in), values_(values), descriptions_(descriptions), broken_(broken) {}
 
-  // Skips the rest of a declaration that failed somewhere behind `begin`; remembers the names in it.
+  // Skips the rest of a declaration that failed somewhere after `begin`; stores the names in it.
   void recover(std::size_t begin, bool in_struct);
   std::optional<ast::Declaration> declaration(bool in_struct);
-  // A declaration ends with ';' or with its line.
+  // Reads the end of a declaration: ';' or the end of its line.
   bool finish(std::string_view what);
 
  private:
   [[nodiscard]] bool begins_declaration(const Token& token) const noexcept;
   void note_broken();
-  // A type alone is a declaration if it has a name or is an enum.
+  // Returns true if declarators must follow. A type alone is a declaration if it has a name or is an enum.
   [[nodiscard]] bool declarators_follow(const ast::Declaration& found, bool in_struct) const noexcept;
   std::optional<ast::TypeSpec> type_spec();
   std::optional<ast::TypeSpec> base_type();
@@ -41,10 +41,10 @@ class DeclarationParser {
   std::optional<ast::Declarator> declarator(bool in_struct);
   bool declared_name(ast::Declarator& to, bool required);
   bool dimensions(ast::Declarator& to);
-  // On a new line an annotation belongs to this declaration only if that goes on behind it.
+  // An annotation on a new line belongs to this declaration only if the declaration continues after it.
   bool trailing_annotations(ast::Declarator& to);
   bool function(ast::Declarator& to);
-  // Before or behind the annotations.
+  // Reads a deadline, which may be before or after the annotations.
   bool deadline(ast::Declarator& to);
 
   TokenReader& in_;

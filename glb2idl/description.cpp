@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comments as descriptions.
+// Uses comments as descriptions.
 
 #include "glb2idl/description.h"
 
@@ -21,7 +21,7 @@ std::string Descriptions::find(const TokenReader& in, std::size_t begin) const {
       behind->offset < in.peek().at.offset && !behind->text.empty()) {
     return behind->text;
   }
-  // A comment stands above the first declaration of a line.
+  // A comment above a line describes the first declaration of the line.
   return in.at(begin).newline_before ? above(in.at(begin).at) : std::string();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which comment describes which declaration: the one behind it on its line, else those directly above it.
+// Finds the comment that describes a declaration: the one after it on its line, else those directly above it.
 
 #pragma once
 
@@ -15,7 +15,7 @@ class Descriptions {
   Descriptions(const Sources& sources, std::uint32_t file, const std::vector<Comment>& comments)
       : sources_(sources), file_(file), comments_(comments) {}
 
-  // For the declaration that began with token `begin` of `in` and has just been read.
+  // Returns the description of the declaration that began with token `begin` of `in` and has just been read.
   [[nodiscard]] std::string find(const TokenReader& in, std::size_t begin) const;
 
  private:

@@ -11,7 +11,7 @@ namespace indurop::glb2idl {
 
 void Diagnostics::error(Span at, std::string text) {
   if (all_.full()) {
-    all_.error({}, std::move(text));  // only counted: lines are not searched for what nobody will see
+    all_.error({}, std::move(text));  // only counted: no line is computed for an error that is not shown
     return;
   }
   const base::SourcePlace place = sources_.place_of(at);

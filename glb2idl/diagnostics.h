@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors about .glb texts. Only what this language has of its own: places are stretches of one of several texts and
-// become lines and columns here, with a picture of the line.
+// Errors in .glb texts. Adds to base::Diagnostics only what is special here: places are spans in one of several texts;
+// they are converted to lines and columns, with a picture of the line.
 
 #pragma once
 
@@ -16,19 +16,19 @@ class Diagnostics {
  public:
   static constexpr std::size_t kLimit = 100;
 
-  // Both are borrowed. Errors are appended to `out`.
+  // Borrows both arguments. Errors are appended to `out`.
   Diagnostics(const Sources& sources, std::vector<base::Diagnostic>& out)
       : sources_(sources), all_({}, out, kLimit), out_(out) {}
 
   void error(Span at, std::string text);
-  // About the command line or a whole file, without a place.
+  // An error about the command line or a whole file, without a place.
   void error(std::string text) { all_.error({}, std::move(text)); }
 
   [[nodiscard]] bool failed() const noexcept { return all_.failed(); }
   [[nodiscard]] std::size_t errors() const noexcept { return all_.errors(); }
-  // To be called once, behind the last: orders them, those about no file first, then by file and place.
+  // Call it once, after the last error: sorts the errors, those about no file first, then by file and place.
   void finish();
-  // "knuRobot.glb:3", for texts that refer to another place.
+  // Returns "knuRobot.glb:3", for texts that refer to another place.
   [[nodiscard]] std::string place(Span at) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outputs for a checked program, as texts. Nothing here touches the file system.
+// The outputs for a checked program, as texts. No function here accesses the file system.
 
 #pragma once
 
@@ -13,39 +13,38 @@
 namespace indurop::glb2idl {
 
 struct Output {
-  std::string path;  // below the output folder
+  std::string path;  // relative to the output folder
   std::string text;
 };
 
-// <stem>.idl: OMG IDL for idlc and other vendors' compilers.
+// Returns <stem>.idl: OMG IDL for idlc and other vendors' compilers.
 [[nodiscard]] std::string emit_idl(const Program& program, const GlbFile& unit);
 
-// <stem>.glb.h of each unit: the variables as C++ shapes. The header of an included file is included.
+// <stem>.glb.h of each unit: the variables as C++ shapes. It includes the headers of included files.
 struct Header {
-  // Namespace of generated details. Made from what the header contains: two modules built from different texts share
-  // no symbol by accident.
+  // Namespace of generated details. Its name depends on the header's content, so that two modules built from different
+  // texts share no symbol by accident.
   std::string hidden;
   std::string text;
 };
 [[nodiscard]] std::vector<Header> emit_cpp(const Program& program);
 
-// <stem>.layout.txt: sizes and offsets, for people.
+// Returns <stem>.layout.txt: sizes and offsets, for people.
 [[nodiscard]] std::string emit_layout(const Program& program, const GlbFile& unit);
 
-// All of these for all units, and indurop/generated.h last.
+// Returns all of these for all units, with indurop/generated.h last.
 [[nodiscard]] std::vector<Output> emit_all(const Program& program);
 
-// Packages of ROS 2 messages for the same bytes, one folder each. `problems`: all names that ROS 2 cannot have; empty
-// if there are none.
+// Packages of ROS 2 messages with the same layout, one folder each. `problems`: all names that are invalid in ROS 2.
 struct RosPackages {
   std::vector<Output> outputs;
   std::vector<base::Diagnostic> problems;
 };
 [[nodiscard]] RosPackages emit_ros2(const Program& program);
 
-// A value of `type` at `bytes` as a C++ initialiser: 5, 0.5, {{1, 2}}, enum values by name.
+// Returns a value of `type` at `bytes` as a C++ initialiser: 5, 0.5, {{1, 2}}, enum values by name.
 [[nodiscard]] std::string initializer_text(const schema::Type& type, const std::uint8_t* bytes);
-// The C++ type of values: std::uint32_t, ::knu::Robot::joints_t, std::array<double, 6>.
+// Returns the C++ type of values: std::uint32_t, ::knu::Robot::joints_t, std::array<double, 6>.
 [[nodiscard]] std::string cpp_type(const schema::Type& type);
 
 }  // namespace indurop::glb2idl

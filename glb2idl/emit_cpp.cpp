@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++ header of one .glb: value types, then the hidden part (table of references, shapes), then the variables.
+// Writes the C++ header of one .glb: value types, then the hidden part (table of references, shapes), then the
+// variables.
 
 #include <fmt/format.h>
 
@@ -14,11 +15,12 @@ namespace {
 
 constexpr std::size_t kLine = 100;  // bytes of schema text in one line
 
-// What a number is. The code of PLC programs, which needs less of it, chooses another one: each costs g++ time.
+// The class of a number. The code of PLC programs needs less of it and chooses another one, because each costs g++
+// time.
 constexpr std::string_view kLeaf = "::indurop::Leaf";
 constexpr std::string_view kChosenLeaf = "INDUROP_LEAF";
 
-// Names that end with a hash of the text they stand in; it is set when the text is complete.
+// Names that end with a hash of the text that contains them; the hash is filled in when the text is complete.
 constexpr std::string_view kHidden = "indurop_generated_";
 constexpr std::string_view kHiddenSchema = "indurop_schema_";
 constexpr std::string_view kNoHash = "0000000000000000";
@@ -135,7 +137,7 @@ class CppWriter {
                 v->type.size(), kind(*v), v->name);
     }
     out_.line("}};");
-    // Each object file of a module has this constructor; the table is made known once.
+    // Each object file of a module has this constructor; the table is registered only once.
     out_.line("inline constinit ::std::uint32_t users = 0;");
     out_.line("[[gnu::constructor(101)]] inline void bind() {{");
     out_.line("  if (users++ == 0) {{");
@@ -149,7 +151,7 @@ class CppWriter {
     out_.line("}}");
   }
 
-  // What stands between the braces of the object.
+  // Returns the text between the braces of the object.
   static std::string initial_value(const schema::Variable& v) {
     const std::string text = initializer_text(v.type, v.initial.data());
     const bool has_braces = !v.type.dims.empty() || v.type.base == schema::Base::Struct;
@@ -195,7 +197,7 @@ class CppWriter {
     out_.line("}};");
   }
 
-  // The shape of a value at a static offset; array indices are added at run time.
+  // Returns the shape of a value at a static offset; array indices are added at run time.
   [[nodiscard]] std::string shape(const schema::Type& type, const std::string& tag, const std::string& offset) const {
     std::string out;
     if (type.base == schema::Base::Text) {

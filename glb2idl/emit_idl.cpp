@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OMG IDL: modules, enums, @final structs, one wrapper struct per variable that is no single struct.
+// Writes OMG IDL: modules, enums, @final structs, and a wrapper struct for each variable that is not a single struct.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,8 @@ std::string idl_type(const schema::Type& type) {
   if (type.base == Base::Text) {
     return fmt::format("string<{}>", type.text_size - 1);
   }
-  // Without a leading "::", which not every vendor's compiler reads; the checker has made sure that this is unique.
+  // Without a leading "::", which some vendors' compilers cannot read; the checker has made sure that the name is
+  // unique.
   return type.name.empty() ? std::string(kNames[static_cast<std::size_t>(type.base)]) : type.name;
 }
 
@@ -123,7 +124,7 @@ class IdlWriter {
     out_ += '\n';
   }
 
-  // A comment by itself, wherever the text is: an empty module is no IDL.
+  // Writes a comment outside any module, because an empty module is not valid IDL.
   template <class... Argument>
   void remark(fmt::format_string<Argument...> format, Argument&&... arguments) {
     line("// {}", comment_line(fmt::format(format, std::forward<Argument>(arguments)...)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout table for people, and the list of all outputs.
+// Writes the layout table for people, and the list of all outputs.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-// Columns as wide as their longest cell; numbers to the right.
+// Formats a table: columns as wide as their longest cell; numbers right-aligned.
 std::string table(const std::vector<Row>& rows, std::string_view right_aligned) {
   std::vector<std::size_t> widths;
   for (const Row& row : rows) {
@@ -58,7 +58,7 @@ std::string duration_text(std::int64_t ns) {
   return {};
 }
 
-// "initial 45", or only "initial" if the value is long.
+// Returns "initial 45", or only "initial" if the value is long.
 std::string value_text(std::string_view what, const schema::Type& type, const std::vector<std::uint8_t>& bytes) {
   constexpr std::size_t kShort = 32;
   const std::string value = type.size() > kShort ? std::string() : schema::format_value(type, bytes);
@@ -93,7 +93,7 @@ void add_alarms(std::vector<Row>& rows, const std::string& name, const schema::T
   }
 }
 
-// Alarms of a variable or of a struct's fields.
+// Adds the alarms of a variable or of a struct's fields.
 void add_field_alarms(std::vector<Row>& rows, const schema::Type& type, const std::string& prefix) {
   for (const schema::Field& field : type.fields) {
     add_alarms(rows, prefix + field.name, field.type, field.alarms);

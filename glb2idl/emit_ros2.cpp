@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ROS 2 packages: one for each namespace, one .msg for each struct and each variable that is no single struct. The
-// fields are in the same order with the same sizes as in the .idl, so both describe the same bytes.
+// Writes ROS 2 packages: one for each namespace, with one .msg for each struct and for each variable that is not a
+// single struct. The fields have the same order and sizes as in the .idl, so both describe the same bytes.
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ using schema::Base;
 
 struct Package {
   std::map<std::string, std::string> messages;  // name -> text
-  std::map<std::string, std::string> origins;   // name -> what it was made of
+  std::map<std::string, std::string> origins;   // name -> the item it was made from
   std::set<std::string> needs;                  // other packages
 };
 
@@ -29,7 +29,7 @@ bool is_small_word(const std::string& name) noexcept {
 }
 
 std::string_view plain_word(Base base) noexcept {
-  // char is one byte of text, for which ROS has no type of its own.
+  // char is one byte of text, for which ROS has no type.
   constexpr std::array<std::string_view, 12> kWords{"bool",  "uint8",  "int8",  "uint8",  "int16",   "uint16",
                                                     "int32", "uint32", "int64", "uint64", "float32", "float64"};
   return base == Base::Enum ? "int32" : kWords[static_cast<std::size_t>(base)];
@@ -143,7 +143,7 @@ class RosWriter {
     return fmt::format("{}/{}", other, message);
   }
 
-  // ROS knows arrays of one dimension; the bytes are the same.
+  // ROS has only one-dimensional arrays; the bytes are the same.
   static std::string dims(const schema::Type& type) {
     std::uint64_t elements = 1;
     for (const std::uint32_t dim : type.dims) {

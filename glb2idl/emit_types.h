@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a .glb declares besides variables, as C++: constants, enums, structs, other names of types, arguments of
-// functions.
+// Writes the declarations of a .glb other than variables as C++: constants, enums, structs, type aliases, function
+// arguments.
 
 #pragma once
 
@@ -9,9 +9,9 @@
 
 namespace indurop::glb2idl {
 
-// In the order of the .glb; variables are left out.
+// Writes them in the order of the .glb; variables are left out.
 void emit_types(const GlbFile& unit, HeaderText& out);
-// "  // description [unit]"
+// Returns "  // description [unit]".
 [[nodiscard]] std::string about(const std::string& description, const std::string& unit);
 
 }  // namespace indurop::glb2idl

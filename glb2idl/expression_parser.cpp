@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expressions with the precedence of C, lists in braces, annotations.
+// Parses expressions with the precedence of C, lists in braces, annotations.
 
 #include "glb2idl/expression_parser.h"
 
@@ -192,7 +192,7 @@ std::optional<ast::Expression> ExpressionParser::primary() {
   return std::nullopt;
 }
 
-// With the unit of time that may follow at once.
+// Reads a number with the unit of time that may directly follow it.
 ast::Expression ExpressionParser::number() {
   ast::Expression result;
   const Token& token = in_.take();
@@ -206,7 +206,7 @@ ast::Expression ExpressionParser::number() {
   return result;
 }
 
-// Neighbouring texts are one, as in C.
+// Adjacent texts are joined, as in C.
 std::optional<ast::Expression> ExpressionParser::text() {
   ast::Expression result;
   result.kind = ast::Expression::Kind::Text;

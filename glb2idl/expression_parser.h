@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expressions, values in braces and annotations: everything that is written about a declaration.
+// Parses expressions, values in braces and annotations.
 
 #pragma once
 
@@ -21,7 +21,7 @@ class ExpressionParser {
   // `one_line`: the expression ends with its line (#define).
   std::optional<ast::Expression> expression(bool one_line = false);
   std::optional<ast::Initializer> initializer();
-  // Any number of @name(...); false after an error.
+  // Reads any number of @name(...); returns false after an error.
   bool annotations(std::vector<ast::Annotation>& to);
   // a.b.c or a::b::c
   std::optional<ast::Path> path(std::string_view what);

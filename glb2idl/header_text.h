@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of a header: lines, inside of a namespace or not.
+// The text of a header: lines, inside or outside a namespace.
 
 #pragma once
 
@@ -22,7 +22,7 @@ class HeaderText {
     out_ += '\n';
   }
 
-  // Closes the namespace that is open and opens `scope`, unless it is open already. "": none.
+  // Closes the open namespace and opens `scope`, unless it is already open. "": none.
   void enter(std::string_view scope) {
     if (scope == current_) {
       return;
@@ -37,7 +37,7 @@ class HeaderText {
     current_ = scope;
   }
 
-  // Behind a declaration, "" for none.
+  // Returns a comment to append to a declaration; "" for none.
   static std::string comment(const std::string& text) { return text.empty() ? "" : "  // " + comment_line(text); }
 
   [[nodiscard]] std::string take() { return std::move(out_); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Initial values to bytes.
+// Converts initial values to bytes.
 
 #include "glb2idl/initial.h"
 
@@ -174,7 +174,7 @@ std::optional<Limits> limits_of(Base base) noexcept {
   switch (base) {
     case Base::Bool:
       return Limits{0, 1};
-    case Base::Char:  // has a sign on some boards and none on others
+    case Base::Char:  // signed on some boards, unsigned on others
       return Limits{0, INT8_MAX};
     case Base::Int8:
       return Limits{INT8_MIN, INT8_MAX};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tokens and comments of a .glb text.
+// Splits a .glb text into tokens and comments.
 
 #include "glb2idl/lexer.h"
 
@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 10> kTwoCharacterSymbols{
     "::", "<<", ">>", "<=", ">=", "==", "!=", "&&", "||", "->"};
 constexpr std::string_view kSymbols = "{}[]()<>;,=.:@#+-*/%&|^!~?";
 
-// Text of a comment for people: marks, leading stars and repeated blanks removed, rulers dropped.
+// Returns the text of a comment for people, without marks, leading stars, repeated blanks and rulers.
 std::string clean(std::string_view raw) {
   std::string out;
   const auto is_ruler = [](std::string_view word) {

@@ -16,9 +16,9 @@ enum class TokenKind : std::uint8_t { End, Identifier, Number, Text, Character, 
 
 struct Token {
   TokenKind kind = TokenKind::End;
-  bool newline_before = true;  // a line break that a backslash does not hide lies between this token and the last
+  bool newline_before = true;  // there is a line break, not escaped by a backslash, before this token
   Span at;
-  std::string_view text;  // spelling; quotes included
+  std::string_view text;  // spelling, including quotes
 
   [[nodiscard]] bool is(std::string_view symbol) const noexcept {
     return (kind == TokenKind::Symbol || kind == TokenKind::Identifier) && text == symbol;
@@ -29,7 +29,7 @@ struct Comment {
   std::uint32_t offset = 0;
   int first_line = 0;
   int last_line = 0;
-  bool own_line = false;  // nothing but the comment before it on its line
+  bool own_line = false;  // the comment is the first thing on its line
   std::string text;       // cleaned: no comment marks, one line, blanks collapsed
 };
 
@@ -38,7 +38,8 @@ struct Tokens {
   std::vector<Comment> comments;
 };
 
-// Reports what cannot be a token and goes on behind it. The views refer to `sources`, which must outlive the tokens.
+// Reports characters that cannot be a token and continues after them. The views refer to `sources`, which must outlive
+// the tokens.
 [[nodiscard]] Tokens tokenize(const Sources& sources, std::uint32_t file, Diagnostics& diagnostics);
 
 }  // namespace indurop::glb2idl

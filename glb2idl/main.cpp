@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program glb2idl: .glb files to IDL, C++ header and layout table.
+// The program glb2idl: compiles .glb files to IDL, a C++ header and a layout table.
 
 #include <cstdio>
 #include <exception>
@@ -30,7 +30,7 @@ std::string not_empty(const std::string& text) {
   return text.empty() ? "a value is missing" : "";
 }
 
-// An exit code if the program ends here.
+// Returns an exit code if the program ends here.
 std::optional<int> parse(int argc, char** argv, Request& request) {
   base::Options line("glb2idl", "Turn shared variables (.glb) into IDL, a C++ header and a layout table");
   line.version("glb2idl (InduRoP) " INDUROP_VERSION);
@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
       return *code;
     }
     return run(request);
-  } catch (const std::exception& error) {  // out of memory and the like
+  } catch (const std::exception& error) {  // out of memory and similar
     std::fprintf(stderr, "glb2idl: error: %s\n", error.what());
     return kFailed;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of names that are taken.
+// Tables of reserved names.
 
 #include "glb2idl/names.h"
 
@@ -41,8 +41,8 @@ const Words& keywords() {
   return kWords;
 }
 
-// Macros of the headers that modules include; no declaration of such a name gets past the preprocessor.
-// Long: a list.
+// Macros of the headers that modules include; the preprocessor would replace declarations of such a name. Long because
+// it is a list.
 const Words& macros() {
   static const Words kWords = split(
       "ADJ_ESTERROR ADJ_FREQUENCY ADJ_MAXERROR ADJ_MICRO ADJ_NANO ADJ_OFFSET ADJ_OFFSET_SINGLESHOT ADJ_OFFSET_SS_READ "
@@ -139,7 +139,7 @@ const Words& system_types() {
   return kWords;
 }
 
-// What stands outside of all namespaces already: the C library, our namespaces, the functions of a module.
+// Names that already exist outside all namespaces: the C library, InduRoP's namespaces, the functions of a module.
 const Words& global_names() {
   static const Words kWords = split(
       "abort abs accept access acct acos acosh alarm alloca asctime asin asinh atan atan2 atanh atexit atof atoi "
@@ -168,7 +168,7 @@ const Words& global_names() {
 
 // Members that every generated struct shape has.
 constexpr std::array<std::string_view, 5> kShapeMembers{"value_type", "whole_type", "tag_type", "kOffset", "get"};
-// Namespaces and functions that modules reach without a prefix.
+// Namespaces and functions that modules use without a prefix.
 constexpr std::array<std::string_view, 4> kPlatformNamespaces{"std", "indurop", "irp", "channel"};
 constexpr std::array<std::string_view, 4> kPlatformFunctions{"lock", "property", "read", "write"};
 constexpr std::size_t kLongest = 100;

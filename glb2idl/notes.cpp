@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Annotations to values.
+// Converts annotations to values.
 
 #include "glb2idl/notes.h"
 
@@ -24,7 +24,7 @@ struct Rule {
   bool on_fields;
   std::string_view usage;
 };
-constexpr std::size_t kSome = 99;  // read_alarm() counts itself
+constexpr std::size_t kSome = 99;  // read_alarm() checks the number itself
 constexpr std::array<Rule, 7> kRules{{{"unit", 1, true, "@unit(\"mm\")"},
                                       {"range", 2, true, "@range(0, 180)"},
                                       {"desc", 1, true, "@desc(\"what it is\")"},
@@ -43,7 +43,7 @@ class Reader {
   Reader(Context& context, const schema::Type& type, NoteTarget target, Notes& notes)
       : context_(context), type_(type), target_(target), notes_(notes) {}
 
-  // What a declarator has itself replaces what stands in front of all.
+  // A declarator's own alarms replace those before all declarators.
   void begin_list() {
     seen_.clear();
     inherited_alarms_ = true;
@@ -168,7 +168,7 @@ class Reader {
   NoteTarget target_;
   Notes& notes_;
   std::set<std::string_view> seen_;
-  bool inherited_alarms_ = true;  // those in front of all are replaced by the first one behind
+  bool inherited_alarms_ = true;  // alarms before all declarators are replaced by the first own one
 };
 
 }  // namespace

@@ -20,16 +20,16 @@ struct Notes {
   std::vector<schema::Alarm> alarms;
   bool retain = false;
   std::int64_t maxage_ns = 0;
-  const ast::Initializer* fallback = nullptr;  // inside the annotation given
+  const ast::Initializer* fallback = nullptr;  // inside the given annotation
 };
 
-// Evaluates the annotations before (`leading`) and behind (`own`) a declarator of type `type`. `comment` is the
-// description unless @desc says otherwise. Whatever is wrong is reported and left out.
+// Evaluates the annotations before (`leading`) and after (`own`) a declarator of type `type`. `comment` is the
+// description unless @desc overrides it. Wrong annotations are reported and left out.
 [[nodiscard]] Notes read_notes(Context& context, const std::vector<ast::Annotation>& leading,
                                const std::vector<ast::Annotation>& own, const schema::Type& type, NoteTarget target,
                                std::string comment);
 
-// Milliseconds and so on: 10ms; reports what is no positive time.
+// Reads a time with its unit, such as 10ms; reports anything that is not a positive time.
 [[nodiscard]] std::optional<std::int64_t> read_duration(Context& context, const ast::Expression& expression,
                                                         std::string_view what);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of generated texts.
+// Writes generated texts to files.
 
 #include "glb2idl/output.h"
 

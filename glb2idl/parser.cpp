@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Items of a file: namespaces, includes, #define; everything else is a declaration.
+// Parses the items of a file: namespaces, includes, #define; everything else is a declaration.
 
 #include "glb2idl/parser.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grammar of .glb (docs/glb.md). Recovers at the next declaration, so that one run shows all mistakes.
+// Parses .glb (docs/glb.md). Recovers at the next declaration, so that one run shows all errors.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::glb2idl {
 
-// `tokens` of file `file`. What could not be parsed is reported and left out.
+// Parses the `tokens` of file `file`. Parts that cannot be parsed are reported and left out.
 [[nodiscard]] ast::File parse(const Sources& sources, std::uint32_t file, const Tokens& tokens,
                               Diagnostics& diagnostics);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of the checked model.
+// Names in the checked program.
 
 #include "glb2idl/program.h"
 

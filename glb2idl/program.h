@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checked meaning of a set of .glb files: everything resolved, laid out and computed. Input of the emitters.
+// The checked content of a set of .glb files: everything resolved, laid out and computed. Input of the emitters.
 
 #pragma once
 
@@ -25,7 +25,7 @@ struct Constant {
 };
 
 struct Enumeration {
-  schema::Type type;  // name empty: only its values are declared
+  schema::Type type;  // name empty: only the values are declared
   std::string scope;  // namespace of type and values, "knu::Robot" or ""
   std::string description;
 };
@@ -44,14 +44,14 @@ using Item = std::variant<Constant, Enumeration, Structure, Alias, schema::Varia
 
 // One .glb file.
 struct GlbFile {
-  std::string path;                   // as given
+  std::string path;                   // as given by the user
   std::string stem;                   // "knuRobot"
-  std::vector<std::size_t> includes;  // units named by its include lines, in order
+  std::vector<std::size_t> includes;  // units named by its #include lines, in order
   std::vector<Item> items;            // in order of declaration
 };
 
 struct Program {
-  std::vector<GlbFile> units;                // a unit stands behind those it includes
+  std::vector<GlbFile> units;                // each unit comes after those it includes
   std::map<std::string, std::size_t> owner;  // struct name -> unit that declares it
 };
 
@@ -61,15 +61,16 @@ struct Program {
 [[nodiscard]] std::string qualified(std::string_view scope, std::string_view name);
 // "knu::Robot::tick" -> "knu_Robot_tick", the name in C.
 [[nodiscard]] std::string mangled(std::string_view full_name);
-// Namespace of an item.
+// Returns the namespace of an item.
 [[nodiscard]] std::string_view scope_of(const Item& item) noexcept;
 
-// What the unit itself declares, for modules that include its header.
+// Returns the unit's own declarations, for modules that include its header.
 [[nodiscard]] schema::Schema schema_of(const GlbFile& unit);
 
-// Whether the variable's DDS type is the struct <variable>_ with one member `value`: all but single structs.
+// Returns true if the variable's DDS type is the struct <variable>_ with one member `value`; false only for single
+// structs.
 [[nodiscard]] bool is_wrapped(const schema::Type& type) noexcept;
-// No result, or no parameters.
+// Returns true if there is no result, or there are no parameters.
 [[nodiscard]] bool is_void(const schema::Type& type) noexcept;
 
 }  // namespace indurop::glb2idl

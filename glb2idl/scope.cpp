@@ -14,7 +14,7 @@
 namespace indurop::glb2idl {
 namespace {
 
-// What idlc derives from the name of a struct.
+// Suffixes that idlc appends to the name of a struct.
 constexpr std::array<std::string_view, 5> kDerived{"_desc", "_free", "_ops", "_keys", "_alloc"};
 
 }  // namespace
@@ -33,7 +33,7 @@ bool Scope::declare(const std::string& full_name, Symbol symbol) {
     return true;
   }
   if (known->second.kind == Kind::Broken || symbol.kind == Kind::Broken) {
-    return false;  // one of the two has been reported
+    return false;  // one of the two was already reported
   }
   const char* what = known->second.kind == Kind::Namespace ? " as a namespace"
                      : known->second.kind == Kind::Taken   ? ", or its name is needed for what is declared there,"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All names of a compilation: who declared what where, lookup from inside a namespace, and the clashes that only
-// appear in IDL or C (names that differ in case, a::b_c against a_b::c).
+// All names of a compilation: their declarations, lookup from inside a namespace, and clashes that only appear in IDL
+// or C (names that differ only in case, a::b_c and a_b::c).
 
 #pragma once
 
@@ -22,12 +22,12 @@ namespace indurop::glb2idl {
 struct Symbol {
   enum class Kind {
     Namespace,
-    Constant,  // enumerators too
+    Constant,  // also enumerators
     Type,
     Variable,
     Function,
     Taken,   // a name that generated code uses
-    Broken,  // its declaration had an error; further complaints about it would not help
+    Broken,  // its declaration had an error; further messages about it would not help
   };
   Kind kind = Kind::Broken;
   Span at;
@@ -40,30 +40,31 @@ class Scope {
  public:
   explicit Scope(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  // False with a message if the name is already declared in this scope. A namespace may be declared again.
+  // Returns false with a message if the name is already declared in this scope. A namespace may be declared again.
   bool declare(const std::string& full_name, Symbol symbol);
 
-  // Reserves a name that appears in IDL and C, and what idlc makes of it. False with a message at a clash.
+  // Reserves a name that appears in IDL and C, and the names idlc derives from it. Returns false with a message on a
+  // clash.
   bool claim_idl(const std::string& full_name, Span at, bool is_struct);
-  // Whether claim_idl would succeed, for names that can be left out.
+  // Returns true if claim_idl would succeed; for names that can be left out.
   [[nodiscard]] bool idl_is_free(const std::string& full_name) const;
-  // A name in generated C++, "var_knu_Robot_tick".
+  // Reserves a name in generated C++, "var_knu_Robot_tick".
   bool claim_cpp(const std::string& prefix, const std::string& full_name, Span at);
-  // Variables must not differ only in case from each other.
+  // Reserves a variable's name; variables must not differ only in case.
   bool claim_variable(const std::string& full_name, Span at);
 
-  // The nearest declaration of `parts` seen from namespace `from` in file `file`; null if there is none.
+  // Returns the nearest declaration of `parts` seen from namespace `from` in file `file`; null if there is none.
   [[nodiscard]] const Symbol* find(const std::string& from, std::span<const std::string> parts,
                                    std::uint32_t file) const;
-  // Full names of visible symbols of a kind, for suggestions; last parts only.
+  // Returns the visible symbols of a kind for suggestions; only the last parts of their names.
   [[nodiscard]] std::vector<std::string> names(Symbol::Kind kind, std::uint32_t file) const;
-  // A #define is known in all namespaces if its name is unique.
+  // Finds a #define, which is known in all namespaces if its name is unique.
   [[nodiscard]] const Symbol* find_define(const std::string& name, std::uint32_t file) const;
 
-  // Declarations of file `of` can be used in file `in`.
+  // Makes the declarations of file `of` usable in file `in`.
   void make_visible(std::uint32_t in, std::uint32_t of) { visible_.insert({in, of}); }
 
-  // Something in namespace `from` or around it that has the same name as `top` in IDL, where case does not matter.
+  // Returns true if a name in namespace `from` or around it equals `top` in IDL, where case does not matter.
   [[nodiscard]] bool hides(const std::string& from, const std::string& top) const;
 
  private:

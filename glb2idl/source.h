@@ -15,20 +15,20 @@
 
 namespace indurop::glb2idl {
 
-// A stretch of text in one file.
+// A range of text in one file.
 struct Span {
   std::uint32_t file = 0;
   std::uint32_t offset = 0;
   std::uint32_t length = 0;
 };
 
-// From the beginning of `first` to the end of `last`, both in the same file.
+// Returns the span from the beginning of `first` to the end of `last`, both in the same file.
 [[nodiscard]] Span join(Span first, Span last) noexcept;
 
 struct SourceFile {
   std::string path;                  // as the user wrote it, for messages
-  std::string identity;              // equal for two ways of naming the same file
-  std::string text;                  // ends with a newline; a byte order mark is cut off
+  std::string identity;              // equal for two paths of the same file
+  std::string text;                  // ends with a newline; without byte order mark
   std::vector<std::uint32_t> lines;  // offset of each line's first byte
 };
 
@@ -44,10 +44,10 @@ class Sources {
   [[nodiscard]] std::string_view line_text(std::uint32_t file, int line) const noexcept;
 
  private:
-  std::deque<SourceFile> files_;  // never moves a text that tokens refer to
+  std::deque<SourceFile> files_;  // a deque, because tokens refer to the texts
 };
 
-// What reading a file gave: its text, or why not.
+// The result of reading a file: its text, or the reason of the failure.
 struct ReadResult {
   std::optional<std::string> text;
   std::string identity;

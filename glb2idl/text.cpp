@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Helpers for texts.
+// Text functions.
 
 #include "glb2idl/text.h"
 
@@ -21,7 +21,7 @@ std::optional<unsigned> digit(char c) noexcept {
   return std::nullopt;
 }
 
-// Number of at most `most` digits at the beginning of `text`, which is cut by them.
+// Reads a number of at most `most` digits at the beginning of `text` and removes them from it.
 std::optional<unsigned> take_number(std::string_view& text, unsigned base, std::size_t most) noexcept {
   unsigned value = 0;
   std::size_t used = 0;
@@ -113,7 +113,7 @@ std::string comment_line(std::string_view text) {
   for (const char c : text) {
     out += c == '\n' || c == '\r' ? ' ' : c;
   }
-  // Two question marks and a slash are a backslash to a preprocessor that knows trigraphs.
+  // Two question marks and a slash are a backslash to a preprocessor with trigraphs.
   while (out.ends_with('\\') || out.ends_with("?\?/")) {
     out += " .";
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small helpers for texts: escapes of C, spelling suggestions, joining.
+// Small text functions: escapes of C, spelling suggestions, joining.
 
 #pragma once
 
@@ -11,17 +11,17 @@
 
 namespace indurop::glb2idl {
 
-// What "..." or '...' stands for, or nullopt if an escape is unknown.
+// Returns the content of "..." or '...', or nullopt if an escape is unknown.
 [[nodiscard]] std::optional<std::string> decode_quoted(std::string_view quoted);
 
-// As the inside of a C++ text; bytes outside of printable ASCII as three octal digits.
+// Escapes a text for a C++ literal; bytes outside of printable ASCII become three octal digits.
 [[nodiscard]] std::string escape(std::string_view text);
 
 [[nodiscard]] std::string lower(std::string_view text);
 
 [[nodiscard]] std::string join_names(std::span<const std::string> parts, std::string_view between);
 
-// For a comment that ends with its line: no line breaks, no backslash at the end.
+// Makes a text safe for a one-line comment: no line breaks, no backslash at the end.
 [[nodiscard]] std::string comment_line(std::string_view text);
 
 }  // namespace indurop::glb2idl

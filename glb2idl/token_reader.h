@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks over tokens: looking ahead, accepting, expecting with a message. Shared by the parts of the parser.
+// Steps through tokens: looks ahead, accepts, expects with a message. Shared by the parts of the parser.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace indurop::glb2idl {
 
-// Parse functions built on it report what they miss and then return nullopt or false.
+// Parse functions that use it report a missing token and then return nullopt or false.
 class TokenReader {
  public:
   TokenReader(const Tokens& tokens, Diagnostics& diagnostics) : tokens_(tokens.list), diagnostics_(diagnostics) {}
@@ -41,13 +41,13 @@ class TokenReader {
     take();
     return true;
   }
-  // Reports "expected <symbol> <where>" if it is not next.
+  // Reports "expected <symbol> <where>" if the symbol is not next.
   bool expect(std::string_view symbol, std::string_view where) {
     if (accept(symbol)) {
       return true;
     }
     const Token& found = peek();
-    if (found.newline_before) {  // the line ended too early: point behind it
+    if (found.newline_before) {  // the line ended too early: report the place after it
       const Span last = previous().at;
       error({last.file, last.offset + last.length, 1}, fmt::format("expected '{}' {}", symbol, where));
     } else {

@@ -59,7 +59,7 @@ constexpr std::array<Substitute, 24> kSubstitutes{{{"string", "char name[32]"},
                                                    {"wchar_t", "char name[32] with UTF-8"},
                                                    {"uint", "uint32_t"}}};
 
-// How often each word of kWords occurs.
+// Number of occurrences of each word of kWords.
 using Counts = std::array<int, kWords.size()>;
 enum Word : std::size_t { Char, Short, Int, Long, Signed, Unsigned, Float, Double, Bool, Void };
 

@@ -13,19 +13,20 @@
 
 namespace indurop::glb2idl {
 
-// A word that may begin or continue a built-in type, "void" included.
+// Returns true for a word that may begin or continue a built-in type, including "void".
 [[nodiscard]] bool is_type_word(std::string_view word) noexcept;
 
-// int8_t, uint16 and so on: complete types in one word.
+// Returns the type for int8_t, uint16 and so on: complete types in one word.
 [[nodiscard]] std::optional<schema::Base> fixed_type(std::string_view word) noexcept;
 
-// The type of several C words in any order; nullopt for combinations C does not have or that are no numbers here.
+// Returns the type of several C words in any order; nullopt for combinations that C does not have or that are not
+// numbers here.
 [[nodiscard]] std::optional<schema::Base> combined_type(std::span<const std::string_view> words) noexcept;
 
-// What to write instead of a well-known type name of other languages; empty if unknown.
+// Returns the replacement for a well-known type name of other languages; empty if unknown.
 [[nodiscard]] std::string_view substitute_for(std::string_view word) noexcept;
 
-// All names a misspelt type may have meant.
+// Returns all type names, to suggest one for a misspelled type.
 [[nodiscard]] const std::vector<std::string>& type_names();
 
 }  // namespace indurop::glb2idl

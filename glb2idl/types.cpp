@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Type resolution and layout.
+// Resolves types and lays them out.
 
 #include "glb2idl/types.h"
 
@@ -85,7 +85,7 @@ std::optional<schema::Type> TypeBuilder::resolve(const ast::TypeSpec& spec, cons
   return spec.kind == Kind::Struct ? define_struct(spec, name, hint, comment) : define(spec, name, comment);
 }
 
-// <hint>_t, unless the C library has a type of that name (mode_t, time_t).
+// Returns <hint>_t, unless the C library has a type of that name (mode_t, time_t).
 ast::Name TypeBuilder::derived_name(const std::string& hint, Span at) const {
   const std::string usual = hint + "_t";
   const bool taken = objection(usual, NameRole::Type, context_.current.empty()).has_value();

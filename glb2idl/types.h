@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types as written to types with layout: sizes, alignment and offsets as a C compiler for 64-bit boards lays them out.
+// Converts types as written to types with layout: sizes, alignment and offsets as a C compiler for 64-bit boards lays
+// them out.
 
 #pragma once
 
@@ -16,18 +17,19 @@ class TypeBuilder {
  public:
   explicit TypeBuilder(Context& context) : context_(context) {}
 
-  // The type a specifier means, without array dimensions. Structs and enums with a body are declared on the way;
-  // `hint` is the name of an anonymous one, without "_t". nullopt after a message, or silently if the name belongs
-  // to a broken declaration.
+  // Returns the type of a specifier, without array dimensions. Structs and enums with a body are declared by the call;
+  // `hint` is the name of an anonymous one, without "_t". nullopt after a message, or silently if the name belongs to a
+  // broken declaration.
   std::optional<schema::Type> resolve(const ast::TypeSpec& spec, const std::string& hint, const std::string& comment);
 
-  // `type` with the dimensions of a declarator. char arrays become texts. `initial` gives the size of [].
+  // Returns `type` with the dimensions of a declarator. char arrays become texts. `initial` gives the size of [].
   std::optional<schema::Type> with_dims(schema::Type type, const ast::Declarator& declarator);
 
-  // A struct or enum under this very name: struct P {...}; and typedef struct {...} P;
+  // Declares a struct or enum with this name: struct P {...}; and typedef struct {...} P;
   std::optional<schema::Type> define(const ast::TypeSpec& spec, const ast::Name& name, const std::string& comment);
 
-  // Puts `fields` one behind the other: offsets, size, alignment. False with a message at `at` beyond the limits.
+  // Lays out the `fields` one after the other: offsets, size, alignment. Returns false with a message at `at` if limits
+  // are exceeded.
   bool lay_out(schema::Type& type, Span at);
 
  private:
@@ -46,9 +48,10 @@ class TypeBuilder {
   Context& context_;
 };
 
-// Fields, enum values and their inner ones; what a type costs wherever it is written out.
+// Returns the number of fields and enum values, including inner ones: the size of a type when it is written out.
 [[nodiscard]] std::size_t parts_of(const schema::Type& type) noexcept;
-// Counts the type's parts for the whole program; false with a message at `at` beyond the limit.
+// Adds the type's parts to the count of the whole program; returns false with a message at `at` if the limit is
+// exceeded.
 bool count_parts(Context& context, const schema::Type& type, Span at);
 
 }  // namespace indurop::glb2idl
