@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor with its load, the drive's position and velocity loop around it, and the encoder on its shaft: a second-order
-// system with limits, advanced in steps of fixed length so that equal commands give equal motion. Radians, seconds, N
-// m. Real-time safe.
+// A simulated axis: a motor with its load, the drive's position and velocity loop, and the encoder on the shaft. A
+// second-order system with limits, computed in steps of fixed length so that equal commands give equal motion. Units:
+// rad, s, N m. Real-time safe.
 
 #pragma once
 
@@ -14,41 +14,42 @@ namespace indurop::io {
 
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
-// What the loops are to follow at the end of one step.
+// The reference of the loops at the end of one step.
 struct AxisReference {
   double position = 0;
   double velocity = 0;
-  bool follow_position = true;  // false: the velocity alone counts
-  double torque = 0;            // on top of what the loops want
+  bool follow_position = true;  // false: only the velocity is controlled
+  double torque = 0;            // added to the output of the loops, N m
 };
 
 class AxisModel {
  public:
   static constexpr std::int64_t kStepNs = 125'000;
-  static constexpr double kStep = 125e-6;  // the same in seconds
+  static constexpr double kStep = 125e-6;  // in seconds
 
   explicit AxisModel(const config::IoAxis& axis) noexcept;
 
-  // The mean of its torque since the last call, N m; without a step since, the last one.
+  // Returns the mean motor torque since the last call, N m; the last torque if there was no step since.
   [[nodiscard]] double take_mean_torque() noexcept;
-  // What the axis carries from now on, beside its own inertia and damping: torque against the motor.
+  // Sets the load on the axis in addition to its own inertia and damping: a torque against the motor, N m.
   void carry(double load) noexcept { load_ = load; }
-  // One step with the loops closed.
+  // One step with closed loops.
   void drive(const AxisReference& reference) noexcept;
-  // One step with a torque alone; at the axis' largest velocity no more than keeps it.
+  // One step with torque control; at the axis' maximum velocity the torque is limited to what keeps it.
   void push(double torque) noexcept;
-  // One step without power: the brake holds what it carries, and stops it with the motor's largest torque.
+  // One step without power: the brake holds the load, and stops the axis with the motor's maximum torque.
   void brake() noexcept;
 
   [[nodiscard]] double position() const noexcept { return position_; }
   [[nodiscard]] double velocity() const noexcept { return velocity_; }
   [[nodiscard]] double torque() const noexcept { return torque_; }
-  [[nodiscard]] bool limited() const noexcept { return limited_; }  // torque or velocity, in the last step
+  [[nodiscard]] bool limited() const noexcept { return limited_; }  // torque or velocity was limited in the last step
   [[nodiscard]] double most_velocity() const noexcept { return most_velocity_; }
-  // What the motor can brake with.
+  // Returns the maximum deceleration by the motor.
   [[nodiscard]] double most_deceleration() const noexcept { return most_torque_ / inertia_; }
 
-  // Encoder counts from power on at `start`, not yet wrapped to a register's size. Each call may see other noise.
+  // Returns the encoder counts since power on at `start`, not yet wrapped to a register's size. The noise may differ
+  // with each call.
   [[nodiscard]] std::int64_t read_encoder() noexcept;
   [[nodiscard]] double counts_per_radian() const noexcept { return counts_per_radian_; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Set points on the way to a target with limited velocity and acceleration, one step at a time, whatever the motion was
-// before. Real-time safe.
+// Set points of a motion to a target with limited velocity and acceleration, one step at a time, from any initial
+// motion. Real-time safe.
 
 #pragma once
 
@@ -10,9 +10,9 @@ struct AxisProfile {
   double position = 0;
   double velocity = 0;
 
-  // One step of `dt` towards a position; true once it has arrived and stands.
+  // One step of `dt` seconds towards a position; returns true at standstill at the target.
   bool go_to(double target, double most_velocity, double acceleration, double dt) noexcept;
-  // One step towards a velocity; true once it is reached.
+  // One step towards a velocity; returns true once it is reached.
   bool change_velocity(double target, double acceleration, double dt) noexcept;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated CiA 402 drive: the objects of a servo drive, with its state machine, its modes of operation and an axis
-// behind it. Advanced by the tick, so the same commands give the same motion to the last bit. Real-time safe.
+// A simulated CiA 402 drive: the objects of a servo drive, with its state machine, its modes of operation and an axis.
+// Computed in the tick, so the same commands give bit-identical motion. Real-time safe.
 
 #pragma once
 
@@ -29,7 +29,7 @@ enum class DriveMode : std::int8_t {
   CyclicTorque = 10
 };
 
-// What a mode commands.
+// Return the kind of set point that a mode commands.
 constexpr bool is_position(DriveMode mode) noexcept {
   return mode == DriveMode::None || mode == DriveMode::ProfilePosition || mode == DriveMode::InterpolatedPosition ||
          mode == DriveMode::CyclicPosition;
@@ -46,13 +46,13 @@ struct DriveCommand {
   std::int8_t mode = 0;
   std::int32_t position = 0;  // target, counts
   std::int32_t velocity = 0;  // target, counts / s
-  std::int16_t torque = 0;    // target, 1/1000 of what the motor can give
-  // Cyclic modes add these.
+  std::int16_t torque = 0;    // target, 1/1000 of the motor's maximum
+  // Offsets that cyclic modes add to the targets.
   std::int32_t position_offset = 0;
   std::int32_t velocity_offset = 0;
   std::int16_t torque_offset = 0;
   std::uint16_t probe = 0;  // function of the touch probes (0x60B8)
-  double load = 0;          // no object of a drive: what the axis carries, N m
+  double load = 0;          // not an object of a drive: load on the axis, N m
 };
 
 struct DriveFeedback {
@@ -61,11 +61,11 @@ struct DriveFeedback {
   std::int8_t mode = 0;
   std::int32_t position = 0;    // counts, wraps around like the register of a real drive
   std::int32_t velocity = 0;    // counts / s
-  std::int16_t torque = 0;      // of what the motor can give, mean of the period, 1/1000
-  std::int32_t following = 0;   // how far behind its set point it is, counts
+  std::int16_t torque = 0;      // mean of the period, 1/1000 of the motor's maximum
+  std::int32_t following = 0;   // following error, counts
   std::uint32_t inputs = 0;     // digital inputs (0x60FD): limit switches, home switch, probes
   std::uint16_t probe = 0;      // status of the touch probes (0x60B9)
-  std::int32_t probe_rise = 0;  // positions that were stored, counts
+  std::int32_t probe_rise = 0;  // stored positions, counts
   std::int32_t probe_fall = 0;
   std::int32_t probe2_rise = 0;
   std::int32_t probe2_fall = 0;
@@ -78,7 +78,7 @@ class Cia402Drive {
   Cia402Drive& operator=(const Cia402Drive&) = delete;
   ~Cia402Drive() = default;
 
-  // The next period: takes the command at its beginning, returns what the drive sends at its end.
+  // Simulates the next period: applies the command at its beginning, returns the drive's feedback at its end.
   DriveFeedback step(const DriveCommand& command, std::chrono::nanoseconds elapsed) noexcept;
 
   [[nodiscard]] DriveState state() const noexcept { return machine_.state(); }
@@ -86,8 +86,8 @@ class Cia402Drive {
  private:
   void take_mode(std::int8_t mode) noexcept;
   void take_set_point(const DriveCommand& command) noexcept;
-  void follow_actual() noexcept;  // set points continue from where the axis is
-  void start_over() noexcept;     // and whatever was commanded before is forgotten
+  void follow_actual() noexcept;  // set points continue from the actual position
+  void start_over() noexcept;     // also discards all earlier commands
   void advance(const DriveCommand& command, double dt) noexcept;
   void advance_enabled(const DriveCommand& command, double dt) noexcept;
   void advance_homing(const DriveCommand& command, double dt) noexcept;
@@ -109,7 +109,7 @@ class Cia402Drive {
   config::IoAxis axis_;
   AxisModel model_;
   DriveStateMachine machine_;
-  AxisProfile profile_;  // the reference, its positions as the model has them
+  AxisProfile profile_;  // the reference; positions in the units of the model
   DriveMode mode_ = DriveMode::None;
   std::uint16_t last_control_ = 0;
   bool was_enabled_ = false;
@@ -118,18 +118,18 @@ class Cia402Drive {
   double target_ = 0;
   std::optional<double> next_target_;
   Homing homing_;
-  enum class Home { Idle, Moving, Done } home_ = Home::Idle;  // straight to the mark
+  enum class Home { Idle, Moving, Done } home_ = Home::Idle;  // homing directly to the mark
   TouchProbe probe_;
   TouchProbe probe2_;
   double torque_ = 0;             // demanded, N m
-  bool at_limit_ = false;         // a limit switch keeps it from going on
+  bool at_limit_ = false;         // a limit switch stops the motion
   double last_;                   // position after the last step of the model
-  double previous_;               // after the one before
-  std::int64_t zero_counts_ = 0;  // encoder counts that are shown as position 0
-  double cyclic_velocity_ = 0;    // of the way to the target of this period
-  double too_far_s_ = 0;          // time beyond the largest following error
+  double previous_;               // position after the step before
+  std::int64_t zero_counts_ = 0;  // encoder counts that are reported as position 0
+  double cyclic_velocity_ = 0;    // velocity towards the target of this period
+  double too_far_s_ = 0;          // time with an excessive following error
   std::int64_t last_counts_;
-  std::int64_t rest_ns_ = 0;  // of the period, shorter than a step
+  std::int64_t rest_ns_ = 0;  // rest of the period, shorter than a step
 };
 
 }  // namespace indurop::io

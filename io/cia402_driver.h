@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated drive as a device of I/O dispatch: points named after its objects.
+// The simulated drive as a device of I/O dispatch: points are named after its objects.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Homing of a drive by the methods of CiA 402 (IEC 61800-7-201, object 0x6098): which way to go until which switch or
-// mark is found. Real-time safe.
+// Homing of a drive by the methods of CiA 402 (IEC 61800-7-201, object 0x6098): the direction of motion until a switch
+// or mark is found. Real-time safe.
 
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace indurop::io {
 
-// What the switches on the way of an axis say at a position, degrees.
+// The states of the switches of an axis at a position, degrees.
 struct AxisSwitches {
   bool low = false;   // limit switch at the lower end
-  bool high = false;  // and at the upper one
+  bool high = false;  // limit switch at the upper end
   bool home = false;
 };
 AxisSwitches switches_at(const config::IoAxis& axis, double degrees) noexcept;
@@ -27,8 +27,8 @@ class Homing {
   void start() noexcept;
   void forget() noexcept { state_ = State::Idle; }
 
-  // One step of the axis from a position to the next, degrees: how fast it is to go on, degrees / s. Once Done it is to
-  // stop, and home() is where the position is 0.
+  // One step of the axis from a position to the next, degrees; returns the velocity to continue with, degrees / s. Once
+  // Done, the axis must stop, and home() is the position that becomes 0.
   double step(double before, double now) noexcept;
 
   [[nodiscard]] State state() const noexcept { return state_; }
@@ -36,8 +36,8 @@ class Homing {
 
  private:
   enum class Switch { None, Low, High, Home };
-  // A method in parts: the edge of a switch, found by going `search` until it is on; crossed slowly in direction
-  // `cross`, as the switch goes on or off; and the mark behind it.
+  // A homing method: find the edge of a switch by moving in direction `search` until the switch is on; cross it slowly
+  // in direction `cross`, as the switch goes on or off; then optionally find the next mark.
   struct Method {
     Switch edge = Switch::None;
     int search = 0;
@@ -57,7 +57,7 @@ class Homing {
   State state_ = State::Idle;
   Phase phase_ = Phase::Search;
   int direction_ = 0;
-  int turned_ = 0;  // times a limit switch sent it back
+  int turned_ = 0;  // number of reversals at a limit switch
   double home_ = 0;
 };
 

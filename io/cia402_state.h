@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state machine of a drive as CiA 402 (IEC 61800-7-201) has it: controlword in, state and statusword out. No
+// The state machine of a drive as defined by CiA 402 (IEC 61800-7-201): controlword in, state and statusword out. No
 // motion, no time. Real-time safe.
 
 #pragma once
@@ -19,14 +19,14 @@ enum class DriveState : std::uint8_t {
   Fault
 };
 
-// Bits of the controlword beyond the commands.
+// Bits of the controlword in addition to the commands.
 inline constexpr std::uint16_t kNewSetPoint = 1U << 4U;  // homing: start
 inline constexpr std::uint16_t kChangeAtOnce = 1U << 5U;
 inline constexpr std::uint16_t kRelative = 1U << 6U;
 inline constexpr std::uint16_t kFaultReset = 1U << 7U;
 inline constexpr std::uint16_t kHalt = 1U << 8U;
 
-// Bits of the statusword beyond the state.
+// Bits of the statusword in addition to the state.
 inline constexpr std::uint16_t kVoltage = 1U << 4U;
 inline constexpr std::uint16_t kRemote = 1U << 9U;
 inline constexpr std::uint16_t kTargetReached = 1U << 10U;
@@ -39,15 +39,15 @@ inline constexpr std::uint16_t kFollowingError = 0x8611;
 
 class DriveStateMachine {
  public:
-  // At most one transition by command and none after one that the drive makes by itself. `standing`: the axis does not
-  // move, so ramps have ended.
+  // At most one transition by command, and none after an automatic one. `standing`: the axis is at standstill, so ramps
+  // have ended.
   void step(std::uint16_t control, bool standing) noexcept;
-  // Something in the drive failed. The first error stays until it is reset.
+  // Enters the fault reaction. The first error stays until it is reset.
   void fail(std::uint16_t error) noexcept;
 
   [[nodiscard]] DriveState state() const noexcept { return state_; }
   [[nodiscard]] std::uint16_t error() const noexcept { return error_; }
-  // Bits 0 to 3, 5 and 6.
+  // Returns bits 0 to 3, 5 and 6 of the statusword.
   [[nodiscard]] std::uint16_t status() const noexcept;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recorded values instead of a device: each row of a CSV file counts from its time until the next one's.
+// Recorded values instead of a device: each row of a CSV file is valid from its time until that of the next one.
 
 #pragma once
 
@@ -13,10 +13,10 @@ namespace indurop::io {
 
 class CsvDriver final : public Driver {
  public:
-  // Errors: the file cannot be read, what is wrong in it, or that it lacks a column.
+  // Errors: the file cannot be read, its content is wrong, or a column is missing.
   static Result<std::unique_ptr<CsvDriver>, std::vector<base::Diagnostic>> make(
       const config::IoDevice& device, std::span<const config::IoPoint> inputs);
-  // `columns`: that of each point.
+  // `columns`: column of each point.
   CsvDriver(config::CsvTable table, std::vector<std::size_t> columns, bool loop);
 
   [[nodiscard]] bool in_tick() const noexcept override { return true; }
@@ -29,7 +29,7 @@ class CsvDriver final : public Driver {
   config::CsvTable table_;
   std::vector<std::size_t> columns_;
   bool loop_;
-  std::int64_t length_ns_;  // of one turn of the loop
+  std::int64_t length_ns_;  // of one pass of the loop
   std::int64_t time_ns_ = 0;
   std::size_t row_ = 0;
   bool begun_ = false;

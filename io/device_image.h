@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The process image of one device, and the way of values between it and the driver: scaling, what is kept of a value
-// that is bad. No threads, no shared variables. Real-time safe once it is made.
+// The process image of one device, and the conversion of values between it and the driver: scaling, and the substitute
+// for a bad value. No threads, no shared variables. Real-time safe after construction.
 
 #pragma once
 
@@ -16,12 +16,12 @@
 
 namespace indurop::io {
 
-// From the device to the variables.
+// Values from the device to the variables.
 struct InputImage {
   struct Value {
     std::uint64_t bits = 0;  // of the variable
     Quality quality = Quality::None;
-    bool is_set = false;  // the variable is to have it; false before the first good one
+    bool is_set = false;  // write it to the variable; false before the first good value
   };
   std::vector<Value> inputs;
   std::vector<Quality> outputs;
@@ -29,19 +29,19 @@ struct InputImage {
   std::uint64_t errors = 0;  // exchanges that were not good
 };
 
-// From the variables to the device: the bits of each output's variable.
+// Values from the variables to the device: the bits of each output's variable.
 using OutputImage = std::vector<std::uint64_t>;
 
 class DeviceImage {
  public:
-  // The points of each direction in their order.
+  // The points of each direction, in their order.
   DeviceImage(std::span<const config::BoundPoint> inputs, std::span<const config::BoundPoint> outputs);
 
-  // What outputs are told. Hold: their stop value if they have one; the others are not sent.
+  // State of the outputs. Hold: outputs with a stop value get it; the others are not sent.
   enum class Outputs { Unknown, Fresh, Hold };
-  // One exchange by the driver, or none if the device is not open; the result is the current() image.
+  // One exchange by the driver, or none if the device is not open; updates the current() image.
   Driver::Outcome exchange(Driver& driver, const OutputImage& outputs, Outputs how, std::chrono::nanoseconds elapsed);
-  void lose() noexcept;  // the device could not be opened
+  void lose() noexcept;  // call it if the device could not be opened
   [[nodiscard]] const InputImage& current() const noexcept { return image_; }
   [[nodiscard]] bool has_stop_values() const noexcept;
 
@@ -59,7 +59,7 @@ class DeviceImage {
   std::vector<Point> outputs_;
   std::vector<Sample> input_samples_;
   std::vector<Sample> output_samples_;
-  std::vector<bool> not_a_number_;  // outputs of this exchange
+  std::vector<bool> not_a_number_;  // outputs of this exchange that are NaN
   InputImage image_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything between an ioconfig.xml and the run of a module: variables, images, devices. run() is the one point of the
-// tick at which the process image is copied.
+// Connects an ioconfig.xml with the runs of a module: variables, images, devices. The process image is copied in run()
+// only, once per tick.
 
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace indurop::io {
 
-// Which points one run copies: two modules with the same file can split them.
+// The points that one run copies: two modules with the same file can split them.
 enum class Phase { Both, Inputs, Outputs };
 
 class Dispatcher {
@@ -30,37 +30,37 @@ class Dispatcher {
   Dispatcher& operator=(const Dispatcher&) = delete;
   ~Dispatcher();
 
-  // Binds the variables, starts the threads of devices that need one; their messages are those of module `module`. Not
-  // real-time safe. Errors: NoSpace, System.
+  // Binds the variables and starts the threads of devices that need one; their messages are those of module `module`.
+  // Not real-time safe. Errors: NoSpace, System.
   Status start(std::uint32_t module);
-  // Takes the outputs from their variables, exchanges with devices that live in the tick, and gives the inputs to
-  // theirs. Real-time safe. `elapsed`: since the run before.
+  // Reads the outputs from their variables, exchanges with devices that work in the tick, and writes the inputs to
+  // their variables. Real-time safe. `elapsed`: time since the last run.
   void run(std::chrono::nanoseconds elapsed) noexcept;
   // Not real-time safe.
   void stop();
 
  private:
-  // A whole number about a point or a device.
+  // A variable for the quality or error count of a point or a device.
   struct Report {
-    std::size_t part;  // in variables_
+    std::size_t part;  // index in variables_
     schema::Base base;
   };
-  // One device with the variables of its points, as numbers in `variables_`.
+  // One device with the variables of its points, as indices in `variables_`.
   struct Line {
     config::IoDevice device;
     std::unique_ptr<Driver> driver;
     std::optional<DeviceImage> in_tick;
-    std::unique_ptr<ExchangeThread> thread;  // if it is not in the tick
-    OutputImage outputs;                     // of a device in the tick
-    std::vector<std::size_t> from;           // of the outputs
-    std::vector<std::size_t> to;             // of the inputs
+    std::unique_ptr<ExchangeThread> thread;  // for a device outside the tick
+    OutputImage outputs;                     // for a device in the tick
+    std::vector<std::size_t> from;           // variables of the outputs
+    std::vector<std::size_t> to;             // variables of the inputs
     std::vector<std::optional<Report>> input_qualities;
     std::vector<std::optional<Report>> output_qualities;
     std::optional<Report> quality;
     std::optional<Report> errors;
   };
   Dispatcher() = default;
-  // Returns what is wrong with the device.
+  // Returns the errors of the device.
   std::vector<base::Diagnostic> add(const config::BoundDevice& bound, Phase phase, const std::filesystem::path& file);
   std::optional<Report> report_to(const std::optional<schema::Place>& variable);
   void take(Line& line, OutputImage& into) noexcept;
@@ -73,7 +73,7 @@ class Dispatcher {
 
 struct Dispatcher::Made {
   std::unique_ptr<Dispatcher> dispatcher;     // null if the file cannot be used
-  std::vector<base::Diagnostic> diagnostics;  // everything that is wrong or worth a note
+  std::vector<base::Diagnostic> diagnostics;  // all errors, warnings and notes
 };
 
 }  // namespace indurop::io

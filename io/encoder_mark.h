@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference mark of an encoder, once in every turn of its shaft.
+// The reference mark of an encoder, one per turn of its shaft.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace indurop::io {
 
-// Where the shaft passed a mark, degrees, on its way between two positions; the mark it starts at does not count.
-// `mark`: where one of them is. Real-time safe.
+// Returns the position at which the shaft passed a mark between two positions, degrees; a mark at the start does not
+// count. `mark`: position of any of the marks. Real-time safe.
 inline std::optional<double> mark_passed(double mark, double before, double now) noexcept {
   constexpr double kTurn = 360;
   const double at = mark + std::ceil((std::min(before, now) - mark) / kTurn) * kTurn;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps one device that may be waited for exchanging, in a normal thread of its own, so that a device that hangs holds
-// up neither the tick nor another device: opens it, opens it again after a pause that grows, tells what changed.
+// Exchanges with one device that may block, in its own normal thread, so that a hanging device delays neither the tick
+// nor another device: opens the device, reopens it after increasing pauses, and reports changes.
 
 #pragma once
 
@@ -20,7 +20,7 @@ namespace indurop::io {
 
 class ExchangeThread {
  public:
-  // `device` and `driver` are borrowed. Nothing runs before start().
+  // Borrows `device` and `driver`. Nothing runs before start().
   ExchangeThread(const config::IoDevice& device, Driver& driver, DeviceImage image);
   ExchangeThread(const ExchangeThread&) = delete;
   ExchangeThread& operator=(const ExchangeThread&) = delete;
@@ -28,10 +28,10 @@ class ExchangeThread {
 
   // Not real-time safe. Messages are those of module `module`. Errors: NoSpace, System.
   Status start(std::uint32_t module);
-  // Sends the stop values, closes the device. Waits for the exchange in progress. Not real-time safe.
+  // Sends the stop values and closes the device. Waits for the exchange in progress. Not real-time safe.
   void stop();
 
-  // The tick's side, real-time safe. next_outputs() is to be filled completely before send().
+  // Functions for the tick, real-time safe. Fill next_outputs() completely before send().
   [[nodiscard]] OutputImage& next_outputs() noexcept { return outputs_.back(); }
   void send() noexcept { outputs_.publish(); }
   [[nodiscard]] const InputImage& receive() noexcept {
@@ -56,7 +56,7 @@ class ExchangeThread {
   TripleBuffer<InputImage> inputs_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  bool stop_ = false;  // under the mutex
+  bool stop_ = false;  // guarded by the mutex
   bool is_open_ = false;
   bool had_outputs_ = false;
   bool holding_ = false;

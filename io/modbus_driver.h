@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The client of a Modbus device. Waits for its device, so only a thread of the device's own calls it.
+// The client of a Modbus device. It waits for the device, so only the device's own thread calls it.
 
 #pragma once
 
@@ -26,11 +26,11 @@ class ModbusDriver final : public Driver {
   enum class Reply { Good, Refused, Silent };
   struct Step {
     ModbusStep plan;
-    Reply reply = Reply::Good;  // the last one
+    Reply reply = Reply::Good;  // to the last request
   };
 
   [[nodiscard]] bool is_due(const Step& step) const noexcept;
-  // One request and its answer. Silent also for what is no answer.
+  // Makes one request and evaluates its answer. An invalid answer counts as Silent.
   Reply make(const ModbusStep& step, bool writes, std::span<Sample> outputs);
   ModbusFrame frame_of(const ModbusStep& step, bool writes, std::span<Sample> outputs);
   void fill_bits(const ModbusRequest& request, std::span<const Sample> outputs);
@@ -38,7 +38,7 @@ class ModbusDriver final : public Driver {
   ModbusFrame masking(const ModbusRequest& request, std::span<const Sample> outputs) const;
   void take_values(const ModbusRequest& request, std::span<Sample> inputs);
   Reply judge(const ModbusRequest& request, bool is_write, int error);
-  // True if the request may be made: its unit has not been silent in this exchange.
+  // Returns true if the request may be made: its unit has not been silent in this exchange.
   [[nodiscard]] bool is_awake(int unit) const;
 
   config::IoDevice device_;
@@ -48,7 +48,7 @@ class ModbusDriver final : public Driver {
   ModbusLink link_;
   std::vector<std::uint16_t> registers_;  // of one request
   std::vector<std::uint8_t> bits_;
-  std::vector<int> silent_units_;  // of this exchange
+  std::vector<int> silent_units_;  // in this exchange
   std::int64_t exchanges_ = 0;     // since the link was opened
   bool connection_lost_ = false;
   std::string problem_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way of a Modbus request to its device and of the answer back: TCP, a serial line, or the frames of a serial line
-// over TCP, as gateways without a Modbus of their own have them. Waits for the device.
+// Transports a Modbus request to its device and the answer back: over TCP, a serial line, or with serial frames over
+// TCP, for gateways without Modbus of their own. Waits for the device.
 
 #pragma once
 
@@ -22,16 +22,16 @@ class ModbusLink {
   // Borrows the device.
   explicit ModbusLink(const config::IoDevice& device) : device_(device) {}
 
-  // Empty, or why it cannot be opened.
+  // Returns why the link cannot be opened; empty on success.
   std::string open();
   void close() noexcept { context_.reset(); }
   [[nodiscard]] bool is_open() const noexcept { return context_ != nullptr; }
 
-  // Sends the request and waits for what answers it. 0, or the reason as errno or libmodbus has it. `answer` is valid
+  // Sends the request and waits for the answer. Returns 0, or an error code of errno or libmodbus. `answer` is valid
   // until the next call.
   int ask(const ModbusFrame& frame, std::span<const std::uint8_t>& answer);
 
-  // After such an error the link itself is fine, only this unit of several was not: the next request may be made.
+  // Returns true if the link still works after such an error and only this unit failed: the next request may be made.
   [[nodiscard]] bool survives(int error) const noexcept;
 
  private:
@@ -40,14 +40,14 @@ class ModbusLink {
   };
   static constexpr std::size_t kMost = 260;
 
-  // The context that was just made. Empty, or why not.
+  // Connects the context that was just made. Returns why it failed; empty on success.
   std::string connect(const std::string& where);
   [[nodiscard]] bool has_serial_frames() const noexcept;
   std::string open_tcp();
   std::string open_serial();
   bool send(const ModbusFrame& frame);
   void discard_late_answers() noexcept;
-  // What of the received is unit, function, data; empty if its envelope is wrong.
+  // Returns the part of the received bytes from unit to data; empty if the envelope is wrong.
   [[nodiscard]] std::span<const std::uint8_t> unwrapped(std::size_t size) const noexcept;
 
   const config::IoDevice& device_;

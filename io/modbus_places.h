@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clients of a Modbus server may read and write: the points of the device as coils and registers. A client reads
-// what outputs hold and what was written to inputs; it writes inputs, each as a whole. No sockets.
+// The coils and registers of a Modbus server, to which the points of the device are mapped. A client reads the values
+// of outputs and the values that were written to inputs; it writes inputs, each only as a whole. No sockets.
 
 #pragma once
 
@@ -20,15 +20,15 @@ class ModbusPlaces {
  public:
   ModbusPlaces(std::span<const config::IoPoint> outputs, std::span<const config::IoPoint> inputs);
 
-  // What clients read from now on. The quality of one that does not fit becomes OutOfRange.
+  // Sets the output values that clients read from now on. The quality of a value that does not fit becomes OutOfRange.
   void offer(std::span<Sample> outputs);
 
-  // The exception code of "MODBUS application protocol" 7 that such a request (function and data) gets; 0: it may be
-  // answered from table(). No data outside of the points is read as 0 or written.
+  // Returns the exception code of "MODBUS application protocol" 7 for a request (function and data); 0: it may be
+  // answered from table(). Data outside of the points is never read as 0 or written.
   [[nodiscard]] int refusal(std::span<const std::uint8_t> request) const;
   [[nodiscard]] modbus_mapping_t& table() noexcept { return *table_; }
 
-  // Once such a request has been answered: gives the inputs it wrote their values, and names them.
+  // Call it after such a request was answered: sets the inputs it wrote, and returns their indices.
   std::vector<std::size_t> take(std::span<const std::uint8_t> request, std::span<Sample> inputs) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The server role of Modbus TCP: an operator panel reads and writes our variables. Answers what has come since the
-// exchange before and never waits for a client. A value that a client wrote is good for as long as that client is
-// there and asks.
+// The server role of Modbus TCP: an operator panel reads and writes the node's variables. Answers the requests received
+// since the last exchange and never waits for a client. A value that a client wrote is good as long as that client is
+// connected and sends requests.
 
 #pragma once
 
@@ -53,8 +53,8 @@ class ModbusServer final : public Driver {
   };
 
   void accept_clients();
-  bool make_room();  // false: there is none
-  // False: the client is to go.
+  bool make_room();  // false: no space for another client
+  // Returns false if the client must be dropped.
   bool serve(Client& client, std::span<Sample> inputs);
   bool answer(Client& client, std::span<const std::uint8_t> frame, std::span<Sample> inputs);
   void drop(std::size_t place) noexcept;
@@ -66,7 +66,7 @@ class ModbusServer final : public Driver {
   std::unique_ptr<modbus_t, Free> context_;
   int listener_ = -1;
   std::vector<Client> clients_;
-  std::vector<std::uint64_t> writers_;  // of inputs: the client's number, 0 nobody yet
+  std::vector<std::uint64_t> writers_;  // of inputs: number of the client that wrote it, 0: none yet
   std::uint64_t last_number_ = 0;
   std::string problem_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A number into a type that may be too small for it: the nearest value, and whether it was the number itself. Real-time
-// safe.
+// Converts a number to a type that may be too small for it: gives the nearest value and whether the number fitted.
+// Real-time safe.
 
 #pragma once
 
@@ -12,7 +12,8 @@
 
 namespace indurop::io {
 
-// Rounds to the nearest, halves to the even one. False: beyond the type, `into` is its nearest limit; NaN leaves it.
+// Rounds to nearest, ties to even. Returns false if the number is out of range: `into` is the nearest limit; NaN leaves
+// it unchanged.
 template <std::integral T>
 bool to_whole(Number value, T& into) noexcept {
   if (std::isnan(value)) {
@@ -31,7 +32,7 @@ bool to_whole(Number value, T& into) noexcept {
   return true;
 }
 
-// False: a finite number beyond the type, `into` is its largest one.
+// Returns false for a finite number out of range: `into` is the largest value of the type, with the number's sign.
 template <std::floating_point T>
 bool to_real(Number value, T& into) noexcept {
   constexpr Number kMost = std::numeric_limits<T>::max();

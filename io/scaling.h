@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the device's number to the bytes of a variable and back: variable = number * scale + offset. Real-time safe.
+// Converts the device's number to the bytes of a variable and back: variable = number * scale + offset. Real-time safe.
 
 #pragma once
 
@@ -16,10 +16,10 @@ struct Scaling {
   double offset = 0;
 };
 
-// The first size_of(base) bytes of `bits` in memory are the variable's. A value that does not fit gives the nearest one
-// and false; NaN into a whole number gives false and leaves `bits` alone.
+// The first size_of(base) bytes of `bits` in memory are the variable's. A value that does not fit is replaced by the
+// nearest one, and false is returned; NaN to an integer returns false and leaves `bits` unchanged.
 bool to_variable(const Scaling& scaling, Number value, std::uint64_t& bits) noexcept;
-// As the variable itself counts, without scale and offset.
+// Converts a value in the variable's own units, without scale and offset.
 bool to_variable(schema::Base base, Number value, std::uint64_t& bits) noexcept;
 Number from_variable(const Scaling& scaling, std::uint64_t bits) noexcept;
 

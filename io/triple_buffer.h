@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One writer hands whole values to one reader, and neither ever waits: of three places the writer fills one, the reader
-// looks at another, and the third is the newest that is complete. Values in between are lost, which is what is wanted
-// of a process image.
+// Passes whole values from one writer to one reader without ever waiting: of three places the writer fills one, the
+// reader reads another, and the third holds the newest complete value. Older values in between are lost, as intended
+// for a process image.
 
 #pragma once
 
@@ -14,16 +14,17 @@ namespace indurop::io {
 template <class T>
 class TripleBuffer {
  public:
-  // Not real-time safe; before anybody reads or writes. All three places become copies of `value`.
+  // Not real-time safe; call it before any read or write. All three places become copies of `value`.
   void fill(const T& value) { places_.fill(value); }
 
-  // The writer's: change the place, then publish() it. It holds what was there two or three publications ago.
+  // For the writer: change the place, then publish() it. It holds the value of two or three publications ago.
   [[nodiscard]] T& back() noexcept { return places_[back_]; }
   void publish() noexcept {
     back_ = middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel) & kIndex;
   }
 
-  // The reader's: takes the newest; true if it was not taken before. front() stays as it is until the next update().
+  // For the reader: takes the newest value; returns true if it was not taken before. front() does not change until the
+  // next update().
   bool update() noexcept {
     if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) {
       return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared variables that are known by name only when the node starts. They are bound like those of a generated header,
-// by a row each in the library's table, so an access costs what it costs a module. bind() and unbind() are not
+// Shared variables whose names are known only when the node starts. They are bound like those of a generated header,
+// with one row each in the library's table, so an access costs the same as in a module. bind() and unbind() are not
 // real-time safe, everything else is.
 
 #pragma once
@@ -23,17 +23,17 @@ class Variables {
   Variables& operator=(const Variables&) = delete;
   ~Variables() { unbind(); }
 
-  // A number in a variable, or one to be written. Before bind(). The part has at most 8 bytes.
+  // Adds a number in a variable to read or to write. Call it before bind(). The part has at most 8 bytes.
   std::size_t add_read(const schema::Place& part);
   std::size_t add_write(const schema::Place& part);
   void bind();
   void unbind();
 
-  // The part's bytes, as scaling.h has them.
+  // Returns the part's bytes, in the format of scaling.h.
   [[nodiscard]] std::uint64_t read(std::size_t part) const noexcept;
-  // What commit() is to write; a part that was never set is left alone.
+  // Sets the value that commit() writes; a part that was never set is not written.
   void set(std::size_t part, std::uint64_t bits) noexcept;
-  // Writes all parts that differ from what their variables hold, each variable in one commit.
+  // Writes all parts that differ from the values of their variables, each variable in one commit.
   void commit() noexcept;
 
  private:

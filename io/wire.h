@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in registers of 16 bits: types, order of words and bytes. Pure functions, real-time safe.
+// Converts numbers to 16-bit registers and back: types, order of words and bytes. Pure functions, real-time safe.
 
 #pragma once
 
@@ -26,10 +26,10 @@ inline WireForm form_of(const config::IoPoint& point) noexcept {
 
 // `registers` has config::registers_of(form.type) words.
 Number decode(const WireForm& form, std::span<const std::uint16_t> registers) noexcept;
-// What a point has of its registers: the number, or its one bit.
+// Returns the point's value in its registers: the number, or one bit.
 Number value_in(const config::IoPoint& point, std::span<const std::uint16_t> registers) noexcept;
-// False, and the nearest possible value was written, if the number does not fit; nothing is written of a NaN that the
-// wire's type cannot say.
+// Returns false if the number does not fit; the nearest possible value was written then. Nothing is written for a NaN
+// that the wire's type cannot represent.
 bool encode(const WireForm& form, Number value, std::span<std::uint16_t> registers) noexcept;
 
 }  // namespace indurop::io
