@@ -54,7 +54,7 @@ class Builder {
     for (const auto& [hash, access] : context_.result.facts[module].file.access) {
       const auto found = by_hash_.find(hash);
       if (found == by_hash_.end()) {
-        continue;  // its description was unreadable, which is reported
+        continue;  // its description was unreadable, which has been reported
       }
       if (access.reads) {
         add(module, *found->second, true);
@@ -144,7 +144,7 @@ std::vector<std::size_t> execution_order(const CheckResult& result) {
   for (const std::uint32_t item : result.table.order) {
     order.push_back(result.periodic[item]);
   }
-  if (order.empty()) {  // no table, the periods are wrong
+  if (order.empty()) {  // there is no table because the periods are wrong
     order = result.periodic;
   }
   order.insert(order.end(), result.sporadic.begin(), result.sporadic.end());

@@ -25,10 +25,10 @@ bool one_core(const std::vector<Timed>& board) {
   return std::all_of(board.begin(), board.end(), [&](const Timed& one) { return one.core == board.front().core; });
 }
 
-// Of one board, from the begin of its schedule: who is earlier in the order preempts who is later.
+// The schedule of one board from its start: modules earlier in the order preempt later ones.
 class Jobs {
  public:
-  // A chain of so many links goes back by up to two macro periods for each.
+  // A chain of this many links looks back up to two macro periods for each link.
   Jobs(const std::vector<Timed>& board, std::size_t links) : board_(board), jobs_(board.size()) {
     const auto before = static_cast<std::int64_t>(2 * links + 1);
     std::int64_t macro = 1;
@@ -53,14 +53,14 @@ class Jobs {
   }
 
   [[nodiscard]] bool known() const noexcept { return known_; }
-  // Jobs of a macro period in which everything has settled.
+  // Returns the jobs of a macro period in the steady state.
   [[nodiscard]] std::span<const Job> settled(std::size_t module) const {
     const auto& all = jobs_[module];
     const auto from = first_at(all, begin_);
     return std::span(all).subspan(from, first_at(all, begin_ + macro_) - from);
   }
   [[nodiscard]] const std::vector<Job>& all(std::size_t module) const { return jobs_[module]; }
-  // From release to end, at most.
+  // Returns the longest time from release to end.
   [[nodiscard]] Nanos response(std::size_t module) const { return longest_[module]; }
   [[nodiscard]] Nanos latest_start(std::size_t module) const {
     return std::max(longest_[module] - board_[module].execution, Nanos::zero());
@@ -132,7 +132,7 @@ class Jobs {
   bool known_ = false;
 };
 
-// The newest run of `writer` that a run of `reader` is sure to have seen, and the newest that it may have seen.
+// The newest run of `writer` that a run of `reader` has certainly seen, and the newest that it may have seen.
 class Seen {
  public:
   Seen(const Jobs& jobs, bool alone, std::size_t writer, std::size_t reader)
@@ -175,7 +175,7 @@ struct Ages {
   Nanos most{};
 };
 
-// From the first to the last of these modules of one board, over a macro period.
+// Returns the ages from the first to the last of these modules of one board, over a macro period.
 Ages within(const Jobs& jobs, bool alone, std::span<const ChainLink> links, const std::vector<Timed>& board) {
   if (links.size() == 1) {
     return {};
@@ -206,7 +206,7 @@ Ages within(const Jobs& jobs, bool alone, std::span<const ChainLink> links, cons
   return ages.value_or(Ages{});
 }
 
-// Between two values that leave the board.
+// Returns the time between two values that leave the board.
 Nanos sent_every(const Timed& module, Nanos every) {
   const Nanos rest = every % module.period;
   const Nanos whole = rest > Nanos::zero() ? every - rest + module.period : every;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the access map of one board says about the data: readers that run too early, age.
+// Checks the data of one board with its access map: readers that run too early, age.
 
 #include <algorithm>
 #include <string>
@@ -32,7 +32,7 @@ class AccessCheck {
  private:
   using Severity = base::Diagnostic::Severity;
 
-  // Values of some variables on their way from one periodic module to another; positions in execution order.
+  // Variables that pass from one periodic module to another; positions in execution order.
   struct Flow {
     std::size_t writer;
     std::size_t reader;
@@ -41,7 +41,7 @@ class AccessCheck {
   };
 
   [[nodiscard]] const Module& module(std::size_t index) const { return context_.config.modules[index]; }
-  // A periodic module by its position in the order of execution.
+  // Returns a periodic module by its position in the order of execution.
   [[nodiscard]] const Module& at(std::size_t position) const {
     return module(context_.result.periodic[context_.result.table.order[position]]);
   }
@@ -98,7 +98,7 @@ class AccessCheck {
 
   [[nodiscard]] static bool too_early(const Flow& flow) { return flow.age.meet && flow.reader < flow.writer; }
 
-  // Which module should have which priority so that readers come behind writers.
+  // Returns the priorities with which readers run after writers.
   [[nodiscard]] std::string better_order(const Flow& early) {
     const std::size_t count = context_.result.table.order.size();
     const bool distinct = at(early.reader).priority != at(early.writer).priority;

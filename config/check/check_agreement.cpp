@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Modules built at different times or on different boards must be of one opinion about what they share.
+// Modules built at different times or on different boards must use the same layout for what they share.
 
 #include <map>
 
@@ -9,13 +9,13 @@
 namespace indurop::config {
 namespace {
 
-// Two modules that share a name must share its bytes: compares each with the first module that has it.
+// Modules that share a name must share its layout: compares each with the first module that has it.
 template <class T>
 class Agreement {
  public:
   Agreement(base::Diagnostics& report, const char* what) : report_(report), what_(what) {}
 
-  // `module` as in messages.
+  // `module` as shown in messages.
   template <class Difference>
   void add(const std::string& module, base::SourcePlace place, const std::vector<T>& items, Difference difference) {
     for (const T& item : items) {

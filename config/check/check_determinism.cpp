@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a simulation cannot repeat, from what modules ask of the system and from who writes their variables.
+// Reports what a simulation cannot repeat, from the system functions that modules use and from the writers of their
+// variables.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +20,7 @@ namespace {
 constexpr std::size_t kShownVariables = 4;
 
 struct Symbol {
-  std::string_view name;  // a whole name, or with a * at the end the begin of one
+  std::string_view name;  // a whole name, or a prefix with a * at the end
   std::string_view shown;
 };
 struct Source {
@@ -80,7 +81,7 @@ bool is(std::string_view import, std::string_view symbol) {
   return symbol.ends_with('*') ? import.starts_with(symbol.substr(0, symbol.size() - 1)) : import == symbol;
 }
 
-// Variables that it may write.
+// Returns the variables that the module may write.
 std::vector<std::string> written_by(const std::string& module, const std::vector<VariableUse>& uses) {
   std::vector<std::string> names;
   for (const VariableUse& use : uses) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Topics for tools of others: libraries of their types, and rules for single variables.
+// Checks topics for third-party tools: libraries of their types, and rules for single variables.
 
 #include <algorithm>
 #include <map>

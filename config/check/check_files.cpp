@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Module files: there, readable, for this machine and ABI, with the functions their kind of module needs.
+// Checks module files: they must exist, be readable, fit this machine and ABI, and have the functions that their kind
+// of module needs.
 
 #include <unistd.h>
 
@@ -50,7 +51,7 @@ bool imports_of(const schema::ModuleFile& file, const std::string& prefix) {
   return found != file.imports.end() && found->starts_with(prefix);
 }
 
-// Text behind "no such file": the folder that is missing, or the name in the folder that is nearest.
+// Returns the text after "no such file": the missing folder, or the most similar name in the folder.
 std::string missing_hint(const std::filesystem::path& file, const std::string& element) {
   std::error_code ignored;
   const std::filesystem::path folder = file.parent_path();
@@ -92,7 +93,7 @@ class FileCheck {
       error("is a directory; give the module's file in it");
       return;
     }
-    // Not even looked into: a pipe that nobody writes to would hang us.
+    // Not opened: opening a pipe without a writer would block.
     if (std::filesystem::exists(module_.file, ignored) && !std::filesystem::is_regular_file(module_.file, ignored)) {
       error("is not an ordinary file; give the module's file");
       return;
@@ -205,7 +206,7 @@ class FileCheck {
   base::SourcePlace place_;
 };
 
-// Modules of one board run on one kind of processor.
+// Checks that the modules of one board are for the same processor type.
 void check_same_machine(CheckContext& context) {
   const auto& modules = context.config.modules;
   const auto& facts = context.result.facts;
@@ -221,7 +222,7 @@ void check_same_machine(CheckContext& context) {
   }
 }
 
-// A call of a shared function nobody implements fails when it is made; whether there is an implementer at all is known.
+// A call of a shared function without an implementer fails at run time; here it is known whether there is one.
 void check_functions(CheckContext& context) {
   const auto& facts = context.result.facts;
   const bool offered = std::any_of(facts.begin(), facts.end(),
@@ -270,7 +271,7 @@ void check_files(CheckContext& context) {
   if (!context.options.machine) {
     check_same_machine(context);
   }
-  std::vector<std::string> differences;  // check_agreement() tells them
+  std::vector<std::string> differences;  // reported by check_agreement()
   for (const ModuleFacts& facts : context.result.facts) {
     schema::merge(context.result.schema, *facts.schema, differences);
   }

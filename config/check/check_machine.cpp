@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Does what the configuration asks for exist on this machine, if that is where it is to run.
+// Checks that what the configuration requires exists on this machine, if it is to run here.
 
 #include <sched.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every board of a plant, then what holds between them.
+// Checks every board of a plant, then the rules between boards.
 #include "config/check/check_plant.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace indurop::config {
 namespace {
 
-// A module that knows variables by name only can use those that other boards' modules declare.
+// A module that uses variables by name only can use those that other boards' modules declare.
 void add_named_variables(const Module& module, const schema::Schema& plant, schema::Schema& board) {
   for (const auto* names : {&module.reads, &module.writes}) {
     for (const std::string& name : *names) {
@@ -63,7 +63,7 @@ class PlantCheckRun {
 
  private:
   void check_boards() {
-    std::vector<std::string> differences;  // check_agreement() tells them
+    std::vector<std::string> differences;  // reported by check_agreement()
     for (CheckContext& context : contexts_) {
       check_machine(context);
       check_files(context);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Does the set of periods make a schedule, and what to write instead if not.
+// Checks that the periods make a schedule, and proposes corrections if they do not.
 
 #include <algorithm>
 #include <limits>
@@ -52,7 +52,7 @@ base::Nanos common_divisor(const std::vector<PeriodicItem>& items, bool with_off
   return base::Nanos{divisor};
 }
 
-// The periods and offsets nearest to `items` whose common divisor is at least `minimum`.
+// Returns the periods and offsets nearest to `items` whose common divisor is at least `minimum`.
 std::vector<PeriodicItem> nearest_items(std::vector<PeriodicItem> items, base::Nanos minimum) {
   if (common_divisor(items, false) < minimum) {
     std::vector<base::Nanos> periods;
@@ -69,7 +69,7 @@ std::vector<PeriodicItem> nearest_items(std::vector<PeriodicItem> items, base::N
       std::all_of(items.begin(), items.end(), [](const PeriodicItem& item) { return item.offset < item.period; })) {
     return items;
   }
-  // Offsets go to multiples of the finest grid the periods allow.
+  // Offsets are moved to multiples of the finest grid that the periods allow.
   const std::int64_t basic = common_divisor(items, false).count();
   constexpr std::int64_t kTries = 1'000'000;
   std::int64_t parts = std::min(basic / std::max<std::int64_t>(minimum.count(), 1), kTries);
@@ -86,7 +86,7 @@ std::vector<PeriodicItem> nearest_items(std::vector<PeriodicItem> items, base::N
   return items;
 }
 
-// "cntr1: period 130 us -> 150 us" for every module that changes.
+// Returns "cntr1: period 130 us -> 150 us" for every module that changes.
 std::vector<std::string> changes(const CheckContext& context, const std::vector<PeriodicItem>& from,
                                  const std::vector<PeriodicItem>& to) {
   std::vector<std::string> lines;
@@ -120,7 +120,7 @@ std::string join(const std::vector<std::string>& parts) {
   return text;
 }
 
-// The place of the module whose period or offset breaks the common divisor of those before it below the minimum.
+// Returns the place of the first module with whose period or offset the common divisor falls below the minimum.
 base::SourcePlace culprit(const CheckContext& context, const std::vector<PeriodicItem>& items, base::Nanos minimum) {
   std::int64_t divisor = 0;
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -137,7 +137,7 @@ base::SourcePlace culprit(const CheckContext& context, const std::vector<Periodi
   return {};
 }
 
-// Reports a basic period that is too short, or adjusts `items`. False: it stays too short.
+// Reports a basic period that is too short, or adjusts `items`. Returns false if it stays too short.
 bool check_basic_period(CheckContext& context, std::vector<PeriodicItem>& items) {
   const base::Nanos minimum = minimum_of(context.config);
   const base::Nanos basic = common_divisor(items, true);
@@ -160,7 +160,7 @@ bool check_basic_period(CheckContext& context, std::vector<PeriodicItem>& items)
   return false;
 }
 
-// LCM of all periods but that of `left_out`, no larger than `limit`; 0 beyond that.
+// Returns the LCM of all periods except that of `left_out`, or 0 if it exceeds `limit`.
 std::int64_t common_multiple(const std::vector<PeriodicItem>& items, std::int64_t left_out, std::int64_t limit) {
   std::int64_t multiple = 1;
   for (const PeriodicItem& item : items) {
@@ -177,7 +177,7 @@ std::int64_t common_multiple(const std::vector<PeriodicItem>& items, std::int64_
   return multiple;
 }
 
-// What makes the macro period long: the periods without which it would be shorter by the most.
+// Returns the periods that make the macro period long: those without which it would be shortest.
 std::string long_macro_hint(const CheckContext& context, const std::vector<PeriodicItem>& items) {
   constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
   std::set<std::int64_t> periods;
@@ -233,7 +233,7 @@ void check_macro_period(CheckContext& context, const std::vector<PeriodicItem>& 
   }
 }
 
-// Every band beside the one in the tick thread needs a priority level of the operating system on its core.
+// Every band except the one in the tick thread needs a priority level of the operating system on its core.
 void check_bands(CheckContext& context) {
   const Config& config = context.config;
   std::map<int, std::size_t> levels;
@@ -296,7 +296,8 @@ void check_load(CheckContext& context) {
   if (context.options.files) {
     find_sharing(context);
   } else if (uses_several_cores(context.config)) {
-    // A plan works without files; what they say is not judged, but decides who may run beside whom.
+    // A plan works without files; their errors are not reported, but their content decides which modules may run in
+    // parallel.
     std::vector<base::Diagnostic> ignored;
     CheckContext looking{context.config, context.options, context.result,
                          base::Diagnostics(context.config.file.string(), ignored), context.texts};

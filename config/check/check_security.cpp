@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of check_plant() that looks at the plant's keys.
+// Checks the keys of a plant, as a part of check_plant().
 
 #include <chrono>
 #include <cstdlib>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::days kSoon{30};
 
-// Returns the authority the board trusts; empty if that is not known.
+// Returns the authority that the board trusts; empty if unknown.
 std::string check_board(const Plant& plant, const std::string& board, bool runs_here, base::Diagnostics& report) {
   const keys::Instant now = keys::instant_now();
   const keys::KeyCheck check = keys::check_board_keys(keys_folder(plant, board), plant.name, board, now);
@@ -42,7 +42,7 @@ std::string check_board(const Plant& plant, const std::string& board, bool runs_
       report.error(plant.security_place, whose + "; indurop keys list shows what is there");
       break;
     case keys::KeyFault::NotNow:
-      // A board goes on with its own modules, the network comes back with new keys.
+      // A board continues to run its own modules; the network works again with new keys.
       if (runs_here) {
         report.warning(plant.security_place, whose + "; indurop keys renew " + board + ", or set the clock");
       } else {
@@ -50,7 +50,7 @@ std::string check_board(const Plant& plant, const std::string& board, bool runs_
       }
       break;
     case keys::KeyFault::Outdated:
-      // What boards say to each other is permitted by older ones, too.
+      // Older permissions also allow the traffic between boards.
       report.warning(plant.security_place, whose + ", so agents and other tools may be refused; indurop keys renew " +
                                                board + ", then copy permissions.p7s and identity.pem to the board");
       break;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Does the schedule hold, as far as the configuration says how long its modules execute at most.
+// Checks that the schedule is met, as far as the configuration has maximum execution times.
 
 #include <fmt/format.h>
 
@@ -22,14 +22,14 @@ using scheduler::WorstResponses;
 // wake-up of the tick thread itself likewise (docs/benchmarks.md).
 constexpr base::Nanos kTickCost{std::chrono::microseconds(5)};
 constexpr base::Nanos kWakeCost{std::chrono::microseconds(10)};
-constexpr base::Nanos kLookCost{std::chrono::microseconds(50)};  // who waits for a process looks at it so often
+constexpr base::Nanos kLookCost{std::chrono::microseconds(50)};  // polling interval of waits for a process
 
-// Modules of a board in the order of execution, and what each demands.
+// Modules of a board in the order of execution, and the demand of each.
 struct Order {
   std::vector<std::size_t> modules;  // indices into Config::modules
   std::vector<Demand> demands;
   std::vector<int> front;    // priority of the first module of its band
-  std::size_t periodic = 0;  // so many of them are before the event handler
+  std::size_t periodic = 0;  // number of modules before the event handler
 };
 
 class Times {
@@ -64,7 +64,7 @@ class Times {
   void add(std::size_t index, bool own_thread) {
     const Module& module = config_.modules[index];
     const bool sporadic = module.operation == scheduler::Operation::Sporadic;
-    // A sporadic module is taken to run once within its deadline at most.
+    // A sporadic module is assumed to run at most once within its deadline.
     const base::Nanos period = sporadic ? std::max(module.deadline / basic_, std::int64_t{1}) * basic_ : module.period;
     order_.modules.push_back(index);
     order_.demands.push_back({period, module.offset, module.wcet, own_thread});
@@ -103,7 +103,7 @@ class Times {
 
   [[nodiscard]] int core_of(const Module& module) const { return module.core >= 0 ? module.core : config_.core; }
 
-  // Which core each is on, and what it waits for there. Without that, as if all were on one.
+  // Sets the core of each module, and the modules it waits for there. Without this, all count as on one core.
   void place_on_cores() {
     for (const std::size_t i : order_.modules) {
       cores_.insert(core_of(config_.modules[i]));
@@ -123,7 +123,7 @@ class Times {
       demand.core = core_of(module);
       for (std::size_t k = 0; k < std::min(i, order_.periodic); ++k) {
         const Module& other = config_.modules[order_.modules[k]];
-        // Who waits for a band waits for all of it.
+        // A module that waits for a band waits for all of it.
         const bool told = config_.order == scheduler::CoreOrder::Total
                               ? order_.front[k] < order_.front[i]
                               : earlier[order_.modules[i]].contains(order_.modules[k]);
@@ -139,7 +139,7 @@ class Times {
     }
   }
 
-  // Whatever runs before it.
+  // An error whatever runs before the module.
   void refuse_impossible() {
     for (std::size_t i = 0; i < order_.modules.size(); ++i) {
       const Module& module = config_.modules[order_.modules[i]];
@@ -156,7 +156,7 @@ class Times {
     }
   }
 
-  // Of what runs behind a module that does not say how long nothing can be said.
+  // Nothing is known of modules that run after one without an execution time.
   void keep_known() {
     const auto unknown = std::find_if(order_.demands.begin(), order_.demands.end(),
                                       [](const Demand& demand) { return demand.execution == base::Nanos::zero(); });
@@ -174,19 +174,20 @@ class Times {
     for (Demand& demand : together) {
       demand.offset = {};
     }
-    // When an event comes is not known: with anything, so no offset helps what it may delay, or itself.
+    // The time of an event is unknown: it may coincide with any release, so no offset separates it from modules that it
+    // delays.
     const auto periodic = scheduler::worst_responses(
         std::span(after_base ? together : order_.demands).first(order_.periodic), basic_, cost_);
     const auto all = order_.periodic < together.size() ? scheduler::worst_responses(together, basic_, cost_) : periodic;
     if (context_.result.spreading && complete_) {
-      context_.result.spreading->busiest = periodic.busiest;  // with bands and all that waiting costs
+      context_.result.spreading->busiest = periodic.busiest;  // with bands and all costs of waiting
     }
     for (std::size_t i = 0; i < order_.modules.size(); ++i) {
       context_.result.timings[order_.modules[i]] = {true, i < order_.periodic ? periodic.worst[i] : all.worst[i]};
     }
   }
 
-  // Share of its processor of the modules up to this one in the order, and of the platform.
+  // Returns the processor share of the modules up to this one in the order, and of the platform.
   [[nodiscard]] double share_up_to(std::size_t last) const {
     double share = context_.result.dispatch_share / static_cast<double>(cores_.size());
     for (std::size_t i = 0; i <= last; ++i) {
@@ -232,9 +233,9 @@ class Times {
   base::Nanos basic_{};
   scheduler::DispatchCost cost_;
   Order order_;
-  std::set<int> cores_;  // used; -1: whichever the node chooses
+  std::set<int> cores_;  // used cores; -1: chosen by the node
   bool cores_known_ = true;
-  bool complete_ = false;  // all periodic modules say how long they execute
+  bool complete_ = false;  // all periodic modules have a known execution time
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables with too many users or too few.
+// Reports variables with too many or too few users.
 
 #include <algorithm>
 

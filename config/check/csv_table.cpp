@@ -59,7 +59,7 @@ class Reader {
     problems_.error({static_cast<int>(at.line), static_cast<int>(at.column)}, text);
   }
 
-  // True if a line without cells was in front.
+  // Returns true if the text began with a line without cells.
   bool skip_empty_line(std::string_view& text) {
     const std::size_t end = text.find('\n');
     const std::string_view content = base::trimmed(text.substr(0, end));

@@ -23,7 +23,7 @@ class Components {
       }
     }
   }
-  // Of each node the smallest one of its component.
+  // Returns for each node the smallest one of its component.
   [[nodiscard]] std::vector<std::size_t> smallest() const {
     std::vector<std::size_t> smallest;
     smallest.reserve(nodes_.size());
@@ -35,11 +35,11 @@ class Components {
 
  private:
   struct Node {
-    std::size_t found = 0;  // as the how many-th, from 1
-    std::size_t low = 0;    // the least `found` that leads back
+    std::size_t found = 0;  // number in the order of discovery, from 1
+    std::size_t low = 0;    // smallest `found` reachable from it
     std::size_t edge = 0;   // to be followed next
     std::size_t group = 0;
-    bool open = false;  // found, its component is not complete
+    bool open = false;  // found, but its component is not complete
   };
 
   void enter(std::size_t node) {
@@ -93,8 +93,8 @@ class Components {
 }  // namespace
 
 Age age_between(const Release& writer, const Release& reader) {
-  // The distances (reader - writer) modulo the writer's period take every value congruent to the difference of the
-  // offsets modulo the common divisor of both periods.
+  // The time differences (reader - writer) modulo the writer's period take every value congruent to the difference of
+  // the offsets modulo the common divisor of both periods.
   const base::Nanos common{std::gcd(writer.period.count(), reader.period.count())};
   base::Nanos rest = (reader.offset - writer.offset) % common;
   rest += rest < base::Nanos::zero() ? common : base::Nanos::zero();
@@ -104,7 +104,7 @@ Age age_between(const Release& writer, const Release& reader) {
   age.meet = rest == base::Nanos::zero();
   if (age.meet) {
     age.meetings = static_cast<std::uint64_t>(writer.period / common);
-    if (reader.position < writer.position) {  // where both are released, the value of the run before is read
+    if (reader.position < writer.position) {  // where both are released, the reader gets the value of the previous run
       age.least = writer.period == common ? writer.period : common;
       age.most = writer.period;
     }

@@ -27,7 +27,7 @@ void add(const std::optional<schema::Place>& place, std::vector<const schema::Va
   }
 }
 
-// What a node would say of the recorded values when it starts.
+// Reports the errors in recorded values that a node would report at its start.
 void check_csv(const BoundDevice& bound, CheckContext& context) {
   const IoDevice& device = bound.device;
   std::error_code ignored;
@@ -63,7 +63,7 @@ std::vector<std::filesystem::path> io_files_of(const Module& module, const std::
   std::vector<std::filesystem::path> files;
   const auto config = io_config_of(module, folder);
   const auto file = schema::read_module_file(module.file);
-  // What the board has itself is not here to be asked; then the name counts.
+  // Files of the board itself cannot be read here; then the name decides.
   const bool is_io = file ? is_io_module(file.value()) : module.file.filename() == "libiodispat.so";
   if (!config || !is_io || std::filesystem::path(find_property(module, kIoConfigProperty)->value).is_absolute()) {
     return files;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of ioconfig.xml and the variables of the node: is there such a variable, and can it hold the value.
+// Binds the points of ioconfig.xml to variables of the node: the variable must exist and be able to hold the value.
 
 #include "config/check/io_binding.h"
 
@@ -51,7 +51,7 @@ class Binder {
     return std::move(found).value();
   }
 
-  // A variable that only the I/O module writes; a part that two would write at once is nobody's.
+  // Reserves a variable for the I/O module as its writer; an error if two points write the same part.
   void claim(const schema::Place& part, const std::string& as_written, base::SourcePlace place) {
     const auto [first, is_new] = claimed_.try_emplace({part.variable->name, part.offset}, place);
     if (!is_new) {
@@ -104,7 +104,7 @@ class Binder {
     return type.fields.empty() ? "" : ", " + base::in_quotes(name + "." + type.fields.front().name);
   }
 
-  // in="AXIS1_IN": one point for each object the struct has a field for.
+  // in="AXIS1_IN": adds one point for each object for which the struct has a field.
   void add_struct(const std::string& name, base::SourcePlace place, bool output, BoundDevice& into) {
     if (name.empty()) {
       return;

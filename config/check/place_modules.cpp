@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <cores>: modules without a <core> get one, and if nothing else helps another offset or place in the order.
+// <cores>: assigns a core to modules without a <core>, and if nothing else helps a new offset or place in the order.
 
 #include <fmt/format.h>
 
@@ -39,7 +39,7 @@ class Placer {
   }
 
  private:
-  // The node's own core first. False: there are too few, which is reported.
+  // Finds the cores, the node's own first. Returns false if there are too few, which is reported.
   bool find_cores() {
     const std::vector<int> usable = usable_cores();
     const auto wanted = config_.cores->most > 0 ? static_cast<std::size_t>(config_.cores->most)
@@ -52,7 +52,7 @@ class Placer {
       return false;
     }
     cores_.resize(wanted);
-    std::iota(cores_.begin(), cores_.end(), 0);  // of another machine
+    std::iota(cores_.begin(), cores_.end(), 0);  // cores of another machine
     if (here && wanted <= usable.size()) {
       std::copy_n(usable.rbegin(), wanted, cores_.begin());
     }
@@ -71,13 +71,13 @@ class Placer {
       }
     }
   }
-  // 0: not known.
+  // Returns 0 if the time is not known.
   [[nodiscard]] base::Nanos time_of(const Module& module) const {
     const auto measured = times_.find(module.name);
     return module.wcet > base::Nanos::zero() || measured == times_.end() ? module.wcet : measured->second;
   }
 
-  // Time of a module that does not say it: what the others take on average.
+  // Returns the time assumed for modules without one: the average of the others.
   [[nodiscard]] base::Nanos assumed_time() const {
     base::Nanos sum{};
     std::int64_t known = 0;
@@ -130,7 +130,7 @@ class Placer {
       if (first != place.end() && second != place.end()) {
         problem.modules[second->second].shares.push_back(first->second);
       } else if (first != place.end() || second != place.end()) {
-        // With a sporadic module, which is on the node's core.
+        // A pair with a sporadic module, which is on the node's core.
         Placeable& periodic = problem.modules[first != place.end() ? first->second : second->second];
         periodic.core = periodic.core < 0 ? 0 : periodic.core;
       }
@@ -147,7 +147,7 @@ class Placer {
 
   [[nodiscard]] const Module& at(std::uint32_t place) const { return config_.modules[order_[place]]; }
 
-  // Others on the same core that it shares data with.
+  // Returns the modules on the same core with which it shares data.
   [[nodiscard]] std::string company(const scheduler::PlacementProblem& problem, const scheduler::Placement& placement,
                                     std::uint32_t place) const {
     std::vector<std::string> with;
@@ -232,7 +232,7 @@ class Placer {
   CheckResult& result_;
   std::vector<int> cores_;
   CheckOptions::Times times_;
-  std::vector<std::size_t> order_;  // periodic modules as they execute
+  std::vector<std::size_t> order_;  // periodic modules in order of execution
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How old a value is when a module of another board reads it: at most a cycle of the writer plus the way through the
-// network, because the boards' periods begin at times nobody knows.
+// Age of a value when a module of another board reads it: at most one cycle of the writer plus the network transfer,
+// because the boards' periods are not synchronized.
 
 #include <algorithm>
 #include <tuple>
@@ -12,7 +12,7 @@ namespace indurop::config {
 namespace {
 
 bool is_periodic(const Module& module) {
-  constexpr base::Nanos kCounted = std::chrono::hours(24 * 366);  // sums of a few stay representable
+  constexpr base::Nanos kCounted = std::chrono::hours(24 * 366);  // limit that avoids overflow of sums
   return module.operation == scheduler::Operation::Periodic && module.period > base::Nanos::zero() &&
          module.period < kCounted;
 }
@@ -37,7 +37,7 @@ class AgeCheck {
   }
 
  private:
-  // Variables on their way from one module to another at one rate.
+  // Variables that pass from one module to another at one rate.
   struct Flow {
     User writer;
     User reader;
@@ -50,7 +50,7 @@ class AgeCheck {
     return found == maxage_.end() ? base::Nanos::zero() : found->second;
   }
 
-  // Between two sendings the value must not become invalid.
+  // Checks that the value does not become invalid between two transmissions.
   void check_rate(const Route& route) {
     const base::Nanos most = maxage(route);
     if (most == base::Nanos::zero()) {
@@ -84,7 +84,7 @@ class AgeCheck {
       if (writer.board != route.owner || !is_periodic(from)) {
         continue;
       }
-      // Values leave with the first cycle of the writer after `every` has passed.
+      // A value is sent with the first cycle of the writer after `every` has passed.
       const base::Nanos late = route.every % from.period;
       const base::Nanos sent =
           std::max(from.period, late > base::Nanos::zero() ? route.every - late + from.period : route.every);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who owns what, and where it has to travel.
+// Determines the owners of variables and the boards to which they are sent.
 
 #include <algorithm>
 #include <optional>
@@ -48,7 +48,7 @@ class RouteFinder {
   }
 
  private:
-  // The board whose value counts; empty: there is none, or an error says why.
+  // Returns the board that owns the variable; nothing if there is none, or after an error.
   std::optional<std::size_t> owner_of(const std::string& name, const Users& all, const VariableRule* rule) {
     Users users = all;
     std::erase_if(users.writers, [this](const User& writer) { return uses_.module(writer).is_standby; });
@@ -68,7 +68,7 @@ class RouteFinder {
     }
     if (writing.empty() && !users.readers.empty() && rule != nullptr &&
         rule->external == VariableRule::External::Write) {
-      return users.readers.front().board;  // where tools set it
+      return users.readers.front().board;  // tools set it there
     }
     return writing.size() == 1 ? std::optional<std::size_t>(*writing.begin()) : std::nullopt;
   }
@@ -106,7 +106,7 @@ class RouteFinder {
                            : "; write owner=\"" + uses_.board(writers.front()).name + "\"";
   }
 
-  // What boards that do not own the variable write to it.
+  // Reports writes to the variable by boards that do not own it.
   void report_lost_writes(const std::string& name, const Users& users, const std::vector<User>& writers,
                           const VariableRule& rule) {
     const std::set<std::size_t> reading = boards_of(users.readers);
@@ -149,12 +149,12 @@ class RouteFinder {
     }
   }
 
-  // Rules that change nothing were meant for another variable.
+  // Reports rules without effect, which were probably intended for another variable.
   void check_rules_used() {
     for (const VariableRule& rule : context_.plant.variables) {
       const bool shown = context_.plant.external_domain && !context_.plant.types.empty();
       if (rule.external != VariableRule::External::Read || (shown && rule.every > base::Nanos::zero())) {
-        continue;  // it is for tools of others
+        continue;  // a rule for third-party tools
       }
       const auto found = uses_.variables().find(rule.name);
       if (found == uses_.variables().end()) {
@@ -168,7 +168,7 @@ class RouteFinder {
     }
   }
 
-  // What modules read by names that are not known does not come to their board.
+  // Variables that modules read by unknown names are not sent to their board.
   void check_unknown_readers() {
     for (const User& user : uses_.unknown_readers()) {
       std::vector<std::string> missing;
@@ -194,7 +194,7 @@ class RouteFinder {
   std::map<std::string, std::size_t>& owners_;
   std::map<std::string, std::vector<std::size_t>>& standbys_;
   std::set<std::string> travelling_;
-  std::set<std::pair<std::string, std::size_t>> arriving_;  // on which boards
+  std::set<std::pair<std::string, std::size_t>> arriving_;  // and the boards they are sent to
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which modules have to keep their order, because data flows between them or <after> says so. All others may run side
-// by side on several cores.
+// Determines which modules must keep their order, because data flows between them or <after> requires it. All others
+// may run in parallel on several cores.
 
 #include <algorithm>
 #include <filesystem>
@@ -76,7 +76,7 @@ class Finder {
     }
   }
 
-  // What is in such a module cannot be seen: with everything there may be something.
+  // The accesses of such a module are unknown: it may share data with any other.
   [[nodiscard]] bool unreadable(std::size_t module) const {
     std::error_code ignored;
     return result_.facts[module].file.machine == 0 && (config_.modules[module].type == scheduler::ModuleType::Thread ||
@@ -101,7 +101,7 @@ class Finder {
     }
   }
 
-  // Whose functions a module calls is not in its file.
+  // A module's file does not list whose functions it calls.
   void add_functions() {
     const auto imports = [&](std::size_t module, const char* symbol) {
       const auto& names = result_.facts[module].file.imports;

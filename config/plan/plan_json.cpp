@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan for programs: JSON and CSV. Names and order of the fields are a promise, see docs/report.md.
+// The plan for programs: JSON and CSV. Names and order of the fields are stable, see docs/report.md.
 
 #include "base/csv_row.h"
 #include "base/json.h"
@@ -23,7 +23,7 @@ std::string text(const Json& value) {
   return value.dump();
 }
 
-// Of the modules that say how long they execute; nothing if none does.
+// Returns the times of modules with a known execution time; empty if there are none.
 std::string times_json(const Config& config, const CheckResult& check) {
   if (check.dispatch_share == 0) {
     return {};
@@ -48,7 +48,7 @@ std::string times_json(const Config& config, const CheckResult& check) {
          lines + "\n  ]";
 }
 
-// Of <cores>.
+// Returns the result of <cores>.
 std::string cores_json(const Config& config, const CheckResult& check) {
   if (!check.spreading) {
     return {};
@@ -68,7 +68,7 @@ std::string cores_json(const Config& config, const CheckResult& check) {
   return ",\n  \"busiest_ns\": " + std::to_string(spreading.busiest.count()) + ",\n  \"cores\": [" + lines + "\n  ]";
 }
 
-// Everything between the braces.
+// Returns everything between the braces.
 std::string plan_fields(const Config& config, const CheckResult& check) {
   const scheduler::PeriodTable& table = check.table;
   std::string plan = "\n  \"basic_period_ns\": " + std::to_string(table.basic_period.count()) +
@@ -91,7 +91,7 @@ std::string plan_fields(const Config& config, const CheckResult& check) {
   return plan;
 }
 
-// `first`: what every line begins with.
+// `first`: beginning of every line.
 std::string csv_lines(const Config& config, const CheckResult& check, const std::string& first) {
   std::string text;
   for (std::size_t i = 0; i < check.table.slots.size(); ++i) {

@@ -21,8 +21,8 @@ constexpr int kLaneHeight = 36;
 constexpr int kBoxHeight = 22;
 constexpr int kGroupGap = 14;
 constexpr int kShortestSlot = 100;
-constexpr int kMostWidth = 1600;         // of all slots together; more basic periods are left out
-constexpr std::size_t kWantedSlots = 5;  // so many should be seen however many modules there are
+constexpr int kMostWidth = 1600;         // of all slots together; further basic periods are left out
+constexpr std::size_t kWantedSlots = 5;  // minimum number of visible slots, whatever the number of modules
 constexpr std::size_t kMostSlots = 60;
 constexpr std::size_t kLongestLabel = 28;
 constexpr std::array<const char*, 7> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
@@ -85,7 +85,7 @@ class Diagram {
       busiest = std::max(busiest, slot.items.size());
     }
     const int boxes = static_cast<int>(busiest + check_.sporadic.size()) + (check_.sporadic.empty() ? 0 : 1);
-    const int rest = check_.non_real.empty() ? 1 : 2;  // what is left of a basic period, in boxes
+    const int rest = check_.non_real.empty() ? 1 : 2;  // rest of a basic period, in boxes
     const int slots = static_cast<int>(std::clamp<std::size_t>(check_.table.slots.size(), 1, kWantedSlots));
     box_width_ = std::clamp(kMostWidth / (slots * (boxes + rest)), 4, 26);
     slot_width_ = std::max(kShortestSlot, box_width_ * (boxes + rest) + 8);
@@ -209,7 +209,7 @@ class Diagram {
     svg.box(x, y, width, kBoxHeight, kEventFill, kEvent, "4 3", 1.5);
   }
 
-  // Light line from one box down or up to the next: the way of the processor.
+  // Draws a light line from one box down or up to the next: the order of execution on a core.
   static void step(base::Svg& svg, int x, int& from_y, int to_y) {
     if (from_y != 0) {
       svg.line(x, std::min(from_y, to_y) + kBoxHeight / 2, x, std::max(from_y, to_y) + kBoxHeight / 2, "#9AA5B1", 1,
@@ -220,7 +220,7 @@ class Diagram {
 
   void draw_slot(base::Svg& svg, std::size_t number) const {
     const scheduler::Slot& slot = check_.table.slots[number];
-    // Where each core is: its next box, and the lane of its last one.
+    // The drawing position of each core: its next box, and the lane of its last one.
     struct Way {
       int x;
       int y = 0;

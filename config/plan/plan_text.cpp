@@ -13,7 +13,7 @@
 namespace indurop::config {
 namespace {
 
-// Up to this many basic periods every one has its own line; beyond, equal neighbours share one.
+// Up to this number of basic periods each has its own line; above it, equal neighbours share one.
 constexpr std::uint64_t kFullTable = 64;
 constexpr std::size_t kMostRows = 400;
 constexpr const char* kGap = "  ";
@@ -30,7 +30,7 @@ class TextTable {
 
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
 
-  // Columns that are empty in every row are left out.
+  // Leaves out columns that are empty in every row.
   [[nodiscard]] std::string text() const {
     std::vector<std::size_t> widths;
     std::vector<std::string> heading;
@@ -106,7 +106,7 @@ std::string ends_within(const Timing& timing) {
                                                                : base::format_duration(timing.worst);
 }
 
-// "Takes 42.0 % of a core: modules 30.0 %, ticks 12.0 %".
+// Returns "Takes 42.0 % of a core: modules 30.0 %, ticks 12.0 %".
 std::string load(const Config& config, const CheckResult& check) {
   if (check.dispatch_share == 0) {
     return {};
@@ -147,7 +147,7 @@ std::string modules_table(const Config& config, const CheckResult& check) {
   return text.text();
 }
 
-// Modules that satisfy `wanted`; empty if none does.
+// Returns the modules that satisfy `wanted`; empty if none does.
 template <class Wanted>
 std::string list(const Config& config, const std::vector<std::size_t>& modules, const char* separator, Wanted wanted) {
   std::string text;

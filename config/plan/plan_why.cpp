@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan explained: which core a module is on and why, and what waits for what on another core.
+// Explains the plan: which core a module is on and why, and which modules wait for others on another core.
 
 #include <fmt/format.h>
 
@@ -58,7 +58,7 @@ std::string explain_spreading(const Config& config, const CheckResult& check, co
   return text;
 }
 
-// Between modules of different cores.
+// Explains waiting between modules on different cores.
 std::string explain_waiting(const Config& config, const CheckResult& check) {
   std::string text;
   for (const Sharing& sharing : check.sharing) {

@@ -10,7 +10,7 @@
 namespace indurop::config {
 namespace {
 
-// Empty: `module` comes after `earlier` in the order of execution.
+// Returns empty if `module` comes after `earlier` in the order of execution.
 std::string objection(const Config& config, const Module& module, const std::string& name) {
   const auto earlier = std::find_if(config.modules.begin(), config.modules.end(),
                                     [&](const Module& other) { return other.name == name; });

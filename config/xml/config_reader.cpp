@@ -127,8 +127,8 @@ class ConfigReader {
     }
   }
 
-  // A module without <name> is called like its file, "cntr1" for ./cntr1.so as in Table 3; the full file name where
-  // that would not tell two modules apart.
+  // A module without <name> is named after its file, "cntr1" for ./cntr1.so as in Table 3; the full file name is used
+  // where two modules would have the same name.
   void name_modules() {
     std::map<std::string, int> stems;
     for (const Module& m : config_.modules) {

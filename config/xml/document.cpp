@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only place of this room with the XML library.
+// The only file of config/ that uses the XML library.
 
 #include "config/xml/document.h"
 

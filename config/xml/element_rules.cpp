@@ -9,7 +9,7 @@
 namespace indurop::config {
 namespace {
 
-// Editors add these to find the schema; they say nothing to us.
+// Editors add these attributes to find the schema; they have no meaning for InduRoP.
 bool is_schema_attribute(const std::string& name) {
   return name == "xmlns" || name.starts_with("xmlns:") || name.starts_with("xsi:");
 }

@@ -111,7 +111,7 @@ class PointReader {
       report_.error(point_.at_place, fmt::format("at: a {} does not fit behind {} {}, the last is 65535",
                                                  name_of(point_.type), name_of(address.table), address.number));
     }
-    // A client writes coils and holding registers of its server: our outputs, or a panel's to our inputs.
+    // The client writes coils and holding registers of its server: this node its outputs, a panel the node's inputs.
     const bool written_over_the_wire = point_.output != (device_.driver == IoDriver::ModbusServer);
     if (written_over_the_wire && is_read_only(address.table)) {
       report_.error(point_.at_place, fmt::format("at: {} cannot be written; {} are coil or holding",
@@ -196,7 +196,7 @@ class PointReader {
   IoPoint point_;
 };
 
-// Places of a point, for overlaps: bits, so that single bits of one register are apart.
+// The bits that a point occupies, to find overlaps; in bits, so that single bits of one register are distinct.
 struct Span {
   std::uint32_t first;
   std::uint32_t end;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The root of ioconfig.xml and its devices.
+// Reads the root of ioconfig.xml and its devices.
 
 #include "config/xml/io_reader.h"
 
@@ -35,7 +35,7 @@ class DeviceReader {
   DeviceReader(const base::Element& element, const std::filesystem::path& folder, base::Diagnostics& report)
       : element_(element), folder_(folder), report_(report), attributes_(element, report) {}
 
-  // Empty if not even the driver is known, which says what everything else means.
+  // Returns nothing if the driver is unknown, because it determines the meaning of everything else.
   std::optional<IoDevice> read() {
     device_.place = element_.place;
     if (!read_driver()) {
@@ -92,7 +92,7 @@ class DeviceReader {
 
   void read_exchange() {
     constexpr std::int64_t kMostGap = 100;
-    constexpr base::Nanos kMostTimeout = 2 * kSecond;  // the node waits no longer than 3 s for its modules to stop
+    constexpr base::Nanos kMostTimeout = 2 * kSecond;  // the node waits at most 3 s for its modules to stop
     device_.unit = read_unit(attributes_, device_.driver).value_or(device_.unit);
     device_.gap = static_cast<int>(attributes_.integer("gap", 0, kMostGap).value_or(0));
     device_.cycle = attributes_.duration("cycle", kMillisecond, kMinute).value_or(device_.cycle);

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// lib/, lib64/ and lib/x86_64-linux-gnu/ beside bin/: of the installation or the build tree that this program is of.
+// Returns lib/, lib64/ and lib/x86_64-linux-gnu/ next to bin/ in the installation or build tree of this program.
 std::vector<fs::path> library_folders() {
   const fs::path prefix = base::program_folder().parent_path();
   std::vector<fs::path> folders;
@@ -29,7 +29,7 @@ std::vector<fs::path> library_folders() {
   return folders;
 }
 
-// Empty: it is not in the folder.
+// Returns an empty path if it is not in the folder.
 fs::path look_in(const fs::path& folder, const std::string& text) {
   for (const std::string& name : {text, text + ".so", "lib" + text + ".so", text + ".exe"}) {
     std::error_code error;

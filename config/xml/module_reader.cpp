@@ -78,7 +78,7 @@ class ModuleReader {
     (this->*found->read)(child);
   }
 
-  // False: not one of the words, which is reported.
+  // Returns false if the text is not one of the words, which is reported.
   template <class T>
   bool choose(const base::Element& element, const std::vector<std::string>& words, std::initializer_list<T> values,
               T& into) {

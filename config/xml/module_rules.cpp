@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which elements a periodic, sporadic or non-real-time thread or process needs, and which say nothing there.
+// Rules for the elements that a periodic, sporadic or non-real-time thread or process needs, and those without effect.
 
 #include <initializer_list>
 

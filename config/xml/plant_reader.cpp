@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The manifest of a plant from its elements.
+// Reads the manifest of a plant from its elements.
 #include "config/xml/plant_reader.h"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ class PlantReader {
   }
 
  private:
-  // Who keeps strangers out of the plant does not let them in here by leaving something out.
+  // A plant with keys must not become open to other participants because an attribute is missing.
   void keep_secured() {
     if (!plant_.external_domain) {
       return;
@@ -121,7 +121,7 @@ class PlantReader {
     }
   }
 
-  // Empty after an error.
+  // Returns empty after an error.
   std::string checked_name(const base::Attribute& name, const char* whose) {
     if (is_node_name(name.value)) {
       return name.value;
@@ -227,7 +227,7 @@ class PlantReader {
   FirstPlaces given_;
   FirstPlaces variables_;
   PlantPlaces places_;
-  std::set<std::string> misspelt_;  // boards in which something was probably meant as <module>
+  std::set<std::string> misspelt_;  // boards with an unknown element that was probably intended as <module>
   bool boards_given_ = false;
 };
 

@@ -22,7 +22,7 @@ std::string in_lower_case(std::string text) {
   return text;
 }
 
-// "a-1.cell.local": labels of letters, digits, '-' and '_'.
+// Checks a host name "a-1.cell.local": labels of letters, digits, '-' and '_'.
 bool is_host_name(std::string_view name) {
   constexpr std::size_t kLongest = 253;
   constexpr std::size_t kLongestLabel = 63;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of POSIX signals a legacy program can be woken with, and plain numbers.
+// Names and numbers of POSIX signals that can wake a legacy program.
 
 #include <csignal>
 
