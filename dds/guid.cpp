@@ -40,7 +40,7 @@ bool is_marked(Handle reader, InstanceHandle publication, std::string_view mark)
 }
 
 bool is_numbered_by(const Guid& participant, std::string_view subject) noexcept {
-  // DDS Security 1.1, 9.3.3: a bit that is set, then the first 47 of the digest.
+  // DDS Security 1.1, 9.3.3: one set bit, then the first 47 bits of the digest.
   constexpr std::size_t kBytes = 6;
   std::uint64_t number = 0;
   std::uint64_t digest = 0;

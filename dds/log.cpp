@@ -22,7 +22,7 @@ Log& log() {
 }
 
 void sink(void* /*context*/, const dds_log_data_t* data) {
-  // Traces are off; a message kept is a copy of at most one line.
+  // DDS traces are off; a stored message is one line of at most this length.
   constexpr std::size_t kLongest = 240;
   std::string_view text(data->message, data->size);
   text = text.substr(0, text.find_first_of("\r\n"));

@@ -18,7 +18,7 @@ using Identifier = DDS_XTypes_TypeIdentifier;
 using Object = DDS_XTypes_TypeObject;
 using Found = Result<schema::Type, base::Problem>;
 
-constexpr int kDeepest = 32;  // structs in structs; whoever publishes more means no good
+constexpr int kDeepest = 32;  // nested structs; deeper types are considered hostile
 constexpr std::uint64_t kLargest = 1U << 26U;
 
 struct FreeObject {
@@ -31,7 +31,7 @@ std::optional<schema::Base> base_of(std::uint8_t kind) {
       return schema::Base::Bool;
     case DDS_XTypes_TK_BYTE:
       return schema::Base::UInt8;
-    case DDS_XTypes_TK_CHAR8:  // int8 looks the same
+    case DDS_XTypes_TK_CHAR8:  // int8 is announced in the same way
       return schema::Base::Char;
     case DDS_XTypes_TK_INT16:
       return schema::Base::Int16;
@@ -54,7 +54,7 @@ std::optional<schema::Base> base_of(std::uint8_t kind) {
   }
 }
 
-// Turns identifiers into types, outermost first.
+// Converts identifiers to types, outermost first.
 class Reader {
  public:
   Reader(Handle participant, std::int64_t timeout_ns) : participant_(participant), timeout_ns_(timeout_ns) {}

@@ -13,7 +13,7 @@ struct DdsFree {
 };
 using DdsText = std::unique_ptr<char, DdsFree>;
 
-// Said by anybody, and shown on terminals: a name, or nothing.
+// The text comes from any participant and is shown on terminals: returns a plain name, or nothing.
 std::string plain_name(const DdsText& told) {
   constexpr std::size_t kLongest = 64;
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";

@@ -11,7 +11,7 @@ constexpr std::uint32_t kLocated = DDS_OP_ADR;
 constexpr std::uint32_t kArray = DDS_OP_TYPE_ARR;
 constexpr std::uint32_t kFourBytes = 2U << DDS_OP_FLAG_SZ_SHIFT;
 
-// A kind of value as DDS says it of one and, elsewhere in the word, of the elements of an array.
+// The DDS code of a kind of value: for a single one, and, elsewhere in the word, for the elements of an array.
 struct Kind {
   std::uint32_t value = 0;
   std::uint32_t flags = 0;
@@ -90,7 +90,7 @@ void PlainType::add(const schema::Type& type, std::uint32_t offset) {
   }
 }
 
-// `count` 0: no array.
+// `count` 0: not an array.
 void PlainType::add_plain(const schema::Type& type, std::uint32_t offset, std::uint32_t count) {
   const Kind kind = kind_of(type.base);
   const bool text = type.base == schema::Base::Text;

@@ -32,7 +32,7 @@ std::vector<Publications::News> Publications::take() {
   std::array<dds_sample_info_t, kAtOnce> infos{};
   for (;;) {
     samples[0] = nullptr;
-    // Read, not taken: types are looked up from it later.
+    // Read, not taken: types are later looked up in this reader.
     const int count = dds_read_mask(reader_.get(), samples.data(), infos.data(), kAtOnce, kAtOnce, kNews);
     if (count <= 0) {
       return news;
@@ -54,7 +54,8 @@ std::vector<Publications::News> Publications::take() {
 
 bool Publications::with(const Publication& publication,
                         const std::function<void(dds_builtintopic_endpoint_t&)>& use) const {
-  // As large as in take(): DDS fills in what it lent this reader once, however little is asked for now.
+  // As large as in take(): DDS fills all memory that it loaned to this reader before, even if fewer samples are
+  // requested.
   std::array<void*, kAtOnce> samples{};
   std::array<dds_sample_info_t, kAtOnce> infos{};
   const int count =

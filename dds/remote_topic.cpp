@@ -9,11 +9,11 @@
 namespace indurop::dds {
 namespace {
 
-constexpr std::int64_t kTypeNs = 500'000'000;       // for the answer to a question about a type
-constexpr std::int32_t kDepth = 64;                 // values that may come between two looks
-constexpr std::uint64_t kLargestKnown = 1U << 22U;  // what a board tells is not more than this
+constexpr std::int64_t kTypeNs = 500'000'000;       // timeout of a request for a type
+constexpr std::int32_t kDepth = 64;                 // maximum number of values between two polls
+constexpr std::uint64_t kLargestKnown = 1U << 22U;  // types announced by a board are not larger
 
-// What the publisher offers, no more: with less, nothing would match.
+// Requests only the QoS that the publisher offers: otherwise nothing would match.
 Qos reader_qos(const dds_builtintopic_endpoint_t& publication) {
   dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT;
   dds_duration_t block = 0;
@@ -93,7 +93,7 @@ void RemoteTopic::take(const std::function<void(const Guid& from, std::span<cons
     auto sender = senders_.find(info.publication);
     if (sender == senders_.end()) {
       const auto participant = participant_of(reader_.get(), info.publication);
-      // Who is gone already cannot be asked any more; what he said last is nobody's.
+      // A participant that has gone cannot be looked up any more; its last values are discarded.
       if (!participant) {
         return;
       }

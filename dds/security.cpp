@@ -54,7 +54,7 @@ fs::path security_plugins() {
   ::dl_iterate_phdr(&note_library, &loaded);
   std::error_code ignored;
   const fs::path folder = fs::path(loaded).parent_path();
-  // Debian has a folder for the plugins named after the library's version, Cyclone's own installation has none.
+  // Debian has a plugin folder named after the library's version, Cyclone's own installation has none.
   std::vector<fs::path> places{folder};
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     if (entry.path().filename().string().starts_with("libddsc") && entry.is_directory(ignored)) {

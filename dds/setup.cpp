@@ -18,21 +18,21 @@
 namespace indurop::dds {
 namespace {
 
-constexpr int kParticipantsPerHost = 64;  // boards and tools of one host, when ports are tried one by one
+constexpr int kParticipantsPerHost = 64;  // boards and tools on one host, if ports are tried one after another
 
-// On one host, too, multicast finds the others: one message reaches all of them, instead of one for each port that
-// somebody might have. But who names a peer there, as programs of others do, knows nothing of multicast on loopback.
+// Multicast discovery is also used on one host: one message reaches all participants, instead of one for each possible
+// port. But a third-party program that names a peer there cannot use multicast on loopback.
 bool found_by_multicast(const NetworkSettings& settings) {
   return settings.multicast && !(settings.one_host && settings.known_ports);
 }
 
 std::string network(const NetworkSettings& settings, const std::string& interface_name) {
   const bool multicast = found_by_multicast(settings);
-  // Loopback can do it, but does not say so.
+  // Loopback supports multicast, but does not report it.
   std::string text =
       fmt::format("<Interfaces><NetworkInterface name=\"{}\"{}/></Interfaces>", base::xml_text(interface_name),
                   multicast && interface_name == "lo" ? " multicast=\"true\"" : "");
-  // Multicast finds the other boards; data goes to those that read it.
+  // Multicast finds the other boards; data is sent only to boards that read it.
   text += fmt::format("<AllowMulticast>{}</AllowMulticast>", multicast ? "spdp" : "false");
   return "<General>" + text + "</General>";
 }
@@ -60,7 +60,7 @@ std::string discovery(const NetworkSettings& settings) {
 
 std::string threads(const NetworkSettings& settings) {
   std::string text;
-  // Where the process may use it only: else Cyclone ends the whole process.
+  // Only if the process has the permission: otherwise Cyclone ends the whole process.
   const std::string realtime =
       settings.fifo_priority > 0
           ? fmt::format("<Scheduling><Class>realtime</Class><Priority>{}</Priority></Scheduling>",
@@ -100,7 +100,7 @@ std::string quick_repair(std::size_t others) {
 
 std::string domain_configuration(const NetworkSettings& settings, const std::string& interface_name) {
   return network(settings, interface_name) + discovery(settings) + threads(settings) + kSizes +
-         // One receive thread: with more, ending can hang, and none could get a priority.
+         // One receive thread: with more, shutdown can hang, and none could get a priority.
          "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>" +
          (settings.known_ports && settings.security.on() ? "" : quick_repair(settings.others)) +
          // Files: sockets that hold what a receiver has asked for (deploy_link.h), and no limit for senders below that.
@@ -129,7 +129,7 @@ Result<Joined, base::Problem> join_network(const NetworkSettings& settings) {
   }
   const Qos qos(dds_create_qos());
   if (!settings.board.empty()) {
-    dds_qset_entity_name(qos.get(), settings.board.c_str());  // for tools of DDS, and for other releases
+    dds_qset_entity_name(qos.get(), settings.board.c_str());  // for DDS tools and other releases
   }
   Entity participant(dds_create_participant(id, qos.get(), nullptr));
   if (!participant.ok()) {

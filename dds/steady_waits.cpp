@@ -13,7 +13,7 @@
 
 extern "C" {
 
-// False: nobody signalled in time.
+// Returns false on a timeout.
 [[gnu::visibility("default")]] bool ddsrt_cond_waitfor(ddsrt_cond_t* cond, ddsrt_mutex_t* mutex,
                                                        dds_duration_t reltime) {
   if (reltime == DDS_INFINITY) {

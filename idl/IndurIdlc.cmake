@@ -2,8 +2,10 @@
 include_guard(GLOBAL)
 
 # indurop_idlc(<target> [STATIC] FILES a.idl ... [INCLUDES folder ...] [PREFIX folder])
-# Runs Cyclone DDS's idlc on each file and builds the library <target> (shared, unless STATIC) of the C types and topic descriptors.
-# Of each <stem>.idl its users include <stem.h>, with PREFIX <folder/stem.h>. The files may be generated in the same directory.
+# Runs Cyclone DDS's idlc on each file and builds the library <target> (shared, unless STATIC) of the C
+# types and topic descriptors.
+# For each <stem>.idl, users of the library include <stem.h>, with PREFIX <folder/stem.h>. The files may be
+# generated in the same directory.
 function(indurop_idlc target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "STATIC" "PREFIX" "FILES;INCLUDES")
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_FILES)

@@ -9,7 +9,7 @@
 namespace indurop::io {
 namespace {
 
-constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15ULL;  // makes any seed a good one
+constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15ULL;  // makes any seed usable
 
 }  // namespace
 
@@ -18,7 +18,7 @@ AxisModel::AxisModel(const config::IoAxis& axis) noexcept
       damping_(axis.damping),
       most_torque_(axis.torque),
       most_velocity_(axis.speed * kRadiansPerDegree),
-      // Together critically damped at the bandwidth: s^2 + 2 w s + w^2.
+      // The two loops together are critically damped at the bandwidth: s^2 + 2 w s + w^2.
       position_gain_(std::numbers::pi * axis.bandwidth),
       velocity_gain_(4 * std::numbers::pi * axis.bandwidth),
       counts_per_radian_(axis.counts / (2 * std::numbers::pi)),
@@ -60,10 +60,10 @@ void AxisModel::push(double torque) noexcept {
 
 void AxisModel::brake() noexcept {
   limited_ = false;
-  // Not more than what just stops it within the step.
+  // At most the torque that just stops the axis within the step.
   const double stopping = damping_ * velocity_ - velocity_ * inertia_ / kStep;
   const double load = std::exchange(load_, 0);
-  const double torques = torques_;  // the motor has no part in it
+  const double torques = torques_;  // the motor gives no torque
   accelerate(std::clamp(stopping, -most_torque_, most_torque_));
   torques_ = torques;
   load_ = load;

@@ -14,7 +14,8 @@ bool AxisProfile::go_to(double target, double most_velocity, double acceleration
     velocity = 0;
     return true;
   }
-  // As fast as still allows to stop at the target; the half step is what one step of braking covers.
+  // The highest speed from which the axis can still stop at the target; the half step is the distance of one braking
+  // step.
   const double allowed =
       std::min(most_velocity, std::sqrt(step * step / 4 + 2 * acceleration * std::fabs(left)) - step / 2);
   const double wanted = std::copysign(allowed, left);

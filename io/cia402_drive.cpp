@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStandingDegrees = 0.05;  // per second
 constexpr double kArrivedDegrees = 0.01;
-constexpr double kQuickStopShare = 0.8;  // of the torque, so that the loops keep some
+constexpr double kQuickStopShare = 0.8;  // of the torque, so that the loops have a reserve
 
 constexpr double kPerMille = 1000;
 
@@ -23,7 +23,7 @@ T saturated(double value) noexcept {
   return static_cast<T>(std::clamp(std::nearbyint(value), kLow, kHigh));
 }
 
-// As a register of 32 bits counts: beyond its end it goes on at its beginning.
+// Wraps around like a 32-bit register.
 std::int32_t wrapped(std::int64_t counts) noexcept {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(counts)));
 }
@@ -41,7 +41,7 @@ Cia402Drive::Cia402Drive(const config::IoAxis& axis) noexcept
 }
 
 double Cia402Drive::radians_of(std::int32_t counts) const noexcept {
-  // The turn that is nearest to where the axis is.
+  // The turn nearest to the actual position.
   const std::int64_t shown = last_counts_ - zero_counts_;
   const auto difference =
       static_cast<std::int32_t>(static_cast<std::uint32_t>(counts) - static_cast<std::uint32_t>(wrapped(shown)));
@@ -179,7 +179,7 @@ void Cia402Drive::advance_torque(const DriveCommand& command, double dt) noexcep
   reached_ = torque_ == target;
 }
 
-// Beyond a limit switch it only goes back.
+// Beyond a limit switch only motion back is allowed.
 void Cia402Drive::stop_at_limits(const AxisProfile& before, double dt) noexcept {
   if (!axis_.low_limit && !axis_.high_limit) {
     return;
@@ -381,7 +381,7 @@ DriveFeedback Cia402Drive::step(const DriveCommand& command, std::chrono::nanose
     cyclic_velocity_ = enabled ? (cyclic_target(command) - profile_.position) / period : 0;
   }
   model_.carry(command.load);
-  // A period need not be a multiple of the step; what is left comes with the next one.
+  // A period need not be a multiple of the step; the rest is added to the next one.
   for (rest_ns_ += elapsed.count(); rest_ns_ >= AxisModel::kStepNs; rest_ns_ -= AxisModel::kStepNs) {
     advance(command, AxisModel::kStep);
     previous_ = std::exchange(last_, model_.position());

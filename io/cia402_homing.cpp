@@ -6,7 +6,7 @@
 namespace indurop::io {
 namespace {
 
-constexpr int kFirstWithoutMark = 17;  // methods 17 to 30 are 1 to 14 that end at the edge
+constexpr int kFirstWithoutMark = 17;  // methods 17 to 30 are methods 1 to 14 without the mark: they end at the edge
 constexpr int kMarkBelow = 33;
 constexpr int kMarkAbove = 34;
 
@@ -54,7 +54,7 @@ Homing::Method Homing::method_of(int number) noexcept {
     case kMarkAbove - kFirstWithoutMark + 1:
       return {Switch::None, 0, 1, false, true};
     default:
-      return {};  // 35 and 37: where the axis is
+      return {};  // 35 and 37: the actual position
   }
 }
 
@@ -75,7 +75,7 @@ void Homing::found(double at) noexcept {
   state_ = State::Done;
 }
 
-// A limit switch on the way to the home switch sends the axis back, once.
+// A limit switch on the way to the home switch reverses the motion, once.
 void Homing::search(const AxisSwitches& now) noexcept {
   if (is_on(now)) {
     phase_ = method_.goes_on ? Phase::Back : Phase::Cross;
@@ -105,7 +105,7 @@ double Homing::step(double before, double now) noexcept {
       }
       break;
     case Phase::Cross:
-      // While the axis still turns around it may be seen on either side.
+      // While the axis still reverses, it may be on either side.
       if (is_on(switches) == method_.goes_on && (now - before) * method_.cross > 0) {
         if (!method_.mark) {
           found(now);

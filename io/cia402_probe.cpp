@@ -15,7 +15,7 @@ constexpr unsigned kFall = 1U << 5U;
 }  // namespace
 
 void TouchProbe::take(std::uint8_t function) noexcept {
-  // Switched off, or one of its edges: what was stored of it is forgotten.
+  // When the probe or one of its edges is switched off, the stored position is cleared.
   has_rise_ = has_rise_ && (function & kSwitchedOn) != 0 && (function & kRise) != 0;
   has_fall_ = has_fall_ && (function & kSwitchedOn) != 0 && (function & kFall) != 0;
   function_ = function;

@@ -23,7 +23,7 @@ Command command_in(std::uint16_t control) noexcept {
   return (control & kEnable) == 0 ? Command::SwitchOn : Command::EnableOperation;
 }
 
-// The state a command leads to; the same one where the standard has no transition.
+// Returns the state after a command; the same state where the standard has no transition.
 DriveState after(DriveState state, Command command) noexcept {
   const bool off = command == Command::DisableVoltage;
   switch (state) {

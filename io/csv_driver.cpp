@@ -17,7 +17,7 @@ Result<std::unique_ptr<CsvDriver>, std::vector<base::Diagnostic>> CsvDriver::mak
 
 CsvDriver::CsvDriver(config::CsvTable table, std::vector<std::size_t> columns, bool loop)
     : table_(std::move(table)), columns_(std::move(columns)), loop_(loop && table_.rows.size() > 1) {
-  // The last row lasts as long as the one before it.
+  // The last row is valid for as long as the one before it.
   const auto& rows = table_.rows;
   length_ns_ = loop_ ? 2 * rows.back().time_ns - rows[rows.size() - 2].time_ns : 0;
 }

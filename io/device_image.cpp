@@ -64,7 +64,7 @@ void DeviceImage::give_inputs() noexcept {
       value.is_set = true;
       continue;
     }
-    // What is no number, or endless, has no nearest value either.
+    // NaN and infinite values have no nearest value.
     value.quality = sample.quality == Quality::Good ? Quality::OutOfRange : sample.quality;
     if (point.other) {
       (void)to_variable(point.scaling.base, static_cast<Number>(*point.other), value.bits);

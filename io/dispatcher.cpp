@@ -48,7 +48,7 @@ std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, 
   std::vector<config::IoPoint> output_points;
   for (const config::BoundPoint& b : bound.points) {
     if (phase == (b.point.output ? Phase::Inputs : Phase::Outputs)) {
-      continue;  // the other module's
+      continue;  // belongs to the other module
     }
     (b.point.output ? outputs : inputs).push_back(b);
     (b.point.output ? output_points : input_points).push_back(b.point);
@@ -78,7 +78,7 @@ std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, 
     line.from.push_back(variables_.add_read(b.variable));
     line.output_qualities.push_back(report_to(b.quality));
   }
-  // Of two modules that share a device the one with the inputs speaks for it.
+  // If two modules share a device, the one with the inputs reports its quality.
   if (phase != Phase::Outputs || output_points.size() == bound.points.size()) {
     line.quality = report_to(bound.quality);
     line.errors = report_to(bound.errors);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one place that knows all drivers.
+// The only place with a list of all drivers.
 
 #include "io/driver.h"
 

@@ -12,7 +12,7 @@ namespace indurop::io {
 namespace {
 
 constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
-constexpr std::chrono::seconds kToBegin{1};  // a device that starts together with the node may not be there at once
+constexpr std::chrono::seconds kToBegin{1};  // a device that starts together with the node may not be ready immediately
 
 }  // namespace
 
@@ -66,7 +66,7 @@ void ExchangeThread::work() {
       exchange(now);
     }
     if (is_open_) {
-      // On a grid of cycles; what was missed is not caught up with.
+      // Keeps to a grid of cycles; missed cycles are not made up for.
       next = std::max(next + device_.cycle, now);
     } else {
       next = Clock::now() + pause_;

@@ -22,7 +22,7 @@ static_assert(kMostExchangedRegisters == MODBUS_MAX_WR_WRITE_REGISTERS);
 bool is_exception(int error) {
   return error > MODBUS_ENOBASE && error <= EMBXGTAR;
 }
-// The device is there and says that it has no such point.
+// The device answered that it has no such point.
 bool is_refusal(int error) {
   return error == EMBXILFUN || error == EMBXILADD || error == EMBXILVAL;
 }
@@ -79,7 +79,7 @@ Driver::Outcome ModbusDriver::exchange(std::span<Sample> outputs, std::span<Samp
   for (Step& step : steps_) {
     const ModbusRequest& write = step.plan.write;
     const ModbusRequest& read = step.plan.read;
-    // Nothing is sent of a request before all of it was set once.
+    // A request is sent only when all its values have been set at least once.
     const bool writes = write.count > 0 && std::all_of(write.points.begin(), write.points.end(), [&](std::size_t i) {
                           return outputs[i].quality == Quality::Good;
                         });

@@ -22,10 +22,10 @@ constexpr std::uint8_t kMaskRegister = 22;
 constexpr std::uint8_t kExchangeRegisters = 23;
 constexpr std::uint8_t kRefused = 0x80;  // added to the function
 
-// Places in a request and in its answer.
+// Offsets in a request and in its answer.
 constexpr std::size_t kUnit = 0;
 constexpr std::size_t kFunction = 1;
-constexpr std::size_t kFirst = 2;  // of an exception its code, of a reading's answer the number of bytes
+constexpr std::size_t kFirst = 2;  // in an exception its code, in the answer to a read the number of bytes
 constexpr std::size_t kData = 3;
 constexpr std::size_t kAddressEnd = 4;
 constexpr std::size_t kEcho = 6;
@@ -95,7 +95,7 @@ ModbusFrame ModbusFrame::writing(const ModbusRequest& request, std::span<const s
   frame.put_word(request.first);
   if (one) {
     frame.put_word(is_bits ? (bits[0] != 0 ? kCoilOn : 0) : registers[0]);
-    // Of one value only the address comes back for certain.
+    // For a single value, only the address is certain to be returned.
     frame.expect_echo(kEcho, kAddressEnd);
     return frame;
   }

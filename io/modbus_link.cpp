@@ -18,8 +18,8 @@ using config::IoDriver;
 using config::IoFraming;
 
 constexpr int kDataBits = 8;
-constexpr std::size_t kHeader = 6;  // of TCP: transaction, protocol, length
-constexpr std::size_t kCheck = 2;   // bytes of the check at the end of a serial frame
+constexpr std::size_t kHeader = 6;  // on TCP: transaction, protocol, length
+constexpr std::size_t kCheck = 2;   // bytes of the checksum at the end of a serial frame
 
 // CRC-16 of "MODBUS over serial line" 2.5.1.2.
 std::uint16_t check_of(std::span<const std::uint8_t> bytes) noexcept {
@@ -34,7 +34,7 @@ std::uint16_t check_of(std::span<const std::uint8_t> bytes) noexcept {
   return static_cast<std::uint16_t>(check);
 }
 
-// Why a host has no address; empty if it has one. libmodbus would call that a refused connection.
+// Returns why a host has no address; empty if it has one. libmodbus would report this as a refused connection.
 std::string name_problem(const std::string& host, const std::string& port) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
@@ -52,7 +52,7 @@ void wait_as_told(modbus_t* context, std::chrono::nanoseconds timeout) {
   constexpr std::int64_t kMicros = 1'000'000;
   modbus_set_response_timeout(context, static_cast<std::uint32_t>(micros / kMicros),
                               static_cast<std::uint32_t>(micros % kMicros));
-  // No time-out of its own for each byte: a device that trickles bytes must not hold the answer up for ever.
+  // No separate time-out for each byte: a device that sends bytes slowly must not delay the answer indefinitely.
   modbus_set_byte_timeout(context, 0, 0);
   modbus_set_error_recovery(context, MODBUS_ERROR_RECOVERY_NONE);
 }
@@ -92,7 +92,7 @@ std::string ModbusLink::open_tcp() {
       !problem.empty() || device_.framing == IoFraming::Tcp) {
     return problem;
   }
-  // libmodbus reads serial frames from any descriptor; the line's own settings do not matter to a socket.
+  // libmodbus reads serial frames from any descriptor; serial settings do not matter for a socket.
   modbus_t* serial = modbus_new_rtu("tcp", device_.serial.baud, device_.serial.parity, kDataBits, 1);
   if (serial == nullptr) {
     const int error = errno;
@@ -101,7 +101,7 @@ std::string ModbusLink::open_tcp() {
   }
   wait_as_told(serial, device_.timeout);
   modbus_set_socket(serial, modbus_get_socket(context_.get()));
-  modbus_free(context_.release());  // the connection stays
+  modbus_free(context_.release());  // the connection stays open
   context_.reset(serial);
   return {};
 }
@@ -117,7 +117,7 @@ bool ModbusLink::has_serial_frames() const noexcept {
 }
 
 bool ModbusLink::survives(int error) const noexcept {
-  // Over TCP a late answer would be taken for the next one, so the connection goes with it.
+  // Over TCP, a late answer would be mistaken for the next one, so the connection is closed.
   return has_serial_frames() && (error == ETIMEDOUT || (error > EMBXGTAR && error <= EMBBADSLAVE));
 }
 
@@ -164,7 +164,7 @@ void ModbusLink::discard_late_answers() noexcept {
 std::span<const std::uint8_t> ModbusLink::unwrapped(std::size_t size) const noexcept {
   const auto whole = std::span<const std::uint8_t>(buffer_).first(size);
   if (has_serial_frames()) {
-    return size < kCheck ? whole.first(0) : whole.first(size - kCheck);  // libmodbus has looked at the check
+    return size < kCheck ? whole.first(0) : whole.first(size - kCheck);  // libmodbus has checked the checksum
   }
   const bool ours = size > kHeader && whole[0] == transaction_ >> kBitsPerByte &&
                     whole[1] == (transaction_ & kByteMask) && whole[2] == 0 && whole[3] == 0;

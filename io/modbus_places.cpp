@@ -17,7 +17,7 @@ namespace {
 using config::IoPoint;
 using config::IoTable;
 
-// Bytes of a request without its data, by what it does.
+// Bytes of a request without its data, by function.
 constexpr std::size_t kTwoWords = 5;
 constexpr std::size_t kThreeWords = 7;
 constexpr std::size_t kManyHead = 6;
@@ -31,7 +31,7 @@ std::uint32_t end_of(const IoPoint& point) noexcept {
   return point.address.number + config::registers_of(point.type);
 }
 
-// First place and number of places of a table that points have.
+// First address and number of addresses of a table that the points cover.
 struct Extent {
   unsigned first = 0;
   unsigned count = 0;
@@ -198,7 +198,7 @@ bool ModbusPlaces::is_stale(const Range& range) const {
   return false;
 }
 
-// Each place belongs to an input, and no input gets half of a value.
+// Returns true if each address belongs to an input and no input is written only in part.
 bool ModbusPlaces::may_be_written(const Range& range) const {
   std::vector<bool> owned(range.count);
   for (const IoPoint& point : inputs_) {

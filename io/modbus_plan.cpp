@@ -20,7 +20,7 @@ std::uint32_t end_of(const IoPoint& point) {
   return point.address.number + config::registers_of(point.type);
 }
 
-// A reading takes the whole register, whatever the bit; a writing only its bits.
+// A read takes the whole register for any of its bits; a write only the bits.
 std::vector<ModbusRequest> plan(std::span<const IoPoint> points, const Limits& limits, bool writing) {
   std::vector<std::size_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) {

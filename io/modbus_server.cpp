@@ -22,11 +22,11 @@ namespace {
 using config::IoPoint;
 
 constexpr int kBacklog = 32;
-constexpr std::size_t kHeader = 6;  // transaction, protocol, length of what follows
+constexpr std::size_t kHeader = 6;  // transaction, protocol, length of the rest
 constexpr std::size_t kUnit = 6;
 constexpr std::size_t kLeast = 8;      // header, unit, function
-constexpr unsigned kAnyUnit = 0xFF;    // "MODBUS messaging on TCP/IP" 4.4.1.2: of a device that has no line behind it
-constexpr std::size_t kRequests = 64;  // of one client in one exchange: nobody keeps the others waiting
+constexpr unsigned kAnyUnit = 0xFF;    // "MODBUS messaging on TCP/IP" 4.4.1.2: of a device without a serial line
+constexpr std::size_t kRequests = 64;  // of one client in one exchange: no client delays the others
 
 std::string address_of(const sockaddr_storage& peer, socklen_t size) {
   std::array<char, NI_MAXHOST> host{};
@@ -64,7 +64,7 @@ bool ModbusServer::open() {
     close();
     return false;
   }
-  // modbus_reply waits so long before it refuses some requests; ours were looked at before.
+  // modbus_reply waits this long before it refuses some requests; ours were checked before.
   modbus_set_response_timeout(context_.get(), 0, 1);
   return true;
 }
@@ -84,7 +84,8 @@ void ModbusServer::drop(std::size_t place) noexcept {
   clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(place));
 }
 
-// Clients that never asked, or went without a word, must not keep others out; nor may newcomers push out one that asks.
+// Clients that never sent a request or left silently must not block others; new clients must not displace an active
+// one.
 bool ModbusServer::make_room() {
   if (clients_.size() < kMostClients) {
     return true;
@@ -146,7 +147,7 @@ bool ModbusServer::serve(Client& client, std::span<Sample> inputs) {
                                   : kHeader + (static_cast<std::size_t>(client.bytes[kHeader - 2]) << kBitsPerByte) +
                                         client.bytes[kHeader - 1];
     if (whole < kLeast || whole > kMostBytes || (client.size > 3 && (client.bytes[2] | client.bytes[3]) != 0)) {
-      return false;  // no Modbus
+      return false;  // not Modbus
     }
     if (client.size >= kHeader && client.size >= whole) {
       client.silent = {};
@@ -169,7 +170,7 @@ bool ModbusServer::serve(Client& client, std::span<Sample> inputs) {
   return true;
 }
 
-// Whether all that clients wrote is still theirs.
+// Returns true if the clients of all written inputs are still active.
 bool ModbusServer::judge(std::span<Sample> inputs) {
   bool good = true;
   for (std::size_t i = 0; i < inputs.size(); ++i) {

@@ -27,7 +27,7 @@ struct Module {
   std::int64_t last_release = 0;
 };
 
-// Of this copy of the file: two modules of one file have one each.
+// The instance of this copy of the file: two modules with the same file have one each.
 Module& self() {
   static Module module;
   return module;
@@ -100,12 +100,13 @@ void on_run() {
 }
 
 void on_stop() {
-  self().dispatcher.reset();  // which ends its threads
+  self().dispatcher.reset();  // ends its threads
 }
 
 }  // namespace
 
-// The form of ioconfig.xml this module reads. That a file has it tells `indurop check` what the property config means.
+// The format of ioconfig.xml that this module reads. By this function `indurop check` knows that the property config
+// names such a file.
 extern "C" [[gnu::visibility("default")]] int indurop_io_format() {
   return 1;
 }

@@ -58,7 +58,7 @@ void store_scalar(void* entry, std::uint32_t size, std::uint64_t bits) noexcept 
   }
 }
 
-// The way of detail::ring_read for a size that is known at run time only.
+// Like detail::ring_read, for a size that is known at run time only.
 void load_ring(const abi::Ref& row, std::uint32_t offset, void* to, std::uint32_t size) noexcept {
   abi::RingHeader* ring = ring_of(row);
   if (!detail::try_copies(ring, abi::slot_stride(row.value_size), to, offset, size)) {

@@ -54,7 +54,7 @@ std::string content(const Bio& bio) {
   return size > 0 ? std::string(data, static_cast<std::size_t>(size)) : std::string{};
 }
 
-// No question at the terminal if somebody gives us a key with a password.
+// Prevents a password prompt at the terminal for a key with a password.
 int no_password(char* /*into*/, int /*size*/, int /*writing*/, void* /*context*/) {
   return -1;
 }

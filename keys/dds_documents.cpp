@@ -10,7 +10,7 @@
 namespace indurop::keys {
 namespace {
 
-// Any domain: the manifest says which, and may change it without new keys.
+// Any domain: the manifest defines it, and may change it without new keys.
 constexpr const char* kDomains = "<domains><id_range><min>0</min><max>230</max></id_range></domains>";
 
 struct Topics {
@@ -18,7 +18,7 @@ struct Topics {
   std::vector<std::string> subscribe;
 };
 
-// What somebody may do, in two steps: the platform's own topics, and of all others those of variables.
+// The rights of a participant in two steps: the platform's own topics, and of all other topics those of variables.
 struct Rights {
   Topics own;
   Topics variables;
@@ -31,8 +31,8 @@ Rights rights_of(const Holder& holder) {
   const std::string wish = schema::wish_topic();
   switch (holder.role) {
     case Role::Board:
-      // A board that was taken over can lie about its own variables, not about those of others: frames between boards
-      // carry its name. Which variables it shows to tools is for the manifest to say, not for its keys.
+      // A compromised board can send wrong values of its own variables, but not of other boards': frames between boards
+      // carry its name. Which variables it shows to tools is defined by the manifest, not by its keys.
       return {{{schema::board_topics(holder.plant, holder.name) + "*", plant + "catalogue", plant + "beacon",
                 deploy + "board", deploy + "request", deploy + "blob/*", deploy + "reply", directory},
                {plant + "*", deploy + "*", wish}},
@@ -67,7 +67,7 @@ std::string rule(const char* kind, const Topics& topics) {
                           : fmt::format("      <{0}>\n        {1}\n{2}      </{0}>\n", kind, kDomains, sections);
 }
 
-// The first rule that knows a topic counts: patterns of variables never reach topics of the platform.
+// The first rule that matches a topic applies: patterns of variables never match topics of the platform.
 std::string rules_of(const Holder& holder) {
   const Rights rights = rights_of(holder);
   const std::string variables = rule("allow_rule", rights.variables);

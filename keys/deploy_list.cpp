@@ -10,7 +10,7 @@ namespace indurop::keys {
 namespace {
 
 constexpr const char* kFormer = "former";
-constexpr const char* kFirst = "deployer";  // whose key it is if nothing is said: of releases that knew one
+constexpr const char* kFirst = "deployer";  // default owner of a key without a name: from releases with one key
 
 }  // namespace
 

@@ -24,7 +24,7 @@ constexpr std::size_t kDigits = 64;
 struct Digest::Impl {
   Impl() : context(::EVP_MD_CTX_new(), &::EVP_MD_CTX_free) {
     if (context == nullptr || ::EVP_DigestInit_ex(context.get(), ::EVP_sha256(), nullptr) != 1) {
-      std::abort();  // no memory, or a libcrypto without SHA-256
+      std::abort();  // out of memory, or a libcrypto without SHA-256
     }
   }
   std::unique_ptr<EVP_MD_CTX, decltype(&::EVP_MD_CTX_free)> context;

@@ -31,7 +31,7 @@ std::string missing_file(const ParticipantKeys& keys) {
   return {};
 }
 
-// `text` of the permissions as this release makes them for the holder?
+// Returns true if `text` is the permissions document that this release makes for the holder.
 bool is_current(const std::string& text, const Holder& holder, const CertificateFacts& facts) {
   std::string plain = text;
   std::erase(plain, '\r');

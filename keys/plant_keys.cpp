@@ -25,7 +25,7 @@ Done PlantKeys::make(const std::string& plant, const std::vector<std::string>& b
   const fs::path target = fs::absolute(folder_, error).lexically_normal();
   const fs::path fresh = aside(target.has_filename() ? target : target.parent_path());
   const PlantKeys made(fresh);
-  // The deployer first: it adds its key to what all share.
+  // The deployer first: it adds its key to the shared files.
   Done done = in_turn([&] { return make_top(fresh, plant, until); },
                       [&] {
                         return make_participant(fresh, made.deployer(), {Role::Deployer, plant, "deployer"}, until);

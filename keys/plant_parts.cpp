@@ -18,12 +18,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Words that mean a role or a folder of the keys.
+// Words that name a role or a folder of the keys.
 constexpr std::array kRoleWords{"board",     "boards", "viewer", "viewers",  "deployer",
                                 "deployers", "tool",   "tools",  "authority"};
 
-// Who has the smaller number begins to shake hands, and Cyclone DDS, so a board, does not understand what Fast DDS 2.9
-// begins with. So tools get a unit that makes their number greater than nearly every board's, always the same.
+// The participant with the smaller GUID starts the handshake, and Cyclone DDS, so a board, does not understand how Fast
+// DDS 2.9 starts it. So tools get a unit that makes their GUID greater than that of nearly every board, always the
+// same.
 Identity identity_of(const Holder& holder) {
   constexpr int kMostTries = 1'000'000;
   constexpr const char* kHigh = "fff";  // one in 4096
@@ -76,7 +77,7 @@ Done make_folder(const fs::path& folder) {
 const char* unit_of(Role role) {
   switch (role) {
     case Role::Board:
-      return "";  // so that no board can be named like one of the others
+      return "";  // so that no board can have the name of another role
     case Role::Viewer:
       return "viewer";
     case Role::Deployer:
@@ -176,7 +177,7 @@ Done make_participant(const fs::path& keys, const fs::path& folder, const Holder
 }
 
 Done make_top(const fs::path& folder, const std::string& plant, Instant until) {
-  // The authority outlives what it issues.
+  // The authority is valid longer than the certificates it issues.
   const Validity validity{valid_from(), until + std::chrono::days(3650)};
   Authority authority;
   authority.key = make_key(KeyKind::P256);
@@ -192,11 +193,11 @@ Done make_top(const fs::path& folder, const std::string& plant, Instant until) {
       [&] { return write_new(folder / kDeployPublic, deploy_list_text({}), kPublic); });
 }
 
-// Moves what was made aside to its place, or takes it away.
+// Moves the finished folder into place, or deletes it after a failure.
 Done put_in_place(Done made, const fs::path& fresh, const fs::path& folder) {
   std::error_code error;
   if (made) {
-    fs::rename(fresh, folder, error);  // fails if there is anything
+    fs::rename(fresh, folder, error);  // fails if the target is not empty
     if (error) {
       made = base::Problem{fmt::format("cannot make {}: {}", folder.string(), error.message())};
     }
@@ -276,7 +277,7 @@ bool is_plant_certificate(const CertificateFacts& facts) {
 }
 
 std::optional<Role> plant_role(const CertificateFacts& facts) {
-  const std::string kind = facts.unit.substr(0, facts.unit.find(' '));  // of tools a number follows
+  const std::string kind = facts.unit.substr(0, facts.unit.find(' '));  // for tools a number follows
   for (const Role role : {Role::Board, Role::Viewer, Role::Deployer, Role::Tool}) {
     if (is_plant_certificate(facts) && kind == unit_of(role)) {
       return role;

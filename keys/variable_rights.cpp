@@ -21,7 +21,7 @@ bool fits(char c) noexcept {
          kMarks.find(c) != std::string_view::npos;
 }
 
-// Names of variables are paths of topics.
+// Names of variables become paths of topics.
 std::string topic_of(const std::string& pattern) {
   std::string topic;
   for (std::size_t i = 0; i < pattern.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words and conditions of alarms.
+// Words of alarm priorities, and alarm conditions.
 
 #include <fmt/format.h>
 

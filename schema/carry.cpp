@@ -27,7 +27,7 @@ bool is_number(Base base) noexcept {
   return base != Base::Text && base != Base::Enum && base != Base::Struct;
 }
 
-// Whether the number fits; then it is there.
+// Returns true and stores the number if it fits.
 template <class T>
 bool put(Whole value, Room to) noexcept {
   if (value < Whole{std::numeric_limits<T>::min()} || value > Whole{std::numeric_limits<T>::max()}) {
@@ -62,7 +62,7 @@ bool put_whole(Base base, Whole value, Room to) noexcept {
   }
 }
 
-// The nearest one; an infinite one or none of a number that was finite does not fit.
+// Stores the nearest number; a finite number that would become infinite or NaN does not fit.
 template <class T, class From>
 bool put_nearest(From value, Room to) noexcept {
   const T stored = static_cast<T>(value);
@@ -78,7 +78,7 @@ bool put_real(Base base, From value, Room to) noexcept {
   return base == Base::Float ? put_nearest<float>(value, to) : put_nearest<double>(value, to);
 }
 
-// Of equal types: whether their fields have the same units, too.
+// Returns true if the fields of two equal types also have the same units.
 bool same_units(const Type& a, const Type& b) {
   return std::equal(a.fields.begin(), a.fields.end(), b.fields.begin(), [](const Field& one, const Field& other) {
     return one.unit == other.unit && same_units(one.type, other.type);
@@ -154,7 +154,7 @@ class Carrier {
     bool fits = false;
     if (is_real(from.base)) {
       const double value = from.base == Base::Float ? double{load<float>(old.data())} : load<double>(old.data());
-      constexpr double kFar = 1e30;  // beyond all whole numbers
+      constexpr double kFar = 1e30;  // beyond all integers
       const bool whole = std::abs(value) < kFar && std::trunc(value) == value;
       fits = is_real(to.base) ? put_real(to.base, value, now)
                               : whole && put_whole(to.base, static_cast<Whole>(value), now);

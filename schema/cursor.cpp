@@ -94,9 +94,9 @@ const char* Cursor::unit(Character& to) {
   return to.code == '\\' ? escape(to) : nullptr;
 }
 
-// What follows a backslash.
+// Reads the part of an escape after the backslash.
 const char* Cursor::escape(Character& to) {
-  constexpr std::string_view kShort = "n\nt\tr\rb\bf\f0\0\\\\\"\"''//"sv;  // letter, then what it stands for
+  constexpr std::string_view kShort = "n\nt\tr\rb\bf\f0\0\\\\\"\"''//"sv;  // letter, then its meaning
   if (at_end()) {
     return "the closing quote is missing";
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads module files. Nothing in the file is trusted: every offset, size and index is checked against what is there.
+// Reads module files. The file is not trusted: every offset, size and index is checked against the real size.
 
 #include "schema/elf.h"
 
@@ -47,7 +47,7 @@ Error open_error(const base::FileProblem& problem) {
   }
 }
 
-// Reads are refused beyond the size the file had when opened.
+// Refuses reads beyond the size that the file had when opened.
 class File {
  public:
   explicit File(base::OpenFile opened) noexcept : opened_(std::move(opened)) {}
@@ -74,7 +74,7 @@ class File {
     }
     return true;
   }
-  // `count` records in a row, or nothing if the file is too short or they are too many.
+  // Reads `count` consecutive records; nothing if the file is too short or there are too many.
   template <class T>
   [[nodiscard]] std::optional<std::vector<T>> table(std::uint64_t offset, std::uint64_t count) const {
     if (count > kMaxSection / sizeof(T) || !holds(offset, count * sizeof(T))) {
@@ -91,7 +91,7 @@ class File {
   base::OpenFile opened_;
 };
 
-// The NUL-terminated text at `offset`, or nothing if it starts or ends outside.
+// Returns the NUL-terminated text at `offset`, or nothing if it starts or ends outside.
 std::optional<std::string_view> text_at(std::string_view strings, std::uint64_t offset) {
   if (offset >= strings.size()) {
     return std::nullopt;
@@ -156,7 +156,7 @@ class Reader {
 
   Status read_sections() {
     if (header_.e_shoff == 0) {
-      return {};  // section headers stripped off: nothing about variables can be known
+      return {};  // section headers were stripped: nothing is known about variables
     }
     constexpr const char* kOutside = "the module file is truncated: its section headers lie outside the file";
     Elf64_Shdr first{};
@@ -182,7 +182,7 @@ class Reader {
     return {};
   }
 
-  // Contents of a section as records; nothing if they are not all in the file.
+  // Returns the contents of a section as records; nothing if they are not all in the file.
   template <class T>
   [[nodiscard]] std::optional<std::vector<T>> contents(const Elf64_Shdr& section) const {
     if (section.sh_type == SHT_NOBITS || section.sh_size % sizeof(T) != 0) {
@@ -222,7 +222,7 @@ class Reader {
     if (!text) {
       return false;
     }
-    // Padding between the pieces of several object files is NUL.
+    // Padding between the parts of several object files is NUL.
     for (const char c : *text) {
       const char written = c == '\0' ? '\n' : c;
       const bool blank_line = written == '\n' && (out_.schema_json.empty() || out_.schema_json.back() == '\n');
@@ -259,7 +259,7 @@ class Reader {
            });
   }
 
-  // The string table a section refers to.
+  // Returns the string table that a section refers to.
   [[nodiscard]] std::optional<std::vector<char>> strings_of(const Elf64_Shdr& section) const {
     return section.sh_link < sections_.size() ? contents<char>(sections_[section.sh_link]) : std::nullopt;
   }
@@ -270,7 +270,7 @@ class Reader {
     return found == sections_.end() ? nullptr : &*found;
   }
 
-  // Copies a name; false if it lies outside or all of them together are too long to be true.
+  // Copies a name; returns false if it lies outside, or if all names together are implausibly long.
   bool add_name(std::string_view strings, std::uint64_t offset, std::vector<std::string>& to) {
     const auto name = text_at(strings, offset);
     name_bytes_ += name ? name->size() + sizeof(std::string) : 0;

@@ -8,7 +8,7 @@
 namespace indurop::schema {
 namespace {
 
-// '.' to "::", as names are written. A backslash at the end is a letter like any other.
+// Replaces '.' by "::", as names are written. A backslash at the end is an ordinary character.
 std::string with_colons(std::string_view pattern) {
   std::string out;
   bool escaped = false;

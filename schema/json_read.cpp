@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON as a schema. The text may be anything: a block of shared memory or a section of a file that was cut or
-// overwritten; what cannot be right is refused, not repaired.
+// Reads JSON as a schema. The text may be damaged: a block of shared memory, or a section of a file that was cut or
+// overwritten. Invalid content is rejected, not repaired.
 
 #include <algorithm>
 #include <charconv>
@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-// Bounds that keep hostile text from costing more memory or stack than an honest schema of 10 000 variables.
+// Limits that prevent hostile text from using more memory or stack than a real schema of 10 000 variables.
 constexpr std::size_t kMaxText = std::size_t{64} << 20U;
 constexpr std::size_t kMaxValues = 2'000'000;
 constexpr int kMaxDepth = 32;
@@ -42,7 +42,7 @@ bool is_full_name(std::string_view text) {
   return is_identifier(text);
 }
 
-// The member `key`, or null if absent.
+// Returns the member `key`, or null if absent.
 const json* member(const json& object, const char* key) {
   const auto found = object.find(key);
   return found == object.end() ? nullptr : &*found;
@@ -184,7 +184,7 @@ bool read_enumerators(const json& object, Type& to) {
 
 bool read_type(const json& value, Type& to, int depth);
 
-// Fields in ascending, aligned, disjoint places inside the struct.
+// Reads fields, which must be ascending, aligned and disjoint within the struct.
 bool read_fields(const json& object, Type& to, int depth) {
   const json* fields = member(object, "fields");
   const bool power_of_two = to.align != 0 && (to.align & (to.align - 1)) == 0;
@@ -226,7 +226,7 @@ bool read_dims(const json& object, Type& to) {
   });
 }
 
-// A struct without fields is let through here; only functions have such (no parameters, no result).
+// A struct without fields is accepted here; only functions have such structs (no parameters, no result).
 bool read_type(const json& value, Type& to, int depth) {
   const bool plain = value.is_string();
   if (depth > kMaxDepth || (!plain && (!value.is_object() || member(value, "base") == nullptr)) ||
@@ -346,7 +346,7 @@ Errc read_line(std::string_view line, Schema& to) {
   return good ? Errc::Ok : Errc::Corrupt;
 }
 
-// Upper bound of the values in JSON text, so that the parser's memory is known before it runs.
+// Returns an upper bound of the number of values in JSON text, so that the parser's memory is known before it runs.
 std::size_t count_values(std::string_view text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return c == ',' || c == ':' || c == '[' || c == '{'; }));

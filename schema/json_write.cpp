@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A schema as JSON.
+// Writes a schema as JSON.
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two schemas into one, and the words for where two types differ.
+// Merges two schemas, and describes where two types differ.
 
 #include <fmt/format.h>
 

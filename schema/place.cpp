@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the part of a variable that a text like "knu.Robot.joints[1].y" means.
+// Finds the part of a variable that a text like "knu.Robot.joints[1].y" refers to.
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace {
 struct Step {
   std::string_view name;  // empty: an index
   std::uint64_t index = 0;
-  bool after_colons = false;  // "::" stands before the name: it cannot be a field
+  bool after_colons = false;  // "::" precedes the name: it cannot be a field
 };
 
 struct Path {
@@ -45,7 +45,7 @@ Failure syntax(std::string_view whole, const std::string& what) {
   return {Errc::InvalidArgument, fmt::format("'{}': {}; write a name like joints[1].y", whole, what)};
 }
 
-// Splits the text. An empty code says it went well.
+// Splits the text. An empty code means success.
 Failure split(std::string_view whole, Path& path) {
   std::string_view rest = whole;
   path.absolute = consume(rest, "::");
@@ -95,7 +95,7 @@ std::string join(const std::vector<Step>& steps, std::size_t count) {
   return out;
 }
 
-// "joints", "joints[1].pose": the text up to step `count`, for messages.
+// Returns the text up to step `count` for messages: "joints", "joints[1].pose".
 std::string shown(const Variable& variable, const std::vector<Step>& steps, std::size_t first, std::size_t count) {
   std::string out = variable.name;
   for (std::size_t i = first; i < count; ++i) {
@@ -110,7 +110,7 @@ std::string element_name(const Type& type) {
   return display_name(element);
 }
 
-// Follows steps from `first` on into the type of `variable`.
+// Follows steps from `first` on through the type of `variable`.
 class Walk {
  public:
   Walk(const Variable& variable, const std::vector<Step>& steps, std::size_t first)
@@ -207,7 +207,7 @@ class Walk {
   Place place_;
 };
 
-// Is `name` the end of `full`, beginning at a namespace border?
+// Returns true if `full` ends with `name`, starting at a namespace boundary.
 bool ends_full_name(std::string_view full, std::string_view name) noexcept {
   if (full.size() <= name.size() + 2) {
     return false;
@@ -216,7 +216,7 @@ bool ends_full_name(std::string_view full, std::string_view name) noexcept {
   return full.substr(border) == name && full.substr(border - 2, 2) == "::";
 }
 
-// The last `count` parts of a full name; empty if it has fewer.
+// Returns the last `count` parts of a full name; empty if it has fewer.
 std::string last_parts(std::string_view full, std::size_t count) {
   std::size_t at = full.size() + 2;
   for (std::size_t i = 0; i < count; ++i) {
@@ -260,8 +260,8 @@ Failure ambiguous(std::string_view text, const std::vector<Place>& places) {
           fmt::format("'{}' may be {}{}; write the namespace too", text, names, places.size() > 4 ? ", ..." : "")};
 }
 
-// Tries each way to part the names into variable and fields. `exact`: full names only.
-// Adds what was found to `places`; else keeps the first failure of a variable that fits by name.
+// Tries each way to split the names into variable and fields. `exact`: full names only. Adds matches to `places`;
+// otherwise keeps the first failure of a variable whose name matches.
 void collect(const Schema& schema, const Path& path, bool exact, std::vector<Place>& places, Failure& failure) {
   for (std::size_t names = path.names; names > 0; --names) {
     const std::string wanted = join(path.steps, names);

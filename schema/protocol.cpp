@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file of its own, so that tests can link programs of another release.
+// A separate file, so that tests can link programs of another release.
 #include "schema/topic_name.h"
 
 namespace indurop::schema {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Are the numbers of a value inside their declared ranges?
+// Checks that the numbers of a value are inside their declared ranges.
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ bool unlimited(const Range& range) noexcept {
 
 class Checker {
  public:
-  // False at the first number outside; `message` then names it.
+  // Returns false at the first number outside; `message` then names it.
   bool value(const Range& range, const Type& type, std::size_t dim, const std::uint8_t* at, const std::string& path) {
     if (type.base != Base::Struct && unlimited(range)) {
       return true;
@@ -44,11 +44,11 @@ class Checker {
 
  private:
   bool number(const Range& range, Base base, const std::uint8_t* at, const std::string& path) {
-    // Whether plain char is signed depends on the machine; the range tells what was meant.
+    // The machine decides if plain char is signed; the range shows what was intended.
     const Base shown = base != Base::Char ? base : range.min < 0 ? Base::Int8 : Base::UInt8;
     bool inside = true;
     with_number(shown, at, [&](auto value) {
-      // Wide enough for every 64-bit integer; false for NaN.
+      // Can hold every 64-bit integer; the check is false for NaN.
       const auto wide = static_cast<long double>(value);
       inside = wide >= static_cast<long double>(range.min) && wide <= static_cast<long double>(range.max);
       if (!inside) {

@@ -4,7 +4,7 @@
 namespace indurop::schema {
 namespace {
 
-// Not those of <cctype>, which ask the locale.
+// Not the functions of <cctype>, which depend on the locale.
 bool is_upper(char c) noexcept {
   return c >= 'A' && c <= 'Z';
 }
@@ -18,7 +18,7 @@ char to_upper(char c) noexcept {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
-// Words begin at a capital behind a small letter, and at the last of several capitals: "TCPPose" is "tcp_pose".
+// A word begins at a capital after a small letter, and at the last of several capitals: "TCPPose" is "tcp_pose".
 std::string snake(std::string_view name) {
   std::string out;
   for (std::size_t i = 0; i < name.size(); ++i) {

@@ -7,7 +7,7 @@
 namespace indurop::schema {
 namespace {
 
-// Undoes topic_part(). What is not made by it stays as it is.
+// Reverses topic_part(). Other text stays unchanged.
 std::string name_of_part(std::string_view part) {
   std::string name;
   for (std::size_t i = 0; i < part.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values as text for people and as JSON. Both come from one walk over the type; they differ only in the leaves.
+// Converts values to text for people and to JSON. One walk over the type makes both; they differ only in the leaves.
 
 #include <fmt/format.h>
 
@@ -94,7 +94,7 @@ class Writer {
     out_ += '"';
   }
 
-  // One ASCII character of a text between `quote`s.
+  // Writes one ASCII character of a text between `quote`s.
   void escaped(char c, char quote) {
     constexpr std::string_view kShort = "\nn\tt\rr";
     if (const std::size_t known = kShort.find(c); known != std::string_view::npos && known % 2 == 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text to values: what format_value and value_to_json write, and what people type instead.
+// Converts text to values: the output of format_value and value_to_json, and what people type instead.
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ class Parser {
  public:
   explicit Parser(std::string_view text) : cursor_(text) {}
 
-  // The whole text is one value of `type`. False: code and message say why.
+  // Parses the whole text as one value of `type`. On false, code and message describe the error.
   bool whole(const Type& type, std::uint8_t* to) {
     const std::string_view text = cursor_.all();
     if (type.dims.empty() && type.base == Base::Text && !cursor_.at_quote()) {
@@ -152,7 +152,7 @@ class Parser {
     return cursor_.take('}') || syntax("expected ',' or '}'");
   }
 
-  // Reads "name:"; null if there is no such field.
+  // Reads "name:"; returns null if there is no such field.
   const Field* field_name(const Type& type) {
     std::string name;
     if (cursor_.at_quote()) {
@@ -191,7 +191,7 @@ class Parser {
     return true;
   }
 
-  // Sign and amount of a decimal or 0x number. Ok, InvalidArgument, or OutOfRange beyond 64 bits.
+  // Reads sign and magnitude of a decimal or 0x number. Returns Ok, InvalidArgument, or OutOfRange beyond 64 bits.
   static Errc read_integer(std::string_view text, bool& negative, std::uint64_t& amount) {
     negative = !text.empty() && text.front() == '-';
     text.remove_prefix(!text.empty() && (text.front() == '-' || text.front() == '+') ? 1 : 0);
