@@ -17,7 +17,7 @@ constexpr std::int64_t kMostJobs = 200'000;
 
 struct Job {
   Nanos release{};
-  Nanos start{};  // with all executions as long as they may be: nobody begins or ends later than so
+  Nanos start{};  // with all executions at their maximum: no module begins or ends later
   Nanos end{};
 };
 

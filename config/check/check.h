@@ -43,7 +43,7 @@ struct Sharing {
   std::string why;  // the shared data, or the setting that requires the order
 };
 
-// How <cores> distributed the periodic modules.
+// The distribution of the periodic modules by <cores>.
 struct Spreading {
   struct One {
     std::size_t module = 0;  // index into Config::modules

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How values travel between periodic modules: the order of execution, and how old a value can be. Pure arithmetic.
+// The flow of values between periodic modules: the order of execution, and how old a value can be. Pure arithmetic.
 
 #pragma once
 

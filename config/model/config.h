@@ -25,7 +25,7 @@ struct Property {
   base::SourcePlace place{};  // of the <value>
 };
 
-// How a process module is restarted after it died: at most `max` restarts within `window`, then escalation.
+// The restart rule of a process module that died: at most `max` restarts within `window`, then escalation.
 struct Restart {
   base::Nanos delay{std::chrono::milliseconds(100)};
   std::uint32_t max = 3;
@@ -101,9 +101,9 @@ struct CoresSetting {
 };
 inline constexpr int kMostSpreadCores = 64;
 
-// What <variable> sets for one variable in addition to its .glb declaration.
+// The settings of <variable> for one variable in addition to its .glb declaration.
 struct VariableRule {
-  // What third-party tools may do with the variable: read its topic, also write it, or not see it.
+  // The rights of third-party tools to the variable: read its topic, also write it, or not see it.
   enum class External { Read, Write, Off };
   std::string name;          // full name
   std::string owner;         // of a plant: board that owns the variable; empty: inferred from the access map
@@ -121,7 +121,7 @@ struct TypeFiles {
   std::vector<base::SourcePlace> type_places;
 };
 
-// What <root> of a module.xml sets for third-party tools; in a plant the manifest sets it for all boards.
+// The settings of <root> of a module.xml for third-party tools; in a plant the manifest has them for all boards.
 struct ExternalPlane : TypeFiles {
   std::optional<int> domain;   // DDS domain of typed topics; empty: none
   bool ros2 = false;           // topics have the names and types of ROS 2
