@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The agent of a board: resident, runs what was deployed to the board last as a child process, and takes part in new
-// deployments. Needs no network to run what is committed. Protocol and files: docs/deploy.md.
+// The agent of a board: a resident process that runs the last deployment as a child process, and takes part in new
+// deployments. Needs no network to run the committed deployment. Protocol and files: docs/deploy.md.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace indurop::deploy {
 
-// Until a stop signal; returns the program's exit code.
+// Runs until a stop signal; returns the program's exit code.
 int run_agent(const AgentOptions& options);
 
 }  // namespace indurop::deploy

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an agent keeps on disk: files by their digest, deployments made of them, and which one is committed. The last is
-// one file that is only ever replaced whole, so whatever happens to the board in between, it has one committed
-// deployment. What the disk has changed is noticed by its digest, dropped, and made again from what is sound. Layout:
-// docs/deploy.md.
+// The state of an agent on disk: files by their digest, the deployments made of them, and which deployment is
+// committed. The latter is one file that is only ever replaced as a whole, so the board has exactly one committed
+// deployment whatever happens to it meanwhile. Files that the disk has corrupted are detected by their digest,
+// discarded, and restored from an intact copy. Layout: docs/deploy.md.
 
 #pragma once
 
@@ -25,9 +25,9 @@ namespace indurop::deploy {
 
 class AgentState {
  public:
-  // Takes the board's folder for this process. `tell` gets a line for people about each file that is damaged. A
-  // committed.json that is damaged is set aside: the board begins without a deployment and takes over that of the
-  // others. A problem: no rights, or another agent has the folder.
+  // Locks the board's folder for this process. `tell` gets a line for people about each damaged file. A damaged
+  // committed.json is set aside: the board begins without a deployment and takes over that of the other boards. A
+  // problem: no rights, or another agent holds the folder.
   using Tell = std::function<void(const std::string& line)>;
   static Result<AgentState, base::Problem> open(const std::string& board, Tell tell = {});
   AgentState(AgentState&& other) noexcept;
@@ -37,36 +37,37 @@ class AgentState {
   ~AgentState();
 
   [[nodiscard]] const Committed& committed() const noexcept { return committed_; }
-  // Replaces it on disk, then here. With a problem nothing has changed.
+  // Replaces the committed deployment on disk, then in memory. With a problem nothing has changed.
   Result<void, base::Problem> commit(Committed next);
-  // Text of history, for tools.
+  // Returns the history as text for tools.
   [[nodiscard]] std::string history_text() const;
 
   [[nodiscard]] const DeploymentFiles& files() const noexcept { return files_; }
   [[nodiscard]] std::filesystem::path file(const std::string& digest) const { return files_.file(digest); }
   [[nodiscard]] std::filesystem::path part(const std::string& digest) const { return files_.part(digest); }
   [[nodiscard]] bool has(const std::string& digest) const { return files_.has(digest); }
-  // The file is here and is what its name says; one that is not is dropped. `name`: for people.
+  // Returns true if the file exists and matches its digest; one that does not is discarded. `name`: for people.
   bool has_sound(const std::string& digest, const std::string& name);
-  // A part that is complete and sound becomes a file, and lasts.
+  // Turns a complete and intact part into a file, durably.
   Result<void, base::Problem> keep(const std::string& digest);
 
-  // The package of a deployment whose files are all here. A problem: it is not here, or damaged.
+  // Returns the package of a deployment whose files are all stored. A problem: it is not stored, or damaged.
   [[nodiscard]] Result<Package, base::Problem> package(const std::string& id) const { return files_.package(id); }
-  // Lays out the deployment's files under their names, or verifies those that are there and makes them again from
-  // files/. After success every file has the digest that the package names. A problem names the file.
+  // Lays out the deployment's files under their names, or verifies the present ones and restores them from files/.
+  // After success every file has the digest that the package names. A problem names the file.
   Result<void, base::Problem> install(const std::string& id);
-  // The same, and files/ has all of the deployment afterwards, too: what one of the two has lost comes from the other.
+  // As install(), and restores files/ too: a file that one of the two has lost is copied from the other.
   Result<void, base::Problem> repair(const std::string& id);
-  // files/ has this file of the deployment, and it is sound; made again from the deployment's folder if need be. A
-  // problem: neither copy is sound.
+  // Makes sure that files/ has an intact copy of this file of the deployment, restored from the deployment's folder if
+  // needed. A problem: neither copy is intact.
   Result<void, base::Problem> restore(const std::string& id, const PackageFile& entry);
-  // Where its manifest is when it is installed; its folder if that cannot be said, because its package is damaged.
+  // Returns the path of its manifest when it is installed; its folder if its package is damaged.
   [[nodiscard]] std::filesystem::path manifest(const std::string& id) const;
-  // Removes what neither the committed nor the previous deployment nor the newest of history needs. What has come of
-  // `tried`, a deployment that was given up, stays for the next attempt.
+  // Removes everything that the committed deployment, the previous one and the newest of the history do not need. The
+  // files of `tried`, a deployment that was abandoned, are kept for the next attempt.
   void collect_garbage(const std::string& tried = {});
-  // The same at the agent's start, when a deployment may have been cut short: only what is older than a day goes.
+  // As collect_garbage(), at the agent's start, when a deployment may have been interrupted: removes only what is older
+  // than a day.
   void collect_old_garbage();
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return files_.folder(); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node that died has left in shared memory, kept on disk before the next one takes its place: what ran when,
-// overruns, figures, faults. `indurop log --from FILE` and the like show it.
+// Saves the shared memory of a node that died to disk before the next node replaces it: what ran when, overruns,
+// measurements, faults. `indurop log --from FILE` and similar verbs show it.
 
 #pragma once
 
@@ -11,10 +11,10 @@ namespace indurop::deploy {
 
 class BlackBox {
  public:
-  static constexpr std::size_t kKept = 8;  // newest files
+  static constexpr std::size_t kKept = 8;  // number of newest files kept
 
   BlackBox(std::filesystem::path folder, std::string board) : folder_(std::move(folder)), board_(std::move(board)) {}
-  // Where it is now, as text for people; why it is nowhere, if it cannot be written.
+  // Returns where it was saved, as text for people; if it cannot be written, the reason.
   [[nodiscard]] std::string keep() const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The alarms of this board: its agent looks at their conditions, says how they stand, and does what people elsewhere
-// want done about them. Only reads the node's memory; not real-time safe.
-//   alarms: {"watched", "declared", "counts", "alarms": [all that are declared or stand], "events": [oldest first]},
-//           as /api/v1/boards/BOARD/alarms has them
+// The alarms of this board: its agent evaluates their conditions, reports their states, and executes remote users'
+// requests. Only reads the node's memory; not real-time safe.
+//   alarms: {"watched", "declared", "counts", "alarms": [all declared or not normal], "events": [oldest first]},
+//           as in /api/v1/boards/BOARD/alarms
 
 #pragma once
 
@@ -23,7 +23,7 @@ class BoardAlarms {
  public:
   BoardAlarms(std::string board, const base::Log& log) : board_(std::move(board)), watch_(board_), log_(log) {}
 
-  // Looks at conditions when it is time to.
+  // Evaluates the conditions when it is due.
   void step(rt::MonoTime now);
 
  private:
@@ -36,7 +36,8 @@ class BoardAlarms {
 
 std::string alarms_text(const std::string& board);
 
-// Action::AckAlarms, ShelveAlarms and UnshelveAlarms: the alarms that it was done to, as JSON. All or none.
+// Executes Action::AckAlarms, ShelveAlarms and UnshelveAlarms. Returns the alarms that it was done to, as JSON. All or
+// none.
 Result<std::string, base::Problem> order_alarms(const std::string& board, const Command& command);
 
 }  // namespace indurop::deploy

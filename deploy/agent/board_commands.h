@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands from elsewhere to this board's node, its modules and variables: who may give them, carrying them out one at
-// a time, and the answers. The agent's business, beside deployments and never during one.
+// Remote commands to this board's node, its modules and variables: checks who may give them, executes them one at a
+// time, and answers. The agent does this in addition to deployments and never during one.
 
 #pragma once
 
@@ -25,15 +25,15 @@ class BoardCommands {
   BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, BoardProcess& process,
                 BoardRecorder& recorder, const base::Log& log);
 
-  // Takes what has come and goes on with the command under way. `plant`: what is committed here; `busy`: why no command
-  // is taken now, empty: it is. True: somebody has commanded something.
+  // Receives new commands and continues the one under way. `plant`: what is committed on this board; `busy`: why no
+  // command is accepted now, empty: commands are accepted. Returns true if a command was received.
   bool step(CommandLink& link, const std::string& plant, const std::string& busy, rt::MonoTime now);
 
  private:
   struct Known {
     std::uint64_t nonce = 0;
     rt::MonoTime given;
-    std::optional<deploy::CommandReply> last;  // to the command with this number
+    std::optional<deploy::CommandReply> last;  // last reply to the command with this number
   };
   void hear(CommandLink& link, const Command& command, const std::string& plant, const std::string& busy,
             rt::MonoTime now);
@@ -45,12 +45,12 @@ class BoardCommands {
   [[nodiscard]] CommandReply keep_box(const Command& command) const;
   [[nodiscard]] CommandReply about_alarms(const Command& command) const;
   CommandReply begin_recording(const Command& command, rt::MonoTime now);
-  // Empty while it goes on.
+  // Returns the reply; empty while the command is under way.
   std::optional<deploy::CommandReply> look(rt::MonoTime now);
   std::optional<deploy::CommandReply> look_at_module();
   std::optional<deploy::CommandReply> look_at_node();
   std::optional<deploy::CommandReply> look_at_recording();
-  bool open_run();  // false: the node does not run
+  bool open_run();  // false: the node is not running
   scheduler::ModuleRecord* find(const std::string& module);
   [[nodiscard]] CommandReply reply(const Command& command, Outcome outcome, const std::string& text = {}) const;
 
@@ -67,7 +67,7 @@ class BoardCommands {
   std::optional<vars::RunFile> run_;
   scheduler::ModuleRecord* module_ = nullptr;
   scheduler::CommandTicket ticket_ = 0;
-  bool ended_ = false;  // a node that restarts has done the first half
+  bool ended_ = false;  // the first half of a node restart is done
 };
 
 }  // namespace indurop::deploy

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Orders from elsewhere about values of this board's variables and its write lock: what a command says becomes a call
-// of operate/. Not real-time safe.
+// Remote commands about values of this board's variables and its write lock, executed by calls of operate/. Not
+// real-time safe.
 
 #pragma once
 
@@ -24,16 +24,16 @@ class BoardForces {
  public:
   explicit BoardForces(std::string board) : board_(std::move(board)) {}
 
-  // Action::Force, Unforce, Set and SetLock: all of it is done, or nothing, with a problem that names all that is
-  // wrong. Values have to be within their declared range.
+  // Executes Action::Force, Unforce, Set and SetLock: all of it or nothing; a problem names everything that is wrong.
+  // Values must be within their declared range.
   Result<void, base::Problem> carry_out(const Command& command);
 
  private:
-  // What a commander holds as long as it renews it.
+  // The lease that a commander holds as long as it renews it.
   struct Held {
     operate::Lease lease;
     operate::Who who;
-    vars::Store store;  // that the lease is of
+    vars::Store store;  // store to which the lease belongs
   };
   Result<void, base::Problem> renew(const Command& command, const WriteOrder& order);
 
@@ -41,7 +41,7 @@ class BoardForces {
   std::map<std::uint64_t, Held> leases_;  // by commander
 };
 
-// Why the board's write lock forbids commands to modules; empty if it does not.
+// Returns why the board's write lock forbids commands to modules; empty if it does not.
 std::string locked_against_commands(const std::string& board);
 
 }  // namespace indurop::deploy

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an agent is in the network: tried until it succeeds, by the keys of its board if it has some, and again when
-// other keys are there.
+// The agent's connection to the network: tried until it succeeds, with the keys of its board if it has some, and again
+// when the keys have changed.
 
 #pragma once
 
@@ -20,16 +20,16 @@ class BoardLink {
   BoardLink(LinkSettings settings, const DeployKeys& keys, const base::Log& log)
       : settings_(std::move(settings)), keys_(keys), log_(log) {}
 
-  // Joins if it is time; and leaves before that if the keys have changed and the agent is `idle`. `plant`: what is
-  // committed. True if it has joined just now.
+  // Joins the network if it is due; leaves it first if the keys have changed and the agent is `idle`. `plant`: what is
+  // committed. Returns true if it has joined just now.
   bool keep(rt::MonoTime now, const std::string& plant, bool idle);
   void leave() noexcept;
-  // Null while it is not in the network; both or none.
+  // Null while not connected; link() and commands() are either both null or both valid.
   [[nodiscard]] DeployLink* link() const noexcept { return link_.get(); }
   [[nodiscard]] CommandLink* commands() const noexcept { return commands_.get(); }
 
  private:
-  // What people should know of it.
+  // Returns a note for people.
   std::string join();
   void tell(const std::string& told);
 
@@ -37,7 +37,7 @@ class BoardLink {
   const DeployKeys& keys_;
   const base::Log& log_;
   std::unique_ptr<DeployLink> link_;
-  std::unique_ptr<CommandLink> commands_;  // ends first
+  std::unique_ptr<CommandLink> commands_;  // destroyed first
   OwnKeys own_;
   rt::MonoTime join_at_;
   rt::MonoTime look_at_;

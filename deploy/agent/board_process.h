@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node of a board as a child of its agent: starts it, ends it, brings it back when it dies, and sees how it does.
-// A node that outlived its agent is taken over instead of started again.
+// The node of a board as a child of its agent: starts it, ends it, restarts it when it dies, and monitors its health. A
+// node that outlived its agent is taken over instead of started again.
 
 #pragma once
 
@@ -28,44 +28,46 @@ class BoardProcess {
  public:
   static constexpr std::chrono::seconds kRestart{1};
   static constexpr std::chrono::seconds kRestartWindow{60};
-  static constexpr std::size_t kRestarts = 3;  // within the window
+  static constexpr std::size_t kRestarts = 3;  // within kRestartWindow
 
-  // Why the files of a deployment must not be run; empty: they are what was deployed.
+  // Returns why the files of a deployment must not be run; empty: they are what was deployed.
   using Verify = std::function<std::string(const std::string& deployment)>;
 
-  // `arguments`: of every node started, besides the manifest and the board. `verify` is asked before every start.
+  // `arguments`: for every node started, in addition to the manifest and the board. `verify` is called before every
+  // start.
   BoardProcess(std::string board, std::vector<std::string> arguments, BlackBox black_box, Verify verify,
                const base::Log& log);
   BoardProcess(const BoardProcess&) = delete;
   BoardProcess& operator=(const BoardProcess&) = delete;
   ~BoardProcess();
 
-  // What should run from now on, and its id; empty: nothing. The same again: a node that has failed gets a new chance.
+  // Sets what should run from now on, and its id; empty: nothing. The same again: a node that has failed is given a new
+  // chance.
   void want(const std::filesystem::path& manifest, const std::string& deployment);
-  // The node is ended and stays down until release() or want(); `reason` is what people are told.
+  // Ends the node and keeps it down until release() or want(); `reason` is what users see.
   void hold(const std::string& reason);
   void release();
   [[nodiscard]] const std::string& held() const noexcept { return held_; }  // the reason, empty: not held
   [[nodiscard]] bool has_node() const noexcept { return pid_ > 0; }
-  // Of what should run.
+  // Verifies the deployment that should run.
   [[nodiscard]] std::string verify() const { return deployment_.empty() ? std::string{} : verify_(deployment_); }
   void step(rt::MonoTime now);
-  // Ends the node and waits for that.
+  // Ends the node and waits until it has ended.
   void end();
-  // Lets go of the node; it runs on.
+  // Detaches from the node, which continues to run.
   void leave() noexcept;
 
   [[nodiscard]] NodeCondition condition() const noexcept { return condition_; }
-  // Why it failed, or what it said last before it died.
+  // Returns why it failed, or its last message before it died.
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
 
   [[nodiscard]] NodeFigures figures();
-  // For a trial: what went wrong since want(), and else what is still missing for the node to be well.
+  // Health during a trial: what failed since want(), otherwise what is still missing for the node to be healthy.
   struct Health {
     std::string problem;
     std::string missing;
   };
-  // `boards`: those that are to be there.
+  // `boards`: those that must be present.
   [[nodiscard]] Health health(const std::vector<std::string>& boards);
 
  private:
@@ -76,9 +78,9 @@ class BoardProcess {
   bool ended(int& status);
   void note_end(int status, rt::MonoTime now);
   void signal_stop(rt::MonoTime now);
-  bool look();  // run_ is that of the present node
+  bool look();  // returns false if run_ is not that of the present node
   void remember_faults();
-  // The first module that stands faulted, or has faulted since want(); empty if none has.
+  // Returns the first module that is faulted, or has faulted since want(); empty if none has.
   [[nodiscard]] std::string fault() const;
 
   std::string board_;
@@ -88,8 +90,8 @@ class BoardProcess {
   const base::Log& log_;
   int program_;  // indurop-node
   std::filesystem::path wanted_;
-  std::string deployment_;  // its id
-  std::string running_;     // likewise, of the present node; empty: it was started by hand
+  std::string deployment_;  // id of the deployment that should run
+  std::string running_;     // id of the deployment of the present node; empty: it was started by hand
   std::string held_;
   pid_t pid_ = -1;
   bool adopted_ = false;
@@ -98,7 +100,7 @@ class BoardProcess {
   std::string last_error_;
   bool asked_to_stop_ = false;
   rt::MonoTime kill_at_;
-  rt::MonoTime start_at_;  // not before
+  rt::MonoTime start_at_;  // earliest time of the next start
   std::deque<rt::MonoTime> restarts_;
   std::uint32_t deaths_ = 0;  // since want()
   NodeCondition condition_ = NodeCondition::None;
@@ -106,7 +108,7 @@ class BoardProcess {
   std::optional<vars::RunFile> run_;
   TickWatch tick_watch_;
   std::string hung_;  // why the node was killed
-  // By module: the faults that a node which runs on had at want().
+  // By module: the faults that a node that was already running had at want().
   std::vector<std::uint64_t> faults_before_;
 };
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The variables of the board's node, their values and what its modules printed, for tools elsewhere. Only reads, as
-// every observer of the store does: no tick notices. Not real-time safe.
+// The variables of the board's node, their values and what its modules printed, for remote tools. Only reads, like
+// every observer of the store: no tick is affected. Not real-time safe.
 //   variables: {"layout": 16 hexadecimal digits} in a line, then the schema as JSON (schema/schema.h)
 //   values:    {"layout", "running", "now_ns": CLOCK_MONOTONIC or virtual time of the board,
-//               "forces" and "lock" as run_image.h has them, "alarms": how many} in a line, then of each variable, in
-//               the order of the
-//              schema, its freshness (i64, little endian: see below) and the bytes of its value
+//               "forces" and "lock" as in run_image.h, "alarms": number of them} in a line, then for each variable, in
+//               the order of the schema, its freshness (i64, little endian: see below) and the bytes of its value
 //   messages:  {"epoch_ns", "basic_period_ns", "messages": [{"who", "time_ns", "text"}]}, oldest first
 
 #pragma once
@@ -20,8 +19,8 @@
 
 namespace indurop::deploy {
 
-// Freshness of a value: its own is 0, one of another board its age in ns and 1 more, negative while that board is
-// silent.
+// Freshness of a value: 0 for the board's own, for a value of another board its age in ns plus 1, negative while that
+// board is silent.
 inline constexpr std::int64_t kNeverHeard = std::numeric_limits<std::int64_t>::min();
 inline constexpr std::int64_t kNotRead = std::numeric_limits<std::int64_t>::max();  // it was being written
 
@@ -32,9 +31,9 @@ class BoardValues {
 
   explicit BoardValues(std::string board) : board_(std::move(board)), journal_(board_) {}
 
-  // Empty: no node of this board has left any, or they are more than kMostBytes.
+  // Returns an empty text if no node of this board has left any variables, or they are larger than kMostBytes.
   [[nodiscard]] std::string variables() const;
-  // Likewise. Whoever asks within kKeep gets the same again, however many ask.
+  // Empty as variables(). All callers within kKeep get the same text.
   const std::string& values(rt::MonoTime now);
   void forget() { kept_until_ = {}; }
 
@@ -45,7 +44,7 @@ class BoardValues {
   rt::MonoTime kept_until_;
 };
 
-// Empty list: no node of this board has left any.
+// Returns an empty list if no node of this board has left any messages.
 std::string messages_text(const std::string& board);
 
 }  // namespace indurop::deploy

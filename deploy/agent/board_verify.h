@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of this board compared with their digests because somebody asks for it, piece by piece beside the agent's
-// other work. What is damaged is dropped, and made again from what the board has besides.
+// Compares the files of this board with their digests on request, piece by piece between the agent's other work.
+// Damaged files are discarded, and restored from other copies on the board.
 //   The text: {"done": false}, or {"done": true, "files", "bytes", "deployments",
 //              "damaged": [{"file", "name", "sha256", "found", "repaired"}]}
 
@@ -19,10 +19,10 @@ class BoardVerify {
  public:
   explicit BoardVerify(AgentState& state) : state_(state) {}
 
-  // What was found for the question with this name; the first time it is asked, the check begins or waits for another.
+  // Returns the findings for the request with this name; at the first call the check begins, or waits for another one.
   std::string answer(const std::string& question);
-  // Goes on with the check. When one has ended that found damage: what is still wrong with the committed deployment,
-  // empty if it is whole.
+  // Continues the check. When a check that found damage has ended, returns what is still wrong with the committed
+  // deployment, empty if it is intact.
   std::optional<std::string> step();
   [[nodiscard]] bool busy() const noexcept { return check_.has_value(); }
 
@@ -33,7 +33,7 @@ class BoardVerify {
   AgentState& state_;
   std::string question_;  // under way
   std::optional<StateCheck> check_;
-  std::map<std::string, std::string> answers_;  // by question, the newest
+  std::map<std::string, std::string> answers_;  // by request, the newest
 };
 
 }  // namespace indurop::deploy

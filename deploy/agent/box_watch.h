@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What other boards of the plant report tells when something went wrong there, so that this board's black box is kept,
-// too: what it saw and did at that time belongs to it. No files here.
+// Detects failures of other boards of the plant by their reports, so that this board's black box is kept too: it has
+// this board's data of that time. No files here.
 
 #pragma once
 
@@ -15,12 +15,12 @@ namespace indurop::deploy {
 
 class BoxWatch {
  public:
-  // So many overruns of a node between two reports (half a second) are a fault.
+  // This many overruns of a node between two reports (half a second) are a fault.
   static constexpr std::uint64_t kManyOverruns = 10;
 
-  // Why the box is to be kept; nothing if all is well, or is not known long enough to tell.
+  // Returns why the black box is to be kept; nothing if all is well, or the board is not known long enough to judge.
   std::optional<std::string> hear(const BoardReport& report);
-  // Its agent left the network.
+  // The board's agent has left the network.
   std::optional<std::string> gone(const BoardReport& report);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose deployments a board takes: with the public key of a plant among its keys only those that are signed with it.
+// Decides which deployments a board accepts: if it has the public key of a plant, only those signed with that key.
 
 #pragma once
 
@@ -9,30 +9,31 @@
 
 namespace indurop::deploy {
 
-// By whose keys a board is known to the others.
+// The keys by which other boards know this board.
 struct OwnKeys {
   std::string plant;
   std::filesystem::path folder;  // empty: it has none
-  std::string state;             // other than before: the files have changed
-  std::string problem;           // why that cannot be said; empty: it can
+  std::string state;             // differs from the earlier value when the files have changed
+  std::string problem;           // why the keys cannot be determined; empty: they can
   bool operator==(const OwnKeys&) const = default;
 };
 
 class DeployKeys {
  public:
-  // Looks in $INDUROP_KEYS_DIR, normally /etc/indurop/keys, for PLANT/BOARD/deploy.pub.
+  // Searches $INDUROP_KEYS_DIR, by default /etc/indurop/keys, for PLANT/BOARD/deploy.pub.
   explicit DeployKeys(const std::string& board);
 
-  // Why what was said for this plant does not count; empty: it does. A board without any key takes everything, one
-  // whose keys cannot be read nothing. Reads the keys each time: they may be brought while the agent runs.
+  // Returns why a message for this plant is rejected; empty: it is accepted. A board without any key accepts
+  // everything, one whose keys cannot be read nothing. Reads the keys each time: they may be installed while the agent
+  // runs.
   [[nodiscard]] std::string refusal(const std::string& plant, const std::string& text,
                                     const std::string& signature) const;
 
-  // The keys of this board in `plant`, what it runs, else in the only plant it has keys of.
+  // Returns the board's keys in `plant`, which it runs, else in the only plant of which it has keys.
   [[nodiscard]] OwnKeys own(const std::string& plant) const;
 
  private:
-  // With an error it is not known.
+  // With an error it is not known whether the board has any keys.
   bool any(std::error_code& error) const;
   std::filesystem::path folder_;
   std::string board_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gets what a board lacks of a deployment, file after file, from a deployer or another board. What is here already and
-// is what its digest says is not fetched again; a file that was cut off goes on where it ended.
+// Fetches the files of a deployment that a board lacks, one after the other, from a deployer or another board. Files
+// that are stored already and match their digest are not fetched again; an interrupted file is continued where it
+// ended.
 
 #pragma once
 
@@ -23,19 +24,19 @@ namespace indurop::deploy {
 
 class Fetcher {
  public:
-  // Of a deployment that does not have `board` nothing but the package is fetched.
+  // Of a deployment that does not include `board` only the package is fetched.
   Fetcher(AgentState& state, std::uint64_t self, std::string board)
       : state_(state), self_(self), board_(std::move(board)) {}
   Fetcher(const Fetcher&) = delete;
   Fetcher& operator=(const Fetcher&) = delete;
   ~Fetcher();
 
-  // `sources`: sessions that may have its files, at least one; the next is asked where one has not, or is silent.
-  // `size`: of the package's text.
+  // `sources`: sessions that may have its files, at least one; the next is asked if one does not have a file, or is
+  // silent. `size`: of the package's text.
   void begin(std::vector<std::uint64_t> sources, const std::string& id, std::uint64_t size);
   void cancel();
   enum class State { Working, Done, Failed };
-  // Takes what has come and asks for more. Failed: problem() says why.
+  // Processes what has arrived and requests more. Failed: problem() returns why.
   State step(DeployLink& link, rt::MonoTime now);
 
   [[nodiscard]] bool active() const noexcept { return active_; }
@@ -63,21 +64,21 @@ class Fetcher {
   std::uint64_t self_;
   std::string board_;
   std::vector<std::uint64_t> sources_;
-  std::size_t source_ = 0;         // that is asked now
-  std::set<std::size_t> without_;  // those that do not have the file that is wanted now
-  rt::MonoTime heard_;             // when something came, or another one was asked
+  std::size_t source_ = 0;         // index of the source in use
+  std::set<std::size_t> without_;  // sources without the file that is fetched now
+  rt::MonoTime heard_;             // when something arrived, or another source was asked
   std::string id_;
   bool active_ = false;
-  bool planned_ = false;  // the package is here, wanted_ are its files
-  bool again_ = false;    // the part was damaged once already
+  bool planned_ = false;  // the package is complete, wanted_ are its files
+  bool again_ = false;    // the part was damaged once before
   std::vector<Wanted> wanted_;
   std::size_t at_ = 0;
-  std::uint64_t room_ = 0;  // for what is under way
+  std::uint64_t room_ = 0;  // bytes that may be under way
   int part_ = -1;
   std::optional<deploy::BlobFetch> blob_;
   std::optional<keys::Digest> digest_;
   std::string problem_;
-  FetchProgress progress_;  // whole files
+  FetchProgress progress_;  // complete files
 };
 
 }  // namespace indurop::deploy

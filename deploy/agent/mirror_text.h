@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a board's node reads from other boards and how old it is, as JSON for tools elsewhere (docs/cli.md).
+// The variables that a board's node reads from other boards, and their age, as JSON for remote tools (docs/cli.md).
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::deploy {
 
-// An empty list if no node of this board runs, or it is no board of a plant.
+// Returns an empty list if no node of this board runs, or it belongs to no plant.
 std::string mirror_text(const std::string& board);
 
 }  // namespace indurop::deploy

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop-node beside this program, held open: after an update of the files the node is still the one this agent knows.
+// indurop-node from the same folder as this program, held open: after an update of the files the node is still the one
+// that this agent knows.
 
 #pragma once
 
@@ -7,9 +8,9 @@
 
 namespace indurop::deploy {
 
-// An open file, or -1.
+// Returns an open file descriptor, or -1.
 int open_node_program();
-// By its name if it still has one, so that the node has it in the list of processes too.
+// Returns its path if it still has one, so that the list of processes shows it for the node.
 std::string node_program_path(int program);
 
 }  // namespace indurop::deploy

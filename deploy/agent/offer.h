@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an agent gives to whoever asks for it by name: its deployments' files, and texts about the board.
+// The blobs that an agent offers by name: its deployments' files, and texts about the board.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace indurop::deploy {
 
-// Nothing: it has none of that name.
+// Returns nothing if there is no blob of that name.
 std::optional<BlobServer::Blob> offer(const std::string& name, const std::string& board, const AgentState& state,
                                       BoardValues& values, BoardVerify& verify);
 

@@ -17,17 +17,17 @@ namespace indurop::deploy {
 struct AgentOptions {
   std::string board;
   LinkSettings link;
-  std::optional<int> core;  // of all modules that name none
+  std::optional<int> core;  // for all modules without one of their own
   bool require_rt = false;
   bool quiet = false;  // only warnings and errors
 };
 
-// Of every node that the agent starts.
+// Returns the arguments for every node that the agent starts.
 std::vector<std::string> node_arguments(const AgentOptions& options);
 // `self`: session of the agent.
 LinkSettings link_settings(const AgentOptions& options, std::uint64_t self);
 
-// Parses the command line. Else the exit code to end with (help, version, usage error; said already).
+// Parses the command line. On error returns the exit code (help, version, usage error); the message has been printed.
 Result<AgentOptions, int> parse_options(int argc, char** argv);
 
 }  // namespace indurop::deploy

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The agents of other boards that this one hears, and what people should know of them.
+// The agents of other boards that this one has discovered, and notes about them for people.
 
 #pragma once
 
@@ -21,13 +21,13 @@ class OtherBoards {
  public:
   OtherBoards(std::string board, const base::Log& log) : board_(std::move(board)), log_(log) {}
 
-  // Takes what has come. Why boards of `plant` keep their black boxes, if any does.
+  // Processes what has arrived. Returns why boards of `plant` keep their black boxes, if any does.
   std::vector<std::string> listen(DeployLink& link, const std::string& plant);
-  // Newest word of each, by board and agent; this one's own is among them.
+  // The latest report of each agent, by board and agent; this board's own is included.
   [[nodiscard]] const std::map<std::pair<std::string, std::uint64_t>, BoardReport>& all() const noexcept {
     return boards_;
   }
-  // Sessions that may have files of a deployment of the plant: `first`, then the agents of its boards.
+  // Returns the sessions that may have files of a deployment of the plant: `first`, then the agents of its boards.
   [[nodiscard]] std::vector<std::uint64_t> with_files_of(const std::string& plant, std::uint64_t first) const;
   void clear() { boards_.clear(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What systemd is told: that the agent is ready, and that it still lives (sd_notify(3), WatchdogSec= of its unit).
+// Reports to systemd that the agent is ready, and that it is alive (sd_notify(3), WatchdogSec= of its unit).
 
 #pragma once
 
@@ -12,17 +12,17 @@ namespace indurop::deploy {
 
 class ServiceManager {
  public:
-  // By $NOTIFY_SOCKET and $WATCHDOG_USEC; does nothing if nobody listens.
+  // Uses $NOTIFY_SOCKET and $WATCHDOG_USEC; does nothing if they are not set.
   ServiceManager();
   void ready() const { tell("READY=1"); }
   void stopping() const { tell("STOPPING=1"); }
-  // Says that all is well, often enough.
+  // Reports that all is well, often enough for the watchdog.
   void alive(rt::MonoTime now);
 
  private:
   void tell(const std::string& state) const;
   std::string socket_;
-  std::chrono::nanoseconds every_{};  // 0: nobody waits for it
+  std::chrono::nanoseconds every_{};  // 0: no watchdog
   rt::MonoTime told_{};
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sees that a node hangs: it is there, its schedule should run, and its tick stands still.
+// Detects a node that hangs: it exists, its schedule should run, but its tick does not advance.
 
 #pragma once
 
@@ -14,14 +14,14 @@ namespace indurop::deploy {
 
 class TickWatch {
  public:
-  // A tick may stand for so long, and for three basic periods more.
+  // A tick may last this long, plus three basic periods.
   static constexpr std::chrono::seconds kPatience{3};
 
-  // Another node is watched from now on.
+  // Another node is monitored from now on.
   void reset() noexcept { seen_.reset(); }
-  // Looked at again and again. How long the tick has stood, if that is too long. Time in which nobody looked, because
-  // the whole machine stood still, does not count. A node that has a thread module without a budget is never judged:
-  // such a module may take as long as it wants.
+  // To be called repeatedly. Returns how long the tick has not advanced, if that is too long. Time in which nothing
+  // called it, because the whole machine was suspended, does not count. A node that has a thread module without a
+  // budget is never judged: such a module may run for any time.
   std::optional<std::chrono::nanoseconds> look(const scheduler::RunBlock& block, rt::MonoTime now);
 
  private:

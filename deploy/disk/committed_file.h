@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// committed.json of a board: what it has committed and what was deployed before, with a digest of all of it, so that a
-// file that the disk has changed is not believed. Text only.
+// committed.json of a board: its committed deployment and the earlier ones, with a digest over all of it, so that a
+// file that the disk has corrupted is rejected. Text only.
 
 #pragma once
 
@@ -24,10 +24,10 @@ struct HistoryEntry {
   std::string deployment;
   std::string plant;
   std::uint64_t generation = 0;
-  std::string host;  // that deployed it
+  std::string host;  // host that deployed it
   std::int64_t wall_ns = 0;
   std::string outcome;  // "committed", or why it was rolled back
-  std::string comment;  // of whoever deployed it
+  std::string comment;  // comment of the user who deployed it
 };
 
 struct Committed : CommittedDeployment {
@@ -37,12 +37,12 @@ struct Committed : CommittedDeployment {
 base::Json history_json(const std::vector<HistoryEntry>& history);
 
 std::string committed_text(const Committed& committed);
-// A problem if it is not what committed_text() has made. A file of an older release has no digest and is taken as it
-// is.
+// Returns a problem if the text is not what committed_text() creates. A file of an older release has no digest and is
+// accepted without one.
 Result<Committed, base::Problem> read_committed(std::string_view text);
 
-// Ids of the deployments whose files are kept on the board: the current and the previous one, and the newest that were
-// committed before.
+// Returns the ids of the deployments whose files are kept on the board: the current and the previous one, and the
+// newest that were committed earlier.
 std::set<std::string> kept_deployments(const Committed& committed);
 
 }  // namespace indurop::deploy

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything in the state folder of a board that has a digest, compared with it: committed.json, files/, and the
-// folders of the deployments that are kept. Only reads; in small pieces, so that an agent goes on meanwhile.
+// Compares everything in the state folder of a board that has a digest with it: committed.json, files/, and the folders
+// of the deployments that are kept. Only reads; in small pieces, so that an agent can do other work meanwhile.
 
 #pragma once
 
@@ -19,9 +19,9 @@
 namespace indurop::deploy {
 
 struct StateReport {
-  std::uint64_t files = 0;  // that were read
+  std::uint64_t files = 0;  // files read
   std::uint64_t bytes = 0;
-  std::vector<std::string> deployments;  // ids, that the board keeps
+  std::vector<std::string> deployments;  // ids of the deployments that the board keeps
   std::vector<Damage> damaged;
 };
 // {"files", "bytes", "deployments", "damaged": [{"file", "name", "sha256", "found"}]}
@@ -31,7 +31,7 @@ class StateCheck {
  public:
   explicit StateCheck(const std::filesystem::path& folder);
 
-  // Some megabytes more. True: all is done.
+  // Checks some more megabytes. Returns true when all is done.
   bool step();
   [[nodiscard]] const StateReport& report() const noexcept { return report_; }
 
@@ -42,7 +42,7 @@ class StateCheck {
   void note(std::string found);
 
   DeploymentFiles files_;
-  std::deque<Damage> wanted_;  // `found` is empty
+  std::deque<Damage> wanted_;  // still to be checked; `found` is empty
   base::Descriptor open_;
   std::optional<keys::Digest> digest_;
   StateReport report_;

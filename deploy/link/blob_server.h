@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends pieces of files to whoever asks: a deployer to the boards, a board to one that missed a deployment.
+// Sends pieces of files on request: from a deployer to the boards, from a board to one that missed a deployment.
 
 #pragma once
 
@@ -24,27 +24,28 @@ class BlobServer {
     std::filesystem::path file;  // empty: `text`
     std::string text;
   };
-  // Nothing: it is not here.
+  // Returns nothing if there is no such blob.
   using Find = std::function<std::optional<Blob>(const std::string& name)>;
 
   BlobServer(std::uint64_t self, Find find) : self_(self), find_(std::move(find)) {}
   BlobServer(const BlobServer&) = delete;
   BlobServer& operator=(const BlobServer&) = delete;
 
-  // Takes new requests and sends some pieces, to all that wait in turn. True: there is more to send now.
+  // Takes new requests and sends some pieces, to all waiting clients alternately. Returns true if there is more to send
+  // now.
   bool serve(DeployLink& link, rt::MonoTime now);
 
  private:
   struct Waiting {
     std::deque<deploy::BlobRequest> requests;
     rt::MonoTime stuck_since;
-    std::string open_name;     // of the blob below
-    std::optional<Blob> blob;  // nothing: it is not here
+    std::string open_name;     // name of the blob below
+    std::optional<Blob> blob;  // nothing: there is no such blob
     base::Descriptor file;
   };
   void forget(Waiting& waiting) const;
   void look_up(Waiting& waiting, const std::string& name) const;
-  // What to send of the open blob: at most `length` bytes from there, or that it is missing.
+  // Returns what to send of the open blob: at most `length` bytes from the offset, or that it is missing.
   [[nodiscard]] BlobChunk read(const Waiting& waiting, const BlobRequest& request) const;
 
   std::uint64_t self_;

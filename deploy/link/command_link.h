@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands to single boards and their answers (deploy/words/command_words.h) as DDS topics, beside those of
-// deployments. No DDS here. Used by the thread that uses the DeployLink, which outlives it and tells when something
-// came.
+// Commands to single boards and their answers (deploy/words/command_words.h) as DDS topics, in addition to those of
+// deployments. No DDS here. Used by the thread that uses the DeployLink, which outlives it and signals when something
+// has arrived.
 
 #pragma once
 
@@ -18,18 +18,18 @@ namespace indurop::deploy {
 
 class DeployLink;
 
-// An agent hears commands and answers, a commander the other way round.
+// An agent receives commands and answers them, a commander sends commands and receives the answers.
 enum class CommandSide { Agent, Commander };
 
 class CommandLink {
  public:
-  // Never null; a problem if it cannot be had.
+  // The link is never null; a problem if it cannot be opened.
   static Result<std::unique_ptr<CommandLink>, base::Problem> open(DeployLink& link, CommandSide side);
   CommandLink(const CommandLink&) = delete;
   CommandLink& operator=(const CommandLink&) = delete;
   ~CommandLink();
 
-  // Nothing that is said is kept for late joiners: commanders repeat themselves.
+  // Messages are not kept for late joiners: commanders repeat them.
   void send(const Command& command);
   void send(const CommandReply& reply);
   std::vector<deploy::Command> take_commands();

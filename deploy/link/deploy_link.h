@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How agents of boards and deployers reach each other: their words (deploy/words/deployment_words.h) as DDS topics. No
-// DDS here. One thread uses a link.
+// The messages between agents of boards and deployers (deploy/words/deployment_words.h) as DDS topics. No DDS here. One
+// thread uses a link.
 
 #pragma once
 
@@ -25,48 +25,50 @@ class SignalWord;
 namespace indurop::deploy {
 
 struct LinkSettings {
-  // Not the domain of a plant: boards without any deployment are found here, and values of plants do not pass by.
+  // Differs from the domain of plants: boards without any deployment are found in it, and values of plants are not sent
+  // in it.
   static constexpr int kDefaultDomain = 76;
   LinkSettings() { network.domain = kDefaultDomain; }
   dds::NetworkSettings network;
-  std::filesystem::path keys;  // folder network.security is from; empty: none
+  std::filesystem::path keys;  // folder of network.security; empty: none
   std::uint64_t self = 0;      // session of this agent or deployer
 };
 
-// --domain, --interface and --one-host of agents, and of who speaks to them.
+// Adds --domain, --interface and --one-host, for agents and their clients.
 void add_agent_options(base::Options& line, LinkSettings& settings);
-// These and --keys, of who speaks to them.
+// Adds these and --keys, for clients of agents.
 void add_link_options(base::Options& line, LinkSettings& settings);
 
-// A session number that no other run has.
+// Returns a session number that no other run has.
 std::uint64_t new_session();
 std::string host_name();
 
 class DeployLink {
  public:
-  // Largest piece of a file in one message.
+  // Maximum size of a piece of a file in one message.
   static constexpr std::size_t kChunk = 60'000;
 
   struct Opened {
     std::unique_ptr<DeployLink> link;  // never null
-    std::string note;                  // what the user should know; empty: nothing
+    std::string note;                  // note for the user; empty: none
   };
-  // A problem if the network cannot be had now: try again later.
+  // Returns a problem if the network is not available now: try again later.
   static Result<Opened, base::Problem> open(const LinkSettings& settings);
   DeployLink(const DeployLink&) = delete;
   DeployLink& operator=(const DeployLink&) = delete;
   ~DeployLink();
 
-  // What is published stays for late joiners until it is replaced, or the link is closed.
+  // The last published message stays for late joiners until it is replaced, or the link is closed.
   void publish(const BoardReport& report);
   void publish(const Order& order);
   void request(const BlobRequest& request);
   enum class Sent { Yes, Later, Failed };
-  // Later: the network or the receiver is not ready for it.
+  // Returns Later if the network or the receiver is not ready for it.
   Sent send(std::uint64_t requester, const BlobChunk& chunk);
-  void forget(std::uint64_t requester);  // it wants no more for now
+  void forget(std::uint64_t requester);  // the requester needs no more for now
 
-  // What has come since. `gone`: the board or deployer has left, or is not heard; only its name and number are set.
+  // What has arrived since the last call. `gone`: the board or deployer has left, or has timed out; only its name and
+  // number are set.
   struct BoardNews {
     BoardReport report;
     bool gone = false;
@@ -79,25 +81,27 @@ class DeployLink {
   std::vector<OrderNews> take_orders();
   std::vector<deploy::BlobRequest> take_requests();  // to this session
   std::vector<deploy::BlobChunk> take_chunks();
-  // Bytes of files that may be on their way to here, so that what comes at once finds room and is not lost.
+  // Returns how many bytes of files may be on their way to this process, so that a burst finds room and is not lost.
   [[nodiscard]] std::uint64_t room() const noexcept { return room_; }
 
-  // How much longer it takes to hear the others than on an open network: they let each other in first.
+  // Returns how much longer discovery takes than on an open network: participants authenticate each other first.
   [[nodiscard]] std::int64_t letting_in_ns() const noexcept { return letting_in_ns_; }
 
-  // Agents in the network whose protocol is another one, as far as they are known by now.
+  // Returns the agents in the network with another protocol, as far as they are known by now.
   std::vector<deploy::OtherAgent> other_agents();
 
-  // In a plant with keys: who reports in the name of others, as far as it was heard.
+  // In a plant with keys: participants that report in the name of others, as far as they were received.
   [[nodiscard]] std::vector<deploy::Impostor> impostors() const;
 
-  // For topics beside these (deploy/link/command_link.h): what they are made in, and what their readers wake.
+  // For other topics on this link (deploy/link/command_link.h): the participant in which they are created, and the word
+  // that their readers signal.
   [[nodiscard]] int participant() const noexcept;
   [[nodiscard]] rt::SignalWord& wake_word() noexcept;
-  // Is what `reader` got from this publication said by that board? Always in an open plant.
+  // Returns whether the sample that `reader` received from this publication is from that board. Always true in an open
+  // plant.
   [[nodiscard]] bool speaks_for(int reader, std::uint64_t publication, const std::string& board);
 
-  // Until something came or CLOCK_MONOTONIC `deadline_ns`.
+  // Waits until something has arrived or until `deadline` (CLOCK_MONOTONIC).
   void wait(rt::MonoTime deadline);
 
  private:

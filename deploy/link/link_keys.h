@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The option --keys of verbs that speak to boards: by whose keys they are known there.
+// The option --keys of verbs that communicate with boards: the keys by which the boards know them.
 
 #pragma once
 
@@ -18,11 +18,11 @@ namespace indurop::deploy {
 
 dds::Security security_of(const keys::ParticipantKeys& keys);
 
-// Speaks by the keys in settings.keys from now on: those of the deployer, if it is the folder of a plant.
+// Uses the keys in settings.keys from now on: those of the deployer, if it is the folder of a plant.
 Result<void, base::Problem> use_keys(LinkSettings& settings);
 
-// Adds --keys DIR, which sets `security` to the keys there (keys::keys_meant); a folder without is a wrong command
-// line. `given`, if there is one: becomes that folder.
+// Adds --keys DIR, which sets `security` to the keys in it (keys::keys_meant); a folder without keys is a usage error.
+// `given`, if not null, is set to that folder.
 base::Option add_keys_option(base::Options& line, dds::Security& security, keys::Role role, const std::string& help,
                              std::filesystem::path* given = nullptr);
 

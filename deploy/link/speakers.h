@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who says what in a plant with keys: a word of a board counts only from the participant whose certificate has the name
-// of that board. Words in the name of another board are counted. In an open plant every word counts.
+// Authenticates messages in a plant with keys: a message of a board is accepted only from the participant whose
+// certificate has the name of that board. Messages in the name of another board are counted. In an open plant every
+// message is accepted.
 
 #pragma once
 
@@ -19,15 +20,16 @@ namespace indurop::deploy {
 
 class Speakers {
  public:
-  // By the certificate of this participant; an empty path: the plant is open.
+  // `certificate`: that of this participant; an empty path: the plant is open.
   explicit Speakers(const std::string& certificate);
 
-  // May this report be believed? `publication`: of its writer, as `reader` knows it.
+  // Returns whether this report is accepted. `publication`: of its writer, as `reader` knows it.
   bool admit(dds::Handle reader, dds::InstanceHandle publication, const BoardReport& report);
-  // Nobody writes this agent's reports any more. False: only somebody else says so.
+  // Reports that no participant writes this agent's reports any more. Returns false if only another participant claims
+  // so.
   bool leave(dds::Handle reader, dds::InstanceHandle publication, const std::string& board, std::uint64_t agent);
   bool speaks_for(dds::Handle reader, dds::InstanceHandle publication, const std::string& board);
-  // Is it the agent with this session, or if no agent has it, at least no board?
+  // Returns whether it is the agent with this session, or, if no agent has it, at least not a board.
   bool speaks_as(dds::Handle reader, dds::InstanceHandle publication, std::uint64_t session);
 
   [[nodiscard]] std::vector<Impostor> impostors() const;
@@ -47,8 +49,8 @@ class Speakers {
     std::uint64_t reports = 0;
   };
   std::string plant_;                                      // empty: open
-  std::map<dds::InstanceHandle, dds::Guid> publications_;  // whose they are
-  std::map<std::string, std::string> digests_;             // of subjects, by board
+  std::map<dds::InstanceHandle, dds::Guid> publications_;  // participant that owns each
+  std::map<std::string, std::string> digests_;             // digests of certificate subjects, by board
   std::map<std::uint64_t, Agent> agents_;                  // by session
   std::set<dds::Guid> boards_;                             // participants that report
   std::vector<Impersonation> impersonations_;

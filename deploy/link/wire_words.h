@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of deployment (deploy/words/) as samples of their IDL types: one list for each word says which field is
-// carried by which, and both directions walk it. A field that is missing in list, word or IDL does not compile.
+// The messages of deployment (deploy/words/) as samples of their IDL types: one list for each message maps its fields
+// to those of the sample, and both directions use it. A field that is missing in list, message or IDL does not compile.
 
 #pragma once
 
@@ -29,7 +29,7 @@ struct Pair {
 template <class Word, class WordField, class Sample, class SampleField>
 Pair(WordField Word::*, SampleField Sample::*) -> Pair<Word, WordField, Sample, SampleField>;
 
-// How a word travels: `Sample`, and `kFields` as pairs.
+// The wire form of a message: `Sample`, and `kFields` as pairs.
 template <class Word>
 struct Wire;
 
@@ -132,7 +132,7 @@ struct Wire<CommandReply> {
   };
 };
 
-// Converts to anything: as many of them as an aggregate takes, so many fields it has.
+// Converts to anything: the number of these that an aggregate accepts is its number of fields.
 struct Anything {
   template <class T>
   operator T() const noexcept;  // NOLINT(google-explicit-constructor): what it is for
@@ -145,7 +145,7 @@ consteval std::size_t count_fields() {
     return sizeof...(Fields);
   }
 }
-// `Parts`: bases of the word, each of which counts as one field.
+// `Parts`: base classes of the message, each of which counts as one field.
 template <class Word, class... Parts>
 consteval bool all_fields_travel() {
   constexpr std::size_t kListed = std::tuple_size_v<decltype(Wire<Word>::kFields)>;
@@ -160,7 +160,7 @@ static_assert(all_fields_travel<BlobChunk>());
 static_assert(all_fields_travel<Command>());
 static_assert(all_fields_travel<CommandReply>());
 
-// The word as DDS writes it. Borrows the word's memory, so the word outlives it unchanged.
+// The message as DDS writes it. Borrows the message's memory, so the message must outlive it unchanged.
 template <class Word>
 class Lent {
  public:
@@ -204,7 +204,7 @@ class Lent {
   std::list<std::vector<char*>> names_;
 };
 
-// Numbers that mean nothing here stand for the last one, which is the most careful one to assume.
+// Unknown numbers are mapped to the last enumerator, which is the most cautious assumption.
 constexpr Phase last_of(Phase /*any*/) noexcept {
   return Phase::Failed;
 }
@@ -242,7 +242,7 @@ void take(const Sequence& from, std::vector<Item>& to) {
   to.assign(from._buffer, from._buffer + from._length);
 }
 
-// A copy of a sample that was received with all its fields.
+// Returns a copy of a received sample with all its fields.
 template <class Word>
 Word word_of(const typename Wire<Word>::Sample& sample) {
   Word word;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pieces of one file are asked for and have come: in order, a window ahead, asked for again if nothing comes.
+// Tracks which pieces of one file were requested and have arrived: in order, one window ahead, requested again if
+// nothing arrives.
 
 #pragma once
 
@@ -19,14 +20,14 @@ class BlobFetch {
   struct Range {
     std::uint64_t offset = 0;
     std::uint64_t length = 0;
-    bool restart = false;  // what was asked before is void
+    bool restart = false;  // earlier requests are void
   };
 
-  // The first `have` of `size` bytes are there already; at most `window` are under way.
+  // The first `have` of `size` bytes are stored already; at most `window` bytes are under way.
   BlobFetch(std::uint64_t size, std::uint64_t have, std::uint64_t window = kWindow)
       : size_(size), have_(have), window_(window), asked_(have) {}
 
-  // What to ask for now, if anything.
+  // Returns what to request now, if anything.
   std::optional<Range> ask(rt::MonoTime now) {
     if (complete()) {
       return std::nullopt;
@@ -45,7 +46,7 @@ class BlobFetch {
     return range;
   }
 
-  // True if these bytes come next; they are to be kept then. Others are to be dropped.
+  // Returns true if these bytes come next and must be kept; other bytes are to be discarded.
   bool take(std::uint64_t offset, std::uint64_t length, rt::MonoTime now) {
     if (offset != have_ || length == 0 || length > size_ - have_) {
       return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What travels to the boards of a plant: the manifest and every file it names, each by its digest. The package is told
-// as a text whose digest is the deployment's id, so an id stands for one exact content.
+// The package that is sent to the boards of a plant: the manifest and every file it names, each by its digest. The
+// package is written as a text whose digest is the deployment's id, so an id identifies one exact content.
 
 #pragma once
 
@@ -19,7 +19,7 @@
 namespace indurop::deploy {
 
 struct PackageFile {
-  std::string path;  // relative, without ".."; below the deployment's folder
+  std::string path;  // relative, without ".."; in the deployment's folder
   std::string digest;
   std::uint64_t size = 0;
   bool executable = false;
@@ -28,25 +28,25 @@ struct PackageFile {
 struct Package {
   std::string plant;
   std::string manifest;             // path of the manifest among `files`
-  std::vector<std::string> boards;  // of the plant, in file order
+  std::vector<std::string> boards;  // boards of the plant, in file order
   std::vector<PackageFile> files;   // by path
-  std::string comment;              // of whoever deploys it
+  std::string comment;              // comment of the user who deploys it
 };
 
 std::string to_text(const Package& package);
-// Everything in it is checked, whoever sent it; a problem if it is not a sound package.
+// Checks everything in the text, whoever sent it; returns a problem if it is not a valid package.
 Result<Package, base::Problem> read_package(std::string_view text);
 
 struct PackedPlant {
   Package package;
   std::string text;
   std::string id;
-  std::map<std::string, std::filesystem::path> sources;  // digest -> file here
+  std::map<std::string, std::filesystem::path> sources;  // digest -> local file
 };
-// Every board gets all files, for each checks the whole plant itself. File names beginning with '/' mean the board's
-// own files and do not travel. What lies outside of the manifest's folder and of the folders `also`, links followed,
-// travels only if it is a module or a library of types: a project of somebody else must not take files of this machine
-// along. A problem names all files that cannot be read or must not travel. Not real-time safe.
+// Packs all files for every board, because each checks the whole plant. File names that begin with '/' refer to the
+// board's own files and are not sent. A file outside of the manifest's folder and of the folders `also`, links
+// followed, is sent only if it is a module or a library of types: another user's project must not pick up files of this
+// machine. A problem names all files that cannot be read or must not be sent. Not real-time safe.
 Result<PackedPlant, base::Problem> pack_plant(const config::Plant& plant,
                                               const std::vector<std::filesystem::path>& also = {},
                                               const std::string& comment = {});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The deployer's side of a deployment as a state machine: it hears what the boards report and says what they are to do
-// until all of them have committed or gone back. Knows no network, so every order of events can be tried.
+// The deployer's side of a deployment as a state machine: it receives the boards' reports and commands them until all
+// of them have committed or rolled back. Knows no network, so every order of events can be tested.
 
 #pragma once
 
@@ -22,39 +22,39 @@ class PlantTransaction {
     Open,         // not decided yet
     Committed,    // on all boards
     Refused,      // a board could not prepare; nothing was switched
-    CheckFailed,  // likewise, its check found errors
+    CheckFailed,  // as Refused: a board's check found errors
     Busy,         // another deployment is under way
-    RolledBack,   // the new deployment did not do; all boards went back
-    Interrupted,  // given up by the user
+    RolledBack,   // the new deployment was not healthy; all boards rolled back
+    Interrupted,  // cancelled by the user
   };
 
   static constexpr std::chrono::milliseconds kSwitchAhead{300};
-  static constexpr std::chrono::seconds kBusy{3};  // how long another deployer may take to give way
+  static constexpr std::chrono::seconds kBusy{3};  // time another deployer has to give way
   static constexpr std::chrono::seconds kWindUp{10};
-  static constexpr std::chrono::seconds kLost{3};  // how long a board that the network has lost may take to come back
+  static constexpr std::chrono::seconds kLost{3};  // time a board that the network has lost has to come back
 
-  // `order` without step and times: deployer, host, deployment, size, generation, boards, health. `patience`: how
-  // long nothing at all may happen while boards prepare.
+  // `order` without step and times: deployer, host, deployment, size, generation, boards, health. `patience`: maximum
+  // time without any event while boards prepare.
   PlantTransaction(Order order, std::chrono::nanoseconds patience, rt::MonoTime now);
 
   void hear(const BoardReport& report, rt::MonoTime now);
-  // The network has lost it. It is waited for a while: on a busy machine it comes back.
+  // The network has lost a board. It is waited for a while: on a busy machine it comes back.
   void board_lost(const std::string& board, std::uint64_t agent, rt::MonoTime now);
-  // Another deployer speaks to some of the same boards: the one with the smaller number goes on.
+  // Another deployer sends orders to some of the same boards: the one with the smaller number continues.
   void rival(const Order& order, rt::MonoTime now);
   void give_up(rt::MonoTime now);
-  // Call often; true if the order to publish has changed.
+  // To be called often; returns true if the order to publish has changed.
   bool time(rt::MonoTime now, rt::WallTime wall);
 
-  // What to say to the boards now.
+  // The order to publish now.
   [[nodiscard]] const Order& order() const noexcept { return order_; }
-  // Nothing more to say: all boards are done, or those that answer.
+  // Returns true when there is nothing more to publish: all boards are done, or those that answer.
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   [[nodiscard]] Verdict verdict() const noexcept { return verdict_; }
   [[nodiscard]] const std::map<std::string, BoardReport>& reports() const noexcept { return reports_; }
-  // Per board, why it did not do. Boards that only went back with the others are not in it.
+  // Per board, why it failed. Boards that only rolled back with the others are not included.
   [[nodiscard]] const std::map<std::string, std::string>& reasons() const noexcept { return reasons_; }
-  // Boards that have not answered to the last step.
+  // Boards that have not confirmed the last step.
   [[nodiscard]] const std::vector<std::string>& unconfirmed() const noexcept { return unconfirmed_; }
 
  private:
@@ -67,13 +67,13 @@ class PlantTransaction {
 
   Order order_;
   std::chrono::nanoseconds patience_;
-  rt::MonoTime moved_;   // when something happened last
-  rt::MonoTime ending_;  // when Commit or Abort was said
+  rt::MonoTime moved_;   // time of the last event
+  rt::MonoTime ending_;  // when Commit or Abort was published
   bool switched_ = false;
   bool finished_ = false;
   Verdict verdict_ = Verdict::Open;
-  std::map<std::string, BoardReport> reports_;  // of the boards meant, newest
-  std::map<std::string, Silence> lost_;         // of those, since when they are not heard any more
+  std::map<std::string, BoardReport> reports_;  // of the addressed boards, newest
+  std::map<std::string, Silence> lost_;         // addressed boards that are lost, with the time of silence
   std::map<std::string, rt::MonoTime> busy_since_;
   std::map<std::string, std::string> reasons_;
   std::vector<std::string> unconfirmed_;

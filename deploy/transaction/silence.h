@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long nothing was heard of somebody, by the time in which this process listened: what it slept itself, stopped or
-// on a machine that is too busy, does not count, because words that came meanwhile have not been read yet.
+// Measures how long a peer has been silent, in time during which this process was listening: time that this process
+// slept, was stopped or was not scheduled on a busy machine does not count, because messages of that time have not been
+// read yet.
 
 #pragma once
 
@@ -13,11 +14,11 @@ namespace indurop::deploy {
 
 class Silence {
  public:
-  static constexpr std::chrono::milliseconds kStep{500};  // at most, of the time between two looks
+  static constexpr std::chrono::milliseconds kStep{500};  // maximum that is counted between two calls
 
   Silence() = default;
   explicit Silence(rt::MonoTime begin) noexcept : looked_(begin) {}
-  // Call often. Returns how long it has lasted.
+  // To be called often. Returns how long the silence has lasted.
   std::chrono::nanoseconds look(rt::MonoTime now) noexcept {
     lasted_ += std::min<std::chrono::nanoseconds>(now - looked_, kStep);
     looked_ = now;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What boards and deployers say to each other, as plain data: boards tell their state, a deployer what it wants. Both
-// are told again and again, so nothing depends on a single message. No network and no files here.
+// Messages between boards and deployers, as plain data: boards report their state, a deployer sends its order. Both are
+// repeated, so nothing depends on a single message. No network and no files here.
 
 #pragma once
 
@@ -11,46 +11,46 @@
 
 namespace indurop::deploy {
 
-// Where a board is in a deployment.
+// A board's phase in a deployment.
 enum class Phase : std::uint8_t {
-  Steady,    // in none: runs what is committed
-  Fetching,  // gets the files it lacks
-  Checking,  // of the plant, on its own copy
-  Prepared,  // could switch
-  Trial,     // runs the new deployment, for how well is not known yet
-  Healthy,   // and it does well
-  Failed,    // could not: runs what is committed, see `message`
+  Steady,    // in no deployment: runs what is committed
+  Fetching,  // fetches missing files
+  Checking,  // checks the plant on its own copy
+  Prepared,  // ready to switch
+  Trial,     // runs the new deployment, its health is not known yet
+  Healthy,   // runs the new deployment, which is healthy
+  Failed,    // failed: runs what is committed, see `message`
 };
 const char* to_text(Phase phase) noexcept;
 
-// What the deployer wants.
+// The step that the deployer requests.
 enum class Step : std::uint8_t { Prepare, Switch, Commit, Abort };
 
-// The node of a board, as its agent sees it.
+// The condition of a board's node, as reported by its agent.
 enum class NodeCondition : std::uint8_t {
   None,  // nothing is deployed
   Starting,
   Running,
   Stopping,
-  Restarting,  // died, comes back soon
+  Restarting,  // died, will be restarted soon
   Failed,      // died too often, or its configuration is refused: stays down
-  Stopped,     // by command: stays down until it is told to start, or deployed anew
+  Stopped,     // by command: stays down until it is started or deployed again
 };
 const char* to_text(NodeCondition condition) noexcept;
 
-// What a board has committed. `generation` counts deployments of the plant and is the same on all its boards.
+// A board's committed deployment. `generation` counts deployments of the plant and is the same on all its boards.
 struct CommittedDeployment {
   std::uint64_t generation = 0;
   std::string plant;
   std::string current;             // id, empty: nothing
   std::uint64_t current_size = 0;  // of its package's text
-  std::string comment;             // of whoever deployed it
-  std::string previous;            // likewise
+  std::string comment;             // comment of the user who deployed `current`
+  std::string previous;            // id of the deployment before it, empty: none
   std::vector<std::string> members;
   std::string grant;  // the deployer's signature of grant_text() of this; empty: unsigned
 };
 
-// How far a board is with the files it lacks.
+// A board's progress in fetching the missing files.
 struct FetchProgress {
   std::uint32_t files = 0;
   std::uint32_t files_done = 0;
@@ -58,7 +58,7 @@ struct FetchProgress {
   std::uint64_t bytes_done = 0;
 };
 
-// What the node of a board counts.
+// Counters of a board's node.
 struct NodeFigures {
   std::uint64_t tick = 0;
   std::uint64_t lost_ticks = 0;
@@ -66,42 +66,42 @@ struct NodeFigures {
   std::uint64_t faults = 0;
 };
 
-// A new field is added here, in the IDL and in the list of deploy/link/wire_words.h; the compiler compares them.
+// A new field is added here, in the IDL and in the list in deploy/link/wire_words.h; the compiler compares them.
 struct BoardReport : CommittedDeployment, FetchProgress, NodeFigures {
   std::string board;
   std::uint64_t agent = 0;  // this run of the agent
   std::string host;
   std::string release;  // of the platform
-  // The deployment it is in, or was in last.
+  // The deployment that the board is in, or was in last.
   std::uint64_t deployer = 0;
   std::string deployer_host;
   std::string proposed;  // id
   Phase phase = Phase::Steady;
-  Phase stage = Phase::Steady;  // where it failed
-  std::uint64_t refused = 0;    // deployer that this board does not take orders of
-  std::string refusal;          // and why
-  std::string message;          // why it failed or went back; else what people should know
+  Phase stage = Phase::Steady;  // phase in which it failed
+  std::uint64_t refused = 0;    // deployer whose orders this board rejects
+  std::string refusal;          // why they are rejected
+  std::string message;          // why it failed or rolled back; else a note for people
   NodeCondition node = NodeCondition::None;
-  std::int64_t clock_offset_ns = 0;  // CLOCK_REALTIME here minus the deployer's, transport included
+  std::int64_t clock_offset_ns = 0;  // the board's CLOCK_REALTIME minus the deployer's, transport included
 };
 
-// An agent of another release whose protocol is not this one's: it is there, and nothing it says can be heard.
+// An agent of another release with another protocol: it is present, but its messages cannot be read.
 struct OtherAgent {
   unsigned protocol = 0;
-  std::string board;  // empty: it does not tell; likewise
+  std::string board;  // empty: not announced; so is host
   std::string host;
 };
-// "the agent of board b on HOST speaks protocol 1 ...", and what to do.
+// Returns "the agent of board b on HOST speaks protocol 1 ...", and what to do.
 std::string describe(const OtherAgent& agent, unsigned own_protocol);
 
-// Somebody with keys of the plant who reports in the name of a board that its certificate does not have. Nothing of it
-// is believed.
+// A participant with keys of the plant that reports in the name of a board that is not in its certificate. Its reports
+// are rejected.
 struct Impostor {
   std::string claimed;
-  std::string board;  // that has these keys; empty: it is not known
+  std::string board;  // board that owns these keys; empty: not known
   std::uint64_t reports = 0;
 };
-// "board b reports in the name of board a ...", and what to do.
+// Returns "board b reports in the name of board a ...", and what to do.
 std::string describe(const Impostor& impostor);
 
 struct Order {
@@ -111,27 +111,27 @@ struct Order {
   std::string deployment;  // id: digest of the package's text
   std::uint64_t size = 0;  // of the package's text
   std::uint64_t generation = 0;
-  std::vector<std::string> boards;  // those that are meant
+  std::vector<std::string> boards;  // the addressed boards
   Step step = Step::Prepare;
-  std::int64_t said_at_ns = 0;    // CLOCK_REALTIME of the deployer
-  std::int64_t switch_at_ns = 0;  // likewise; with Step::Switch
-  std::int64_t health_ns = 0;     // how long the new deployment is watched before it counts as good
+  std::int64_t said_at_ns = 0;    // CLOCK_REALTIME of the deployer when it was sent
+  std::int64_t switch_at_ns = 0;  // the same clock; with Step::Switch
+  std::int64_t health_ns = 0;     // how long the new deployment is monitored before it counts as healthy
   std::string grant;              // signature of grant_text(); empty: unsigned
   std::string signature;          // of order_text()
 };
 
-// What is signed: that a deployment is one of the plant's, for good, and what a deployer says just now.
+// The signed texts: that a deployment belongs to the plant, permanently, and the deployer's current order.
 std::string grant_text(const std::string& plant, const std::string& deployment, std::uint64_t generation);
 std::string order_text(const Order& order);
 
 // A piece of a file. Files are named by their digest.
 struct BlobRequest {
   std::uint64_t requester = 0;  // agent or deployer
-  std::uint64_t source = 0;     // likewise
+  std::uint64_t source = 0;     // agent or deployer
   std::string blob;
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
-  bool restart = false;  // forget what this requester asked before
+  bool restart = false;  // discard this requester's earlier requests
 };
 struct BlobChunk {
   std::uint64_t source = 0;
@@ -141,29 +141,30 @@ struct BlobChunk {
   std::vector<std::uint8_t> data;
 };
 
-// How people see an id.
+// The number of digits of an id that are shown to people.
 inline constexpr std::size_t kShownDigits = 12;
 inline std::string shown_id(const std::string& id) {
   return id.substr(0, kShownDigits);
 }
-// In place of a digest: the list of a board's earlier deployments, as JSON.
+// Blob name in place of a digest: the list of a board's earlier deployments, as JSON.
 inline constexpr const char* kHistoryBlob = "history";
-// Likewise: what the board's node reads from other boards at this moment, and how old it is.
+// Blob name: the variables that the board's node currently reads from other boards, and their age.
 inline constexpr const char* kMirrorBlob = "mirror";
-// Likewise: the run block of the board's node as it is at this moment (deploy/agent/run_image.h), for tools elsewhere.
+// Blob name: the current run block of the board's node (deploy/agent/run_image.h), for remote tools.
 inline constexpr const char* kRunBlob = "run";
-// Likewise: the variables of the board's node, their values, and what was printed (deploy/agent/board_values.h).
+// Blob names: the variables of the board's node, their values, and what was printed (deploy/agent/board_values.h).
 inline constexpr const char* kVariablesBlob = "variables";
 inline constexpr const char* kValuesBlob = "values";
 inline constexpr const char* kMessagesBlob = "messages";
-// Likewise: its alarms (deploy/agent/board_alarms.h).
+// Blob name: its alarms (deploy/agent/board_alarms.h).
 inline constexpr const char* kAlarmsBlob = "alarms";
-// Likewise: its files compared with their digests (deploy/agent/board_verify.h): this and a name of the question.
+// Blob name: its files compared with their digests (deploy/agent/board_verify.h): this prefix and a name of the
+// request.
 inline constexpr std::string_view kVerifyBlob = "verify/";
-// Likewise: the list of its black boxes (deploy/agent/boxes_text.h), and one of them: this and its name.
+// Blob names: the list of its black boxes (deploy/agent/boxes_text.h), and one of them: this prefix and its name.
 inline constexpr const char* kBoxesBlob = "boxes";
 inline constexpr std::string_view kBoxBlob = "box/";
-// Likewise: the list of its recordings (deploy/agent/board_recorder.h), and one of them.
+// Blob names: the list of its recordings (deploy/agent/board_recorder.h), and one of them: this prefix and its name.
 inline constexpr const char* kRecordingsBlob = "recordings";
 inline constexpr std::string_view kRecordingBlob = "recording/";
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The external plane of one board: each of its variables as a typed DDS topic that any DDS tool can read, and those
-// that are marked so can write. A participant of its own, a thread without real-time priority.
+// The external plane of one board: each of its variables as a typed DDS topic that any DDS tool can read, and can write
+// if the variable is marked as writable. It has its own DDS participant and a thread without real-time priority.
 
 #pragma once
 
@@ -17,9 +17,9 @@ namespace indurop::mirror {
 
 class External {
  public:
-  // Makes the shared-memory file for tools and starts the thread; joining the network goes on by itself until it
-  // succeeds. `store` and `plant` (null: no board of a plant) are borrowed until the end. Variables the store does not
-  // hold are left out. Not real-time safe.
+  // Creates the shared-memory file for tools and starts the thread, which tries to join the network until it succeeds.
+  // `store` and `plant` (null: the board belongs to no plant) are borrowed until the end. Variables that the store does
+  // not hold are left out. Not real-time safe.
   // Errors: NoSpace, PermissionDenied, System.
   static Result<External> start(const ExternalSettings& settings, const std::string& node, vars::Store& store,
                                 const MirrorBlock* plant);
@@ -27,9 +27,9 @@ class External {
   External& operator=(External&&) noexcept;
   External(const External&) = delete;
   External& operator=(const External&) = delete;
-  ~External();  // as stop()
+  ~External();  // calls stop()
 
-  // What was written last is still published. Not real-time safe.
+  // Publishes the last values, then ends. Not real-time safe.
   void stop() noexcept;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a board tells InduRoP's own tools about its external plane, beside the topics: which variables it shows, with
-// units and ranges, and which boards its plant has. Topics that are announced on demand can be asked for by name.
+// The directory that a board announces to InduRoP's own tools in addition to the topics: its published variables with
+// units and ranges, and the boards of its plant. Topics that are announced on demand can be requested by name.
 
 #pragma once
 
@@ -18,23 +18,23 @@ namespace indurop::mirror {
 class ExternalDirectory {
  public:
   struct Content {
-    std::string plant;  // empty: a node of its own
+    std::string plant;  // empty: a single node without a plant
     std::string board;
-    std::vector<std::string> boards;  // of the plant
+    std::vector<std::string> boards;  // all boards of the plant
     std::string schema;               // JSON
     std::vector<std::string> writable;
     struct Mirrored {
       std::string name;
-      std::string board;  // that owns it
+      std::string board;  // board that owns it
     };
-    std::vector<Mirrored> mirrored;  // what the board reads from others
+    std::vector<Mirrored> mirrored;  // variables that the board reads from other boards
   };
-  // `asked`: somebody may ask for topics.
+  // `asked`: clients may request topics.
   Result<void, base::Problem> open(dds::Handle participant, const Content& content, bool asked);
-  // In place of what was told before.
+  // Replaces the content that was announced before.
   Result<void, base::Problem> tell(const Content& content);
   void close() noexcept;
-  // Variables that somebody wants to read.
+  // Returns the variables that clients request to read.
   std::vector<std::string> take_wishes();
 
  private:

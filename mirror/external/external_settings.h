@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a board shows to tools of others and takes from them, told by the node. No DDS here.
+// The variables that a board publishes to third-party tools and accepts from them, as configured by the node. No DDS
+// here.
 
 #pragma once
 
@@ -11,14 +12,14 @@
 
 namespace indurop::mirror {
 
-// A variable of this board as a topic of its own.
+// A variable of this board as its own topic.
 struct Exported {
   std::string variable;        // full name
   const void* type = nullptr;  // dds::TypeDescriptor of its IDL type, valid until the end
-  bool writable = false;       // whoever writes the topic sets the variable
+  bool writable = false;       // writing the topic sets the variable
   std::int64_t every_ns = 0;   // published at most this often, 0: kExternalEveryNs
-  // Boards of the plant that have it too (<standby>): it is shown by the one that has served longest, as the plant's
-  // readers decide.
+  // Boards of the plant that have this variable too (<standby>): the one that has served longest publishes it, by the
+  // same rule as the plant's readers.
   std::vector<std::string> rivals = {};
 };
 inline constexpr std::int64_t kExternalEveryNs = 10'000'000;
@@ -26,10 +27,10 @@ inline constexpr std::int64_t kExternalFastestNs = 1'000'000;
 
 struct ExternalSettings {
   dds::NetworkSettings network;
-  std::string plant;                // empty: a node of its own
-  std::vector<std::string> boards;  // of the plant
-  bool ros2 = false;                // topics and types have the names of ROS 2
-  std::vector<int> cores;           // the threads may run on; empty: all
+  std::string plant;                // empty: a single node without a plant
+  std::vector<std::string> boards;  // all boards of the plant
+  bool ros2 = false;                // topics and types are named as in ROS 2
+  std::vector<int> cores;           // cores the threads may run on; empty: all
   std::vector<Exported> variables;
 };
 

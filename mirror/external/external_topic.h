@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One variable as a topic: publishes what changed while somebody reads it, takes over what is written from outside.
+// One variable as a topic: publishes changes while the topic has a reader, and accepts values that are written from
+// outside.
 
 #pragma once
 
@@ -22,31 +23,31 @@
 
 namespace indurop::mirror {
 
-// All but the listeners runs in one thread.
+// All methods except the listeners run in one thread.
 class ExternalTopic {
  public:
-  // The variable is known to the store. `ros2`: names of ROS 2. `custody`: whose lock counts for tools, may be null.
-  // `wake` is for what came from outside.
+  // The variable must be in the store. `ros2`: names of ROS 2. `custody`: the lock that applies to tools, may be null.
+  // `wake` is signalled when data arrives from outside.
   ExternalTopic(vars::Store& store, const vars::DirectoryEntry& entry, const Exported& exported, bool ros2,
                 ExternalBlock& block, rt::SignalWord& wake, const MirrorBlock* plant, const vars::Custody* custody);
   ExternalTopic(const ExternalTopic&) = delete;
   ExternalTopic& operator=(const ExternalTopic&) = delete;
 
-  // Makes what is missing of writer and, for a writable variable, reader.
+  // Creates the missing writer and, for a writable variable, the missing reader.
   Result<void, base::Problem> open(dds::Handle participant);
-  // Reader only: the writer is made when somebody wants to read.
+  // Creates only the reader; the writer is created when a client requests to read.
   Result<void, base::Problem> open_reader(dds::Handle participant);
   [[nodiscard]] bool is_open() const noexcept { return writer_.ok(); }
   void close() noexcept;
 
-  // Whether this board's value counts may have changed: true if it has.
+  // Checks whether this board's value is the one that counts. Returns true if that has changed.
   bool look_who_leads(std::int64_t now_ns) noexcept;
   [[nodiscard]] bool leads() const noexcept { return lead_.ours(); }
-  // Publishes if it is time and there is a reason to, and this board leads. When to come back at the latest.
+  // Publishes if it is due, there is a reason to, and this board leads. Returns when to call again at the latest.
   std::int64_t publish(std::int64_t now_ns) noexcept;
-  // Takes over the newest value from outside.
+  // Writes the newest value from outside to the store.
   void receive() noexcept;
-  // What the listeners noticed since the last call; empty: nothing.
+  // Returns the listeners' findings since the last call; empty: none.
   std::string complaint();
 
   [[nodiscard]] const schema::Variable& variable() const;
@@ -57,7 +58,7 @@ class ExternalTopic {
 
  private:
   [[nodiscard]] dds::Listener listener();
-  // Called by DDS's threads.
+  // Called by DDS threads.
   void data_came() noexcept;
   void readers_changed(int now) noexcept { readers_.store(now, std::memory_order_release); }
   void disagreed() noexcept { disagreements_.fetch_add(1, std::memory_order_relaxed); }
@@ -87,7 +88,7 @@ class ExternalTopic {
   std::uint64_t seen_ = ~std::uint64_t{0};
   int known_readers_ = 0;
   std::int64_t due_ns_ = 0;
-  std::int64_t repeat_ns_ = 0;  // 0: not
+  std::int64_t repeat_ns_ = 0;  // 0: no repetition
   bool again_ = true;           // publish although nothing changed
   std::string refusal_;
 

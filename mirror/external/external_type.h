@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables and their IDL types as glb2idl and idlc name them. No DDS here; descriptors are opaque.
+// The names of variables and their IDL types as glb2idl and idlc generate them. No DDS here; descriptors are opaque.
 
 #pragma once
 
@@ -11,24 +11,24 @@
 
 namespace indurop::mirror {
 
-// "cell::Encoder" of a variable that is one struct, "cell::torque_" of every other variable cell::torque.
+// Returns "cell::Encoder" for a variable that is one struct, "cell::torque_" for any other variable cell::torque.
 std::string idl_type_name(const schema::Variable& variable);
-// The symbol of the type's descriptor in a types library: "cell_Encoder_desc".
+// Returns the symbol of the type's descriptor in a types library: "cell_Encoder_desc".
 std::string descriptor_symbol(const schema::Variable& variable);
-// The way back: of a struct with the one member `value`, as it stands for a variable that is no single struct, the
-// member.
+// The reverse: a struct with the single member `value`, which represents a variable that is no single struct, is
+// replaced by that member.
 schema::Type unwrapped(const schema::Type& type, const std::string& variable);
-// Empty if a dds::TypeDescriptor describes the variable as this node knows it; else what differs.
+// Returns an empty text if a dds::TypeDescriptor describes the variable as this node knows it, else the difference.
 std::string descriptor_problem(const void* descriptor, const schema::Variable& variable);
 
-// "cell::encoder" has the topic "cell/encoder".
+// Returns the topic of a variable: "cell/encoder" for "cell::encoder".
 std::string external_topic(const std::string& variable);
 
-// Empty if all enums and bools inside a value have values of their types; else the first that has not: "mode: 7".
+// Returns an empty text if all enums and bools in a value are valid, else the first that is not: "mode: 7".
 std::string strange_value(const schema::Type& type, std::span<const std::uint8_t> value);
 
 bool holds_text(const schema::Type& type) noexcept;
-// Ends every text inside a value at the latest in its last byte and clears what is behind the end.
+// Terminates every text in a value, at the latest in its last byte, and clears the bytes after the terminator.
 void tidy_texts(const schema::Type& type, std::span<std::uint8_t> value) noexcept;
 
 }  // namespace indurop::mirror

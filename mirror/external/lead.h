@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A variable that several boards have (<standby>): whether this board's value is the one that counts. The board that
-// has served longest leads, as readers in the plant decide (landing.h), so each can tell by itself.
+// Decides whether this board's value of a variable that several boards have (<standby>) is the one that counts. The
+// board that has served longest leads, by the same rule as the plant's readers (landing.h), so each board can decide on
+// its own.
 
 #pragma once
 
@@ -14,13 +15,13 @@ namespace indurop::mirror {
 
 class Lead {
  public:
-  // A board that has just joined the plant has heard by then who is there.
+  // By this time a board that has just joined the plant has discovered the others.
   static constexpr std::int64_t kPatienceNs = 1'000'000'000;
 
-  // `plant` is borrowed. Without rivals this board leads always.
+  // `plant` is borrowed. Without rivals this board always leads.
   Lead(const MirrorBlock* plant, const std::vector<std::string>& rivals);
   [[nodiscard]] bool ours() const noexcept { return ours_; }
-  // True if that has changed.
+  // Checks again who leads. Returns true if that has changed.
   bool look(std::int64_t now_ns) noexcept;
 
  private:

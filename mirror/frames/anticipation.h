@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// When the schedule will next have written something. Waking a thread on an idle core costs more than sending a frame;
-// a sender that is awake already when the modules finish saves it. It watches when ticks are reported and spins for a
-// short while around the next time; without a steady period it only sleeps. Pure arithmetic, one thread.
+// Predicts when the schedule will next have written. Waking a thread on an idle core costs more than sending a frame; a
+// sender that is already awake when the modules finish avoids this cost. It measures when ticks are reported and spins
+// for a short while around the next time; without a steady period it only sleeps. Pure arithmetic, one thread.
 
 #pragma once
 
@@ -11,10 +11,10 @@ namespace indurop::mirror {
 
 class Anticipation {
  public:
-  // Awake from so long before the expected time, and until so long after it.
+  // The sender is awake from kBefore ns before the expected time until kAfter ns after it.
   static constexpr std::int64_t kBefore = 60'000;
   static constexpr std::int64_t kAfter = 40'000;
-  // Never awake for more than a tenth of the time.
+  // The sender spins for at most a tenth of the time.
   static constexpr std::int64_t kShortestPeriod = 10 * (kBefore + kAfter);
 
   struct Window {
@@ -23,10 +23,10 @@ class Anticipation {
     [[nodiscard]] bool empty() const noexcept { return begin == end; }
   };
 
-  // The work of basic period number `tick` was reported at `now_ns`.
+  // Reports at `now_ns` that the work of basic period number `tick` is done.
   void reported(std::uint64_t tick, std::int64_t now_ns) noexcept {
     if (tick <= tick_) {
-      return;  // further bands of the same period
+      return;  // later bands of the same period
     }
     if (tick_ != 0) {
       const std::int64_t sample = (now_ns - last_ns_) / static_cast<std::int64_t>(tick - tick_);
@@ -38,7 +38,7 @@ class Anticipation {
     last_ns_ = now_ns;
   }
 
-  // When to be awake next; empty if the period is unknown or too short.
+  // Returns when to be awake next; empty if the period is unknown or too short.
   [[nodiscard]] Window next(std::int64_t now_ns) const noexcept {
     if (steady_ < kSteady || period_ns_ < kShortestPeriod) {
       return {};
@@ -48,7 +48,7 @@ class Anticipation {
   }
 
  private:
-  static constexpr int kSteady = 8;  // periods in a row
+  static constexpr int kSteady = 8;  // consecutive periods
 
   std::uint64_t tick_ = 0;
   std::int64_t last_ns_ = 0;

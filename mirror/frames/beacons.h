@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twice a second, or more rarely in a plant of more than 17 boards, every board says that it lives, when its schedule
-// began and what it thinks of the others' clocks.
+// Twice a second, or less often in a plant of more than 17 boards, every board announces that it is alive, when its
+// schedule began, and its estimate of the other boards' clocks.
 
 #pragma once
 
@@ -23,17 +23,18 @@ namespace indurop::mirror {
 
 class Beacons final : public BeaconListener {
  public:
-  // `store`, whose time counts, is borrowed until the end.
+  // `store` is borrowed until the end; its time is used.
   Beacons(const vars::Store& store, const Settings& settings, std::uint64_t session, MirrorBlock& block);
   Beacons(const Beacons&) = delete;
   Beacons& operator=(const Beacons&) = delete;
 
-  // Between two of them, so that a board hears and sends at most 32 a second, however many boards there are.
+  // Returns the time between two beacons such that a board receives and sends at most 32 a second, however many boards
+  // there are.
   static std::chrono::nanoseconds interval(std::size_t others) noexcept;
 
   // `plane` is used until it is closed.
   Plane::Opened open(Plane& plane);
-  // Sends one if it is time. Returns when the next is due.
+  // Sends a beacon if it is due. Returns when the next is due.
   rt::MonoTime cycle(rt::MonoTime now, const Schedule& schedule) noexcept;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plane of boards in a network: a topic for each board and stream, as plane_topics.h says.
+// The plane of boards in a network: one topic for each board and stream (plane_topics.h).
 
 #pragma once
 
@@ -17,7 +17,7 @@ class DdsPlane final : public Plane {
   // `settings` is borrowed until the end.
   explicit DdsPlane(const Settings& settings) : settings_(settings) {}
 
-  // Everything that is opened from now on is this participant's.
+  // All endpoints opened from now on belong to this participant.
   void enter(dds::Handle participant) noexcept { participant_ = participant; }
 
   Opened offer_frames(Stream stream) override;
@@ -38,7 +38,7 @@ class DdsPlane final : public Plane {
   std::array<dds::Endpoint, kStreams> frames_;
   dds::Endpoint catalogue_;
   dds::Endpoint beacons_;
-  dds::Endpoint heard_;  // beacons of others
+  dds::Endpoint heard_;  // beacons of other boards
 };
 
 }  // namespace indurop::mirror

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a board exchanges with the others of its plant, whatever carries it: no threads and no network here. Mirror
-// drives it in real time, a simulation in virtual time.
+// A board's exchange with the other boards of its plant, independent of the transport: no threads and no network here.
+// Mirror drives it in real time, a simulation in virtual time.
 
 #pragma once
 
@@ -29,8 +29,8 @@ namespace indurop::mirror {
 
 class Exchange {
  public:
-  // Makes the shared-memory file for tools. `store` and `tick` (number of the current basic period) are borrowed until
-  // the end. Not real-time safe. Errors: NoSpace, PermissionDenied, System.
+  // Creates the shared-memory file for tools. `store` and `tick` (number of the current basic period) are borrowed
+  // until the end. Not real-time safe. Errors: NoSpace, PermissionDenied, System.
   static Result<std::unique_ptr<Exchange>> make(Settings settings, const std::string& node, vars::Store& store,
                                                 const std::atomic<std::uint64_t>& tick);
   Exchange(Settings settings, vars::Store& store, const std::atomic<std::uint64_t>& tick, vars::ShmFile&& file);
@@ -41,29 +41,29 @@ class Exchange {
   [[nodiscard]] MirrorBlock& block() noexcept { return block_; }
   [[nodiscard]] const MirrorBlock& block() const noexcept { return block_; }
 
-  // Says by `plane` what this board has and hears the others by it from then on, until close().
+  // Announces on `plane` what this board has, and receives from the other boards, until close().
   Plane::Opened open(Plane& plane);
   void close() noexcept;
 
-  // A board announced itself, or is gone. One thread at a time for this and for what follows.
+  // A board announced itself, or is gone. This and the following methods are called by one thread at a time.
   void announced(const indurop_wire_Catalogue& catalogue);
   void gone(const std::string& board) noexcept;
-  // It is one of the others of the plant.
+  // Returns whether this is one of the other boards of the plant.
   [[nodiscard]] bool knows(const std::string& board) const noexcept;
-  // Asks for each of the others what is wrong with its release; an empty text: nothing.
+  // Calls for each of the other boards with what is wrong with its release; an empty text: nothing.
   template <class Say>
   void other_releases(Say say) {
     for (const auto& receiver : receivers_) {
       receiver->other_release(say(receiver->board()));
     }
   }
-  // Tells that this board lives, and gives values their fallback, if it is time. Returns when to look again.
+  // Announces that this board is alive and sets fallback values, if it is due. Returns when to call again.
   std::int64_t look(std::int64_t now_ns, const Schedule& schedule) noexcept;
 
-  // Sends what changed. Only with `bulk` the large values; one thread at a time for each of the two. Returns when to
-  // look again although nobody tells.
+  // Sends what has changed, large values only with `bulk`; one thread at a time for each of the two. Returns when to
+  // call again if there is no notification.
   std::int64_t send(std::int64_t now_ns, bool bulk) noexcept;
-  // The same at the end of the run.
+  // Sends what has changed at the end of the run.
   void send_last(bool bulk) noexcept;
   [[nodiscard]] std::uint64_t tick() const noexcept { return tick_.load(std::memory_order_acquire); }
   [[nodiscard]] bool sends() const noexcept { return !sender_->empty(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One variable of another board in this board's store: the value of whoever leads, how fresh it is, and its fallback
-// when nobody confirms it. Usually one board sends it; with a standby two do.
+// One variable of another board in this board's store: the value of the board that leads, its age, and its fallback
+// when no board confirms it. Usually one board sends it, with a standby two do.
 
 #pragma once
 
@@ -20,35 +20,35 @@ namespace indurop::mirror {
 // Not thread safe: all landings of a mirror are used under one mutex, which the control loop never takes.
 class Landing {
  public:
-  // Without a word from any source until `patient_until_ns` (CLOCK_MONOTONIC) the variable gets its fallback.
+  // If no source has sent anything by `patient_until_ns` (CLOCK_MONOTONIC), the variable gets its fallback.
   Landing(vars::Store& store, const vars::DirectoryEntry& entry, std::int64_t patient_until_ns);
 
   [[nodiscard]] const vars::DirectoryEntry& entry() const noexcept { return *entry_; }
   [[nodiscard]] const schema::Variable& variable() const noexcept { return *variable_; }
 
-  // A board that sends the variable, in the manifest's order. Returns its number for the calls below.
+  // Adds a board that sends the variable, in the manifest's order. Returns its number for the calls below.
   std::size_t add_source();
-  // Room in the variable's entry for the word of one of its boards; null if another board has it.
+  // Returns the space in the variable's entry for the update word of one of its boards; null if another board uses it.
   [[nodiscard]] std::atomic<std::uint64_t>* lend_room_for_word() noexcept;
   struct Arrival {
     std::size_t source = 0;
-    std::uint64_t session = 0;   // tells runs of a board apart
-    UpdateWord* word = nullptr;  // the value is part of an update; null: it travels by itself
+    std::uint64_t session = 0;   // distinguishes runs of a board
+    UpdateWord* word = nullptr;  // the value is part of an update; null: it is sent on its own
     std::int64_t now_ns = 0;
   };
-  // A value arrived: written if its source leads and the store's differs. The source with the longest service leads, a
-  // restarted one does not take the lead back, so outputs do not jump.
+  // A value arrived: it is written if its source leads and the store's value differs. The source with the longest
+  // service leads; a restarted one does not take the lead back, so outputs do not jump.
   void deliver(const Arrival& arrival, std::span<const std::uint8_t> value, PeerRecord& record) noexcept;
-  // The source's board is gone. If another one is there, its last value counts from now on.
+  // The source's board is gone. If there is another source, its last value counts from now on.
   void silent(std::size_t source, std::int64_t now_ns, PeerRecord& record) noexcept;
-  // Writes the fallback if it is time. Returns when to look again.
+  // Writes the fallback if it is due. Returns when to call again.
   std::int64_t expire(std::int64_t now_ns) noexcept;
 
  private:
   struct Source {
     std::uint64_t session = 0;  // 0: silent
     UpdateWord* word = nullptr;
-    std::vector<std::uint8_t> last;  // only where there is more than one source
+    std::vector<std::uint8_t> last;  // only if there is more than one source
   };
   static constexpr std::size_t kNone = ~std::size_t{0};
 
@@ -61,7 +61,7 @@ class Landing {
   const schema::Variable* variable_;
   std::atomic<std::int64_t>& confirmed_;
   std::atomic<std::int64_t>& update_offset_;
-  UpdateWord* word_ = nullptr;  // of the source that leads
+  UpdateWord* word_ = nullptr;  // update word of the source that leads
   bool room_lent_ = false;
   std::int64_t patient_until_ns_;
   std::vector<Source> sources_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mirror of one board: what its modules write appears on the boards that read it, and the other way round. Runs
-// beside the schedule and never in it: the network may be absent, broken or slow, the control loop does not notice.
+// The mirror of one board: the values that its modules write appear on the boards that read them, and the reverse. It
+// runs in parallel to the schedule and never in it: the network may be absent, broken or slow, the control loop is not
+// affected.
 
 #pragma once
 
@@ -20,24 +21,24 @@ namespace indurop::mirror {
 
 class Mirror {
  public:
-  // Makes the shared-memory file for tools and starts the mirror's threads; joining the network goes on by itself until
-  // it succeeds. `store` and `tick` (number of the current basic period) are borrowed until the end. Not real-time
-  // safe. Errors: NoSpace, PermissionDenied, System.
+  // Creates the shared-memory file for tools and starts the mirror's threads, which try to join the network until they
+  // succeed. `store` and `tick` (number of the current basic period) are borrowed until the end. Not real-time safe.
+  // Errors: NoSpace, PermissionDenied, System.
   static Result<Mirror> start(Settings settings, const std::string& node, vars::Store& store,
                               const std::atomic<std::uint64_t>& tick);
   Mirror(Mirror&&) noexcept;
   Mirror& operator=(Mirror&&) noexcept;
   Mirror(const Mirror&) = delete;
   Mirror& operator=(const Mirror&) = delete;
-  ~Mirror();  // as stop()
+  ~Mirror();  // calls stop()
 
-  // Something may have changed in the store: looks and sends soon. Real-time safe, any thread.
+  // Reports that something may have changed in the store: the mirror checks and sends soon. Real-time safe, any thread.
   void notify() noexcept;
 
-  // What tools are shown; lives as long as the mirror. Any thread.
+  // The status for tools; valid as long as the mirror. Any thread.
   [[nodiscard]] const MirrorBlock& block() const noexcept;
 
-  // The schedule has begun: for comparison with other boards'.
+  // Reports that the schedule has begun, for comparison with other boards.
   void announce(const Schedule& schedule) noexcept;
 
   // Leaves the plant: other boards see this one as silent at once. Not real-time safe.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a board reads from the others and how old it is: its mirror shows which variables, its store holds when their
-// owner last confirmed them. Looks from outside, so tools and agents can; no DDS here.
+// The variables that a board reads from other boards, and their age: its mirror lists the variables, its store has the
+// time when their owner last confirmed them. Reads from outside, so tools and agents can use it; no DDS here.
 
 #pragma once
 
@@ -18,11 +18,11 @@ struct MirroredVariable {
   std::string owner;         // board
   std::int64_t age_ns = -1;  // since the owner last confirmed the value, changed or not; negative: it never did
   bool valid = false;
-  bool leads = false;  // its owner is alive and, of several boards that send the variable (<standby>), serves longest
+  bool leads = false;  // its owner is alive and serves longest of the boards that send the variable (<standby>)
 };
 
-// One for each variable and each board that sends it. `node`: the board, whose mirror's block this is. Empty if it has
-// no store. Not real-time safe.
+// Returns one entry for each variable and each board that sends it. `node`: the board to which this mirror block
+// belongs. Empty if it has no store. Not real-time safe.
 std::vector<MirroredVariable> mirrored_variables(const std::string& node, const MirrorBlock& block, rt::MonoTime now);
 
 }  // namespace indurop::mirror

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which variable travels in which part of the board's frames. A part is sent whole when anything in it changed, so
-// that the last frame of each part is always the whole truth: late joiners and lost frames need nothing more. Pure.
+// Assigns variables to parts of the board's frames. A part is sent whole when anything in it has changed, so the last
+// frame of each part is always complete: late joiners and lost frames need nothing more. Pure.
 
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace indurop::mirror {
 
-// How parts travel: each kind has its own topic and its own writer.
+// How parts are sent: each kind has its own topic and its own writer.
 enum class Stream : std::uint32_t {
-  Prompt,      // repeated until it arrived or is superseded
+  Prompt,      // repeated until it has arrived or is superseded
   BestEffort,  // not repeated
-  Bulk,        // values too large for one packet: must not hold up the others
+  Bulk,        // values too large for one packet: must not delay the others
 };
 inline constexpr std::size_t kStreams = 3;
 
@@ -41,7 +41,7 @@ struct Part {
   std::vector<Placed> content;
 };
 
-// Parts of parcels in their order; those that want different rates are kept apart. Part number = index.
+// Packs parcels in their order into parts; parcels with different rates go to different parts. Part number = index.
 std::vector<Part> pack(std::span<const Parcel> parcels);
 
 }  // namespace indurop::mirror

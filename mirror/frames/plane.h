@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What carries frames, catalogues and beacons between boards: the network, or a simulated one.
+// The transport of frames, catalogues and beacons between boards: the network, or a simulated one.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace indurop::mirror {
 
-// Called by the plane's own threads.
+// Called by the plane's threads.
 class FrameListener {
  public:
   virtual ~FrameListener() = default;
@@ -27,7 +27,7 @@ class BeaconListener {
   virtual void beacon_came(const indurop_wire_Beacon& beacon) noexcept = 0;
 };
 
-// Frames come as long as this lives; its end waits for a listener that is running.
+// Frames are delivered as long as this object lives; its destructor waits for a listener that is running.
 class Subscription {
  public:
   Subscription() = default;
@@ -45,18 +45,18 @@ class Plane {
   Plane(const Plane&) = delete;
   Plane& operator=(const Plane&) = delete;
 
-  // Before anything is sent. Again is no error.
+  // To be called before anything is sent. Repeated calls are no error.
   virtual Opened offer_frames(Stream stream) = 0;
   virtual Opened offer_catalogue() = 0;
   // The listener is borrowed until close().
   virtual Opened exchange_beacons(BeaconListener& listener) = 0;
-  // Whoever comes late gets the last frame of each part. The listener is borrowed until the subscription's end.
+  // A late joiner gets the last frame of each part. The listener is borrowed until the subscription ends.
   virtual Result<std::unique_ptr<Subscription>, base::Problem> hear(const std::string& board, Stream stream,
                                                                     FrameListener& listener) = 0;
-  // Takes back all offers and hears no beacons any more.
+  // Withdraws all offers and receives no more beacons.
   virtual void close() noexcept = 0;
 
-  // False: it was not sent.
+  // Returns false if it was not sent.
   virtual bool send(const indurop_wire_Frame& frame, Stream stream) noexcept = 0;
   virtual bool send(const indurop_wire_Catalogue& catalogue) noexcept = 0;
   virtual bool send(const indurop_wire_Beacon& beacon) noexcept = 0;

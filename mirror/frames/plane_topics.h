@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names and quality of the topics that boards of one plant exchange values by.
+// Names and QoS of the topics by which boards of one plant exchange values.
 
 #pragma once
 
@@ -15,7 +15,7 @@ std::string frames_topic(const std::string& plant, const std::string& board, Str
 std::string catalogue_topic(const std::string& plant);
 std::string beacon_topic(const std::string& plant);
 
-// Reliable or not, last value kept for late joiners, liveliness with the plant's lease.
+// Reliable or best effort, last value kept for late joiners, liveliness with the plant's lease.
 dds::Qos plane_qos(const Settings& settings, Stream stream);
 
 }  // namespace indurop::mirror

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of one other board -> the landings of its variables in this board's store.
+// Writes the frames of one other board to the landings of its variables in this board's store.
 
 #pragma once
 
@@ -29,7 +29,7 @@ namespace indurop::mirror {
 class Receiver final : public FrameListener {
  public:
   // `mutex` guards the landings; taken by the plane's receive thread and the mirror's manager, never by the control
-  // loop. `store`, whose time counts, and all other references are borrowed until the end.
+  // loop. `store`, whose time is used, and all other references are borrowed until the end.
   Receiver(std::string board, const vars::Store& store, const std::vector<Landing*>& landings, std::mutex& mutex,
            PeerRecord& record);
   Receiver(const Receiver&) = delete;
@@ -42,8 +42,8 @@ class Receiver final : public FrameListener {
   void announced(const indurop_wire_Catalogue& catalogue, Plane& plane);
   // The board fell silent: its values are no longer confirmed.
   void silent() noexcept;
-  // The board is there, but with a release whose protocol is another one; an empty problem: not any more. Called by the
-  // mirror's manager only.
+  // The board is present, but runs a release with another protocol; an empty problem: no longer. Called by the mirror's
+  // manager only.
   void other_release(const std::string& problem);
   // Stops reading.
   void close() noexcept;
@@ -51,15 +51,15 @@ class Receiver final : public FrameListener {
  private:
   struct Item {
     Landing* landing = nullptr;
-    std::size_t source = 0;  // this board's number there
+    std::size_t source = 0;  // this board's number in the landing
   };
   struct Arrival {  // where the board put an item
     std::uint32_t item = 0;
     std::uint32_t offset = 0;
   };
   struct Inbox {
-    std::uint32_t size = 0;    // least number of bytes a frame must have
-    std::uint64_t update = 0;  // newest one taken over, if it travels alone
+    std::uint32_t size = 0;    // minimum size of a frame in bytes
+    std::uint64_t update = 0;  // newest update accepted, if the part is sent on its own
     std::vector<Arrival> content;
   };
   struct Port {  // one per stream
@@ -72,7 +72,8 @@ class Receiver final : public FrameListener {
   void apply_alone(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;
   void apply_together(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;
   void deliver(const Inbox& inbox, std::span<const std::uint8_t> data, UpdateWord* word, std::int64_t now_ns) noexcept;
-  // Where the board puts what is read from it. Errors: its variables are not what this board knows.
+  // Returns the positions of the variables that are read from the board. Errors: its variables differ from what this
+  // board knows.
   Result<std::vector<Inbox>, base::Problem> match(const indurop_wire_Catalogue& catalogue) const;
 
   std::string board_;
@@ -84,7 +85,7 @@ class Receiver final : public FrameListener {
   std::uint64_t layout_ = 0;
   bool other_release_ = false;
   bool matched_ = false;        // this session's variables agree with ours
-  std::vector<Inbox> inboxes_;  // by part, all parts of the board
+  std::vector<Inbox> inboxes_;  // by part, for all parts of the board
   Staging staging_;
   UpdateWord word_;
   std::array<Port, kStreams> ports_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a board's basic periods begin.
+// The start of a board's basic periods.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace indurop::mirror {
 
 struct Schedule {
-  rt::WallTime epoch{};  // of tick 0; that of the clock itself: no schedule runs
+  rt::WallTime epoch{};  // wall time of tick 0; the clock's own epoch: no schedule runs
   std::chrono::nanoseconds basic{};
   std::chrono::nanoseconds macro{};
 };

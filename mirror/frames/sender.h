@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Store -> frames: looks which of the board's outgoing variables changed and sends their parts.
+// Detects which of the board's outgoing variables have changed and sends their parts as frames.
 
 #pragma once
 
@@ -21,15 +21,16 @@ namespace indurop::mirror {
 
 class Sender {
  public:
-  // `session` tells this run of the board from earlier ones. Variables the store does not hold are left out.
-  // `store` and `settings.writers` are borrowed until the end.
+  // `session` distinguishes this run of the board from earlier ones. Variables that the store does not hold are left
+  // out. `store` and `settings.writers` are borrowed until the end.
   Sender(vars::Store& store, const Settings& settings, std::uint64_t session, MirrorBlock& block);
 
-  // Publishes the catalogue; from then on `plane` carries what is sent, until it is closed.
+  // Publishes the catalogue; from then on `plane` transports what is sent, until it is closed.
   Plane::Opened open(Plane& plane);
 
-  // Sends what changed, and what has not been sent for its keep-alive time. Only with `bulk` the large values. One
-  // thread at a time for each of the two. True: look again soon, values wait for the end of a run nobody tells.
+  // Sends what has changed, and what has not been sent for its keep-alive time; large values only with `bulk`. One
+  // thread at a time for each of the two. Returns true if it must be called again soon: values wait for the end of a
+  // run that is not notified.
   bool cycle(std::int64_t now_ns, std::uint64_t tick, bool bulk) noexcept;
 
   [[nodiscard]] bool has_bulk() const noexcept;
@@ -40,11 +41,11 @@ class Sender {
     Part part;
     std::vector<const vars::DirectoryEntry*> content;  // as of part.content
     std::vector<std::uint8_t> image;
-    std::uint64_t update = 0;  // number of the last one that has this part
+    std::uint64_t update = 0;  // number of the last update that contains this part
     std::int64_t sent_ns = 0;
     bool dirty = true;
     bool due = false;
-    // Its values change together with those of other parts.
+    // Returns whether its values change together with those of other parts.
     [[nodiscard]] bool together() const noexcept { return part.stream == Stream::Prompt && part.every_ns == 0; }
   };
 
@@ -59,10 +60,10 @@ class Sender {
   std::string board_;
   std::string schema_text_;
   std::vector<Outbox> parts_;
-  std::array<Collector, 2> collectors_;  // of the prompt and of the bulk thread
+  std::array<Collector, 2> collectors_;  // for the prompt and the bulk thread
   Plane* plane_ = nullptr;
-  std::array<std::uint64_t, 2> updates_{};  // likewise
-  std::uint64_t update_sum_ = 0;            // of the parts that change together
+  std::array<std::uint64_t, 2> updates_{};  // for the prompt and the bulk thread
+  std::uint64_t update_sum_ = 0;            // sum over the parts that change together
 };
 
 }  // namespace indurop::mirror

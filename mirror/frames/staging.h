@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of one board wait here until they make up one of its updates, so that its values are taken over together. What
-// is lost on the way holds nothing up for long: values are then taken over as they come. Pure, one thread.
+// Collects frames of one board until they form one of its updates, so that its values are written together. Lost frames
+// do not delay the others for long: values are then written as they come. Pure, one thread.
 
 #pragma once
 
@@ -16,20 +16,20 @@ class Staging {
 
   enum class Verdict {
     Old,      // a newer frame of this part is known
-    Wait,     // others of the update are to come
-    Whole,    // what waits() is one update, all of it
-    Overdue,  // others have not come in time: what waits() is of different updates
+    Wait,     // other frames of the update are to come
+    Whole,    // what waits() is one complete update
+    Overdue,  // other frames have not come in time: what waits() is of different updates
   };
 
-  // Frames of a board's next session; nothing waits. `sizes`: bytes of each part that are wanted, 0: none.
+  // Starts the next session of a board; no frames wait. `sizes`: bytes required of each part, 0: part not used.
   void reset(std::span<const std::uint32_t> sizes);
-  // A frame of update number `update`. `sum`: of the numbers of the last updates of all parts, this update included.
-  // A part is sent whole whenever something in it changed, so equal sums mean that nothing is missing: no number here
-  // can be larger than the sender's.
+  // A frame of update number `update` arrived. `sum`: of the numbers of the last updates of all parts, this update
+  // included. A part is sent whole whenever something in it has changed, so equal sums mean that nothing is missing: no
+  // number held locally can be larger than the sender's.
   Verdict arrived(std::uint32_t number, std::uint64_t update, std::uint64_t sum, std::span<const std::uint8_t> data,
                   std::int64_t now_ns);
 
-  // Calls `use(part, data)` for everything that waits, and nothing does any more.
+  // Calls `use(part, data)` for all waiting frames; none wait afterwards.
   template <class Use>
   void take(Use use) {
     for (const std::uint32_t part : waiting_) {
@@ -47,10 +47,10 @@ class Staging {
   };
   std::vector<Part> parts_;
   std::vector<std::uint32_t> waiting_;  // indices, in order of arrival
-  std::uint64_t sum_ = 0;               // of the parts' numbers
-  std::uint64_t newest_ = 0;            // update
-  std::uint64_t newest_sum_ = 0;        // as its frames say
-  std::int64_t since_ns_ = 0;           // not whole since then, 0: whole
+  std::uint64_t sum_ = 0;               // sum of the parts' numbers
+  std::uint64_t newest_ = 0;            // newest update
+  std::uint64_t newest_sum_ = 0;        // sum that its frames give
+  std::int64_t since_ns_ = 0;           // incomplete since then, 0: complete
 };
 
 }  // namespace indurop::mirror

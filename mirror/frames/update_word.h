@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The word in the store by which readers see whether the variables of one sending board are all as of one of its
-// updates (include/indurop/snapshot.h). Changed under the mutex of the landings, read by everybody.
+// The word in the store that shows readers whether the variables of one sending board are all of one of its updates
+// (include/indurop/snapshot.h). Changed under the mutex of the landings, read by any process.
 
 #pragma once
 
@@ -14,13 +14,13 @@ namespace indurop::mirror {
 class UpdateWord {
  public:
   UpdateWord() = default;
-  // `word` lies in the store; null: there is none, the variables travel by themselves.
+  // `word` is in the store; null: there is none, the variables are sent on their own.
   explicit UpdateWord(std::atomic<std::uint64_t>* word) noexcept : word_(word) {
     begin();
     end(false);
   }
 
-  // Between the two readers know that values change.
+  // Marks the start of a change: until end() readers know that values are changing.
   void begin() noexcept {
     if (word_ != nullptr) {
       word_->store(word_->load(std::memory_order_relaxed) | abi::kUpdating, std::memory_order_relaxed);
@@ -37,7 +37,7 @@ class UpdateWord {
   }
   [[nodiscard]] bool whole() const noexcept { return whole_; }
 
-  // What the entry of a variable that changes with this word says.
+  // Returns the value to store in the entry of a variable that changes with this word.
   [[nodiscard]] std::int64_t offset_from(const void* entry) const noexcept {
     return word_ == nullptr ? abi::kAlone : reinterpret_cast<const char*>(word_) - static_cast<const char*>(entry);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The external planes of all boards as a tool sees them from anywhere in the network: no node here, no types library.
-// Boards tell what they show (external_directory.h); of programs that are no boards the types on the network tell it.
-// One thread uses it. No DDS in this header.
+// The external planes of all boards as a tool sees them from anywhere in the network, without a local node or a types
+// library. Boards announce their variables (external_directory.h); for programs that are no boards the types come from
+// the network. Used by one thread. No DDS in this header.
 
 #pragma once
 
@@ -24,8 +24,8 @@ namespace indurop::mirror {
 
 struct RemoteBoard {
   std::string name;
-  std::string plant;   // empty: a node of its own
-  bool heard = false;  // false: another board of its plant names it, or it was there before
+  std::string plant;   // empty: a single node without a plant
+  bool heard = false;  // false: named by another board of its plant, or seen earlier
 };
 
 struct RemoteVariable {
@@ -38,38 +38,38 @@ class RemotePlane {
  public:
   struct Opened {
     std::unique_ptr<RemotePlane> plane;
-    std::string note;  // something the user should know, or empty
+    std::string note;  // a note for the user, or empty
   };
-  // Errors: the network cannot be had now.
+  // Errors: the network is not available now.
   static Result<Opened, base::Problem> open(const dds::NetworkSettings& settings);
   RemotePlane(const RemotePlane&) = delete;
   RemotePlane& operator=(const RemotePlane&) = delete;
   ~RemotePlane();
 
-  // Waits for news until `deadline` and takes them.
+  // Waits for news until `deadline` and processes them.
   void look(rt::MonoTime deadline);
 
   [[nodiscard]] std::vector<RemoteBoard> boards() const;        // by name
   [[nodiscard]] std::vector<RemoteVariable> variables() const;  // by name and board
-  [[nodiscard]] std::uint64_t generation() const noexcept;      // another one: other variables
-  // Variable -> its board, of boards that are not heard, as far as others read it from them.
+  [[nodiscard]] std::uint64_t generation() const noexcept;      // changes when the variables change
+  // Maps variables to their board, for boards that are not received, as far as other boards read them.
   [[nodiscard]] std::map<std::string, std::string> silent_variables() const;
-  // Everybody who was seen has told what he shows, and all boards that are known of are there.
+  // Returns whether all discovered participants have announced their variables, and all known boards are present.
   [[nodiscard]] bool complete() const;
-  // Topics that are there and cannot be shown, with the reason.
+  // Returns the topics that exist but cannot be shown, with the reason.
   [[nodiscard]] std::vector<std::string> hidden() const;
 
-  // Reads this variable from now on; again and again without harm. An empty board: of a program that is none.
+  // Reads this variable from now on; repeated calls are harmless. An empty board: of a program that is no board.
   void follow(const std::string& variable, const std::string& board);
-  // Whether the keys of this participant forbid to read or to set what is followed, as far as that was tried.
+  // Returns whether this participant's keys forbid to read or set a followed variable, as far as that was tried.
   [[nodiscard]] bool may_not_read(const std::string& variable) const;
   [[nodiscard]] bool may_not_set(const std::string& variable) const;
-  // What is followed has another type now.
+  // To be called when a followed variable has changed its type.
   void reopen(const std::string& variable);
-  // Hands over the values that have come since.
+  // Passes on the values received since the last call.
   using Use = std::function<void(const std::string& variable, const std::string& board, std::span<const std::uint8_t>)>;
   void take(const Use& use);
-  // Sends a value to the board. False while it does not listen (yet).
+  // Sends a value to the board. Returns false while the board has no reader (yet).
   bool send(const std::string& variable, const std::string& board, std::span<const std::uint8_t> value);
 
  private:

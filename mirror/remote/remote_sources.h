@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boards in the network by what they tell of themselves (external_directory.h): which variables they show, and which
-// other boards there should be.
+// Boards in the network by their announced directories (external_directory.h): their variables, and which other boards
+// belong to the plant.
 
 #pragma once
 
@@ -19,7 +19,7 @@ namespace indurop::mirror {
 
 class RemoteSources {
  public:
-  // A participant that shows variables.
+  // A participant that publishes variables.
   struct Source {
     std::string board;
     std::string plant;
@@ -29,15 +29,15 @@ class RemoteSources {
     std::uint64_t session = 0;
   };
 
-  // Takes what this reader of directories has got.
+  // Takes the samples of this reader of directories.
   void take(dds::Handle directories);
-  // Null if none is heard.
+  // Returns null if no such participant was discovered.
   [[nodiscard]] const Source* at(const dds::Guid& participant) const;
   [[nodiscard]] const Source* of(const std::string& board) const;
   [[nodiscard]] const dds::Guid* participant_of(const std::string& board) const;
 
   [[nodiscard]] const std::map<dds::Guid, Source>& all() const noexcept { return sources_; }
-  // name -> plant, also of those not heard.
+  // name -> plant, including boards that were not discovered.
   [[nodiscard]] const std::map<std::string, std::string>& boards() const noexcept { return boards_; }
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What boards of a simulated plant send each other, as bytes between their programs, all on one machine.
+// The messages between boards of a simulated plant, as bytes between their programs, all on one machine.
 
 #pragma once
 
@@ -28,19 +28,19 @@ struct Message {
     Bulk,
     Catalogue,
     Beacon,
-    Hear,  // to the network: frames of `board` and of stream `part` are wanted from now on
-    Gone,  // from the network: `board` was not heard for a lease, or has left
+    Hear,  // to the network: requests frames of `board` and stream `part` from now on
+    Gone,  // from the network: nothing was received of `board` for a lease, or it has left
   };
   Kind kind = Kind::Prompt;
-  std::uint32_t board = 0;   // that sent it, by its place in the manifest
+  std::uint32_t board = 0;   // sender, by its index in the manifest
   std::uint32_t part = 0;    // of a frame
-  std::int64_t time_ns = 0;  // it was sent at; at the receiver: it arrived at
+  std::int64_t time_ns = 0;  // time of sending; at the receiver: of arrival
   std::vector<std::uint8_t> body;
 
   [[nodiscard]] bool is_frame() const noexcept { return kind <= Kind::Bulk; }
 };
 
-// Numbers and texts one after the other, in the machine's own form.
+// Writes numbers and texts one after the other, in the machine's native format.
 class ByteWriter {
  public:
   template <class T>
@@ -50,7 +50,7 @@ class ByteWriter {
     bytes_.resize(at + sizeof value);
     std::memcpy(bytes_.data() + at, &value, sizeof value);
   }
-  // One after the other; ByteReader::get_all() takes the same.
+  // Writes numbers one after the other; ByteReader::get_all() reads the same.
   template <class... T>
   void put_all(const std::tuple<T&...>& numbers) {
     std::apply([this](const auto&... each) { (put(each), ...); }, numbers);
@@ -67,7 +67,7 @@ class ByteWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
-// What ByteWriter wrote. Of too few bytes everything that is missing is zero, and ok() says so.
+// Reads what ByteWriter wrote. If bytes are missing, the missing values are zero and ok() returns false.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) noexcept : bytes_(bytes) {}
@@ -100,7 +100,7 @@ class ByteReader {
 std::vector<std::uint8_t> to_bytes(const indurop_wire_Frame& frame);
 std::vector<std::uint8_t> to_bytes(const indurop_wire_Catalogue& catalogue);
 std::vector<std::uint8_t> to_bytes(const indurop_wire_Beacon& beacon);
-// The sample is there during the call. False: these are not the bytes of one, and nothing is called.
+// The sample exists only during the call. Returns false, without a call, if the bytes are no valid sample.
 bool with_frame(std::span<const std::uint8_t> bytes, const std::function<void(const indurop_wire_Frame&)>& use);
 bool with_catalogue(std::span<const std::uint8_t> bytes, const std::function<void(const indurop_wire_Catalogue&)>& use);
 bool with_beacon(std::span<const std::uint8_t> bytes, const std::function<void(const indurop_wire_Beacon&)>& use);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The network between the boards of a simulated plant: what each message takes, which are lost, and what becomes of
-// boards that are cut off, killed and returned. The same messages in, the same out: chance comes from a seed, for each
-// pair of boards on its own. No clock, no threads, no files.
+// The network between the boards of a simulated plant: the delay of each message, which messages are lost, and the
+// outcome for boards that are disconnected, killed and restarted. The same input gives the same output: random numbers
+// come from a seed, separately for each pair of boards. No clock, no threads, no files.
 
 #pragma once
 
@@ -18,43 +18,43 @@
 namespace indurop::mirror {
 
 struct NetworkModel {
-  std::chrono::nanoseconds delay{std::chrono::microseconds(100)};  // at least; positive
-  std::chrono::nanoseconds jitter{};                               // and up to so much more
+  std::chrono::nanoseconds delay{std::chrono::microseconds(100)};  // minimum; positive
+  std::chrono::nanoseconds jitter{};                               // maximum additional delay
   double loss = 0;                                                 // share of messages, 0 to 1
-  std::chrono::nanoseconds repeat{std::chrono::milliseconds(5)};   // until a lost one comes, unless it is best effort
+  std::chrono::nanoseconds repeat{std::chrono::milliseconds(5)};   // until a lost one is repeated, unless best effort
   std::uint64_t seed = 1;
-  std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};  // a board not heard for so long is gone
+  std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};  // a board silent for this time is gone
 };
 
 class SimulatedNetwork {
  public:
   SimulatedNetwork(const NetworkModel& model, std::size_t boards);
 
-  // A board sends something, at the message's time. `earliest`: it arrives nowhere before.
+  // A board sends a message, at the message's time. `earliest`: it does not arrive anywhere before.
   void send(Message message, std::int64_t earliest_ns = 0);
-  // What arrives at a board until this time, this included, in order.
+  // Returns what arrives at a board up to and including this time, in order.
   std::vector<Message> take(std::size_t board, std::int64_t until_ns);
-  // The next that a board may answer at once; INT64_MAX: nothing does.
+  // Returns the time of the next message that a board may answer at once; INT64_MAX: none.
   [[nodiscard]] std::int64_t next_question(std::size_t board) const noexcept;
   [[nodiscard]] std::int64_t next_arrival(std::size_t board) const noexcept;
 
-  // The board's cable is pulled, and put back.
+  // The board's cable is disconnected, and connected again.
   void cut(std::size_t board, std::int64_t now_ns);
   void join(std::size_t board, std::int64_t now_ns);
-  // The board falls silent, or leaves in order, and begins anew.
+  // The board falls silent, or leaves in an orderly way, and starts again.
   void kill(std::size_t board, std::int64_t now_ns);
   void leave(std::size_t board, std::int64_t now_ns);
   void start(std::size_t board, std::int64_t now_ns);
 
  private:
   struct Pending {
-    Message message;  // its time is that of its arrival
+    Message message;  // its time is the time of arrival
     std::uint64_t number = 0;
     bool repeated = false;  // it was lost once
   };
   struct Link {
     std::uint64_t chance = 0;
-    std::vector<Message::Kind> wanted;  // streams
+    std::vector<Message::Kind> wanted;  // requested streams
   };
   struct Board {
     bool runs = true;

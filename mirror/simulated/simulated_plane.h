@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plane of a board in a simulated plant: what it sends is handed to whoever simulates the network, what arrives is
-// handed in. Without threads: all in one.
+// The plane of a board in a simulated plant: the simulator of the network takes what it sends and passes in what
+// arrives. Without threads: everything runs in one.
 
 #pragma once
 
@@ -19,13 +19,13 @@ namespace indurop::mirror {
 
 class SimulatedPlane final : public Plane {
  public:
-  // `boards`: of the plant, in the manifest's order; `own` is the place of this one. `store`, whose time counts, is
-  // borrowed until the end.
+  // `boards`: all boards of the plant, in the manifest's order; `own` is the index of this one. `store`, whose time is
+  // used, is borrowed until the end.
   SimulatedPlane(std::vector<std::string> boards, std::size_t own, const vars::Store& store);
 
-  // What was sent since the last call.
+  // Returns what was sent since the last call.
   std::vector<Message> take_sent() { return std::exchange(sent_, {}); }
-  // Something arrived, now. `exchange` is what was opened with this plane.
+  // A message arrived now. `exchange` is what was opened with this plane.
   void arrived(const Message& message, Exchange& exchange);
 
   Opened offer_frames(Stream stream) override;
