@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happened to alarms, entry by entry, and how each stands after that. Knows no file and no clock.
+// The events of alarms, entry by entry, and the resulting state of each. Knows no file and no clock.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace indurop::alarms {
 
-// A line of the history. `state` instead of `event`: how an alarm stood when the history was cut.
+// A line of the history. `state` instead of `event`: the state of an alarm when the history was cut.
 struct AlarmEntry {
   std::int64_t wall_ns = 0;
   std::string alarm;  // "press::oil > 80"
@@ -25,46 +25,46 @@ struct AlarmEntry {
   std::string text;
   schema::Priority priority = schema::Priority::Medium;
   std::string value;  // when it was raised
-  std::string who;    // of what people do
+  std::string who;    // the user, for user actions
   std::string from;   // address
   std::string reason;
-  std::int64_t until_ns = 0;  // of shelving, CLOCK_REALTIME
-  std::uint64_t count = 0;    // of a state: how often it was raised
+  std::int64_t until_ns = 0;  // end of shelving, CLOCK_REALTIME
+  std::uint64_t count = 0;    // with a state: number of times it was raised
 };
 base::Json json_of(const AlarmEntry& entry);
 std::optional<AlarmEntry> parse_alarm_line(std::string_view line);
 
 struct AlarmRecord {
   AlarmState state = AlarmState::Normal;
-  std::int64_t since_ns = 0;  // of the state, CLOCK_REALTIME
-  std::uint64_t count = 0;    // how often it was raised
+  std::int64_t since_ns = 0;  // begin of the state, CLOCK_REALTIME
+  std::uint64_t count = 0;    // number of times it was raised
   AlarmEntry last;
 };
 
-// Numbers for a headline.
+// The counts for a headline.
 struct AlarmCounts {
   std::size_t active = 0;
   std::size_t unacknowledged = 0;  // active or returned
   std::size_t shelved = 0;
-  std::optional<schema::Priority> worst;  // of those that want attention or are active
+  std::optional<schema::Priority> worst;  // highest of those that want attention or are active
   bool operator==(const AlarmCounts&) const = default;
 };
 
 class AlarmBook {
  public:
-  // Entries that mean nothing in the alarm's state change nothing: two may have had the same idea.
+  // Entries without a meaning in the alarm's state change nothing: two users may have acted at the same time.
   void add(const AlarmEntry& entry);
-  // Normal if it was never heard of.
+  // Returns a Normal record for an unknown alarm.
   [[nodiscard]] AlarmRecord find(std::string_view alarm) const;
-  // All that are not normal, by name.
+  // All alarms that are not normal, by name.
   [[nodiscard]] const std::map<std::string, AlarmRecord, std::less<>>& standing() const noexcept { return standing_; }
   [[nodiscard]] AlarmCounts counts() const;
-  // Grows with every change.
+  // Increases with every change.
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
  private:
   std::map<std::string, AlarmRecord, std::less<>> standing_;
-  std::map<std::string, AlarmRecord, std::less<>> normal_;  // for their counts
+  std::map<std::string, AlarmRecord, std::less<>> normal_;  // kept for their counts
   std::uint64_t revision_ = 0;
 };
 

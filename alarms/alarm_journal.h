@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The history of a node's alarms in its state folder: lines of JSON that are only appended to. It is all there is: who
-// reads it from the beginning knows how every alarm stands, also after a kill or a loss of power.
+// The history of a node's alarms in its state folder: lines of JSON that are only appended to. It is the only storage:
+// a process that reads it from the beginning knows the state of every alarm, also after a kill or a loss of power.
 
 #pragma once
 
@@ -22,20 +22,22 @@ class AlarmJournal {
   explicit AlarmJournal(const std::string& node);
   AlarmJournal(std::filesystem::path folder, std::size_t most_bytes);
 
-  // Reads what others appended. Any process may do that.
+  // Reads what other processes have appended. Any process may do that.
   void refresh();
   [[nodiscard]] const AlarmBook& book() const noexcept { return book_; }
 
-  // Asks what to append, with the newest book in hand while nobody else can append, and brings that to the disk.
-  // Returns why that failed, else nothing. What took the file beyond its size is put aside as events.jsonl.1.
+  // Calls `decide` with the newest book while no other process can append, appends the entries it returns, and syncs
+  // them to the disk. Returns why that failed, else an empty text. A file beyond its maximum size is cut; the old one
+  // is kept as events.jsonl.1.
   std::string change(const std::function<std::vector<AlarmEntry>(const AlarmBook&)>& decide);
 
-  // The newest `most` entries, oldest first, from before the newest cut too.
+  // Returns the newest `most` entries, oldest first, including those from before the last cut.
   [[nodiscard]] std::vector<AlarmEntry> history(std::size_t most) const;
 
-  // One process at a time looks at the conditions: true if it is this one, from now to the end of this object.
+  // Only one process at a time evaluates the conditions. Returns true if it is this one, from now until this object is
+  // destroyed.
   bool become_watcher();
-  // Is there one?
+  // Returns whether a process evaluates the conditions.
   [[nodiscard]] bool watched() const;
 
  private:
@@ -47,8 +49,8 @@ class AlarmJournal {
   std::filesystem::path folder_;
   std::size_t most_bytes_;
   AlarmBook book_;
-  ino_t inode_ = 0;  // of the file that was read
-  off_t read_ = 0;   // so far
+  ino_t inode_ = 0;  // inode of the file that was read
+  off_t read_ = 0;   // bytes read so far
   base::Descriptor watching_;
 };
 

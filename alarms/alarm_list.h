@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the alarms of a node stand, for people and programs: what it declares and what its history says.
+// The states of a node's alarms, for people and programs: from what the node declares and from the history.
 
 #pragma once
 
@@ -14,7 +14,7 @@ namespace indurop::alarms {
 
 struct ListedAlarm {
   std::string name;
-  std::string part;  // what to look at; empty: it is not declared any more
+  std::string part;  // the variable or its part to check; empty: the alarm is not declared any more
   std::string text;
   std::string unit;
   schema::Priority priority = schema::Priority::Medium;
@@ -23,14 +23,14 @@ struct ListedAlarm {
   AlarmRecord record;
 };
 
-// Those that need somebody first, then by priority and time. `all`: those too that are normal.
+// Lists the alarms that need attention first, then by priority and time. `all`: includes normal ones.
 std::vector<ListedAlarm> list_alarms(const std::vector<DeclaredAlarm>& declared, const AlarmBook& book, bool all);
 base::Json json_of(const ListedAlarm& alarm);
 // {"active", "unacknowledged", "shelved", "worst"}
 base::Json json_of(const AlarmCounts& counts);
-// What is not there counts as none.
+// Returns the counts; missing fields count as none.
 AlarmCounts counts_in(const base::Json& json);
-// "2 alarms want to be acknowledged, 1 is shelved"; empty if all is normal.
+// Returns "2 alarms want to be acknowledged, 1 is shelved"; empty if all is normal.
 std::string sentence_of(const AlarmCounts& counts);
 
 }  // namespace indurop::alarms

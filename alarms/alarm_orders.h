@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people do with alarms: acknowledge, shelve, unshelve. Each is a line in the history.
+// User actions on alarms: acknowledge, shelve, unshelve. Each becomes a line in the history.
 
 #pragma once
 
@@ -16,21 +16,21 @@ namespace indurop::alarms {
 
 struct AlarmOrder {
   AlarmEvent what = AlarmEvent::Acknowledged;  // or Shelved, Unshelved
-  std::vector<std::string> names;              // of alarms, or of what they look at; globs
-  bool all = false;                            // that it means something for
-  std::int64_t for_ns = 0;                     // Shelved
+  std::vector<std::string> names;              // of alarms, or of the variables they evaluate; globs
+  bool all = false;                            // all alarms to which the action applies
+  std::int64_t for_ns = 0;                     // duration of shelving
   std::string who;
   std::string from;
   std::string reason;
 };
 
 struct AlarmProblem {
-  bool failed = false;  // it could not be kept; else a name is wrong
+  bool failed = false;  // the history could not be written; else a name is wrong
   std::vector<std::string> texts;
 };
 
-// The alarms that it was done to. All or none: a name that fits no alarm is a problem; one in a state that the order
-// means nothing in is left out.
+// Returns the alarms that it was done to. All or none: a name that matches no alarm is a problem; an alarm in a state
+// to which the order does not apply is left out.
 Result<std::vector<std::string>, AlarmProblem> carry_out(AlarmJournal& journal,
                                                          const std::vector<DeclaredAlarm>& declared,
                                                          const AlarmOrder& order);

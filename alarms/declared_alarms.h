@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The alarms that the variables of a node declare: one for each element of an array and each field they stand at.
+// The alarms that the variables of a node declare: one for each element of an array and each field with a declaration.
 
 #pragma once
 
@@ -22,7 +22,7 @@ struct DeclaredAlarm {
   const vars::DirectoryEntry* entry = nullptr;
 };
 
-// At most kMostAlarms, in the order of the variables.
+// Returns at most kMostAlarms, in the order of the variables.
 inline constexpr std::size_t kMostAlarms = 4096;
 std::vector<DeclaredAlarm> declared_alarms(const vars::Store& store);
 

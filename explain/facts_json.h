@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facts in a file beside the runs of a recording, whose runs and values they do not repeat. What is not there, or makes
-// no sense, stays as it was: the file may be of another release.
+// The facts as a file attached to a recording, without the runs and values that the recording already has. Missing or
+// invalid fields keep their values: the file may be of another release.
 
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace indurop::explain {
 
-// Name of the attachment.
+// The name of the attachment.
 inline constexpr std::string_view kFactsFile = "indurop.facts.json";
 
 std::string facts_text(const Facts& facts);
-// False if it is no such text.
+// Returns false if it is no such text.
 bool read_facts(std::string_view text, Facts& facts);
 
 base::Json json_of(const Answer& answer);

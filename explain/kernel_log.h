@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernel counted for the threads of a node, in a file of shared memory: the node looks at its counters some
-// times a second and notes what is unusual. Not for the real-time path.
+// The kernel's counters for the threads of a node, in a file of shared memory: the node reads its counters several
+// times a second and records what is unusual. Not for the real-time path.
 
 #pragma once
 
@@ -21,7 +21,7 @@ namespace indurop::explain {
 inline constexpr std::uint64_t kKernelMagic = 0x314e52454b444e49ULL;  // "INDKERN1"
 inline constexpr std::uint32_t kKernelEntries = 1024;
 
-// Ring, newest overwrites oldest.
+// Ring buffer, the newest entry overwrites the oldest.
 struct KernelEntry {
   std::atomic<std::uint64_t> sequence;  // entry number + 1, stored last; 0 while being written
   std::int64_t from_ns;
@@ -45,9 +45,9 @@ std::string kernel_file(const std::string& node);
 
 class KernelLook {
  public:
-  // Makes the file. `process`: the folder of the node's process, "/proc/self". Errors: those of a ShmFile.
+  // Creates the file. `process`: the folder of the node's process, "/proc/self". Errors: those of a ShmFile.
   static Result<KernelLook> begin(const std::string& node, std::filesystem::path process, bool realtime);
-  // Notes what was counted since the last look.
+  // Records what was counted since the last call.
   void look(std::int64_t now_ns);
 
  private:
@@ -55,7 +55,7 @@ class KernelLook {
     std::int64_t waited_ns = 0;
     std::uint64_t major_faults = 0;
     std::int32_t core = -1;
-    bool matters = false;  // it runs modules, or releases them
+    bool matters = false;  // the thread runs modules, or releases them
     std::string name;
   };
   KernelLook(vars::ShmFile file, std::filesystem::path process, bool realtime);
@@ -71,7 +71,7 @@ class KernelLook {
   std::int64_t looked_ns_ = 0;
 };
 
-// Adds what the file says, if there is one.
+// Adds the content of the file, if there is one.
 void add_kernel(const std::string& node, Facts& facts);
 
 }  // namespace indurop::explain

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why one run ended when it did: how long the module itself and each other one had the core between its release and its
-// end, compared with its other runs. Pure.
+// Explains why one run ended when it did: how long the module itself and each other one had the core between its
+// release and its end, compared with its other runs. Pure.
 
 #pragma once
 
@@ -21,22 +21,22 @@ class Lateness {
   explicit Lateness(const Facts& facts) : facts_(facts) {}
 
   [[nodiscard]] Answer explain(const RunFact& run, int depth = 0) const;
-  // Machine if so much of this time is accounted for by what the kernel counted for the threads of this core that a run
-  // of the module depends on; AllIsWell: it counted nothing of it.
+  // Returns Machine if the kernel's counters, for the threads of this core that a run of the module depends on, account
+  // for most of `so_much_ns` in this time; AllIsWell if the kernel counted nothing of it.
   [[nodiscard]] Answer machine(Span span, std::int32_t core, const ModuleFact& module, std::int64_t so_much_ns) const;
 
  private:
-  // More than in other runs, by whom.
+  // Additional core time compared with other runs, and its module.
   struct Excess {
     std::uint32_t module = kNoModule;
-    bool own = false;  // the run itself, not another one of its module
+    bool own = false;  // the run itself, not another run of its module
     std::int64_t more_ns = 0;
     std::int64_t whole_ns = 0;
   };
   struct Compared {
-    std::vector<Excess> all;   // the largest first
-    std::int64_t more_ns = 0;  // of the response
-    std::size_t others = 0;    // runs it was compared with
+    std::vector<Excess> all;   // largest first
+    std::int64_t more_ns = 0;  // increase of the response time
+    std::size_t others = 0;    // number of runs it was compared with
   };
 
   struct Waited {

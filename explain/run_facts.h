@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facts of a run block and of a mirror's block. Of the run block nothing is believed; the mirror's was checked before
-// and does not change.
+// The facts from a run block and from a mirror's block. Nothing in the run block is trusted; the mirror's block was
+// checked before and does not change.
 
 #pragma once
 
@@ -10,10 +10,11 @@
 
 namespace indurop::explain {
 
-// Modules, figures, overruns; `with_runs`: also the runs that the slot log holds. `size`: bytes of the block. What does
-// not add up is left out.
+// Reads modules, counters and overruns; `with_runs`: also the runs in the slot log. `size`: bytes of the block.
+// Inconsistent data is left out.
 Facts facts_of(const scheduler::RunBlock& block, std::uint64_t size, bool with_runs);
-// Numbers that no node has become such that sums and products of them fit; for facts whose source may be damaged.
+// Limits numbers beyond what any node reaches, such that sums and products do not overflow; for facts from a source
+// that may be damaged.
 void make_sound(Facts& facts) noexcept;
 void add_boards(const mirror::MirrorBlock& mirror, Facts& facts);
 

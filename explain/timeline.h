@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who had a core when: from begins and ends of runs. Of runs that lie in each other the innermost has it. Pure.
+// Which module had a core when, from begins and ends of runs. Of nested runs the innermost has the core. Pure.
 
 #pragma once
 
@@ -19,16 +19,16 @@ struct Span {
   [[nodiscard]] std::int64_t length() const noexcept { return to_ns > from_ns ? to_ns - from_ns : 0; }
 };
 
-// How long each module had the core within a span; kNoModule: no run of the node.
+// The time that each module had the core within a span; kNoModule: no run of the node.
 using Shares = std::map<std::uint32_t, std::int64_t>;
 
 class Timeline {
  public:
-  // Borrowed. `core`: as in ModuleFact.
+  // The facts are borrowed. `core`: as in ModuleFact.
   Timeline(const Facts& facts, std::int32_t core);
 
   [[nodiscard]] Shares shares(Span span) const;
-  // The run that had the core at a time; null: none.
+  // Returns the run that had the core at a time; null: none.
   [[nodiscard]] const RunFact* at(std::int64_t time_ns) const;
 
  private:

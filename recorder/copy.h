@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands around the messages of a recording, taken over to another one.
+// Copies everything in a recording except its messages to another one.
 
 #pragma once
 
@@ -15,19 +15,19 @@
 
 namespace indurop::recorder {
 
-// By number in the file that is read, the number in the one that is written.
+// Maps channel numbers of the file that is read to those of the one that is written.
 using ChannelMap = std::map<std::uint16_t, std::uint16_t>;
 
-// Schemas and channels, topics with `prefix` in front; those of `topics` are there already, new ones are added to it.
-// Errors: those of the disk.
+// Copies schemas and channels, with `prefix` before each topic; channels in `topics` exist already, new ones are added
+// to it. Errors: those of the disk.
 Result<ChannelMap, base::Problem> copy_channels(const recording::McapReader& from, const std::string& prefix,
                                                 recording::McapWriter& to,
                                                 std::map<std::string, std::uint16_t>& topics);
-// Attachments and metadata, so named; what says how the recording ended is left out. Errors: those of the disk, or a
-// part is damaged.
+// Copies attachments and metadata, with `prefix` before their names, except the metadata about how the recording ended.
+// Errors: those of the disk, or a part is damaged.
 Result<void, base::Problem> copy_about(const recording::McapReader& from, const std::string& prefix,
                                        recording::McapWriter& to);
-// All of it.
+// Copies schemas, channels, attachments and metadata.
 Result<ChannelMap, base::Problem> copy_frame(const recording::McapReader& from, const std::string& prefix,
                                              recording::McapWriter& to);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several recordings become one on common time: those of the boards of a plant, each a folder of topics.
+// Joins several recordings to one with a common time: those of the boards of a plant, each with its own topic prefix.
 
 #pragma once
 
@@ -16,15 +16,16 @@ namespace indurop::recorder {
 
 struct Joined {
   std::uint64_t messages = 0;
-  std::vector<std::string> names;  // of the boards or nodes, in the order of the files
-  std::vector<std::string> gaps;   // what is missing between parts, in words
+  std::vector<std::string> names;  // names of the boards or nodes, in the order of the files
+  std::vector<std::string> gaps;   // descriptions of what is missing between parts
 };
 
-// Topics are NAME/TOPIC, NAME is that of the file's board, else of its node; those of a joined file are so already, and
-// parts of one recording of one node alone become a recording of this node. Attachments and metadata come along, so
-// named; of parts those of the last. Errors: a file cannot be read or is none of ours, or is damaged; two are of one
-// board, but not parts of one recording; some are of simulations, others not; two are of simulations, but not of one
-// plant; `to` is there already or cannot be written. What was begun is removed then.
+// Topics become NAME/TOPIC, where NAME is the file's board, else its node; topics of a joined file have that form
+// already, and parts of one recording of a single node become a recording of this node. Attachments and metadata are
+// copied, with names of the same form; of parts, those of the last. Errors: a file cannot be read, is no InduRoP
+// recording, or is damaged; two are of one board, but not parts of one recording; some are of simulations, others not;
+// two are of simulations, but not of one plant; `to` exists already or cannot be written. A partial `to` is removed
+// then.
 Result<Joined, base::Problem> join(const std::vector<std::filesystem::path>& files, const std::filesystem::path& to);
 
 }  // namespace indurop::recorder

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The recording of one node or of several in one file, or in parts one after the other, of which the oldest go so that
-// the disk does not fill up. Every part can be read and replayed by itself.
+// The recording of one node or of several in one file, or in consecutive parts, of which the oldest are deleted so that
+// the disk does not fill up. Every part can be read and replayed on its own.
 
 #pragma once
 
@@ -21,18 +21,18 @@
 
 namespace indurop::recorder {
 
-// 0: no limit.
+// The limits; 0: no limit.
 struct Limits {
-  std::int64_t split_ns = 0;  // a part tells so much
+  std::int64_t split_ns = 0;  // maximum duration of a part
   std::uint64_t split_bytes = 0;
-  std::int64_t keep_ns = 0;  // at least the newest so much stays
+  std::int64_t keep_ns = 0;  // minimum duration of the newest data that is kept
   std::uint64_t keep_bytes = 0;
   [[nodiscard]] bool in_parts() const noexcept { return split_ns + keep_ns > 0 || split_bytes + keep_bytes > 0; }
 };
 
 // A node that is recorded; its store is borrowed.
 struct Taped {
-  std::string prefix;  // of its topics, "sensor/"; empty: there is one node
+  std::string prefix;  // topic prefix, "sensor/"; empty: there is one node
   About about;
   const vars::Store* store = nullptr;
   tape::Follower follower;
@@ -40,25 +40,25 @@ struct Taped {
 
 class Parts {
  public:
-  // "run.mcap" in parts is run.0001.mcap and so on. What is kept is split into eight if nothing is said of that.
-  // Errors: as those of Recorder::create(); there are parts of another recording already.
+  // Creates the recording; parts of "run.mcap" are run.0001.mcap and so on. With a keep limit but no split limit the
+  // kept data is split into eight parts. Errors: those of Recorder::create(); parts of another recording exist already.
   static Result<Parts, base::Problem> create(const std::filesystem::path& path, const Limits& limits,
                                              std::vector<Taped> nodes, const std::vector<std::string>& globs);
 
   void learn();
-  // Takes what there is. If the disk is full, the oldest parts make room, if parts may go at all.
-  // Errors: those of the disk.
+  // Takes what is available. If the disk is full, the oldest parts are deleted, if parts may be deleted at all. Errors:
+  // those of the disk.
   Result<void, base::Problem> take();
   Result<void, base::Problem> flush();
-  // Beside the runs of the node of this number, in the part that is being written. Errors: those of the disk.
+  // Attaches a text to the node of this number, in the part that is being written. Errors: those of the disk.
   Result<void, base::Problem> attach(std::size_t node, std::string_view name, std::string_view text);
   Result<void, base::Problem> close();
 
-  // One for each node.
+  // One recorder for each node.
   [[nodiscard]] const std::vector<Recorder>& recorders() const noexcept { return recorders_; }
-  // "run.mcap", "run.0003.mcap ... run.0010.mcap".
+  // Returns "run.mcap", or "run.0003.mcap ... run.0010.mcap".
   [[nodiscard]] std::string files() const;
-  // Of all parts that are there.
+  // Returns the size of all existing parts.
   [[nodiscard]] std::uint64_t bytes() const noexcept;
   [[nodiscard]] std::uint64_t removed() const noexcept { return removed_; }
 
@@ -87,7 +87,7 @@ class Parts {
   std::vector<Recorder> recorders_;
   std::shared_ptr<recording::McapWriter> writer_;
   std::deque<Part> closed_;
-  std::uint64_t number_ = 1;  // of the open part
+  std::uint64_t number_ = 1;  // number of the open part
   std::int64_t begin_ns_ = 0;
   std::uint64_t removed_ = 0;
 };

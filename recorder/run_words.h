@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a recording says of runs: one message of the channel indurop/runs at the end of each. The values of a run are
-// the messages with its module's number since the module's run before it. Times in messages are the node's; log times
-// are CLOCK_REALTIME.
+// The records of runs in a recording: one message of the channel indurop/runs at the end of each run. The values of a
+// run are the messages with its module's number since the module's previous run. Times in messages are the node's; log
+// times are CLOCK_REALTIME.
 
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace indurop::recorder {
 
-// Raised with whatever replays need and recordings of before lack; those that do not say theirs have 1.
-// 2: what snapshot(), valid(), age(), channels and the request to stop told runs.
+// The format version; increased when replays need something that older recordings lack. A recording without a version
+// has version 1. Version 2 adds the results of snapshot(), valid(), age(), channels and the request to stop.
 inline constexpr std::int64_t kRecordingFormat = 2;
 
 inline constexpr std::string_view kRunsTopic = "indurop/runs";
@@ -28,9 +28,9 @@ struct RunWords {
   tape::RunTail tail;
   std::uint32_t module = 0;
   bool faulted = false;
-  bool anew = false;  // its module was started anew since its run before; older recordings do not say
+  bool anew = false;  // its module was started again since its previous run; always false in older recordings
 };
-// What irp::now_ns() said to runs: messages of the channel indurop/clock, in the order of a run's calls.
+// The results of irp::now_ns() in runs: messages of the channel indurop/clock, in the order of a run's calls.
 inline constexpr std::string_view kClockTopic = "indurop/clock";
 inline constexpr std::string_view kClockSchema = "indurop::Clock";
 extern const std::string_view kClockIdl;
@@ -38,7 +38,8 @@ void to_cdr(std::int64_t clock_ns, std::vector<std::uint8_t>& cdr);
 // Errors: Corrupt.
 Result<std::int64_t> clock_from_cdr(std::span<const std::uint8_t> cdr);
 
-// What calls of shared functions and channels gave to runs: messages of the channel indurop/told, likewise.
+// The results of shared functions and channels in runs: messages of the channel indurop/told, in the order of the
+// calls.
 inline constexpr std::string_view kToldTopic = "indurop/told";
 inline constexpr std::string_view kToldSchema = "indurop::Told";
 extern const std::string_view kToldIdl;
@@ -47,17 +48,17 @@ struct ToldWords {
   std::span<const std::uint8_t> bytes;
 };
 void to_cdr(const ToldWords& told, std::vector<std::uint8_t>& cdr);
-// Points into `cdr`. Errors: Corrupt.
+// The result points into `cdr`. Errors: Corrupt.
 Result<ToldWords> told_from_cdr(std::span<const std::uint8_t> cdr);
 
 void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr);
 // Errors: Corrupt.
 Result<RunWords> run_from_cdr(std::span<const std::uint8_t> cdr);
 
-// The sequence number of a value's message: whose run it belongs to, and as what.
+// The sequence number of a value's message: the module whose run it belongs to, and its kind.
 struct ValueWords {
-  std::uint32_t module = 0;  // tape::kOthers as kOthers
-  tape::EntryKind kind{};    // Run: a first value, of before any module was started
+  std::uint32_t module = 0;  // tape::kOthers is mapped to kOthers
+  tape::EntryKind kind{};    // Run: a first value, from before any module was started
 };
 inline constexpr std::uint32_t kOthers = 0x1fffffff;
 std::uint32_t to_sequence(ValueWords words) noexcept;

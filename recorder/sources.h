@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose runs and values a recording tells: those of one node, or of several that were joined, each with its name before
-// its topics.
+// The nodes of a recording and their channels: one node, or several that were joined, each with its name as topic
+// prefix.
 
 #pragma once
 
@@ -20,17 +20,17 @@ namespace indurop::recorder {
 
 inline constexpr const char* kNodeMetadata = "indurop.node";
 inline constexpr const char* kEndMetadata = "indurop.end";
-inline constexpr const char* kPartText = "part";  // of what is said of the node: the file's number, from 1
+inline constexpr const char* kPartText = "part";  // key in the node's metadata: the file's number, from 1
 
-// In what a replay wrote: variables, and how many runs left another value in them than the recorded one.
+// In the result of a replay: variables, with the number of runs that left a value different from the recorded one.
 inline constexpr const char* kDifferingMetadata = "indurop.differing";
 
 struct Source {
-  std::string prefix;                // of its topics: "sensor/"; empty: the file is of one node
-  recording::TextMap about;          // what recorder.h says of the node
+  std::string prefix;                // topic prefix: "sensor/"; empty: the file is of one node
+  recording::TextMap about;          // description of the node (recorder.h)
   std::vector<std::string> modules;  // names, by index
 
-  // What it says of the node; empty and 0: nothing.
+  // A value of the node's metadata; empty or 0 if it is missing.
   [[nodiscard]] std::string text(const std::string& key) const;
   [[nodiscard]] std::int64_t number(const std::string& key) const;
   [[nodiscard]] std::string name() const { return prefix.empty() ? "" : prefix.substr(0, prefix.size() - 1); }
@@ -44,21 +44,22 @@ struct ChannelPlace {
 };
 
 struct Sources {
-  std::vector<Source> all;                         // empty: no recording of runs
-  std::map<std::uint16_t, ChannelPlace> channels;  // those that belong to one
+  std::vector<Source> all;                         // empty: not a recording of runs
+  std::map<std::uint16_t, ChannelPlace> channels;  // channels that belong to a source
 };
 
-// The metadata of this name that was written last; none, or damaged: empty.
+// Returns the metadata of this name that was written last; empty if there is none or it is damaged.
 recording::TextMap last_metadata(const recording::McapReader& reader, const std::string& name);
 
-// Damaged metadata counts as none.
+// Damaged metadata is ignored.
 Sources find_sources(const recording::McapReader& reader);
 
-// The source of this name; an empty one is that of a file of one. Errors: there is none, the names are in the message.
+// Returns the source of this name; an empty name selects the one of a file with a single source. Errors: no such
+// source, the message lists the names.
 Result<std::size_t, base::Problem> choose_source(const Sources& sources, const std::string& name,
                                                  const std::string& file);
 
-// "module 3", or its name.
+// Returns the module's name, or "module 3" if it has none.
 std::string module_name(const Source& source, std::uint32_t module);
 
 }  // namespace indurop::recorder

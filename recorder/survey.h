@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a recording holds, counted: its channels, its modules and their runs, what is missing in it.
+// A summary of a recording: its channels, its modules and their runs, and what is missing.
 
 #pragma once
 
@@ -19,8 +19,8 @@ struct SurveyedModule {
   std::size_t source = 0;
   std::string name;
   std::uint64_t runs = 0;
-  std::uint64_t lost = 0;    // that were overwritten before they were read, or are in a damaged part
-  std::uint64_t before = 0;  // that were before the first one here
+  std::uint64_t lost = 0;    // overwritten before they were read, or in a damaged part
+  std::uint64_t before = 0;  // runs before the first one in the recording
   std::uint64_t faults = 0;
   std::uint64_t first_tick = 0;
   std::uint64_t last_tick = 0;
@@ -31,7 +31,7 @@ struct SurveyedChannel {
   std::string type;
   std::string unit;
   std::uint64_t messages = 0;
-  std::uint64_t dropped = 0;  // lost runs of modules that tell it: so often it may have changed unseen
+  std::uint64_t dropped = 0;  // lost runs of modules that write it: as many changes may be missing
 };
 
 struct Survey {
@@ -42,12 +42,12 @@ struct Survey {
   std::vector<std::string> damages;
   std::uint64_t bytes = 0;
   std::uint64_t messages = 0;
-  std::int64_t begin_ns = 0;  // CLOCK_REALTIME, virtual time of a simulation
+  std::int64_t begin_ns = 0;  // CLOCK_REALTIME, or virtual time of a simulation
   std::int64_t end_ns = 0;
   bool closed = false;
 };
 
-// Reads all of it. Errors: it is no MCAP file; what is damaged inside is passed over and told.
+// Reads the whole file. Errors: it is no MCAP file; damaged parts are skipped and reported.
 Result<Survey, base::Problem> survey(const std::filesystem::path& file);
 
 }  // namespace indurop::recorder

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A new file that only grows, by whole portions: one that could not be written leaves nothing of it behind.
+// A new file that only grows, by whole portions: a portion that cannot be written leaves no bytes in it.
 
 #pragma once
 
@@ -16,16 +16,16 @@ namespace indurop::recording {
 
 class AppendFile {
  public:
-  // Errors: there is a file of this name already; what the operating system says.
+  // Errors: a file of this name exists already; errors of the operating system.
   static Result<AppendFile, base::Problem> create(const std::filesystem::path& path);
 
-  // After an error (a full disk, mostly) the file is as before and the call may be repeated.
+  // After an error (usually a full disk) the file is as before and the call may be repeated.
   Result<void, base::Problem> append(View bytes);
   // Returns when the bytes are on the disk. Errors as above; the file is closed then too.
   Result<void, base::Problem> close();
 
   [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
-  // Of all bytes.
+  // The CRC of all bytes.
   [[nodiscard]] std::uint32_t crc() const noexcept { return crc_; }
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 

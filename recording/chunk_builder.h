@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The messages of a chunk that is being filled, and where those of each channel are.
+// Builds a chunk: its messages, and the positions of the messages of each channel.
 
 #pragma once
 
@@ -14,15 +14,15 @@ namespace indurop::recording {
 class ChunkBuilder {
  public:
   void add(const McapMessage& message);
-  // Forgets all messages; the memory is used again.
+  // Discards all messages; the memory is reused.
   void clear();
 
   [[nodiscard]] bool empty() const noexcept { return records_.empty(); }
   [[nodiscard]] View records() const noexcept { return records_; }
-  // Of the log times.
+  // The first and the last log time.
   [[nodiscard]] std::uint64_t start_ns() const noexcept { return start_ns_; }
   [[nodiscard]] std::uint64_t end_ns() const noexcept { return end_ns_; }
-  // Channels with messages in this chunk, each with log times and offsets in records().
+  // The channels with messages in this chunk, each with log times and offsets in records().
   [[nodiscard]] const std::vector<std::uint16_t>& channels() const noexcept { return used_; }
   [[nodiscard]] const McapMessageIndex& index_of(std::uint16_t channel) const { return indexes_[channel]; }
 

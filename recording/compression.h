@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compressions of MCAP chunks: "zstd", which we write, "lz4" (its frames), which others write, and "" for none.
+// The compressions of MCAP chunks: "zstd", which we write, "lz4" (its frame format), which third-party programs write,
+// and "" for none.
 
 #pragma once
 
@@ -19,7 +20,7 @@ namespace indurop::recording {
 class ZstdCompressor {
  public:
   ZstdCompressor();
-  // Valid until the next call. Errors: out of memory.
+  // The result is valid until the next call. Errors: out of memory.
   Result<View, base::Problem> compress(View bytes);
 
  private:
@@ -30,7 +31,7 @@ class ZstdCompressor {
   Bytes compressed_;
 };
 
-// Bytes without a value at first: what is reserved for a damaged file costs nothing until it is filled.
+// Uninitialized bytes: memory reserved for a damaged file costs nothing until it is filled.
 struct Block {
   std::unique_ptr<std::uint8_t[]> bytes;  // NOLINT(modernize-avoid-c-arrays)
   std::uint64_t size = 0;
@@ -38,8 +39,8 @@ struct Block {
 };
 Block make_block(std::uint64_t size);
 
-// Undoes `compression`; the result has to have `size` bytes, at most kMostChunkBytes.
-// Errors: no such compression here; `bytes` are no such compression of so many bytes.
+// Decompresses; the result must have `size` bytes, at most kMostChunkBytes. Errors: unknown compression; `bytes` do not
+// decompress to that size.
 Result<Block, base::Problem> decompress(std::string_view compression, View bytes, std::uint64_t size);
 
 }  // namespace indurop::recording

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is where in a recording: from its summary, or, where it has none or a damaged one, from a walk over all records.
+// The table of contents of a recording: from its summary, or, if that is missing or damaged, from a walk over all
+// records.
 
 #pragma once
 
@@ -24,20 +25,20 @@ struct Contents {
   std::vector<Segment> segments;  // in the order of the file
   std::vector<McapAttachmentIndex> attachments;
   std::vector<McapMetadataIndex> metadata;
-  bool has_summary = false;            // one that names all; what was not closed has none
-  std::vector<base::Problem> damages;  // what was passed over, each with its place
+  bool has_summary = false;            // a complete one; a file that was not closed has none
+  std::vector<base::Problem> damages;  // what was skipped, each with its position
 
-  // Log times of the first and the last message; 0 and 0: there is none.
+  // Returns the log times of the first and the last message; 0 and 0: there is none.
   [[nodiscard]] std::pair<std::int64_t, std::int64_t> span_ns() const;
-  // The first schema or channel of a number counts. False if this is another one.
+  // The first schema or channel of a number is kept. Returns false if this is a different one.
   bool add(McapSchema schema);
   bool add(McapChannel channel);
 };
 
-// Errors: no MCAP file, or not even its header is whole.
+// Errors: no MCAP file, or its header is incomplete.
 Result<Contents, base::Problem> read_contents(const InputFile& file);
 
-// Inside contents: the records from byte `begin` to the end of the data.
+// Implementation of read_contents(): walks the records from byte `begin` to the end of the data.
 void walk(const InputFile& file, std::uint64_t begin, Contents& contents);
 
 }  // namespace indurop::recording

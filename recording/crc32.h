@@ -8,7 +8,7 @@
 
 namespace indurop::recording {
 
-// Of the bytes that gave `before`, and then `bytes`.
+// Returns the CRC of `bytes` appended to the bytes that gave `before`.
 std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before = 0) noexcept;
 
 }  // namespace indurop::recording

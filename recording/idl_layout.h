@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the messages of a channel are made of, by its OMG IDL: the numbers of a struct one after the other, as CDR has
-// them. For readers of recordings who do not know our types; understands what recording/omg_idl.h writes.
+// The layout of a channel's messages, from its OMG IDL: the numbers of a struct one after the other, as in CDR. For
+// readers of recordings who do not know our types; understands what recording/omg_idl.h writes.
 
 #pragma once
 
@@ -18,20 +18,20 @@ namespace indurop::recording {
 
 struct IdlLeaf {
   enum class Kind : std::uint8_t { Bool, Char, I8, U8, I16, U16, I32, U32, I64, U64, F32, F64, Enum, Text };
-  std::string name;  // behind the channel's: ".x", "[2].y"; empty: it is the whole
+  std::string name;  // appended to the channel's name: ".x", "[2].y"; empty: the whole value
   Kind kind{};
 };
 
 inline constexpr std::size_t kMostLeaves = 4096;
 
-// The numbers of struct `name` of this text, in the order of its bytes. A struct of module indurop with one member
-// `value` stands for that member. Errors: what is not understood; more than kMostLeaves.
+// Returns the numbers of struct `name` of this text, in the order of its bytes. A struct of module indurop with the
+// single member `value` is replaced by that member. Errors: unsupported IDL; more than kMostLeaves.
 Result<std::vector<IdlLeaf>, base::Problem> idl_layout(std::string_view text, std::string_view name);
 
-// A number for each leaf; texts are NaN. False if `cdr` is no such message.
+// Reads one number for each leaf; texts become NaN. Returns false if `cdr` is no such message.
 bool read_leaves(const std::vector<IdlLeaf>& layout, std::span<const std::uint8_t> cdr, std::vector<double>& values);
 
-// The same as texts, without loss: "-5", "0.1", "true", a text as it is.
+// Reads the leaves as texts, without loss: "-5", "0.1", "true", a text unchanged.
 bool read_leaf_texts(const std::vector<IdlLeaf>& layout, std::span<const std::uint8_t> cdr,
                      std::vector<std::string>& values);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file that is read at given places, and how its errors are worded: "FILE: byte 123: what is wrong".
+// A file that is read at given offsets, and the format of its error messages: "FILE: byte 123: what is wrong".
 
 #pragma once
 
@@ -17,18 +17,18 @@
 
 namespace indurop::recording {
 
-// What stands before each record's content.
+// The head of each record.
 struct RecordHead {
   Opcode opcode{};
-  std::uint64_t length = 0;  // of the content
+  std::uint64_t length = 0;  // length of the content
 };
 
 class InputFile {
  public:
-  // Errors: it cannot be read; it is no ordinary file.
+  // Errors: it cannot be read; it is no regular file.
   static Result<InputFile, base::Problem> open(const std::filesystem::path& path);
 
-  // When it was opened; it may have grown since.
+  // The size when it was opened; it may have grown since.
   [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
   [[nodiscard]] bool has(std::uint64_t offset, std::uint64_t length) const noexcept {
     return offset <= size_ && length <= size_ - offset;
@@ -37,8 +37,8 @@ class InputFile {
 
   // Errors: the file is shorter than that; the operating system cannot read it.
   [[nodiscard]] Result<Block, base::Problem> read(std::uint64_t offset, std::uint64_t length) const;
-  // The content of a record that has this opcode and `length` bytes, its head included.
-  // Errors: as above, and if the file has another record there; `most` is less than its content.
+  // Reads the content of a record with this opcode and `length` bytes, its head included. Errors: as above; the file
+  // has another record there; its content is longer than `most`.
   [[nodiscard]] Result<Block, base::Problem> read_content(Opcode opcode, std::uint64_t offset, std::uint64_t length,
                                                           std::uint64_t most) const;
 
@@ -51,7 +51,7 @@ class InputFile {
   std::uint64_t size_;
 };
 
-// `bytes` has at least kRecordHead of them.
+// `bytes` must have at least kRecordHead bytes.
 RecordHead record_head(View bytes);
 
 }  // namespace indurop::recording

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads MCAP files, ours and those of others: with a summary or without, cut or damaged ones as far as they are whole.
-// Nothing a file says is believed before it was compared with the file's size. Not real-time safe; one thread at a
-// time.
+// Reads MCAP files, our own and third-party ones: with or without a summary; of truncated or damaged ones the intact
+// part. Every number in a file is checked against the file's size before it is used. Not real-time safe; one thread at
+// a time.
 
 #pragma once
 
@@ -25,27 +25,28 @@
 
 namespace indurop::recording {
 
-// All errors say the file, the byte and what is wrong there.
+// All errors name the file, the byte offset and what is wrong there.
 class McapReader {
  public:
-  // What the file holds now; what is added later is not seen. Errors: it cannot be read, or is no MCAP file.
+  // Opens the file with its present content; what is added later is not seen. Errors: it cannot be read, or is no MCAP
+  // file.
   static Result<McapReader, base::Problem> open(const std::filesystem::path& path);
 
-  // Header, schemas, channels, attachments, metadata; whether it was closed, and what had to be passed over.
+  // Header, schemas, channels, attachments, metadata; whether the file was closed, and what had to be skipped.
   [[nodiscard]] const Contents& contents() const noexcept { return contents_; }
 
-  // The next message in the order of log times, those of the same time in the order of the file; nullopt behind the
-  // last one. Its bytes are valid until the next call. Errors: a part of the file is damaged; the next call goes on
-  // behind it.
+  // Returns the next message in the order of log times, those of the same time in the order of the file; nullopt after
+  // the last one. Its bytes are valid until the next call. Errors: a part of the file is damaged; the next call
+  // continues after it.
   Result<std::optional<McapMessage>, base::Problem> next();
-  // Gives the messages that are left to `use`, but for those that are younger than `until_ns`. Returns what of the file
-  // is not among them, as far as it is known from open() on; the hundredth such damage ends it.
+  // Calls `use` for the remaining messages except those later than `until_ns`. Returns which parts of the file are
+  // missing, including those known since open(); stops at the hundredth such damage.
   std::vector<std::string> each(const std::function<void(const McapMessage&)>& use,
                                 std::uint64_t until_ns = std::numeric_limits<std::uint64_t>::max());
-  // next() goes on with the first message that is not older than this.
+  // next() continues with the first message that is not older than this.
   void seek(std::uint64_t log_time_ns);
 
-  // The bytes of an attachment. Errors: wrong CRC, or not as the summary says.
+  // Returns the bytes of an attachment. Errors: wrong CRC, or not as the summary says.
   [[nodiscard]] Result<Bytes, base::Problem> attachment(const McapAttachmentIndex& index) const;
   [[nodiscard]] Result<McapMetadata, base::Problem> metadata(const McapMetadataIndex& index) const;
 
@@ -56,7 +57,7 @@ class McapReader {
     std::size_t next = 0;
     std::uint64_t offset = 0;
     [[nodiscard]] const LoadedSegment::Entry& entry() const { return loaded.messages[next]; }
-    // What comes out of a heap last.
+    // Inverted order, so that a heap returns the earliest message first.
     bool operator<(const Open& other) const {
       return std::pair(entry().log_time_ns, offset) > std::pair(other.entry().log_time_ns, other.offset);
     }
@@ -70,9 +71,9 @@ class McapReader {
   std::vector<Segment> by_time_;
   std::size_t next_segment_ = 0;
   std::uint64_t from_ns_ = 0;
-  std::vector<Open> open_;        // a heap
-  std::uint64_t open_bytes_ = 0;  // of the records in it
-  std::optional<Open> last_;      // that of the last message, if it was its last one too
+  std::vector<Open> open_;        // heap
+  std::uint64_t open_bytes_ = 0;  // total size of its records
+  std::optional<Open> last_;      // the segment of the last message, if that was its last one
 };
 
 }  // namespace indurop::recording

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes an MCAP file. Messages wait in a chunk, which goes to the file as a whole: whatever ends the program, the file
-// is readable up to its last chunk. Not real-time safe; one thread at a time.
+// Writes an MCAP file. Messages are collected in a chunk, which is written as a whole: however the program ends, the
+// file is readable up to its last chunk. Not real-time safe; one thread at a time.
 
 #pragma once
 
@@ -23,39 +23,41 @@
 namespace indurop::recording {
 
 struct McapOptions {
-  // A chunk with so many bytes, or whose first message is so much older (in log time) than the next one, is closed.
+  // A chunk is closed when it has this many bytes, or when its first message is older (in log time) by this than the
+  // next one.
   std::uint64_t chunk_bytes = std::uint64_t{1} << 20U;
   std::chrono::nanoseconds chunk_time = std::chrono::seconds(1);
   bool compress = true;  // with zstd
 };
 
-// All errors say which file; those of the disk (it is full) leave the writer as it was, so a call can be repeated when
-// there is room again. A writer that ends without close() leaves a file without a summary, and loses the open chunk.
+// All errors name the file; after those of the disk (it is full) the writer is unchanged, so a call can be repeated
+// when there is room again. A writer that ends without close() leaves a file without a summary, and loses the open
+// chunk.
 class McapWriter {
  public:
-  // Errors: there is a file of this name already; it cannot be written.
+  // Errors: a file of this name exists already; it cannot be written.
   static Result<McapWriter, base::Problem> create(const std::filesystem::path& path, const McapOptions& options);
 
-  // Return the number by which channels name the schema, and write() the channel. Errors: more than 65535 of them.
+  // Returns the number that channels use for the schema, or write() for the channel. Errors: more than 65535 of them.
   Result<std::uint16_t, base::Problem> add_schema(std::string_view name, std::string_view encoding,
                                                   std::string_view data);
   // `schema` 0: none.
   Result<std::uint16_t, base::Problem> add_channel(std::uint16_t schema, std::string_view topic,
                                                    std::string_view encoding, const TextMap& metadata);
-  // Errors: no such channel; more than kMostMessageBytes; a chunk that was full cannot be written, then the message is
-  // not taken.
+  // Errors: no such channel; more than kMostMessageBytes; a full chunk cannot be written, then the message is not
+  // accepted.
   Result<void, base::Problem> write(std::uint16_t channel, std::uint64_t log_time_ns, std::uint64_t publish_time_ns,
                                     std::uint32_t sequence, View bytes);
   Result<void, base::Problem> attach(const McapAttachment& about, View bytes);
   Result<void, base::Problem> metadata(std::string_view name, const TextMap& values);
-  // Closes the chunk now, as somebody does who has no messages for a while. It is in the file then, not yet on the
-  // disk.
+  // Closes the chunk now, for a caller that will have no messages for a while. It is in the file then, but not yet on
+  // the disk.
   Result<void, base::Problem> flush();
-  // Writes the summary; returns when all is on the disk. Nothing may be called afterwards, unless it failed: then it
-  // may be repeated.
+  // Writes the summary; returns when all is on the disk. Afterwards nothing may be called, except close() again if it
+  // failed.
   Result<void, base::Problem> close();
 
-  // Of the file; the open chunk is not counted.
+  // Size of the file; the open chunk is not counted.
   [[nodiscard]] std::uint64_t size() const noexcept { return file_.size(); }
 
  private:
@@ -68,8 +70,8 @@ class McapWriter {
   AppendFile file_;
   ZstdCompressor compressor_;
   ChunkBuilder chunk_;
-  Bytes portion_;  // what goes to the file next; its memory is used again
-  // What the summary will hold, as records: a recording of a day has many chunks.
+  Bytes portion_;  // next bytes for the file; its memory is reused
+  // The records of the summary, already encoded: a recording of a day has many chunks.
   Bytes schemas_;
   Bytes channels_;
   Bytes chunk_indexes_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records of MCAP as bytes and back: little endian, texts and lists with their length in bytes before them.
+// Encodes and decodes MCAP records: little endian, texts and lists preceded by their length in bytes.
 
 #pragma once
 
@@ -18,7 +18,7 @@ namespace indurop::recording {
 
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 
-// Puts fields behind what `to` holds already.
+// Appends fields to `to`.
 class FieldWriter {
  public:
   explicit FieldWriter(Bytes& to) : to_(to) {}
@@ -43,7 +43,7 @@ class FieldWriter {
   void put(const std::vector<std::pair<First, Second>>& pairs) {
     list(pairs);
   }
-  // As above, in one piece: a recording has one such pair for each message.
+  // As above, in one copy: a recording has one such pair for each message.
   void put(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& pairs) {
     constexpr std::size_t kSize = sizeof(std::uint64_t);
     const std::size_t size = pairs.size() * 2 * kSize;
@@ -72,7 +72,7 @@ class FieldWriter {
   Bytes& to_;
 };
 
-// Takes fields off the front of `from`. Each call returns false if the bytes hold no such field.
+// Reads fields from the front of `from`. Each call returns false if the bytes hold no such field.
 class FieldReader {
  public:
   explicit FieldReader(View from) : from_(from) {}
@@ -146,7 +146,7 @@ class FieldReader {
   View from_;
 };
 
-// The whole record, with opcode and length.
+// Appends the whole record, with opcode and length.
 template <class Record>
 void append_record(Bytes& to, const Record& record) {
   FieldWriter writer(to);
@@ -158,7 +158,7 @@ void append_record(Bytes& to, const Record& record) {
   std::memcpy(to.data() + at, &length, sizeof length);
 }
 
-// The content of a record, which begins behind its length. Fields behind the last one we know are passed over.
+// Reads the content of a record, which begins after its length. Unknown fields after the last known one are ignored.
 template <class Record>
 [[nodiscard]] bool read_record(View content, Record& record) {
   FieldReader reader(content);

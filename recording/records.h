@@ -19,10 +19,10 @@ using View = std::span<const std::uint8_t>;
 using TextMap = std::map<std::string, std::string>;
 
 inline constexpr std::array<std::uint8_t, 8> kMagic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-// Opcode and length, before each record's content.
+// The size of opcode and length, before each record's content.
 inline constexpr std::uint64_t kRecordHead = 9;
 
-// More than anybody records, and little enough to be held in memory, whatever a damaged file says.
+// The size limits: more than any recording needs, and small enough for memory, whatever a damaged file states.
 inline constexpr std::uint64_t kMostMessageBytes = std::uint64_t{64} << 20U;
 inline constexpr std::uint64_t kMostChunkBytes = std::uint64_t{256} << 20U;
 inline constexpr std::uint64_t kMostAttachmentBytes = std::uint64_t{1} << 30U;
@@ -45,7 +45,8 @@ enum class Opcode : std::uint8_t {
   DataEnd = 15,
 };
 
-// Bytes with a length of 64 bits before them, and bytes up to the end of their record. They lie where they were read.
+// Bytes preceded by a 64-bit length, and bytes up to the end of their record. Both refer to the buffer they were read
+// from.
 struct LongBytes {
   View view;
 };
@@ -63,7 +64,7 @@ struct McapHeader {
 struct McapFooter {
   std::uint64_t summary_start = 0;  // 0: there is none
   std::uint64_t summary_offset_start = 0;
-  std::uint32_t summary_crc = 0;  // 0, as all: not computed
+  std::uint32_t summary_crc = 0;  // 0, as in all of these: not computed
   static constexpr Opcode kOpcode = Opcode::Footer;
   static void fields(auto& r, auto use) { use(r.summary_start, r.summary_offset_start, r.summary_crc); }
 };
@@ -82,7 +83,7 @@ struct McapChannel {
   std::uint16_t id = 0;
   std::uint16_t schema = 0;  // 0: none
   std::string topic;
-  std::string encoding;  // of its messages: "cdr"
+  std::string encoding;  // encoding of its messages: "cdr"
   TextMap metadata;
   static constexpr Opcode kOpcode = Opcode::Channel;
   static void fields(auto& r, auto use) { use(r.id, r.schema, r.topic, r.encoding, r.metadata); }
@@ -100,10 +101,10 @@ struct McapMessage {
 };
 
 struct McapChunk {
-  std::uint64_t start_ns = 0;  // of its messages' log times; both 0 without messages
+  std::uint64_t start_ns = 0;  // of its messages' log times; both are 0 without messages
   std::uint64_t end_ns = 0;
-  std::uint64_t size = 0;  // of `records` when not compressed
-  std::uint32_t crc = 0;   // likewise
+  std::uint64_t size = 0;  // uncompressed size of `records`
+  std::uint32_t crc = 0;   // CRC of the uncompressed `records`
   std::string compression;
   LongBytes records;
   static constexpr Opcode kOpcode = Opcode::Chunk;
@@ -134,7 +135,7 @@ struct McapChunkIndex {
   }
 };
 
-// What stands before an attachment's bytes.
+// The fields before an attachment's bytes.
 struct McapAttachment {
   std::uint64_t log_time_ns = 0;
   std::uint64_t create_time_ns = 0;  // 0: not known
@@ -190,7 +191,7 @@ struct McapMetadataIndex {
   static void fields(auto& r, auto use) { use(r.offset, r.length, r.name); }
 };
 
-// Where the records of one kind lie in the summary.
+// The position of the records of one kind in the summary.
 struct McapSummaryOffset {
   std::uint8_t opcode = 0;
   std::uint64_t start = 0;
@@ -200,7 +201,7 @@ struct McapSummaryOffset {
 };
 
 struct McapDataEnd {
-  std::uint32_t crc = 0;  // of all bytes before this record
+  std::uint32_t crc = 0;  // CRC of all bytes before this record
   static constexpr Opcode kOpcode = Opcode::DataEnd;
   static void fields(auto& r, auto use) { use(r.crc); }
 };

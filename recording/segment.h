@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A part of a recording that is read as a whole: a chunk, or messages that stand one behind the other outside of
-// chunks.
+// A part of a recording that is read as a whole: a chunk, or consecutive messages outside of chunks.
 
 #pragma once
 
@@ -25,7 +24,7 @@ struct Segment {
 };
 
 struct LoadedSegment {
-  // A message: where its content is among the records.
+  // The position of a message's content among the records.
   struct Entry {
     std::uint64_t log_time_ns = 0;
     std::uint64_t offset = 0;
@@ -39,7 +38,7 @@ struct LoadedSegment {
   [[nodiscard]] McapMessage message(const Entry& entry) const;
 };
 
-// Errors, each with its place: cannot be read, wrong CRC, not compressed as announced, records that are none.
+// Errors, each with its position: cannot be read, wrong CRC, not compressed as announced, invalid records.
 Result<LoadedSegment, base::Problem> load(const InputFile& file, const Segment& segment);
 
 }  // namespace indurop::recording
