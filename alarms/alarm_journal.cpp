@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{8} << 20U;
 constexpr mode_t kFileMode = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH;
 
-// Calls `use` for each whole line and returns the bytes these have.
+// Calls `use` for each complete line and returns the total size of these lines in bytes.
 template <class Use>
 std::size_t for_each_line(std::string_view text, Use use) {
   std::size_t done = 0;
@@ -44,7 +44,7 @@ std::string problem() {
   return std::strerror(errno);
 }
 
-// Appends text, whole, and brings it to the disk.
+// Appends the whole text and syncs it to the disk.
 std::string write_all(const std::filesystem::path& file, int flags, const std::string& text) {
   const base::Descriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, kFileMode));
   const bool good = fd.is_open() && ::write(fd.get(), text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
@@ -105,7 +105,7 @@ std::string AlarmJournal::append(const std::vector<AlarmEntry>& entries) {
   std::string text;
   struct stat info {};
   if (::stat(file().c_str(), &info) == 0 && info.st_size > read_) {
-    text.push_back('\n');  // behind a line that a loss of power has cut off
+    text.push_back('\n');  // after a line that a loss of power has truncated
   }
   for (const AlarmEntry& entry : entries) {
     text += json_of(entry).dump() + "\n";
@@ -113,7 +113,7 @@ std::string AlarmJournal::append(const std::vector<AlarmEntry>& entries) {
   return write_all(file(), O_APPEND, text);
 }
 
-// The new file takes the name of the old one in one step, so there is a whole one at all times.
+// The new file replaces the old one in one step, so there is a complete one at all times.
 std::string AlarmJournal::cut() {
   std::string text;
   for (const auto& [name, record] : book_.standing()) {

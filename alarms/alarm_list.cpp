@@ -19,7 +19,7 @@ ListedAlarm listed(const DeclaredAlarm& one, AlarmRecord record) {
           one.alarm.delay_ns, std::move(record)};
 }
 
-// Unacknowledged, returned, acknowledged, shelved, normal.
+// Order: unacknowledged, returned, acknowledged, shelved, normal.
 int rank_of(AlarmState state) noexcept {
   switch (state) {
     case AlarmState::Unacknowledged:

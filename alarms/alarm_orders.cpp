@@ -32,7 +32,7 @@ std::map<std::string, Known> known_alarms(const std::vector<DeclaredAlarm>& decl
   return all;
 }
 
-// "press::oil > 80", "press::oil", "oil" or a glob.
+// Matches "press::oil > 80", "press::oil", "oil" or a glob.
 bool fits(const std::string& wanted, const std::string& name, const Known& alarm) {
   const auto is_end_of = [&wanted](const std::string& whole) {
     return whole == wanted || (whole.size() > wanted.size() + 2 && whole.ends_with(wanted) &&

@@ -35,7 +35,7 @@ std::optional<AlarmState> after(AlarmState state, AlarmEvent event) noexcept {
              : state == AlarmState::Returned     ? std::optional(AlarmState::Normal)
                                                  : std::nullopt;
     case AlarmEvent::Shelved:
-      return AlarmState::Shelved;  // again: for another time
+      return AlarmState::Shelved;  // shelved again, with a new duration
     case AlarmEvent::Unshelved:
       return state == AlarmState::Shelved ? std::optional(AlarmState::Normal) : std::nullopt;
     case AlarmEvent::Removed:

@@ -17,10 +17,10 @@
 namespace indurop::alarms {
 namespace {
 
-// The longest value of one element.
+// Room for the largest value of one element.
 using Bytes = std::array<std::uint8_t, sizeof(std::uint64_t)>;
 
-// Values of other boards count while they are confirmed.
+// Values of other boards count only while they are confirmed.
 bool is_fresh(const vars::Store& store, const DeclaredAlarm& alarm, std::int64_t now_ns) noexcept {
   void* const entry = store.entry(alarm.entry->name_hash, alarm.entry->type_hash);
   const std::int64_t confirmed =
@@ -28,7 +28,7 @@ bool is_fresh(const vars::Store& store, const DeclaredAlarm& alarm, std::int64_t
   return detail::is_valid(confirmed, alarm.variable->maxage_ns, [now_ns] { return now_ns; });
 }
 
-// Of every module that is down.
+// The alarm rule for every module that is down.
 schema::Alarm rule_of_modules() {
   schema::Alarm alarm;
   alarm.priority = schema::Priority::High;
@@ -114,7 +114,7 @@ void AlarmWatch::look_at_variables() {
   }
 }
 
-// Only those are kept that are down, or whose alarm stands.
+// Keeps only modules that are down, or whose alarm is raised.
 void AlarmWatch::look_at_modules(const std::vector<ModuleNow>& modules) {
   const schema::Alarm rule = rule_of_modules();
   const std::int64_t now_ns = rt::now_ns();

@@ -9,16 +9,17 @@
 namespace indurop::explain {
 namespace {
 
-// Results of looking for the run whose value another one began with.
+// Results of the search for the run whose value another run began with.
 constexpr std::ptrdiff_t kNothing = -1;   // of a run that was not read
-constexpr std::ptrdiff_t kForeign = -2;   // somebody else's
-constexpr std::ptrdiff_t kRepeated = -3;  // one of several
-// A value is not looked for further back than so many runs.
+constexpr std::ptrdiff_t kForeign = -2;   // from another writer
+constexpr std::ptrdiff_t kRepeated = -3;  // one of several runs
+// Maximum number of runs to search back for a value.
 constexpr std::ptrdiff_t kBack = 1000;
-// What comes through the network is not older than so many runs: before, it may be of a run that was not read.
+// A value from the network is at most this many runs old: with fewer runs before it, it may be of a run that was not
+// read.
 constexpr std::ptrdiff_t kSettled = 20;
 
-// The last run that had ended at a time; kNothing: none.
+// Returns the last run that had ended at a time; kNothing: none.
 std::ptrdiff_t ended_before(const std::vector<ChainRun>& runs, std::int64_t time_ns) {
   const auto behind =
       std::partition_point(runs.begin(), runs.end(), [&](const ChainRun& run) { return run.end_ns <= time_ns; });
@@ -34,7 +35,7 @@ bool is_followed(const std::vector<ChainRun>& runs, std::ptrdiff_t index) {
   return !last && at(runs, index + 1).number == at(runs, index).number + 1;
 }
 
-// On one board a run sees what the last one left that had ended, or what one left that had begun.
+// On one board a run sees the value of the last run that had ended, or of one that had begun.
 std::ptrdiff_t seen_here(const std::vector<ChainRun>& writers, const ChainRun& reader) {
   const std::ptrdiff_t last = ended_before(writers, reader.start_ns);
   const auto size = static_cast<std::ptrdiff_t>(writers.size());
@@ -49,10 +50,10 @@ std::ptrdiff_t seen_here(const std::vector<ChainRun>& writers, const ChainRun& r
   return next ? last + 1 : last == kNothing ? kNothing : kForeign;
 }
 
-// Through the network only the value itself tells whose it is: the one run that left it since the one seen before.
+// Through the network only the value itself identifies its run: the only run that wrote it since the one seen before.
 class Travelled {
  public:
-  // `origins`: of the writers' runs, what they saw; empty: they are the first.
+  // `origins`: the runs that the writers' runs saw; empty: the writers are the first stage.
   Travelled(const std::vector<ChainRun>& writers, const std::vector<std::ptrdiff_t>& origins)
       : writers_(writers), origins_(origins) {}
 
@@ -82,7 +83,7 @@ class Travelled {
   }
 
  private:
-  // If the next run left the same, nobody can tell which of them it is; nor need anybody, if they saw the same.
+  // If the next run wrote the same value, the two cannot be distinguished; nor does it matter if both saw the same.
   [[nodiscard]] bool is_clear(std::ptrdiff_t found, std::ptrdiff_t newest) const {
     for (std::ptrdiff_t next = found + 1; next <= newest; ++next) {
       if (!is_followed(writers_, next - 1)) {
@@ -98,7 +99,7 @@ class Travelled {
     }
     return true;
   }
-  // Where to begin to look: at the run that was seen before, but not where runs are missing.
+  // Where the search begins: at the run that was seen before, but not across missing runs.
   [[nodiscard]] std::ptrdiff_t oldest_of(std::ptrdiff_t newest) const {
     const std::ptrdiff_t least = std::max({known_, newest - kBack, std::ptrdiff_t{0}});
     std::ptrdiff_t oldest = newest;

@@ -15,7 +15,7 @@ namespace {
 
 using base::Json;
 
-// One list of fields for both ways.
+// One list of fields for both directions.
 class Writer {
  public:
   template <class T>

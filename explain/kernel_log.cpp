@@ -17,7 +17,7 @@ namespace indurop::explain {
 namespace {
 
 constexpr std::int64_t kWorthNoting = 20'000;  // ns
-// Places in /proc/PID/stat, counted behind the name of the program.
+// Fields in /proc/PID/stat, counted after the name of the program.
 constexpr std::size_t kMajorFaults = 9;
 constexpr std::size_t kProcessor = 36;
 constexpr std::size_t kRealtimePriority = 37;
@@ -47,7 +47,7 @@ std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-// Time the machine below took from each core.
+// The time that the hypervisor took from each core.
 std::map<int, std::int64_t> stolen() {
   constexpr std::size_t kSteal = 8;
   static const std::int64_t kUnitNs = 1'000'000'000 / std::max<long>(::sysconf(_SC_CLK_TCK), 1);

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kNeighbours = 40;  // runs a run is compared with
 constexpr std::size_t kFew = 3;
 constexpr std::uint64_t kLongestMacro = 1'000'000;  // ticks
-constexpr int kDeepest = 8;                         // who waited for whom
+constexpr int kDeepest = 8;                         // maximum depth of modules waiting for each other
 
 std::int64_t median(std::vector<std::int64_t>& values) {
   if (values.empty()) {
@@ -28,7 +28,7 @@ std::int64_t median(std::vector<std::int64_t>& values) {
   return *middle;
 }
 
-// So much of one thing is most of another.
+// Returns whether the part is at least half of the whole.
 bool most_of(std::int64_t part, std::int64_t whole) {
   return 2 * part >= whole;
 }
@@ -41,14 +41,14 @@ bool runs_in(const ModuleFact& module, std::string_view thread) {
   return module.fifo_priority > 0 && thread == fmt::format("irp-band-{}", module.fifo_priority);
 }
 
-// Threads of lower priority wait for the module: that they were ready without running tells nothing about it.
+// Threads of lower priority wait for the module: their ready time without running is no evidence about it.
 bool depends_on(const ModuleFact& module, std::string_view thread) {
   return thread.empty() || thread.starts_with("irp-tick") || runs_in(module, thread) ||
          (thread == "irp-events" && module.operation == "sporadic") ||
          (thread.starts_with("irp-band") && module.fifo_priority == 0 && module.operation == "periodic");
 }
 
-// What it was, then why.
+// Puts `prefix` before the text of the answer.
 Answer with_prefix(const std::string& prefix, Answer why) {
   why.text = prefix + why.text;
   return why;
@@ -62,7 +62,7 @@ std::string Lateness::figures(const RunFact& run) const {
                      short_time(run.end_ns - run.release_ns));
 }
 
-// Those nearest in time, on both sides; of the same place in the macro period, if there are a few of them.
+// The runs nearest in time, on both sides; those at the same position in the macro period, if there are a few of them.
 std::vector<const RunFact*> Lateness::neighbours(const RunFact& run) const {
   std::uint64_t macro = 1;
   for (const ModuleFact& module : facts_.modules) {
@@ -246,7 +246,7 @@ Answer Lateness::blame_other(const RunFact& run, const Excess& other, int depth)
   return not_known(fmt::format("{}, longer than usual, and neither took it longer itself nor was it late", prefix));
 }
 
-// Or one does that comes before it in the same thread.
+// Also true if a module that precedes it in the same thread waits for the other one.
 bool Lateness::waits_for(const ModuleFact& module, const std::string& other) const {
   return std::any_of(facts_.modules.begin(), facts_.modules.end(), [&](const ModuleFact& one) {
     const bool same_thread =
@@ -255,7 +255,7 @@ bool Lateness::waits_for(const ModuleFact& module, const std::string& other) con
   });
 }
 
-// Before it began nothing of the node had its core: it waited for another core, or was kept from it.
+// Before it began no module of the node had its core: it waited for another core, or was prevented from running.
 Answer Lateness::blame_gap(const RunFact& run, const Excess& gap, int depth) const {
   const ModuleFact& module = facts_.modules[run.module];
   const RunFact* last = nullptr;
@@ -290,8 +290,8 @@ Answer Lateness::blame_gap(const RunFact& run, const Excess& gap, int depth) con
                      kernel);
 }
 
-// Time that threads on the core were ready without running. What modules of other threads of the node had of it is no
-// other program's doing; a tick thread with real-time priority waits for none of them.
+// The time that threads on the core were ready without running. The part taken by modules in other threads of the node
+// is not attributed to other programs; a tick thread with real-time priority waits for none of them.
 Lateness::Waited Lateness::waited(Span span, std::int32_t core, const ModuleFact& module) const {
   const Timeline timeline(facts_, core);
   Waited out;

@@ -22,7 +22,7 @@ class Lateness {
 
   [[nodiscard]] Answer explain(const RunFact& run, int depth = 0) const;
   // Returns Machine if the kernel's counters, for the threads of this core that a run of the module depends on, account
-  // for most of `so_much_ns` in this time; AllIsWell if the kernel counted nothing of it.
+  // for at least half of `so_much_ns` in this time; AllIsWell if the kernel counted nothing of it.
   [[nodiscard]] Answer machine(Span span, std::int32_t core, const ModuleFact& module, std::int64_t so_much_ns) const;
 
  private:

@@ -17,7 +17,7 @@ std::string text_of(const char (&text)[N]) {
   return {text, ::strnlen(text, N)};
 }
 
-// `count` objects of the block if all of them lie inside of `size` bytes, else none.
+// Returns `count` objects of the block if all of them are within `size` bytes, else none.
 template <class T>
 std::span<const T> inside(const scheduler::RunBlock& block, std::uint64_t size, std::uint64_t offset,
                           std::uint64_t count) {
@@ -26,7 +26,7 @@ std::span<const T> inside(const scheduler::RunBlock& block, std::uint64_t size, 
   return good ? std::span(block.at<T>(offset), count) : std::span<const T>();
 }
 
-// Entries that are whole before and after the copy, oldest first.
+// Visits the entries that are valid before and after the copy, oldest first.
 template <class Entry, class Take>
 void each(std::span<const Entry> ring, std::uint64_t next, Take take) {
   const std::uint64_t count = std::min<std::uint64_t>(ring.size(), next);
@@ -100,7 +100,7 @@ void make_sound(Facts& facts) noexcept {
 }
 
 Facts facts_of(const scheduler::RunBlock& block, std::uint64_t size, bool with_runs) {
-  // Each number is taken once, then looked at: it may change meanwhile.
+  // Each number is read once, then checked: it may change meanwhile.
   const auto modules = inside<scheduler::ModuleRecord>(block, size, block.modules_offset, block.module_count);
   const auto overruns =
       inside<scheduler::OverrunEntry>(block, size, block.overrun_log_offset, block.overrun_log_capacity);
@@ -130,7 +130,7 @@ Facts facts_of(const scheduler::RunBlock& block, std::uint64_t size, bool with_r
     return [&facts, fact] { facts.runs.push_back(fact); };
   });
   std::erase_if(facts.runs, [&](const RunFact& run) { return run.module >= facts.modules.size(); });
-  // Of the first tick in the log some runs may be gone already.
+  // Some runs of the first tick in the log may be gone already.
   if (next > slots.size() && !facts.runs.empty()) {
     facts.first_tick = facts.runs.front().tick + 1;
   }

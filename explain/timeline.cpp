@@ -16,7 +16,7 @@ Timeline::Timeline(const Facts& facts, std::int32_t core) {
                    [](const RunFact* a, const RunFact* b) { return a->start_ns < b->start_ns; });
 }
 
-// At every instant the run that began last, of those that have not ended.
+// At every instant the core belongs to the run that began last of those that have not ended.
 Shares Timeline::shares(Span span) const {
   Shares out;
   std::vector<std::int64_t> edges{span.from_ns, span.to_ns};

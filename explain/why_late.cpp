@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a module did not run in a tick, or ended late: one thing after the other that can keep it from running.
+// Explains why a module did not run in a tick, or ended late: checks one possible reason after the other.
 
 #include <fmt/format.h>
 
@@ -12,9 +12,8 @@
 namespace indurop::explain {
 namespace {
 
-// One module and one tick.
-// Rings hold more of one module than of another, and are copied one after the other: at both ends of what is known a
-// run that is missing may only not be kept.
+// The ticks for which a module's runs are known. Ring buffers hold more of one module than of another, and are copied
+// one after the other: at both ends of the known range a missing run may only be one that was not kept.
 struct Known {
   static constexpr std::int64_t kCopiedNs = 100'000'000;
 
@@ -117,7 +116,7 @@ class Question {
             {}};
   }
 
-  // A damaged file, a part that is gone, a recorder that could not follow.
+  // A damaged file, a missing part, or a recorder that could not keep up.
   [[nodiscard]] Answer not_recorded() const {
     const HoleFact* const hole = facts_.hole_around(index_, tick_);
     if (hole == nullptr) {
@@ -145,10 +144,10 @@ class Question {
     return last;
   }
 
-  // Its newest fault is known with its reason; of older ones only that the run ended so.
+  // The newest fault is known with its reason; of older ones only that the run ended with a fault.
   [[nodiscard]] Answer after_fault() const {
     const RunFact* before = last_before(tick_);
-    // A run in which a process died may have no end, and its death is seen a little later.
+    // A run in which a process died may have no end, and its death is detected a little later.
     const std::uint64_t every = facts_.ticks_between_runs(module_);
     const std::uint64_t seen = tick_ + (module_.type == "process" ? every : 0);
     const bool newest = module_.faults > 0 && module_.fault_tick <= seen && !module_.fault.empty() &&
@@ -171,7 +170,7 @@ class Question {
             {fmt::format("faults: {}, state: {}", module_.faults, module_.state)}};
   }
 
-  // The newest order before the tick says so, or its state does. An order is noted when it has been obeyed.
+  // The newest order before the tick shows it, or the module's state. An order is recorded when it has been executed.
   [[nodiscard]] Answer stopped() const {
     const OrderFact* last = nullptr;
     for (const OrderFact& order : facts_.orders) {
@@ -227,7 +226,7 @@ class Question {
     });
   }
 
-  // Nothing of it ran from the tick to the order.
+  // Returns whether the module did not run from the tick to the order.
   [[nodiscard]] bool stands_until(const OrderFact& order) const {
     return std::none_of(facts_.runs.begin(), facts_.runs.end(), [&](const RunFact& run) {
       return run.module == index_ && run.end_ns > release_ns_ && run.start_ns < order.node_ns;
@@ -239,10 +238,10 @@ class Question {
                        [&](const RunFact& run) { return run.module == index_ && run.tick > tick; });
   }
 
-  // It was due and could have run.
+  // The module was due and could have run.
   [[nodiscard]] Answer kept_out() const {
     const RunFact* own = nullptr;
-    bool any = false;  // something had its core in this tick
+    bool any = false;  // another module had its core in this tick
     for (const RunFact& run : facts_.runs) {
       if (run.module == index_ && run.tick < tick_ && run.end_ns > release_ns_) {
         own = &run;
@@ -281,7 +280,7 @@ class Question {
     return stood_still();
   }
 
-  // Modules of one period on one core that come one after the other have one thread: it begins anew when all are done.
+  // Modules of one period on one core that run one after the other share one thread: it begins again when all are done.
   [[nodiscard]] const RunFact* of_its_thread() const {
     const RunFact* last = nullptr;
     for (const RunFact& run : facts_.runs) {
@@ -359,7 +358,7 @@ std::uint64_t last_trouble(const Facts& facts, const std::string& module) {
   }
   std::sort(ran.begin(), ran.end());
   const Known ends(facts, index);
-  // The tick that has just begun may be under way, and a run that still has time be to come.
+  // The tick that has just begun may be under way, and a run within its time limit may still come.
   constexpr std::uint64_t kMostTicks = 10'000'000;  // behind that nothing is known, or the number is damaged
   const std::uint64_t oldest = std::max(facts.first_tick, facts.tick - std::min(facts.tick, kMostTicks));
   for (std::uint64_t tick = facts.tick - 1; known->operation == "periodic" && tick-- > oldest;) {

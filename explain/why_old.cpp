@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a value is old, a board is gone, and who changed a value last.
+// Explains why a value is old, a board is gone, and who changed a value last.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +13,7 @@
 namespace indurop::explain {
 namespace {
 
-// "control@sensor": control and sensor.
+// Splits "control@sensor" into control and sensor.
 std::pair<std::string, std::string> module_and_board(const std::string& writer) {
   const auto at = writer.find('@');
   return at == std::string::npos ? std::pair(writer, std::string())
@@ -48,7 +48,7 @@ const RunFact* last_run(const Facts& facts, const std::string& module, std::int6
   return last;
 }
 
-// Runs of a writer that the recording lacks between two times.
+// Returns the hole in a writer's runs between two times of the recording.
 const HoleFact* hole_after(const Facts& facts, const std::string& variable, std::int64_t from_ns, std::int64_t to_ns) {
   const VariableFact* const known = facts.find_variable(variable);
   const auto writes = [&](const std::string& module) {
@@ -82,7 +82,7 @@ const OrderFact* last_order(const Facts& facts, const std::string& variable, std
   return last;
 }
 
-// One variable on one board, where it is written.
+// One variable on the board where it is written.
 class Old {
  public:
   Old(const Facts& facts, const VariableFact& variable, std::int64_t at_ns)
@@ -110,7 +110,7 @@ class Old {
   }
 
  private:
-  // At a time that is over.
+  // Returns whether it was forced at a time in the past.
   [[nodiscard]] bool was_forced() const {
     const OrderFact* order = last_order(facts_, variable_.name, at_ns_);
     return order != nullptr && order->action == "force" && order->until_ns > at_ns_;
@@ -127,7 +127,7 @@ class Old {
     return {Cause::Force, {}, fmt::format("{} is forced; by whom was not noted", variable_.name), {}};
   }
 
-  // The only writer that is a module of this board.
+  // Returns the only writer that is a module of this board.
   [[nodiscard]] std::string here() const {
     std::string found;
     for (const std::string& writer : variable_.writers) {
@@ -156,14 +156,14 @@ class Old {
       return not_known("the schedule had hardly begun");
     }
     std::uint64_t due = facts_.ticks_in(since / every * every + module.offset_ns);
-    // What is known often ends with the node: then its last run counts, not one that would have come.
+    // The facts often end with the node: then its last run counts, not one that would have followed.
     const bool at_the_end = at_ns_ <= facts_.release_of(facts_.tick) + 2 * every;
     if (at_the_end && facts_.tick > 0 && due >= facts_.tick) {
       const std::uint64_t step = facts_.ticks_between_runs(module);
       const std::uint64_t first = facts_.ticks_in(module.offset_ns);
       due = facts_.tick > first ? first + (facts_.tick - 1 - first) / step * step : first;
     }
-    // What a process left is known before its node has noted that the run is over.
+    // The output of a process is known before its node has recorded that the run is over.
     const ChangeFact* change = last_change(facts_, variable_.name, at_ns_);
     const bool wrote = change != nullptr && change->module == writer;
     const bool newer = wrote && (ran == nullptr || change->time_ns > ran->end_ns);
@@ -197,12 +197,12 @@ const BoardFact* seen(const Facts& facts, const std::string& board) {
   return found == facts.boards.end() ? nullptr : &*found;
 }
 
-// Time of the last run there, on the clock of the asked board; boards of one simulation have one clock.
+// Converts a time to the clock of the asked board; boards of one simulation have one clock.
 std::int64_t on_clock_of(const Facts& to, const Facts& from, std::int64_t time_ns) {
   return time_ns + from.wall_minus_node_ns - to.wall_minus_node_ns;
 }
 
-// It is silent, and this is what is known of itself.
+// The board is silent; its own facts are known.
 Answer silent(const Facts& facts, const Facts& its, const BoardFact& peer, std::vector<std::string> evidence) {
   const std::string& board = peer.name;
   std::int64_t last = 0;
@@ -214,8 +214,8 @@ Answer silent(const Facts& facts, const Facts& its, const BoardFact& peer, std::
   evidence.push_back(
       fmt::format("the last run of {} itself that is known was in {} of {}", board, when(facts, last), facts.board));
   const std::int64_t slack = std::max<std::int64_t>(facts.lease_ns, 2 * its.basic_period_ns) + 20'000'000;
-  // Of a board from which nothing is read it is not known when it fell silent; one that was absent was never heard, as
-  // long as both ran.
+  // If nothing is read from a board, it is not known when it fell silent; one that was absent was never received while
+  // both ran.
   const bool listened = peer.heard_ns > 0 || peer.state == "absent";
   const std::int64_t since = peer.heard_ns > 0 ? peer.heard_ns : std::max(first, facts.epoch_ns);
   const bool went_on = listened && std::min(last, facts.now_ns) > since + slack;

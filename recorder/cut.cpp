@@ -21,7 +21,7 @@ namespace {
 
 using base::Problem;
 
-// A message whose bytes are its own.
+// A message that owns its bytes.
 struct Kept {
   recording::McapMessage head;
   recording::Bytes bytes;
@@ -31,7 +31,7 @@ Kept keep(const recording::McapMessage& message) {
   return {message, {message.data.view.begin(), message.data.view.end()}};
 }
 
-// What the messages so far say of one module.
+// The state of one module, from the messages so far.
 struct Module {
   std::vector<Kept> pending;            // since its last run
   std::map<std::uint16_t, Kept> known;  // by channel
@@ -105,7 +105,7 @@ class Cutter {
     return {};
   }
 
-  // In a file of others: each message stands for itself.
+  // In a third-party file each message stands on its own.
   Result<void, Problem> take_of_nobody(const recording::McapMessage& message) {
     if (message.log_time_ns < from_) {
       firsts_.insert_or_assign(message.channel, keep(message));
@@ -138,7 +138,7 @@ class Cutter {
     return write(keep(message));
   }
 
-  // A run that is left out: what it said is known from now on.
+  // A run that is left out: its values are known from now on.
   void forget(Module& module) {
     cut_.from_first_run = false;
     for (Kept& each : module.pending) {
@@ -151,7 +151,7 @@ class Cutter {
     module.pending.clear();
   }
 
-  // What was known, before the earliest message that follows.
+  // Writes the known values, before the earliest message that follows.
   Result<void, Problem> begin() {
     if (begun_) {
       return {};

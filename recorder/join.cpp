@@ -27,9 +27,9 @@ struct Part {
   ChannelMap channels;
 };
 
-// A recording, maybe in parts, which are read one behind the other.
+// A recording, possibly in parts, which are read one after the other.
 struct Chain {
-  std::string prefix;  // of its topics, if it is of one node
+  std::string prefix;  // topic prefix, if it is of one node
   std::vector<Part> parts;
   std::size_t at = 0;
   std::optional<recording::McapMessage> message;  // the next one
@@ -41,19 +41,19 @@ bool simulated(const Part& part) {
   return part.sources.all.front().number("real_minus_node_ns") == 0;
 }
 
-// Virtual time is common to the boards of one plant; of one node alone, or of another plant, it only begins alike.
+// Virtual time is common to the boards of one plant; for a single node, or another plant, only its start is the same.
 bool share_virtual_time(const Part& a, const Part& b) {
   const Source& one = a.sources.all.front();
   const Source& other = b.sources.all.front();
   return !one.text("board").empty() && !other.text("board").empty() && one.text("config") == other.text("config");
 }
 
-// The number of a part; of an older release: 0.
+// Returns the number of a part; 0 for a part of an older release.
 std::int64_t part_number(const Part& part) {
   return part.sources.all.front().number(kPartText);
 }
 
-// What is said of a node is the same in all parts, to the nanosecond in which it was begun.
+// The metadata of a node is the same in all parts, including its start time to the nanosecond.
 bool said_alike(const Source& one, const Source& other) {
   recording::TextMap about = one.about;
   if (const auto part = other.about.find(kPartText); part != other.about.end()) {
@@ -72,7 +72,7 @@ Problem two_of_one(const std::string& file, const std::string& name) {
   return {fmt::format("{} is of {}, as another of the files: join one of each, or parts of one recording", file, name)};
 }
 
-// False if a run was there before: these are no parts of one recording.
+// Returns false if a run occurred before: these are no parts of one recording.
 bool goes_on(Chain& chain) {
   const Part& part = chain.parts[chain.at];
   const auto place = part.sources.channels.find(chain.message->channel);
@@ -146,7 +146,7 @@ Result<void, Problem> copy_messages(std::vector<Chain>& chains, recording::McapW
   }
 }
 
-// To the chain that it belongs to, or as one of its own.
+// Adds the part to the chain that it belongs to, or as a new chain.
 Result<void, Problem> sort_in(Part part, std::vector<Chain>& chains, Joined& joined) {
   for (Chain& chain : chains) {
     const Part& other = chain.parts.front();
@@ -189,7 +189,7 @@ Result<std::vector<Chain>, Problem> open_all(const std::vector<std::filesystem::
     }
   }
   for (Chain& chain : chains) {
-    // They begin with what was known, which may be old.
+    // Parts begin with the known values, which may be old.
     std::stable_sort(chain.parts.begin(), chain.parts.end(), [](const Part& a, const Part& b) {
       return std::pair(part_number(a), a.reader.contents().span_ns().second) <
              std::pair(part_number(b), b.reader.contents().span_ns().second);

@@ -17,15 +17,15 @@ namespace {
 using base::Problem;
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kShares = 8;               // parts of what is kept
-constexpr std::int64_t kPortionNs = 100'000'000;  // taken before anybody looks whether the part is full
+constexpr std::int64_t kShares = 8;               // number of parts in the kept data
+constexpr std::int64_t kPortionNs = 100'000'000;  // time taken before the next check whether the part is full
 
 fs::path part_of(const fs::path& path, std::uint64_t number) {
   fs::path part = path;
   return part.replace_filename(fmt::format("{}.{:04}{}", path.stem().string(), number, path.extension().string()));
 }
 
-// A part of a recording of this name, whoever made it; empty: there is none.
+// Returns a part of a recording of this name, by any program; empty: there is none.
 fs::path find_part(const fs::path& path) {
   const std::string before = path.stem().string() + ".";
   const std::string after = path.extension().string();
@@ -97,7 +97,7 @@ std::int64_t Parts::latest_ns() const noexcept {
   return latest;
 }
 
-// What could not be begun is removed.
+// Removes a part that could not be begun.
 Result<void, Problem> Parts::begin(std::uint64_t number) {
   const fs::path path = path_of(number);
   auto writer = recording::McapWriter::create(path, {});
@@ -123,7 +123,7 @@ bool Parts::remove_oldest() {
   if (closed_.empty() || (limits_.keep_ns == 0 && limits_.keep_bytes == 0)) {
     return false;
   }
-  std::error_code ignored;  // somebody else took it away
+  std::error_code ignored;  // another process has removed it
   fs::remove(closed_.front().path, ignored);
   closed_.pop_front();
   ++removed_;
@@ -137,7 +137,7 @@ void Parts::remove_old_ones() {
   }
 }
 
-// Once more for each part that makes room. Whatever else is wrong with the disk, parts stay.
+// Tries again for each part that is deleted. After any disk error other than a full disk, parts are kept.
 template <class Work>
 Result<void, Problem> Parts::with_room(const Work& work) {
   const auto full = [](int error) { return error == ENOSPC || error == EDQUOT; };
@@ -166,7 +166,7 @@ Result<void, Problem> Parts::begin_next() {
   return with_room([this] { return begin(number_); });
 }
 
-// A portion of time, so that a part grows no larger than it should when there is much at once, after a stall.
+// Takes a limited time span, so that a part does not grow too large when there is much data at once, after a stall.
 Result<void, Problem> Parts::take_portion(std::int64_t until_ns) {
   for (Recorder& recorder : recorders_) {
     if (auto taken = with_room([&recorder, until_ns] { return recorder.take(until_ns); }); !taken) {

@@ -39,7 +39,7 @@ Result<Recorder, Problem> Recorder::create_one_of(const std::string& prefix, con
       std::ranges::equal(follower.variables(), store.directory(), [](const auto& taped, const auto& entry) {
         return taped.name_hash == entry.name_hash && taped.size == entry.value_size;
       });
-  // The header of a store that was cut says nothing any more; its tape may still be whole.
+  // The header of a store that was truncated is no longer valid; its tape may still be intact.
   if (!same || (!store.lost() && follower.header().layout_hash != store.header().layout_hash)) {
     return Problem{"the node's variables have just changed: try again"};
   }
@@ -82,7 +82,8 @@ std::uint64_t Recorder::real_time(std::int64_t node_ns) const noexcept {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(node_ns + about_.real_minus_node_ns, 0));
 }
 
-// A file begins when it was begun, however old what it knows then is; a run that began before lies behind that.
+// The log time of a file begins at its own start, however old its known values are; a run that began earlier gets that
+// start.
 std::uint64_t Recorder::log_time(std::int64_t node_ns) const noexcept {
   return real_time(std::max(node_ns, begin_ns_));
 }
@@ -117,7 +118,7 @@ void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& 
   }
 }
 
-// All that stands before the first run.
+// Writes everything that precedes the first run.
 Result<void, Problem> Recorder::begin_file() {
   channels_.assign(wanted_.size(), 0);
   schemas_.clear();
@@ -147,7 +148,7 @@ Result<void, Problem> Recorder::begin_file() {
   return writer_->metadata(prefix_ + kNodeMetadata, said);
 }
 
-// Those of runs, of the clock and of what they were told.
+// Adds the channels of runs, of the clock and of other inputs.
 Result<void, Problem> Recorder::add_own_channels() {
   recording::TextMap modules;
   for (std::size_t i = 0; i < about_.modules.size(); ++i) {
@@ -221,7 +222,7 @@ void Recorder::note(std::size_t track, const tape::Run& run) {
   known.end_ns = run.tail.end_ns;
 }
 
-// What the runs so far say, without recording them.
+// Reads the values of the runs so far, without recording them.
 void Recorder::learn() {
   begin_ns_ = store_.now().time_since_epoch().count();
   tape::Run run;
@@ -232,7 +233,8 @@ void Recorder::learn() {
   }
 }
 
-// Before any module was started, if the recording begins with the first run, else what the runs before it say.
+// Writes the values from before any module was started, if the recording begins with the first run, else those of the
+// runs before it.
 Result<void, Problem> Recorder::tell_first_values(const tape::Run& first) {
   const std::int64_t before = first.tail.release_ns - about_.basic_period_ns;
   for (std::uint32_t i = 0; first.tail.number == 0 && i < wanted_.size(); ++i) {
@@ -244,7 +246,8 @@ Result<void, Problem> Recorder::tell_first_values(const tape::Run& first) {
   return tell_known_values();
 }
 
-// Of each module at the end of its last run: what its next one sees comes later, however long that takes.
+// Writes the values of each module at the end of its last run: inputs of the next run come later, however long that
+// takes.
 Result<void, Problem> Recorder::tell_known_values() {
   for (std::size_t track = 0; track < known_.size(); ++track) {
     const Known& known = known_[track];
@@ -263,7 +266,7 @@ Result<void, Problem> Recorder::tell_known_values() {
   return {};
 }
 
-// The `part`th of what a run says: its values, what the clock and what calls told it, and at last the run itself.
+// Writes part number `part` of a run: its values, the results of the clock and of calls, and last the run itself.
 Result<void, Problem> Recorder::write_part(const tape::Run& run, std::size_t part) {
   const std::uint32_t module = module_of(run);
   if (part < run.values.size()) {
@@ -300,7 +303,7 @@ Result<void, Problem> Recorder::write_run(Held& held) {
   return {};
 }
 
-// False: no run of the track is there that ended before.
+// Returns false if the track has no run that ended before `until_ns`.
 Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_ns) {
   std::optional<Held>& held = held_[track];
   if (!held) {

@@ -18,7 +18,8 @@ constexpr std::uint32_t kKindBits = 3;
 
 static_assert(std::endian::native == std::endian::little, "messages are copied as they lie in memory");
 
-// In the order of RunTail, so that a message is its bytes. Words of IDL ("module") are no names in it.
+// The members are in the order of RunTail, so that a message is its bytes. IDL keywords ("module") cannot be names in
+// it.
 const std::string_view kRunIdl =
     "module indurop {\n"
     "  struct Run {\n"

@@ -68,7 +68,7 @@ Sources find_sources(const recording::McapReader& reader) {
       sources.all.push_back(source_of(reader, channel));
     }
   }
-  // Of prefixes within each other the longer one counts.
+  // If prefixes contain each other, the longer one counts.
   std::sort(sources.all.begin(), sources.all.end(),
             [](const Source& a, const Source& b) { return a.prefix.size() > b.prefix.size(); });
   for (const auto& [id, channel] : channels) {

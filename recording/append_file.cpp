@@ -40,7 +40,7 @@ Result<void, base::Problem> AppendFile::append(View bytes) {
     }
     if (written <= 0) {
       const int error = written < 0 ? errno : ENOSPC;
-      // Best effort: a reader passes over a cut portion.
+      // Best effort: a reader skips a truncated portion.
       (void)!::ftruncate(file_.get(), static_cast<off_t>(size_));
       return failed(path_, error);
     }

@@ -55,7 +55,7 @@ class Encoder {
   }
 
  private:
-  // Room for `count` numbers of `size` bytes each.
+  // Appends room for `count` numbers of `size` bytes each.
   std::uint8_t* grown(std::size_t size, std::uint64_t count) {
     const std::size_t begin = to_.size() + padding(to_.size(), size);
     to_.resize(begin + size * count);
@@ -78,7 +78,7 @@ class Encoder {
   std::vector<std::uint8_t>& to_;
 };
 
-// Each function returns false if the bytes are no such value.
+// Each function returns false if the bytes are no valid value.
 class Decoder {
  public:
   explicit Decoder(std::span<const std::uint8_t> from) : from_(from) {}
@@ -143,7 +143,7 @@ class Decoder {
   std::size_t at_ = kCdrHead.size();
 };
 
-// `end`: of the bytes that are known to lie so; moves on behind those of `type`, which begin at `at`.
+// `end`: end of the bytes that are known to match; is moved past those of `type`, which begin at `at`.
 bool lies_so(const Type& type, std::size_t at, std::size_t& end) {
   const std::uint64_t count = elements(type);
   if (type.base == Base::Text || type.base == Base::Bool) {

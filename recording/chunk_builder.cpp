@@ -9,7 +9,7 @@
 namespace indurop::recording {
 namespace {
 
-// What append_record does, in one step: this is done for each value that is recorded.
+// Same as append_record, in one copy: this runs for each recorded value.
 void append_message(Bytes& to, const McapMessage& message) {
   std::array<std::uint8_t, kRecordHead + 22> head{static_cast<std::uint8_t>(Opcode::Message)};
   std::size_t at = 1;

@@ -15,15 +15,15 @@ namespace {
 
 using base::Problem;
 
-// Half the size of what lz4 leaves, at a speed that a recorder hardly notices.
+// Half the size of lz4's output, at a speed that hardly affects a recorder.
 constexpr int kLevel = 1;
 
 Problem damaged(std::string_view compression, std::string_view why) {
   return {fmt::format("what {} compressed is damaged ({})", compression, why)};
 }
 
-// What the bytes say of their size, before anything is reserved for it. A block of zstd is at least 4 bytes long and
-// gives at most 128 KiB; a byte of lz4 at most 255.
+// Checks the size that the bytes announce before memory is reserved for it. A zstd block has at least 4 bytes and
+// decompresses to at most 128 KiB; one byte of lz4 gives at most 255.
 bool possible(std::string_view compression, View bytes, std::uint64_t size) {
   if (compression == "lz4") {
     return size / 255 <= bytes.size();

@@ -21,7 +21,7 @@ bool is_magic(View bytes) {
   return std::equal(bytes.begin(), bytes.end(), kMagic.begin(), kMagic.end());
 }
 
-// Where the data begins.
+// Returns the position where the data begins.
 Result<std::uint64_t, Problem> read_header(const InputFile& file, McapHeader& header) {
   auto begin = file.read(0, std::min(file.size(), kMagic.size() + kRecordHead));
   if (!begin) {
@@ -50,14 +50,14 @@ Result<std::uint64_t, Problem> read_header(const InputFile& file, McapHeader& he
 
 enum class Summary : std::uint8_t {
   Good,
-  Absent,  // nobody wrote one, or one that does not name all
+  Absent,  // there is none, or one that does not name all
   Damaged,
 };
 
-// The records of a summary; any doubt makes it useless.
+// Reads the records of a summary; on any doubt it is not used.
 class SummaryReader {
  public:
-  // The data of the file lies between `begin` and `end`.
+  // The file's data is between `begin` and `end`.
   SummaryReader(std::uint64_t begin, std::uint64_t end, Contents& to) : begin_(begin), end_(end), to_(to) {}
 
   Summary run(View records) {
@@ -79,7 +79,7 @@ class SummaryReader {
   }
 
  private:
-  // Else a small file could have its chunks read without end.
+  // Otherwise a small file could have its chunks read without end.
   [[nodiscard]] bool chunks_overlap() {
     auto& all = to_.segments;
     std::sort(all.begin(), all.end(), [](const Segment& a, const Segment& b) { return a.offset < b.offset; });
@@ -135,7 +135,7 @@ class SummaryReader {
   std::optional<McapStatistics> statistics_;
 };
 
-// Unless it is good, `to` is half filled.
+// If the summary is not good, `to` is only partly filled.
 Summary read_summary(const InputFile& file, std::uint64_t begin, Contents& to) {
   if (file.size() < begin + kEndBytes) {
     return Summary::Damaged;
@@ -188,7 +188,7 @@ std::pair<std::int64_t, std::int64_t> Contents::span_ns() const {
 }
 
 bool Contents::add(McapSchema schema) {
-  return schema.id == 0 || add_to(schemas, std::move(schema));  // the format says: 0 is to be passed over
+  return schema.id == 0 || add_to(schemas, std::move(schema));  // the format specifies: ignore number 0
 }
 
 bool Contents::add(McapChannel channel) {

@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little, "eight bytes are taken
 constexpr std::size_t kStep = 8;
 using Table = std::array<std::array<std::uint32_t, 256>, kStep>;
 
-// kTables[n][b]: what byte b does to the result when n more bytes follow it.
+// kTables[n][b]: the effect of byte b on the result when n more bytes follow it.
 constexpr Table make_tables() {
   Table tables{};
   for (std::uint32_t byte = 0; byte < 256; ++byte) {

@@ -91,7 +91,7 @@ class IdlReader {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
   }
 
-  // Words with their "::", else one sign at a time.
+  // Reads the next token: a word with its "::", else one character.
   bool next() {
     while (at_ < text_.size() &&
            (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\t' || text_[at_] == '\r')) {
@@ -184,7 +184,7 @@ class Flattener {
   explicit Flattener(const std::map<std::string, Definition>& definitions) : definitions_(definitions) {}
 
   bool add(const std::string& type, const std::string& name, int depth) {
-    // Structs without members are none of the leaves.
+    // Structs without members add no leaves, so the steps are limited too.
     if (++steps_ > kMostSteps) {
       return false;
     }
@@ -201,7 +201,7 @@ class Flattener {
       return leaves.size() <= kMostLeaves;
     }
     const auto& members = found->second.members;
-    // What stands for its only member has no name of its own.
+    // A struct that only wraps its member adds no name.
     const bool wraps = type.starts_with("indurop::value_") && members.size() == 1 && members[0].name == "value";
     return std::all_of(members.begin(), members.end(), [&](const Member& member) {
       return add_elements(member, 0, wraps ? name : name + "." + member.name, depth + 1);
@@ -229,7 +229,7 @@ class Flattener {
   std::size_t steps_ = 0;
 };
 
-// Takes values off the front of a CDR message and gives them to `use`, as what they are.
+// Reads values from the front of a CDR message and passes them to `use` with their type.
 class CdrCursor {
  public:
   explicit CdrCursor(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}

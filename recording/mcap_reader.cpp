@@ -14,7 +14,7 @@ namespace {
 
 using base::Problem;
 
-// Chunks whose times overlap have to be in memory together.
+// Chunks with overlapping times must be in memory together.
 constexpr std::uint64_t kMostOpenBytes = 4 * kMostChunkBytes;
 constexpr std::uint64_t kMostMetadataBytes = kMostMessageBytes;
 

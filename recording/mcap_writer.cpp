@@ -178,7 +178,7 @@ Result<void, Problem> McapWriter::metadata(std::string_view name, const TextMap&
   return {};
 }
 
-// The summary and all that follows it, beginning at byte `at` of the file.
+// Returns the summary and everything after it, for byte `at` of the file.
 Bytes McapWriter::summary(std::uint64_t at) const {
   Bytes statistics;
   append_record(statistics, statistics_);
@@ -194,7 +194,7 @@ Bytes McapWriter::summary(std::uint64_t at) const {
   McapFooter footer{at, at + out.size(), 0};
   out.insert(out.end(), offsets.begin(), offsets.end());
   append_record(out, footer);
-  // The footer's own CRC is the one field that is not counted.
+  // The footer's own CRC is the only field that the CRC does not cover.
   const std::uint32_t crc = crc32(View(out).first(out.size() - sizeof crc));
   std::memcpy(out.data() + out.size() - sizeof crc, &crc, sizeof crc);
   out.insert(out.end(), kMagic.begin(), kMagic.end());

@@ -24,7 +24,7 @@ std::string type_name(const Type& type) {
   if (type.base == Base::Text) {
     return fmt::format("string<{}>", std::max(type.text_size, 2U) - 1);
   }
-  // Without a leading "::", which not every reader knows.
+  // Without a leading "::", which not every reader understands.
   return type.name.empty() ? std::string(kNames.at(static_cast<std::size_t>(type.base))) : type.name;
 }
 
@@ -36,14 +36,14 @@ std::string dims(const Type& type) {
   return out;
 }
 
-// Some readers take `byte` for a keyword too, and all understand a name that is escaped for no reason.
+// Some readers treat `byte` as a keyword too, and all understand a name that is escaped without need.
 std::string member_name(const std::string& name) {
   return name == "byte" ? "_byte" : schema::idl_name(name);
 }
 
 class IdlText {
  public:
-  // All that is needed to know the type, each definition once.
+  // Defines everything that the type needs, each definition once.
   void define(const Type& type) {
     if ((type.base != Base::Struct && type.base != Base::Enum) || !defined_.insert(type.name).second) {
       return;
@@ -63,7 +63,7 @@ class IdlText {
     line("}};");
   }
 
-  // A struct for what is none; returns its name.
+  // Wraps a type that is no struct in one; returns the struct's name.
   std::string wrap(const Type& type) {
     std::string name = "indurop::value_";
     if (type.base == Base::Text) {
@@ -89,7 +89,7 @@ class IdlText {
   }
 
  private:
-  // Opens the modules of a full name and returns its last word.
+  // Opens the modules of a full name and returns its last component.
   std::string_view enter(std::string_view name) {
     const std::size_t last = name.rfind("::");
     const std::string_view scope = last == std::string_view::npos ? "" : name.substr(0, last);

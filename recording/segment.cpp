@@ -15,7 +15,7 @@ namespace {
 
 using base::Problem;
 
-// Beside the records a chunk's content holds some numbers and a word.
+// In addition to the records a chunk's content has some numbers and a word.
 constexpr std::uint64_t kMostBesides = 1024;
 
 Result<Block, Problem> read_chunk(const InputFile& file, const Segment& segment) {
@@ -39,7 +39,7 @@ Result<Block, Problem> read_chunk(const InputFile& file, const Segment& segment)
   return records;
 }
 
-// False if it is not as its kind demands.
+// Returns false if it is not valid for its kind.
 bool take_record(LoadedSegment& to, const RecordHead& head, View content, std::uint64_t offset) {
   switch (head.opcode) {
     case Opcode::Message: {
@@ -63,7 +63,7 @@ bool take_record(LoadedSegment& to, const RecordHead& head, View content, std::u
 
 McapMessage LoadedSegment::message(const Entry& entry) const {
   McapMessage out;
-  (void)read_record(records.view().subspan(entry.offset, entry.length), out);  // it was read before
+  (void)read_record(records.view().subspan(entry.offset, entry.length), out);  // was read before
   return out;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds all that a file without a summary holds. Every chunk is read once, so that its channels are known and it is
-// sure to be whole.
+// Finds everything in a file without a summary. Every chunk is read once, so that its channels are known and it is
+// certain to be intact.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using base::Problem;
 
-// So much is read at once, and messages outside of chunks are put together up to it.
+// The size of one read, and the maximum size up to which messages outside of chunks are combined.
 constexpr std::uint64_t kPortion = std::uint64_t{1} << 20U;
 
 // A piece of the file, so that small records are not read one by one.
@@ -24,7 +24,7 @@ class Window {
  public:
   explicit Window(const InputFile& file) : file_(file) {}
 
-  // The file has these bytes.
+  // The file must have these bytes.
   Result<View, Problem> at(std::uint64_t offset, std::uint64_t length) {
     if (offset < begin_ || offset - begin_ > block_.size || length > block_.size - (offset - begin_)) {
       auto read = file_.read(offset, std::min(std::max(length, kPortion), file_.size() - offset));
@@ -53,7 +53,7 @@ class Walk {
   }
 
  private:
-  // One record; false at the end.
+  // Reads one record; returns false at the end.
   bool step() {
     if (at_ == file_.size()) {
       return stop("the file was not closed; it ends here, behind a whole record");
@@ -100,7 +100,7 @@ class Walk {
       case Opcode::Chunk:
         return take_chunk(length);
       case Opcode::Attachment: {
-        // Its bytes are not needed here, only what stands before them.
+        // Its bytes are not needed, only the fields before them.
         McapAttachment about;
         LongBytes data;
         const View begin = content(head, kPortion);
@@ -130,7 +130,7 @@ class Walk {
     }
   }
 
-  // The beginning of the record's content, at most `most` bytes of it; empty if it cannot be read.
+  // Returns the beginning of the record's content, at most `most` bytes of it; empty if it cannot be read.
   View content(const RecordHead& head, std::uint64_t most) {
     const auto bytes = window_.at(at_ + kRecordHead, std::min(head.length, most));
     return bytes ? *bytes : View{};
@@ -191,7 +191,7 @@ class Walk {
     }
   }
 
-  // All data was found; is it what was written?
+  // All data was found; checks it against the recorded CRC.
   void finish(const RecordHead& head) {
     McapDataEnd end;
     if (!read_record(content(head, kPortion), end)) {

@@ -28,10 +28,10 @@ namespace {
 using Do = BoardTransaction::Do;
 
 constexpr std::chrono::milliseconds kAgentPoll{20};
-constexpr std::chrono::milliseconds kTell{500};  // at least
+constexpr std::chrono::milliseconds kTell{500};  // maximum interval between reports
 constexpr std::chrono::milliseconds kTellFast{50};
 
-// As the transaction hears it: empty is success.
+// Returns the result as the transaction expects it: empty is success.
 std::string text_of(const Result<void, base::Problem>& result) {
   return result ? std::string{} : result.error().text;
 }
@@ -83,13 +83,13 @@ class Agent {
     }
     log_.info("stopping: signal {}", signals.received());
     service_manager_.stopping();
-    net_.leave();  // the others see at once that this board leaves
+    net_.leave();  // the other boards see at once that this board leaves
     process_.end();
     return signals.received() == SIGINT ? kInterrupted : kOk;
   }
 
  private:
-  // The last committed deployment, without any network.
+  // Runs the last committed deployment, without any network.
   void resume() {
     const Committed& committed = state_.committed();
     if (committed.current.empty()) {
@@ -106,7 +106,8 @@ class Agent {
     process_.want(deployment_.manifest(committed.current), committed.current);
   }
 
-  // Of what is committed. What this board cannot make again by itself it fetches from another one, see listen().
+  // Damage of the committed deployment. What this board cannot restore on its own it fetches from another one, see
+  // listen().
   void note_damage(const std::string& problem) {
     damaged_ = !problem.empty();
     if (damaged_) {
@@ -132,7 +133,7 @@ class Agent {
 
   void listen(rt::MonoTime now) {
     for (const auto& news : link_->take_orders()) {
-      if (!news.gone && may_order(news.order)) {  // a deployer that is gone is silent
+      if (!news.gone && may_order(news.order)) {  // a deployer that is gone sends nothing
         perform(transaction_.hear(news.order, now, rt::WallClock::now()), now);
       }
     }
@@ -157,7 +158,7 @@ class Agent {
     }
   }
 
-  // Orders meant for this board are taken from who may deploy to it; others are told why not.
+  // Orders addressed to this board are accepted from deployers with permission; others are told why not.
   bool may_order(const Order& order) {
     if (!deployment_.belongs(order.boards)) {
       return false;
@@ -183,7 +184,7 @@ class Agent {
   void work(rt::MonoTime now) {
     if (board_commands_.step(*commands_, state_.committed().plant,
                              transaction_.phase() == Phase::Steady ? "" : "a deployment is under way", now)) {
-      values_.forget();  // who has set something sees it at once
+      values_.forget();  // the user who has set something sees it at once
     }
     if (fetcher_.active()) {
       const Fetcher::State state = fetcher_.step(*link_, now);
@@ -331,7 +332,7 @@ class Agent {
   BoardTransaction transaction_;
   Fetcher fetcher_;
   BoardProcess process_;
-  std::string held_before_;  // the trial
+  std::string held_before_;  // hold reason before the trial
   BoardRecorder recorder_;
   BoardAlarms alarms_;
   BoardCommands board_commands_;
@@ -340,12 +341,12 @@ class Agent {
   BlobServer server_;
   ServiceManager service_manager_;
   BoardLink net_;
-  DeployLink* link_ = nullptr;  // of net_, as commands_
+  DeployLink* link_ = nullptr;  // both belong to net_
   CommandLink* commands_ = nullptr;
   OtherBoards others_;
   std::uint64_t refused_ = 0;
   std::string refusal_;
-  bool damaged_ = false;  // what is committed, and this board cannot make it again by itself
+  bool damaged_ = false;  // the committed deployment is damaged, and this board cannot restore it on its own
   bool busy_ = false;
   bool tell_now_ = true;
   rt::MonoTime told_;

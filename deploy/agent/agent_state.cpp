@@ -30,7 +30,7 @@ using base::Json;
 using base::Problem;
 
 constexpr std::size_t kHistoryKept = 20;
-constexpr std::chrono::hours kPiecesKept{24};  // of a deployment that was cut short
+constexpr std::chrono::hours kPiecesKept{24};  // age of leftovers of an interrupted deployment
 constexpr mode_t kStateMode = 0640;
 constexpr mode_t kProgramMode = 0750;
 
@@ -42,7 +42,7 @@ std::string package_name(const std::string& id) {
   return fmt::format("the package of deployment {}", shown_id(id));
 }
 
-// One of files/ and one of a deployment's folder, as older releases made them, would change together.
+// Older releases made hard links between files/ and a deployment's folder; both copies would change together.
 bool shares_files(const fs::path& folder, const Package& package) {
   return std::any_of(package.files.begin(), package.files.end(), [&](const PackageFile& entry) {
     std::error_code error;
@@ -50,14 +50,14 @@ bool shares_files(const fs::path& folder, const Package& package) {
   });
 }
 
-// `fresh` becomes `target`, and what was there is removed. A node that runs from there keeps what it has open.
+// Moves `fresh` to `target` and removes what was there. A node that runs from there keeps its open files.
 Result<void, Problem> replace_folder(const fs::path& fresh, const fs::path& target) {
   if (::rename(fresh.c_str(), target.c_str()) == 0) {
     return {};
   }
   std::error_code error;
   if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) != 0) {
-    fs::remove_all(target, error);  // a file system that cannot exchange
+    fs::remove_all(target, error);  // a file system without atomic exchange
     fs::rename(fresh, target, error);
     return error ? Result<void, Problem>(failed("cannot make", target, error.value())) : Result<void, Problem>();
   }
@@ -65,7 +65,7 @@ Result<void, Problem> replace_folder(const fs::path& fresh, const fs::path& targ
   return {};
 }
 
-// Removes what is in a folder, is not among `wanted` and is older than `age`.
+// Removes everything in a folder that is not among `wanted` and is older than `age`.
 void remove_others(const fs::path& folder, const std::set<std::string>& wanted, std::chrono::hours age = {}) {
   const auto newest = fs::file_time_type::clock::now() - age;
   std::error_code error;
@@ -90,7 +90,7 @@ Result<AgentState, Problem> AgentState::open(const std::string& board, Tell tell
                                  error.message())};
     }
   }
-  // What is deployed may hold what not every user of the machine is to read.
+  // Deployed files may contain data that not every user of the machine may read.
   if (::chmod(folder.c_str(), kProgramMode) != 0) {
     return failed("cannot keep others out of", folder, errno);
   }
@@ -175,7 +175,7 @@ bool AgentState::has_sound(const std::string& digest, const std::string& name) {
   if (!damage) {
     return true;
   }
-  // What cannot be read now may be right; it stays until another one takes its place.
+  // A file that cannot be read now may be intact; it stays until another one replaces it.
   std::error_code error;
   const bool dropped = !damage->found.empty() && fs::remove(file(digest), error);
   tell(describe(*damage) + (dropped ? "; it is dropped" : ""));
@@ -194,7 +194,7 @@ Result<void, Problem> AgentState::keep(const std::string& digest) {
   return {};
 }
 
-// Copies are not brought to the disk: they are verified each time before they are run.
+// The copies are not synced to the disk: they are verified each time before they are run.
 Result<void, Problem> AgentState::lay_out(const Package& package, const fs::path& fresh) {
   std::error_code error;
   fs::remove_all(fresh, error);
@@ -298,7 +298,7 @@ AgentState::Needed AgentState::needed_by(const std::set<std::string>& ids) const
   return needed;
 }
 
-// Of a deployment whose package is damaged it is not known which files it needs.
+// If the package of a deployment is damaged, it is not known which files it needs.
 void AgentState::remove_files_but(const std::set<std::string>& needed, bool old_only) const {
   const auto is_known = [this](const std::string& id) { return id.empty() || package(id); };
   if (is_known(committed_.current) && is_known(committed_.previous)) {

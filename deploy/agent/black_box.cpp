@@ -24,7 +24,7 @@ std::string BlackBox::keep() const {
   if (const auto written = base::replace_file(file, run_image(board_), base::Durable::Yes); !written) {
     return fmt::format("what it did last could not be kept: {}", base::cannot_write(file.string(), written.error()));
   }
-  // Their names are times: the oldest first.
+  // Their names are times: the oldest comes first.
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
     files.push_back(entry.path());

@@ -26,7 +26,7 @@ constexpr std::chrono::milliseconds kAlarmPoll{100};
 constexpr std::chrono::seconds kLookIdle{1};
 constexpr std::size_t kMostEvents = 200;
 
-// What they point to is in `store`.
+// The result points into `store`.
 std::vector<alarms::DeclaredAlarm> declared_in(const Result<vars::Store>& store) {
   return store ? alarms::declared_alarms(*store) : std::vector<alarms::DeclaredAlarm>();
 }
@@ -36,7 +36,7 @@ std::string text_of(const char (&text)[N]) {
   return {text, ::strnlen(text, N)};
 }
 
-// Nothing while the node does not run, or its run block makes no sense.
+// Returns nothing while the node is not running, or if its run block is invalid.
 std::optional<std::vector<alarms::ModuleNow>> modules_of(const std::string& board) {
   using scheduler::ModuleRecord;
   const auto file = vars::RunFile::open(board, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));

@@ -19,8 +19,8 @@ namespace {
 using scheduler::CommandResult;
 using scheduler::ModuleCommand;
 
-constexpr std::chrono::seconds kNonce{30};     // how long a number given is good for
-constexpr std::chrono::seconds kPatience{20};  // for one command
+constexpr std::chrono::seconds kNonce{30};     // validity of an issued number
+constexpr std::chrono::seconds kPatience{20};  // timeout of one command
 constexpr std::size_t kMostCommanders = 64;
 
 ModuleCommand module_command_of(Action action) {
@@ -86,7 +86,7 @@ std::uint64_t new_nonce() {
   return (high << 32U | random()) | 1U;  // never 0
 }
 
-// Which user gave it is known where it was given.
+// The user who gave the command is known only where it was given.
 void note(const std::string& board, const Command& command) {
   operate::note(board, {rt::now_ns(), 0, "somebody", command.host, word_of(command.action), command.target, {}, 0, {}});
 }
@@ -119,7 +119,7 @@ bool BoardCommands::step(CommandLink& link, const std::string& plant, const std:
     return any;
   }
   if (const auto done = look(now)) {
-    if (!is_recording(command_->action)) {  // its recorder tells what it does
+    if (!is_recording(command_->action)) {  // the recorder reports its own actions
       tell(*done);
     }
     known_[command_->commander].last = done;
@@ -149,10 +149,10 @@ void BoardCommands::hear(CommandLink& link, const Command& command, const std::s
   const bool fresh = found == known_.end() || command.nonce != found->second.nonce;
   if (fresh) {
     if (found == known_.end() && known_.size() >= kMostCommanders) {
-      return;  // somebody floods; numbers run out, and there is room again
+      return;  // a client floods the agent; numbers expire, and then there is space again
     }
     Known& known = known_[command.commander];
-    // A number that waits to be used is given again: the first answer may have been lost.
+    // A number that is not used yet is issued again: the first answer may have been lost.
     if (known.nonce == 0 || known.last) {
       known = {new_nonce(), now, std::nullopt};
     }
@@ -236,7 +236,7 @@ CommandReply BoardCommands::write(const Command& command) {
   return done ? reply(command, Outcome::Done) : reply(command, Outcome::Refused, done.error().text);
 }
 
-// The node writes it in a moment: only it knows all of what belongs to its runs.
+// The node writes the box shortly after: only it has all the data of its runs.
 CommandReply BoardCommands::keep_box(const Command& command) const {
   if (process_.condition() != NodeCondition::Running) {
     return reply(command, Outcome::Refused, "its node does not run");

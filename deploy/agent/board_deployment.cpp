@@ -14,7 +14,7 @@ namespace {
 
 using base::Problem;
 
-// First error of a check, if there is one, and how many more.
+// Returns the first error of a check, if any, and the number of further ones.
 Result<void, Problem> first_error(const std::vector<base::Diagnostic>& diagnostics) {
   std::string text;
   std::size_t more = 0;
@@ -60,12 +60,12 @@ bool BoardDeployment::lacks(const BoardReport& other, bool damaged) const {
 std::filesystem::path BoardDeployment::manifest(const std::string& id) const {
   const auto package = state_.package(id);
   const Committed& committed = state_.committed();
-  // With a damaged package there is still something to be run, and a reason why it cannot be.
+  // With a damaged package there is still a manifest to run, and verification reports why it cannot be run.
   const bool part = package ? belongs(package->boards) : id == committed.current && belongs(committed.members);
   return part && !id.empty() ? state_.manifest(id) : std::filesystem::path{};
 }
 
-// The deployment is of this board's plant and leaves it out, perhaps not for the first time.
+// Returns whether the deployment is of this board's plant and leaves the board out, perhaps not for the first time.
 bool BoardDeployment::leaves(const std::string& id) const {
   const auto package = state_.package(id);
   return package && package->plant == state_.committed().plant && !belongs(package->boards);
@@ -106,7 +106,7 @@ Result<void, Problem> BoardDeployment::commit(const Order& order) {
     next.members = package->boards;
     next.comment = package->comment;
   }
-  // What this board had already, and has fetched again.
+  // The board had this deployment already, and has fetched it again.
   const bool again = next.current == order.deployment && state_.committed().generation == order.generation;
   if (next.current != order.deployment) {
     next.previous = next.current;

@@ -87,7 +87,7 @@ Done BoardForces::carry_out(const Command& command) {
   return {};
 }
 
-// Under a write lock, too: what is held already goes on.
+// Renewal is allowed under a write lock too: values that are already forced stay forced.
 Done BoardForces::renew(const Command& command, const WriteOrder& order) {
   const auto found = leases_.find(command.commander);
   if (found == leases_.end() || found->second.store.retired()) {

@@ -137,8 +137,8 @@ void BoardProcess::launch(rt::MonoTime now) {
   std::vector<std::string> words{
       node_program_path(program_), wanted_.string(), "--board", board_, "--deployment", deployment_};
   words.insert(words.end(), arguments_.begin(), arguments_.end());
-  // Ctrl-C reaches the agent alone; the node may outlive it. With a reader of its own the pipe outlives the agent too:
-  // what is printed then is lost, but nobody dies of it.
+  // Ctrl-C reaches the agent alone; the node may outlive it. The node has a read end of its own, so that the pipe
+  // outlives the agent too: its output is lost then, but no process dies of it.
   const auto pid = base::spawn({.words = std::move(words),
                                 .program = node_program_path(program_),
                                 .group = base::Launch::Group::OwnSession,
@@ -161,7 +161,7 @@ void BoardProcess::launch(rt::MonoTime now) {
   condition_ = NodeCondition::Starting;
 }
 
-// What the node says goes where the agent's words go; its last error is the reason if it dies.
+// The node's output goes to the agent's output; its last error is the reason if it dies.
 void BoardProcess::read_output() {
   if (output_ < 0) {
     return;
@@ -219,7 +219,7 @@ void BoardProcess::note_end(int status, rt::MonoTime now) {
     reason_ = std::exchange(hung_, {});
   }
   if (!died) {
-    // Orderly: somebody stopped it, or it refuses to run; again and again would not help.
+    // An orderly end: it was stopped, or it refuses to run; further restarts would not help.
     condition_ = NodeCondition::Failed;
     if (code == kOk || code == kInterrupted) {
       reason_ = "the node was stopped";
@@ -282,7 +282,7 @@ void BoardProcess::step(rt::MonoTime now) {
   }
 }
 
-// Nothing of it can be asked to end any more; the restart goes the way of a node that died.
+// A node that hangs cannot be asked to end; it is restarted like one that died.
 void BoardProcess::end_if_it_hangs(rt::MonoTime now) {
   if (!look()) {
     return;
@@ -334,7 +334,8 @@ NodeFigures BoardProcess::figures() {
   return out;
 }
 
-// A node that already runs what is wanted goes on, and what happened to it before is not the fault of what follows.
+// A node that already runs the requested deployment continues, and its earlier faults are not attributed to the new
+// one.
 void BoardProcess::remember_faults() {
   faults_before_.clear();
   if (running_ != deployment_ || !look()) {

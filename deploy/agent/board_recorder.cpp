@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds kRecorderGrace{10};  // it writes what it has
+constexpr std::chrono::seconds kRecorderGrace{10};  // for writing its remaining data
 constexpr std::chrono::seconds kRecorderPoll{1};
 constexpr const char* kPast = "past";
 
@@ -41,7 +41,7 @@ fs::path file_of(const std::string& board, const std::string& name) {
   return folder_of(board) / (name + ".mcap");
 }
 
-// What it says.
+// The file with the recorder's output.
 fs::path words_of(const std::string& board, const std::string& name) {
   return folder_of(board) / (name + ".log");
 }
@@ -113,7 +113,7 @@ BoardRecorder::Answer BoardRecorder::record(const Command& command, rt::MonoTime
   return start(names, lines[1] == kPast);
 }
 
-// The one before goes: the disk is the board's.
+// The earlier recording is deleted: the disk belongs to the board.
 BoardRecorder::Answer BoardRecorder::start(const std::vector<std::string>& names, bool past) {
   std::error_code error;
   fs::remove_all(folder_of(board_), error);
@@ -186,7 +186,7 @@ void BoardRecorder::step(rt::MonoTime now) {
   }
 }
 
-// `why`: nothing if it is as wished.
+// `why`: empty if it ends as requested.
 void BoardRecorder::end(const std::string& why, rt::MonoTime now) {
   if (pid_ > 0 && !asked_) {
     ended_ = why;
@@ -221,7 +221,7 @@ std::string BoardRecorder::limit() const {
              : "";
 }
 
-// That it told.
+// The errors that the recorder printed.
 std::string BoardRecorder::errors() const {
   constexpr std::string_view kMark = "error: ";
   std::string all;

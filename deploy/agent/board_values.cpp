@@ -42,7 +42,7 @@ std::int64_t freshness_of(const vars::Store& store, const vars::DirectoryEntry& 
   return confirmed > 0 ? age : -age;
 }
 
-// Empty: it is too much.
+// Returns an empty text if it is too large.
 std::string bytes_of(const vars::Store& store, std::int64_t now_ns) {
   std::string all;
   std::vector<std::uint8_t> bytes;
@@ -61,7 +61,7 @@ std::string bytes_of(const vars::Store& store, std::int64_t now_ns) {
   return all;
 }
 
-// Names of the modules; nothing if the block makes no sense.
+// Returns the names of the modules; nothing if the block is invalid.
 std::optional<std::vector<std::string>> modules_of(const scheduler::RunBlock& block, std::uint64_t size) {
   using scheduler::ModuleRecord;
   const bool good = block.abi == scheduler::kRunAbi && block.modules_offset % alignof(ModuleRecord) == 0 &&

@@ -19,7 +19,7 @@ std::optional<std::string> BoxWatch::hear(const BoardReport& report) {
   if (died) {
     return fmt::format("the node of board {} ended: {}", report.board, report.message);
   }
-  // Another run of its node counts anew.
+  // A new run of its node starts counting again.
   if (before.node != NodeCondition::Running || now.node != NodeCondition::Running || now.tick < before.tick) {
     return std::nullopt;
   }

@@ -80,7 +80,7 @@ OwnKeys DeployKeys::own(const std::string& plant) const {
 std::string DeployKeys::refusal(const std::string& plant, const std::string& text, const std::string& signature) const {
   std::error_code error;
   if (!any(error)) {
-    // Keys that cannot be seen must not count as none.
+    // Unreadable keys must not count as no keys.
     return error ? fmt::format("the keys of this board in {} cannot be read ({}), so nobody can be trusted",
                                folder_.string(), error.message())
                  : std::string{};

@@ -23,7 +23,7 @@ using base::Problem;
 
 constexpr std::uint64_t kLargestPackage = 16U << 20U;
 constexpr std::uint64_t kReserve = 1U << 20U;  // left free on the disk
-constexpr std::chrono::seconds kSilent{3};     // then another source is asked
+constexpr std::chrono::seconds kSilent{3};     // timeout before another source is asked
 
 double mib(std::uint64_t bytes) {
   return static_cast<double>(bytes) / (1U << 20U);
@@ -82,7 +82,7 @@ FetchProgress Fetcher::progress() const noexcept {
   return now;
 }
 
-// The package is here: which of its files are not?
+// The package is complete: determines which of its files are missing.
 Fetcher::Attempt Fetcher::plan_files() {
   const auto package = state_.package(id_);
   if (!package) {
@@ -162,7 +162,7 @@ Fetcher::Attempt Fetcher::take(const BlobChunk& chunk, rt::MonoTime now) {
   return {};
 }
 
-// This one does not have the file as it should be.
+// The current source does not have the file with the right content.
 Fetcher::Attempt Fetcher::next_source() {
   without_.insert(source_);
   if (without_.size() == sources_.size()) {
@@ -187,7 +187,7 @@ Fetcher::Attempt Fetcher::finish_part() {
   close_part();
   if (!sound) {
     ::unlink(state_.part(wanted.digest).c_str());
-    again_ = !again_;  // the part may be a leftover of a crash; a second time, the source has another file
+    again_ = !again_;  // the part may be a leftover of a crash; the second time, the source has a different file
     return again_ ? Attempt{} : next_source();
   }
   again_ = false;
@@ -203,7 +203,7 @@ Fetcher::Attempt Fetcher::finish_part() {
   return {};
 }
 
-// Opens parts until one needs something from the network, or all is here.
+// Opens parts until one needs data from the network, or all are complete.
 Fetcher::Attempt Fetcher::open_next() {
   for (;;) {
     if (at_ == wanted_.size()) {

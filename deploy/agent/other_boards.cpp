@@ -6,7 +6,7 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::size_t kMostWarnings = 32;  // then it may be somebody who invents them
+constexpr std::size_t kMostWarnings = 32;  // beyond this a participant may be inventing them
 
 }  // namespace
 

@@ -23,7 +23,7 @@ using scheduler::OverrunEntry;
 using scheduler::RunBlock;
 using scheduler::SlotEntry;
 
-// An entry that changes meanwhile counts as being written.
+// Copies a log; an entry that changes meanwhile is marked as being written.
 template <class Entry>
 void copy_log(const Entry* from, Entry* to, std::uint64_t count) {
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -39,7 +39,7 @@ class Image {
  public:
   Image(const RunBlock& block, std::uint64_t size) : block_(block), size_(size) {}
 
-  // Empty if the block makes no sense.
+  // Returns an empty text if the block is invalid.
   std::string make() {
     const std::uint64_t modules = place<scheduler::ModuleRecord>(block_.modules_offset, block_.module_count);
     const std::uint64_t slots = place<SlotEntry>(block_.slot_log_offset, block_.slot_log_capacity);
@@ -47,7 +47,7 @@ class Image {
     if (!sound_) {
       return {};
     }
-    // Whole words, for the alignment of what is in them.
+    // Whole words, for the alignment of their content.
     std::vector<std::uint64_t> words((end_ + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
     auto* const bytes = reinterpret_cast<std::byte*>(words.data());
     std::memcpy(bytes, &block_, sizeof block_);
@@ -66,7 +66,7 @@ class Image {
   }
 
  private:
-  // Where it begins in the image.
+  // Returns the position in the image.
   template <class T>
   std::uint64_t place(std::uint64_t offset, std::uint64_t count) {
     sound_ = sound_ && offset % alignof(T) == 0 && offset <= size_ && count <= (size_ - offset) / sizeof(T);

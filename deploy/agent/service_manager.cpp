@@ -20,7 +20,7 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-// systemd wants to hear twice within the time after which it gives a service up.
+// systemd expects two signs of life within the watchdog time.
 std::chrono::nanoseconds half_of_watchdog() {
   const std::string text = variable("WATCHDOG_USEC");
   const std::string pid = variable("WATCHDOG_PID");
@@ -50,7 +50,7 @@ void ServiceManager::tell(const std::string& state) const {
   address.sun_family = AF_UNIX;
   std::memcpy(address.sun_path, socket_.data(), socket_.size());
   if (socket_.front() == '@') {
-    address.sun_path[0] = '\0';  // a name that is no file
+    address.sun_path[0] = '\0';  // an abstract socket name
   }
   const base::Descriptor file(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + socket_.size());

@@ -6,7 +6,7 @@
 namespace indurop::deploy {
 namespace {
 
-// Of the time between two looks no more counts: the agent looks every 20 ms when it can.
+// Maximum that counts of the time between two checks: the agent checks every 20 ms when it can.
 constexpr std::chrono::milliseconds kMostBetweenLooks{100};
 
 bool may_take_its_time(const scheduler::RunBlock& block) {

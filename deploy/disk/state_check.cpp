@@ -50,11 +50,11 @@ void StateCheck::plan() {
       report_.damaged.push_back({committed_file, read.error().text, {}, {}});
     }
   }
-  std::map<std::string, std::string> names;  // of files/, by digest
+  std::map<std::string, std::string> names;  // names of files in files/, by digest
   for (const std::string& id : kept_deployments(committed)) {
     const bool needed = id == committed.current || id == committed.previous;
     if (!needed && !files_.has(id)) {
-      continue;  // this board was away then
+      continue;  // this board was absent then
     }
     report_.deployments.push_back(id);
     names.emplace(id, fmt::format("the package of deployment {}", shown_id(id)));
@@ -80,7 +80,7 @@ void StateCheck::plan_deployment(const std::string& id) {
   const auto package = files_.package(id);
   std::error_code error;
   if (!package || !fs::is_directory(files_.deployment(id), error)) {
-    return;  // of the former files/ tells; the latter is made when it is to run
+    return;  // a damaged package is reported for files/; a missing folder is created before it is run
   }
   for (const PackageFile& entry : package->files) {
     wanted_.push_back({files_.deployment(id) / entry.path, entry.path, entry.digest, {}});

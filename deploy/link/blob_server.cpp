@@ -12,8 +12,8 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::chrono::seconds kStuck{5};  // then the requester has gone
-constexpr int kPiecesAtOnce = 16;          // for one requester before others have their turn
+constexpr std::chrono::seconds kStuck{5};  // after this the requester counts as gone
+constexpr int kPiecesAtOnce = 16;          // for one requester before the others are served
 constexpr std::size_t kMostRequests = 64;
 
 }  // namespace

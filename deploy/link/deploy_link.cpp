@@ -26,9 +26,9 @@ namespace indurop::deploy {
 namespace {
 
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
-constexpr std::int64_t kChunkBlockNs = 100'000'000;  // a chunk waits so long for room
+constexpr std::int64_t kChunkBlockNs = 100'000'000;  // maximum time that a chunk waits for room
 constexpr std::int32_t kChunkDepth = 512;            // messages a receiver may lag behind
-constexpr std::int32_t kReports = 8;  // of one name, so that one in a false name does not cover the true one
+constexpr std::int32_t kReports = 8;  // of one name, so that a report under a false name does not hide the true one
 constexpr std::int64_t kLettingInNs = 2'000'000'000;
 constexpr std::size_t kMostRoom = 2U << 20U;
 
@@ -91,7 +91,7 @@ Result<void, base::Problem> DeployLink::Impl::make() {
   requests_out = writer(indurop_deploy_Request_desc, topic_name("request"), false);
   for (const dds::Endpoint* end :
        {&boards_in, &orders_in, &requests_in, &blobs_in, &boards_out, &orders_out, &requests_out}) {
-    // Nobody's keys permit all of it: a board gives no orders, a viewer does not report.
+    // No participant's keys permit all of it: a board gives no orders, a viewer does not report.
     if (!end->ok() && !end->forbidden()) {
       return base::Problem{"deployment topics cannot be made: " + end->why()};
     }
@@ -152,7 +152,7 @@ DeployLink::~DeployLink() = default;
 
 void DeployLink::publish(const BoardReport& report) {
   const wire::Lent lent(report);
-  (void)dds::write(impl_->boards_out.get(), lent.sample());  // told again soon
+  (void)dds::write(impl_->boards_out.get(), lent.sample());  // it is sent again soon
 }
 
 void DeployLink::publish(const Order& order) {
@@ -247,7 +247,7 @@ std::vector<deploy::BlobChunk> DeployLink::take_chunks() {
 }
 
 std::vector<deploy::OtherAgent> DeployLink::other_agents() {
-  constexpr const char* kTool = "indurop";  // it has the same topics, and goes again
+  constexpr const char* kTool = "indurop";  // it has the same topics, and leaves again
   (void)impl_->others.look();
   std::vector<deploy::OtherAgent> agents;
   for (dds::OtherReleases::Speaker& speaker : impl_->others.speakers()) {

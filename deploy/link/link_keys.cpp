@@ -7,7 +7,7 @@ namespace indurop::deploy {
 
 namespace {
 
-// On the terminal, as whoever gave --keys is there.
+// Prints the warnings on the terminal, to the user who gave --keys.
 void warn_of(const keys::ParticipantKeys& keys) {
   if (const std::string exposed = keys::exposed_key(keys.key); !exposed.empty()) {
     (void)std::fprintf(stderr, "warning: %s\n", exposed.c_str());

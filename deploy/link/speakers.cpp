@@ -9,7 +9,7 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::size_t kMost = 4096;  // of each kind, then it begins anew: somebody invents them
+constexpr std::size_t kMost = 4096;  // maximum of each kind, then it is cleared: a participant invents them
 constexpr std::size_t kMostImpersonations = 64;
 
 template <class Container>
@@ -27,7 +27,7 @@ Speakers::Speakers(const std::string& certificate) {
   }
   const auto text = base::read_file(certificate);
   const auto facts = keys::read_certificate(text ? *text : std::string{});
-  // Without a name nobody is believed; the network cannot be joined with such a certificate anyhow.
+  // Without a name no report is accepted; the network cannot be joined with such a certificate anyway.
   plant_ = facts ? facts->organisation : "?";
 }
 

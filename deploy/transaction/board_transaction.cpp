@@ -44,21 +44,22 @@ Do BoardTransaction::fail(const std::string& problem) {
   return running ? Do::GoBack : Do::Forget;
 }
 
-// The deployment is over without a commit.
+// Ends the deployment without a commit.
 Do BoardTransaction::end(const std::string& why) {
   const Phase before = phase_;
   finished_ = order_.deployer;
   phase_ = Phase::Steady;
   joining_ = false;
   if (before == Phase::Failed) {
-    return Do::Nothing;  // all is undone, and the message says why
+    return Do::Nothing;  // everything is undone, and the message says why
   }
   message_ = why;
   return before == Phase::Trial || before == Phase::Healthy ? Do::GoBack : Do::Forget;
 }
 
 void BoardTransaction::agree_instant(const Order& order, rt::MonoTime now) {
-  // How long from now, by the deployer's clock and, if the two clocks agree, by ours: the way here does not count then.
+  // The time until the switch, by the deployer's clock and, if the two clocks agree, by ours: the transport delay does
+  // not count then.
   const std::chrono::nanoseconds ahead{order.switch_at_ns - order.said_at_ns};
   const bool trusted = clock_offset_ > -kClockTrust && clock_offset_ < kClockTrust;
   switch_ = now + (trusted ? ahead - clock_offset_ : ahead);
@@ -160,7 +161,7 @@ Do BoardTransaction::node(const std::string& problem, const std::string& missing
   if (joining_) {
     phase_ = Phase::Steady;
     joining_ = false;
-    return Do::Commit;  // the plant has it already; that others are missing now is no reason to stay behind
+    return Do::Commit;  // the plant has committed; that others are missing now is no reason not to
   }
   if (missing.empty()) {
     phase_ = Phase::Healthy;

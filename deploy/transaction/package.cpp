@@ -40,7 +40,7 @@ bool is_safe_path(const std::string& text) {
 
 enum class Use { Program, Data };  // a module or a library of types; anything else
 
-// The longest folder all files lie below.
+// Returns the deepest folder that contains all files.
 std::filesystem::path common_folder(const std::map<std::filesystem::path, Use>& files) {
   std::filesystem::path common = files.begin()->first.parent_path();
   for (const auto& [file, use] : files) {
@@ -54,7 +54,8 @@ std::filesystem::path common_folder(const std::map<std::filesystem::path, Use>& 
   return common;
 }
 
-// A module looks beside the manifest for the files its properties name, one or several in a value: pick.job place.job
+// A module searches the manifest's folder for the files named in its properties, one or several in a value: pick.job
+// place.job
 std::vector<std::filesystem::path> files_named_by_properties(const config::Module& module,
                                                              const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
@@ -71,7 +72,7 @@ std::vector<std::filesystem::path> files_named_by_properties(const config::Modul
   return files;
 }
 
-// What travels, and what it is named as.
+// Returns the files to send, and what each is used as.
 std::map<std::filesystem::path, Use> files_of(const config::Plant& plant, const std::filesystem::path& manifest) {
   const std::filesystem::path folder = manifest.parent_path();
   std::map<std::filesystem::path, Use> files;
@@ -80,7 +81,7 @@ std::map<std::filesystem::path, Use> files_of(const config::Plant& plant, const 
       files.emplace((folder / as_written).lexically_normal(), Use::Program);
     }
   };
-  // A bare name may mean a file with another one: beside the manifest, or a module of each board's own installation.
+  // A bare name may resolve to another path: next to the manifest, or a module of each board's own installation.
   const auto add_module = [&](const config::Module& module) {
     if (module.file_as_written.find('/') != std::string::npos || module.file.empty()) {
       add_program(module.file_as_written);
@@ -123,7 +124,7 @@ bool lies_in(const std::filesystem::path& file, const std::filesystem::path& fol
   return !error && !inside.empty() && *inside.begin() != "..";
 }
 
-// Why some of the files must not travel; empty: all may. What links and ".." lead to counts.
+// Returns why some of the files must not be sent; empty: all may. Links and ".." are resolved.
 std::string refusal_of(const std::map<std::filesystem::path, Use>& files,
                        const std::vector<std::filesystem::path>& allowed) {
   std::vector<std::string> refused;

@@ -114,7 +114,7 @@ bool PlantTransaction::wound_up() {
   for (const std::string& board : order_.boards) {
     const auto found = reports_.find(board);
     if (found == reports_.end() || lost_.contains(board)) {
-      // Nobody waits for it to go back: it does so by itself. A commit may still reach it.
+      // This board is not waited for: it rolls back on its own. A commit may still reach it.
       if (order_.step == Step::Commit) {
         unconfirmed_.push_back(board);
       }

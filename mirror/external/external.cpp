@@ -24,15 +24,15 @@ namespace {
 
 constexpr std::int64_t kLookNs = 10'000'000;  // for new readers
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
-constexpr std::int64_t kLaterNs = 500'000'000;  // everything that is not silent is due by then
-constexpr std::size_t kEagerTopics = 500;       // more are announced when somebody asks: discovery has its price
+constexpr std::int64_t kLaterNs = 500'000'000;  // by then everything that is not silent is due
+constexpr std::size_t kEagerTopics = 500;       // beyond this, topics are announced on request: discovery has its cost
 
 dds::NetworkSettings network_of(const ExternalSettings& external) {
   dds::NetworkSettings settings = external.network;
   settings.peers.emplace_back("127.0.0.1");  // tools on this board
   settings.known_ports = true;
   if (external.network.one_host) {
-    // Not as among boards: tools of others look for us by multicast.
+    // Not as between boards: third-party tools find us by multicast.
     settings.interface_name = "lo";
     settings.multicast = true;
     settings.one_host = false;
@@ -117,7 +117,7 @@ External::Impl::Impl(const ExternalSettings& wanted, const std::string& node, va
   block.magic.store(kExternalMagic, std::memory_order_release);
 }
 
-// For the directory: what counts on this board.
+// The content of the directory: the variables for which this board's value counts.
 void External::Impl::describe() {
   schema::Schema types;
   shown.writable.clear();
@@ -175,7 +175,7 @@ void External::Impl::close() noexcept {
   wanted_topics.close();
 }
 
-// Opens the topics that somebody in the network wants to read.
+// Opens the topics that a participant in the network requests to read.
 void External::Impl::look_for_readers() noexcept {
   if (unopened.empty()) {
     return;
@@ -210,7 +210,7 @@ void External::Impl::look_who_leads(std::int64_t now_ns) {
   }
 }
 
-// One look at everything; when the next one is due.
+// Checks everything once; returns when the next check is due.
 std::int64_t External::Impl::serve(std::int64_t now_ns) {
   look_who_leads(now_ns);
   look_for_readers();
@@ -235,7 +235,7 @@ std::int64_t External::Impl::serve(std::int64_t now_ns) {
 }
 
 void External::Impl::work() {
-  // DDS's own threads inherit where they may run from the one that creates the participant.
+  // DDS threads inherit their cores from the thread that creates the participant.
   if (!settings.cores.empty()) {
     (void)rt::pin_to_cores(settings.cores);
   }
@@ -249,7 +249,7 @@ void External::Impl::work() {
     while (wake.try_wait()) {
     }
   }
-  (void)serve(rt::now_ns() + kLaterNs);  // what was written last, whenever it were due
+  (void)serve(rt::now_ns() + kLaterNs);  // publishes the last values, whenever they would be due
 }
 
 void External::Impl::end() noexcept {

@@ -10,7 +10,7 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int32_t kWishes = 64;  // tools that ask at the same time
+constexpr std::int32_t kWishes = 64;  // number of tools that may ask at the same time
 
 std::vector<char*> pointers_to(const std::vector<std::string>& names) {
   std::vector<char*> pointers;

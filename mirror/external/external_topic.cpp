@@ -18,8 +18,8 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kUnreadNs = 100'000'000;    // how fresh the last value is kept that a late joiner gets first
-constexpr std::int64_t kRepeatNs = 1'000'000'000;  // for readers that missed the first one while they were matched
+constexpr std::int64_t kUnreadNs = 100'000'000;    // maximum age of the value that a late joiner gets first
+constexpr std::int64_t kRepeatNs = 1'000'000'000;  // for readers that missed the first value during matching
 constexpr auto kRelaxed = std::memory_order_relaxed;
 
 }  // namespace
@@ -65,7 +65,7 @@ Result<void, base::Problem> ExternalTopic::open_reader(dds::Handle participant) 
   if (!writable_ || reader_.ok()) {
     return {};
   }
-  // Whoever only sends what is new matches too; and what was set before this node ran does not count.
+  // Writers that send only new values match too; values that were set before this node ran do not count.
   reader_ = dds::make_reader(participant, type_, topic_name_, dds::make_qos({.for_late_ones = false}), listener());
   if (!reader_.ok()) {
     return base::Problem{fmt::format("cannot receive {}: {}", topic_name_, reader_.why())};
@@ -87,12 +87,12 @@ Result<void, base::Problem> ExternalTopic::open(dds::Handle participant) {
 }
 
 void ExternalTopic::close() noexcept {
-  // Each waits for a listener that is running.
+  // Each reset waits for a listener that is running.
   reader_.reset();
   writer_.reset();
 }
 
-// True if the variable is not what was published last.
+// Returns true if the variable differs from what was published last.
 bool ExternalTopic::refresh() noexcept {
   const std::uint64_t version = ring_ == nullptr ? 0 : ring_->seq.load(std::memory_order_acquire);
   if (ring_ != nullptr && version == seen_) {
@@ -113,7 +113,7 @@ bool ExternalTopic::refresh() noexcept {
 }
 
 bool ExternalTopic::write(std::int64_t now_ns) noexcept {
-  // DDS looks at some types only; readers would drop the sample without a word.
+  // DDS checks some types only; readers would discard the sample silently.
   const std::string strange = strange_value(variable().type, sent_);
   std::optional<dds::Written> written;
   if (strange.empty()) {
@@ -123,7 +123,7 @@ bool ExternalTopic::write(std::int64_t now_ns) noexcept {
     block_.refused_by_dds.fetch_add(1, kRelaxed);
     refusal_ = fmt::format("{} is not published: an enum or bool in it has a value its type does not know ({})",
                            variable().name, strange);
-    return true;  // the same value would be refused again
+    return true;  // the same value would be rejected again
   }
   if (!written->ok()) {
     refusal_ = fmt::format("cannot publish {}: {}", variable().name, written->why());
@@ -164,7 +164,7 @@ std::int64_t ExternalTopic::publish(std::int64_t now_ns) noexcept {
     again_ = !write(now_ns);
   }
   const std::int64_t pause = readers > 0 ? every_ns_ : std::max(every_ns_, kUnreadNs);
-  // On its grid, unless that was missed.
+  // Keeps its time grid, unless that was missed.
   due_ns_ = due_ns_ + pause > now_ns ? due_ns_ + pause : now_ns + pause;
   return due_ns_;
 }
@@ -180,7 +180,7 @@ void ExternalTopic::receive() noexcept {
   });
 }
 
-// Why the write lock forbids tools to set it; empty if it does not.
+// Returns why the write lock forbids tools to set the variable; empty if it does not.
 std::string ExternalTopic::locked() const {
   const auto act = variable().given ? vars::Act::SetParameter : vars::Act::Set;
   return custody_ == nullptr ? std::string() : vars::refusal(custody_->lock(), act).value_or("");
@@ -203,7 +203,7 @@ void ExternalTopic::take_over(const std::uint8_t* sample, bool by_tool) noexcept
   if (!taken) {
     refusal_ = fmt::format("a value for {} from outside is refused: {}", known.name, message);
   }
-  // Who reads the topic has seen what was asked for; now what holds.
+  // Readers of the topic have seen the requested value; now the valid one is published.
   again_ = true;
   seen_ = ~std::uint64_t{0};
   due_ns_ = 0;

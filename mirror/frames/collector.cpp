@@ -47,7 +47,7 @@ void Collector::copy_differing(Group& group) const noexcept {
   }
 }
 
-// False: they are in a run.
+// Returns false if the writers are in a run.
 bool Collector::collect_group(Group& group, std::int64_t now_ns) const noexcept {
   const std::uint64_t before = group.writers == nullptr ? 0 : group.writers->runs();
   const bool patient = group.writers == nullptr || group.waiting_since_ns == 0 ||
@@ -58,7 +58,7 @@ bool Collector::collect_group(Group& group, std::int64_t now_ns) const noexcept 
   copy_differing(group);
   std::atomic_thread_fence(std::memory_order_acquire);
   if (patient && group.writers != nullptr && group.writers->runs() != before) {
-    return false;  // a run has begun meanwhile: this may be half of what it writes
+    return false;  // a run has begun meanwhile: this may be half of its output
   }
   for (const std::uint32_t i : group.differing) {
     Item& item = group.items[i];

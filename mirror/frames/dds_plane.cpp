@@ -25,7 +25,7 @@ class Reader final : public Subscription {
  private:
   static void on_data(dds::Handle reader, void* self) {
     auto& into = *static_cast<Reader*>(self);
-    rt::let_lost_pages_in();  // a thread of DDS, which writes into shared memory here
+    rt::let_lost_pages_in();  // a DDS thread that writes into shared memory
     dds::take_all<indurop_wire_Frame>(reader, [&into](const indurop_wire_Frame& frame, const dds::SampleInfo& info) {
       if (info.valid) {
         into.listener_.frame_came(frame, into.stream_);
@@ -64,7 +64,7 @@ Plane::Opened DdsPlane::offer_catalogue() {
 }
 
 Plane::Opened DdsPlane::exchange_beacons(BeaconListener& listener) {
-  // A beacon that is repeated late would only tell a wrong time.
+  // A beacon that is repeated late would only report a wrong time.
   const dds::Qos qos = plane_qos(settings_, Stream::BestEffort);
   const std::string topic = beacon_topic(settings_.plant);
   beacons_ = dds::make_writer(participant_, indurop_wire_Beacon_desc, topic, qos);

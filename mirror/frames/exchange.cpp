@@ -10,9 +10,9 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kLookNs = 10'000'000;  // without a notification: somebody else may have written
+constexpr std::int64_t kLookNs = 10'000'000;  // without a notification: another process may have written
 constexpr std::int64_t kBulkLookNs = 20'000'000;
-constexpr std::int64_t kLookAgainNs = 100'000;  // for the end of a run that nobody tells
+constexpr std::int64_t kLookAgainNs = 100'000;  // for the end of a run that is not notified
 
 void copy_name(char (&to)[kBoardName], const std::string& from) noexcept {
   const std::size_t length = std::min(from.size(), sizeof to - 1);
@@ -62,7 +62,7 @@ void Exchange::fill_block() {
   }
 }
 
-// Null if the store does not hold it.
+// Returns null if the store does not hold the variable.
 Landing* Exchange::landing_of(const std::string& variable) {
   const auto* entry = store_.find(abi::fnv1a64(variable.data(), variable.size()));
   if (entry == nullptr) {
@@ -77,7 +77,7 @@ Landing* Exchange::landing_of(const std::string& variable) {
   return landings_.back().get();
 }
 
-// One per board, with what is read from it.
+// Creates one receiver per board, with the variables read from it.
 void Exchange::make_receivers() {
   for (std::size_t i = 0; i < settings_.boards.size(); ++i) {
     std::vector<Landing*> from_it;

@@ -64,7 +64,7 @@ void Landing::deliver(const Arrival& arrival, std::span<const std::uint8_t> valu
     return;
   }
   put(value, record);
-  follow(arrival.word);  // after the value: whoever reads it with the new word sees the new value
+  follow(arrival.word);  // after the value: a reader that sees the new word also sees the new value
   fallen_back_ = false;
   confirmed_.store(arrival.now_ns, std::memory_order_release);
 }
@@ -101,7 +101,7 @@ std::int64_t Landing::expire(std::int64_t now_ns) noexcept {
   }
   const std::int64_t maxage = variable_->maxage_ns;
   const std::int64_t last = confirmed_.load(std::memory_order_relaxed);
-  std::int64_t ends = kNever;  // without a maxage a value is good for as long as its board lives
+  std::int64_t ends = kNever;  // without a maxage a value is valid as long as its board lives
   if (last == abi::kNeverConfirmed) {
     ends = patient_until_ns_;
   } else if (last < 0) {

@@ -21,10 +21,10 @@ namespace indurop::mirror {
 namespace {
 
 constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
-constexpr std::int64_t kUntilUpNs = 10'000'000;  // between two looks whether the network is there
+constexpr std::int64_t kUntilUpNs = 10'000'000;  // between two checks whether the network is available
 constexpr std::int64_t kOthersNs = 500'000'000;
 
-// Until `wake`, awake in the window. False if the time passed without.
+// Waits for `wake`, spinning in the window. Returns false if the time passed without it.
 bool wait(rt::SignalWord& wake, std::int64_t deadline_ns, const Anticipation::Window& window) noexcept {
   if (!window.empty()) {
     if (wake.wait_until(rt::mono_time(window.begin))) {
@@ -65,7 +65,7 @@ struct Mirror::Impl {
   const Settings& settings;
   MirrorBlock& block;
   DdsPlane plane;
-  std::string refused;  // what was said last about keys
+  std::string refused;  // last reported key problem
   std::mutex schedule_mutex;
   Schedule schedule;
   dds::Endpoint catalogues;
@@ -91,7 +91,7 @@ Status Mirror::Impl::run() {
   const auto launch = [&](const char* name, rt::Thread& into, auto body) -> Status {
     thread.name = name;
     auto started = rt::Thread::start(thread, [this, body] {
-      // The threads of DDS inherit where they may run from the manager.
+      // DDS threads inherit their cores from the manager.
       if (!settings.cores.empty()) {
         (void)rt::pin_to_cores(settings.cores);
       }
@@ -160,7 +160,7 @@ void Mirror::Impl::manage() {
     }
     const std::int64_t next = exchange->look(now, current);
     block.dds_messages.store(dds::dds_message_count(), std::memory_order_relaxed);
-    // Why boards do not come that are expected, or who knocks.
+    // Reports why expected boards do not come, or which participants were rejected.
     if (const std::string now_refused = dds::last_refusal(); now_refused != refused) {
       refused = now_refused;
       block.problem.set("keys of somebody in the network do not match: " + refused);
@@ -177,7 +177,7 @@ void Mirror::Impl::take_catalogues() noexcept {
       } else if (info.valid) {
         exchange->announced(catalogue);
       }
-    } else if (settings.network.board == catalogue.board) {  // and not from here: own samples are left out
+    } else if (settings.network.board == catalogue.board) {  // not a sample of this board: own samples are left out
       block.problem.set(!info.alive ? ""
                                     : fmt::format("another node in the network calls itself board {} of plant {}",
                                                   settings.network.board, settings.plant));
@@ -202,7 +202,7 @@ void Mirror::Impl::look_for_other_releases() {
   });
 }
 
-// Returns when to look again.
+// Returns when to call again.
 std::int64_t Mirror::Impl::send(bool of_bulk) noexcept {
   const std::int64_t now = rt::now_ns();
   if (!up.load(std::memory_order_acquire)) {
@@ -233,7 +233,7 @@ void Mirror::Impl::send_loop(bool of_bulk) noexcept {
     }
   }
   if (up.load(std::memory_order_acquire)) {
-    exchange->send_last(of_bulk);  // what was written last
+    exchange->send_last(of_bulk);  // sends the last values
   }
 }
 

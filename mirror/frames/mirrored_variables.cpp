@@ -12,7 +12,7 @@ namespace indurop::mirror {
 
 namespace {
 
-// Whether no other board that is alive and sends the variable has served longer (landing.h decides so, too).
+// Returns whether no other board that is alive and sends the variable has served longer (same rule as in landing.h).
 bool leads(const MirrorBlock& block, const IncomingRecord& record) {
   const auto session = [&block](const IncomingRecord& of) {
     const PeerRecord& peer = block.peers()[of.peer];

@@ -12,9 +12,9 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::size_t kMostParts = 100'000;  // of a sane catalogue
+constexpr std::size_t kMostParts = 100'000;  // maximum of a valid catalogue
 
-// Only now is the schema read: that takes longer than all the rest of a catalogue.
+// The schema is read only now: that takes longer than the rest of a catalogue.
 std::string difference(const schema::Variable& mine, const char* their_schema) {
   const auto theirs = schema::from_json(their_schema);
   const auto* other = theirs ? schema::find_variable(theirs.value(), mine.name) : nullptr;
@@ -150,7 +150,7 @@ void Receiver::accept(const indurop_wire_Frame& frame, Port& port) noexcept {
     apply_alone(frame, now);
   }
   if (inboxes_[frame.part].content.empty()) {
-    return;  // holds nothing this board reads
+    return;  // has nothing that this board reads
   }
   record_.heard_ns.store(now, kRelaxed);
   record_.delay_ns.store(board_wall_ns(store_) - frame.source_time_ns, kRelaxed);
@@ -160,7 +160,7 @@ void Receiver::accept(const indurop_wire_Frame& frame, Port& port) noexcept {
 
 void Receiver::apply_alone(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept {
   Inbox& inbox = inboxes_[frame.part];
-  if (frame.update >= inbox.update) {  // else older than what is here
+  if (frame.update >= inbox.update) {  // else older than the present value
     inbox.update = frame.update;
     deliver(inbox, {frame.data._buffer, frame.data._length}, nullptr, now_ns);
   }
@@ -194,7 +194,7 @@ void Receiver::silent() noexcept {
   }
   record_.losses.fetch_add(1, std::memory_order_relaxed);
   const std::int64_t now = board_ns(store_);
-  // What a standby takes over must not be read together with what is still this board's.
+  // Values that a standby takes over must not be read together with values that are still this board's.
   word_.begin();
   for (const Item& item : items_) {
     item.landing->silent(item.source, now, record_);

@@ -39,7 +39,7 @@ Sender::Sender(vars::Store& store, const Settings& settings, std::uint64_t sessi
   schema_text_ = schema::to_json(types);
   std::string layout_text = schema_text_;
   std::vector<Part> parts = pack(parcels);
-  parts_.reserve(parts.size());  // the collectors know where each is
+  parts_.reserve(parts.size());  // the collectors hold pointers to them
   for (Part& part : parts) {
     Outbox& out = parts_.emplace_back();
     out.image.resize(part.size);
@@ -105,7 +105,7 @@ void Sender::publish_catalogue() noexcept {
   }
 }
 
-// What is part of the next update. False: nothing.
+// Chooses what is part of the next update. Returns false if there is nothing.
 bool Sender::choose(std::int64_t now_ns, bool bulk) noexcept {
   const std::uint64_t update = updates_[bulk ? 1 : 0] + 1;
   bool any = false;
@@ -155,7 +155,7 @@ void Sender::send(std::uint32_t number, std::uint64_t tick, std::int64_t now_ns)
   frame.data._buffer = out.image.data();
   if (!plane_->send(frame, out.part.stream)) {
     block_.send_errors.fetch_add(1, std::memory_order_relaxed);
-    return;  // stays dirty; who waits for it gets it with the next update
+    return;  // stays dirty; readers get it with the next update
   }
   out.dirty = false;
   out.sent_ns = now_ns;

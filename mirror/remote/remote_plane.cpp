@@ -23,8 +23,8 @@ namespace indurop::mirror {
 namespace {
 
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
-constexpr std::int64_t kPresentNs = 300'000'000;  // by then a board has told what it shows
-constexpr std::int64_t kTypeNs = 500'000'000;     // for the answer to a question about a type
+constexpr std::int64_t kPresentNs = 300'000'000;  // by then a board has announced its variables
+constexpr std::int64_t kTypeNs = 500'000'000;     // for the answer to a request for a type
 
 std::string name_of_topic(const std::string& topic) {
   std::string name;
@@ -41,13 +41,13 @@ bool is_own_topic(std::string_view topic) {
 }  // namespace
 
 struct RemotePlane::Impl {
-  // A topic of somebody who is no board.
+  // A topic of a program that is no board.
   struct Strange {
     schema::Variable declared;
     std::string problem;
   };
 
-  // What the user should know.
+  // Returns a note for the user.
   Result<std::string, base::Problem> open(const dds::NetworkSettings& settings);
   void take_publications();
   void look_at_strangers(std::int64_t now_ns);
@@ -64,7 +64,7 @@ struct RemotePlane::Impl {
   dds::Endpoint wishes;
   RemoteSources sources;
   std::map<dds::Guid, dds::Publication> published;                    // by endpoint
-  std::map<dds::Guid, std::int64_t> seen_ns;                          // participants, since when
+  std::map<dds::Guid, std::int64_t> seen_ns;                          // participants, since when they are seen
   std::map<std::string, Strange> strangers;                           // by topic
   std::map<std::string, std::unique_ptr<dds::RemoteTopic>> followed;  // by variable
   std::vector<std::string> wished;
@@ -75,7 +75,7 @@ struct RemotePlane::Impl {
 Result<std::string, base::Problem> RemotePlane::Impl::open(const dds::NetworkSettings& settings) {
   dds::NetworkSettings network = settings;
   if (settings.one_host) {
-    network.interface_name = "lo";  // tools of others are found by multicast there too
+    network.interface_name = "lo";  // third-party tools are found by multicast on it too
     network.one_host = false;
   }
   network.peers.emplace_back("127.0.0.1");  // a node of this machine
@@ -137,7 +137,7 @@ void RemotePlane::Impl::look_at_strangers(std::int64_t now_ns) {
   }
 }
 
-// A reader as soon as somebody publishes it, under its own name or that of ROS 2.
+// Creates a reader as soon as a participant publishes the topic, under its own name or that of ROS 2.
 void RemotePlane::Impl::make_topic(const std::string& variable, dds::RemoteTopic& topic, const Topics& topics) {
   const auto [first, last] = topics.equal_range(external_topic(variable));
   for (auto there = first; there != last && !topic.is_open(); ++there) {
@@ -168,7 +168,7 @@ void RemotePlane::Impl::make_topics() {
   }
 }
 
-// Boards with many variables announce topics only to who asks for them.
+// Boards with many variables announce topics only to clients that request them.
 void RemotePlane::Impl::wish() {
   if (wishes_told == wished.size()) {
     return;

@@ -12,7 +12,7 @@ void RemoteSources::take(dds::Handle directories) {
     if (info.valid) {
       take_one(directories, told, info);
     }
-    // Nobody of this name is left; who is only killed is missed after the lease.
+    // No participant of this name is left; one that was killed is missed after the lease.
     if (!info.alive) {
       const std::string board = told.board;
       std::erase_if(sources_, [&](const auto& entry) { return entry.second.board == board; });
@@ -36,7 +36,7 @@ void RemoteSources::take_one(dds::Handle directories, const indurop_wire_Directo
   for (std::uint32_t i = 0; i < told.boards._length; ++i) {
     boards_[told.boards._buffer[i]] = source.plant;
   }
-  // An earlier run of the same board that ended without a word.
+  // An earlier run of the same board that ended without notice.
   std::erase_if(sources_, [&](const auto& entry) {
     return entry.first != *participant && entry.second.board == source.board && entry.second.plant == source.plant &&
            entry.second.session < source.session;

@@ -11,9 +11,9 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::uint32_t kMostItems = 1'000'000;  // of a sane list
+constexpr std::uint32_t kMostItems = 1'000'000;  // maximum of a valid list
 
-// The numbers of each, in the order in which they travel.
+// The numbers of a message, in the order in which they are sent.
 template <class OneMessage>
 auto numbers_of_message(OneMessage& message) {
   return std::tie(message.kind, message.board, message.part, message.time_ns);

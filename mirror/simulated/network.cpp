@@ -9,7 +9,7 @@ namespace {
 
 using Kind = Message::Kind;
 
-// The generator of Steele, Lea and Flood: every seed gives a long sequence, and neighbours differ at once.
+// The generator of Steele, Lea and Flood: every seed gives a long sequence, and adjacent seeds differ at once.
 std::uint64_t next_chance(std::uint64_t& state) noexcept {
   state += 0x9e3779b97f4a7c15ULL;
   std::uint64_t mixed = state;
@@ -18,7 +18,7 @@ std::uint64_t next_chance(std::uint64_t& state) noexcept {
   return mixed ^ (mixed >> 31U);
 }
 
-// Repeated until it arrives.
+// Returns whether messages of this kind are repeated until they arrive.
 bool is_reliable(Kind kind) noexcept {
   return kind == Kind::Prompt || kind == Kind::Bulk || kind == Kind::Catalogue;
 }
@@ -45,9 +45,9 @@ SimulatedNetwork::SimulatedNetwork(const NetworkModel& model, std::size_t boards
   }
 }
 
-// From 0 to less than 1.
+// Returns a random number from 0 to less than 1.
 double SimulatedNetwork::draw(Link& link) const noexcept {
-  constexpr unsigned kBits = 53;  // a double holds
+  constexpr unsigned kBits = 53;  // that fit into a double
   return std::ldexp(static_cast<double>(next_chance(link.chance) >> (64U - kBits)), -static_cast<int>(kBits));
 }
 
@@ -67,7 +67,8 @@ void SimulatedNetwork::put(std::size_t to, Pending pending) {
 
 void SimulatedNetwork::carry(const Message& message, std::size_t to, std::int64_t earliest_ns, bool may_be_lost) {
   Link& link = links_[message.board][to];
-  const double luck = draw(link);  // always both, so that a change of one figure does not change the other's chance
+  // Always both, so that changing one setting does not change the random numbers of the other.
+  const double luck = draw(link);
   const double late = draw(link);
   const bool reliable = is_reliable(message.kind);
   bool lost = may_be_lost && luck < model_.loss;
@@ -83,7 +84,8 @@ void SimulatedNetwork::carry(const Message& message, std::size_t to, std::int64_
   arrival = std::max(arrival, earliest_ns);
   std::vector<Pending>& inbox = boards_[to].inbox;
   if (reliable) {
-    // What is not there yet and is superseded is not repeated any more. Others hold up what follows them.
+    // A message that has not arrived and is superseded is no longer repeated. Other messages delay those that follow
+    // them.
     std::erase_if(inbox, [&](const Pending& other) {
       return other.repeated && other.message.board == message.board && other.message.kind == message.kind &&
              other.message.part == message.part && message.is_frame();
@@ -164,7 +166,7 @@ std::int64_t SimulatedNetwork::next_arrival(std::size_t board) const noexcept {
   return inbox.empty() ? INT64_MAX : inbox.front().message.time_ns;
 }
 
-// `board` is gone for all that heard it.
+// Reports to all boards that received `board` that it is gone.
 void SimulatedNetwork::tell_gone(std::size_t board, std::int64_t when_ns) {
   for (std::size_t to = 0; to < boards_.size(); ++to) {
     if (to != board && boards_[to].runs) {
@@ -181,7 +183,7 @@ void SimulatedNetwork::forget_gone(std::size_t board) {
   }
 }
 
-// What is on the way from and to this board is lost.
+// Messages under way from and to this board are lost.
 void SimulatedNetwork::drop_between(std::size_t board) {
   boards_[board].inbox.clear();
   for (Board& other : boards_) {
@@ -191,7 +193,7 @@ void SimulatedNetwork::drop_between(std::size_t board) {
   }
 }
 
-// `to` hears what it missed.
+// `to` receives what it missed.
 void SimulatedNetwork::introduce(std::size_t from, std::size_t to, std::int64_t now_ns) {
   if (!linked(from, to) || !boards_[from].catalogue) {
     return;
