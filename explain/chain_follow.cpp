@@ -99,7 +99,7 @@ class Travelled {
     }
     return true;
   }
-  // Where the search begins: at the run that was seen before, but not across missing runs.
+  // Returns where the search begins: at the run that was seen before, but not across missing runs.
   [[nodiscard]] std::ptrdiff_t oldest_of(std::ptrdiff_t newest) const {
     const std::ptrdiff_t least = std::max({known_, newest - kBack, std::ptrdiff_t{0}});
     std::ptrdiff_t oldest = newest;

@@ -49,7 +49,7 @@ struct ChainAges {
 // `stages` must not be empty.
 ChainAges follow_chain(std::span<const ChainStage> stages);
 
-// How well a board kept its schedule.
+// The record of a board's adherence to its schedule.
 struct Keeping {
   std::vector<std::int64_t> longest_ns;  // maximum processor time of one run, by module; without disturbed runs
   std::int64_t late_ns = 0;  // maximum time from a release to the begin of its first run; without disturbed runs

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which module had a core when, from begins and ends of runs. Of nested runs the innermost has the core. Pure.
+// The module that had a core at each time, from begins and ends of runs. Of nested runs the innermost has the core.
+// Pure.
 
 #pragma once
 

@@ -359,7 +359,7 @@ std::uint64_t last_trouble(const Facts& facts, const std::string& module) {
   std::sort(ran.begin(), ran.end());
   const Known ends(facts, index);
   // The tick that has just begun may be under way, and a run within its time limit may still come.
-  constexpr std::uint64_t kMostTicks = 10'000'000;  // behind that nothing is known, or the number is damaged
+  constexpr std::uint64_t kMostTicks = 10'000'000;  // beyond this nothing is known, or the number is damaged
   const std::uint64_t oldest = std::max(facts.first_tick, facts.tick - std::min(facts.tick, kMostTicks));
   for (std::uint64_t tick = facts.tick - 1; known->operation == "periodic" && tick-- > oldest;) {
     const bool over = facts.release_of(tick) + limit <= facts.now_ns;

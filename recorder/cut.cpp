@@ -105,7 +105,7 @@ class Cutter {
     return {};
   }
 
-  // In a third-party file each message stands on its own.
+  // In a third-party file each message is independent.
   Result<void, Problem> take_of_nobody(const recording::McapMessage& message) {
     if (message.log_time_ns < from_) {
       firsts_.insert_or_assign(message.channel, keep(message));

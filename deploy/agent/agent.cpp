@@ -158,7 +158,7 @@ class Agent {
     }
   }
 
-  // Orders addressed to this board are accepted from deployers with permission; others are told why not.
+  // Orders addressed to this board are accepted from deployers with permission; others get the reason.
   bool may_order(const Order& order) {
     if (!deployment_.belongs(order.boards)) {
       return false;

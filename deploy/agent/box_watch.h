@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Detects failures of other boards of the plant by their reports, so that this board's black box is kept too: it has
-// this board's data of that time. No files here.
+// this board's data of that time. No file access.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands to single boards and their answers (deploy/words/command_words.h) as DDS topics, in addition to those of
-// deployments. No DDS here. Used by the thread that uses the DeployLink, which outlives it and signals when something
+// deployments. Without DDS. Used by the thread that uses the DeployLink, which outlives it and signals when something
 // has arrived.
 
 #pragma once

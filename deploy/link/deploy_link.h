@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The messages between agents of boards and deployers (deploy/words/deployment_words.h) as DDS topics. No DDS here. One
+// The messages between agents of boards and deployers (deploy/words/deployment_words.h) as DDS topics. Without DDS. One
 // thread uses a link.
 
 #pragma once
@@ -67,7 +67,7 @@ class DeployLink {
   Sent send(std::uint64_t requester, const BlobChunk& chunk);
   void forget(std::uint64_t requester);  // the requester needs no more for now
 
-  // What has arrived since the last call. `gone`: the board or deployer has left, or has timed out; only its name and
+  // News since the last call. `gone`: the board or deployer has left, or has timed out; only its name and
   // number are set.
   struct BoardNews {
     BoardReport report;
@@ -90,7 +90,7 @@ class DeployLink {
   // Returns the agents in the network with another protocol, as far as they are known by now.
   std::vector<deploy::OtherAgent> other_agents();
 
-  // In a plant with keys: participants that report in the name of others, as far as they were received.
+  // In a plant with keys: participants that report under another name, as far as they were received.
   [[nodiscard]] std::vector<deploy::Impostor> impostors() const;
 
   // For other topics on this link (deploy/link/command_link.h): the participant in which they are created, and the word

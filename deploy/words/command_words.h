@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands to one board outside of deployments: stop, start or restart its node or one of its modules, force values of
 // its variables, keep its black box or record its runs. The agent answers the first request with a number that is valid
-// once, so that a captured command cannot be replayed. No network here.
+// once, so that a captured command cannot be replayed. No network.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages between boards and deployers, as plain data: boards report their state, a deployer sends its order. Both are
-// repeated, so nothing depends on a single message. No network and no files here.
+// repeated, so nothing depends on a single message. No network, no files.
 
 #pragma once
 
@@ -66,7 +66,8 @@ struct NodeFigures {
   std::uint64_t faults = 0;
 };
 
-// A new field is added here, in the IDL and in the list in deploy/link/wire_words.h; the compiler compares them.
+// A new field is added to this struct, to the IDL and to the list in deploy/link/wire_words.h; the compiler compares
+// them.
 struct BoardReport : CommittedDeployment, FetchProgress, NodeFigures {
   std::string board;
   std::uint64_t agent = 0;  // this run of the agent

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The status of a board's external plane for tools: a shared-memory file like that of the mirror. No DDS here.
+// The status of a board's external plane for tools: a shared-memory file like that of the mirror. Without DDS.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The variables that a board publishes to third-party tools and accepts from them, as configured by the node. No DDS
-// here.
+// The variables that a board publishes to third-party tools and accepts from them, as configured by the node. Without
+// DDS.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names of variables and their IDL types as glb2idl and idlc generate them. No DDS here; descriptors are opaque.
+// The names of variables and their IDL types as glb2idl and idlc generate them. Without DDS; descriptors are opaque.
 
 #pragma once
 

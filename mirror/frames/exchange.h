@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board's exchange with the other boards of its plant, independent of the transport: no threads and no network here.
+// A board's exchange with the other boards of its plant, independent of the transport: no threads, no network.
 // Mirror drives it in real time, a simulation in virtual time.
 
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The status of a board's mirror for tools: a shared-memory file like the run block. The mirror's threads write it
-// without waiting, any process may read it. No DDS here.
+// without waiting, any process may read it. Without DDS.
 
 #pragma once
 

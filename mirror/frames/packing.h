@@ -10,7 +10,7 @@
 
 namespace indurop::mirror {
 
-// How parts are sent: each kind has its own topic and its own writer.
+// The way parts are sent: each kind has its own topic and its own writer.
 enum class Stream : std::uint32_t {
   Prompt,      // repeated until it has arrived or is superseded
   BestEffort,  // not repeated

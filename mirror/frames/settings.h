@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The task of one board's mirror, as configured by the node. No DDS here.
+// The task of one board's mirror, as configured by the node. Without DDS.
 
 #pragma once
 
