@@ -10,7 +10,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr int kPlaces = 24;  // that are looked at
+constexpr int kPlaces = 24;  // number of positions that are checked
 
 template <class Matrix>
 int rank_of(const Matrix& m) {
@@ -19,10 +19,10 @@ int rank_of(const Matrix& m) {
   return static_cast<int>(parts.rank());
 }
 
-// What poses of arms with fewer than six axes are made of.
+// The poses that an arm with fewer than six axes can reach.
 struct Freedom {
-  int moves = 0;                    // ways to move the tool
-  int turns = 0;                    // ways to turn it where it is
+  int moves = 0;                    // number of directions in which the tool can move
+  int turns = 0;                    // number of axes about which it can turn in place
   Eigen::MatrixXd moving, turning;  // all directions that occur, in the base's frame
 };
 
@@ -43,7 +43,7 @@ Freedom freedom_of(const Arm& arm) {
   return all;
 }
 
-// "(0 0 1)", of either sense.
+// Returns a text such as "(0 0 1)", irrespective of the sign of the direction.
 std::string shown(Vec3 v) {
   Eigen::Index longest = 0;
   v.cwiseAbs().maxCoeff(&longest);

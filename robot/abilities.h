@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an arm can be asked for, in words. Not real-time safe.
+// Describes in words which requests an arm can fulfil. Not real-time safe.
 
 #pragma once
 
@@ -9,7 +9,8 @@
 
 namespace indurop::robot {
 
-// "4 axes; poses: x y z and turns about the base's (0 0 1); inverse kinematics step by step; no postures"
+// Returns a text such as "4 axes; poses: x y z and turns about the base's (0 0 1); inverse kinematics step by step; no
+// postures".
 std::string abilities(const Arm& arm, const Inverse& inverse);
 
 }  // namespace indurop::robot

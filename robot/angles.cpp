@@ -16,7 +16,8 @@ Eigen::Vector2d turned2(const Eigen::Vector2d& v, double angle) noexcept {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
-// By what is perpendicular to the axis alone: of what nearly lies on it, differences of products would leave nothing.
+// Uses only the components perpendicular to the axis: for vectors nearly along it, differences of products would lose
+// all precision.
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) noexcept {
   const Vec3 f = from - axis * axis.dot(from);
   const Vec3 t = to - axis * axis.dot(to);
@@ -24,7 +25,7 @@ double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) noexcept 
 }
 
 std::optional<double> angle_with_cosine(double cosine) noexcept {
-  constexpr double kStretch = 1e-9;  // a target just out of reach by rounding is at the reach
+  constexpr double kStretch = 1e-9;  // a target just out of reach by rounding counts as at the limit of reach
   if (!(std::abs(cosine) <= 1 + kStretch)) {
     return std::nullopt;
   }

@@ -6,7 +6,7 @@
 
 namespace indurop::robot {
 
-// Three powers are free, and three things are asked of its end: place, slope and no bend.
+// Three powers are free, and its end sets three conditions: position, slope and zero curvature.
 Approach::Approach(double from, double to, double start, double end, double slope) noexcept
     : known_(true), from_(from), length_(to - from), start_(start) {
   const double way = end - start;
@@ -27,7 +27,7 @@ std::pair<double, double> Approach::extent() const noexcept {
       both = {std::min(both.first, curve(where)), std::max(both.second, curve(where))};
     }
   };
-  // Where its slope is 0, but for the beginning: 3 third + 4 fourth x + 5 fifth x^2 = 0.
+  // Places with slope 0, apart from the beginning: 3 third + 4 fourth x + 5 fifth x^2 = 0.
   const double a = 5 * fifth_;
   const double b = 2 * fourth_;
   const double c = 3 * third_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a follower at rest comes into gear at a given place of its master: until `from` it stands, at `to` it has place
-// and speed of the gear, and between them it goes where the master goes, on a curve without jumps of speed and
+// How a follower at rest engages its gear at a given position of its master: until `from` it rests, at `to` it has the
+// position and speed of the gear, and in between it moves with the master on a curve without jumps of speed and
 // acceleration.
 
 #pragma once
@@ -12,15 +12,15 @@ namespace indurop::robot {
 class Approach {
  public:
   Approach() = default;
-  // Places of the master are `from` and `to`, which differ; of the follower `start` and `end`. `slope`: what the
-  // follower moves for each unit of its master from there on. Real-time safe, as all here.
+  // `from` and `to` are positions of the master and must differ; `start` and `end` are positions of the follower.
+  // `slope`: follower motion per unit of master motion from `to` on. All functions of this class are real-time safe.
   Approach(double from, double to, double start, double end, double slope) noexcept;
 
   [[nodiscard]] bool known() const noexcept { return known_; }
-  // The master has not come to the end of it.
+  // Returns true until the master has reached the end of the approach.
   [[nodiscard]] bool leads(double master) const noexcept { return known_ && part(master) < 1; }
   [[nodiscard]] double at(double master) const noexcept;
-  // The least and the greatest place of the follower on the way.
+  // Returns the smallest and the greatest position of the follower during the approach.
   [[nodiscard]] std::pair<double, double> extent() const noexcept;
 
  private:

@@ -31,7 +31,7 @@ Arm::Arm(Axes axes, const Pose& home, int count, const Link* links, std::size_t 
   std::copy_n(links, link_count_, links_.begin());
 }
 
-// The tool looks down.
+// The tool points down.
 Arm::Arm(Axes axes, const Delta& delta, int count) noexcept
     : axes_(std::move(axes)), home_{delta.position(Vec3::Zero()), Quat(0, 1, 0, 0)}, count_(count), delta_(delta) {}
 
@@ -94,7 +94,7 @@ Jacobian Arm::jacobian(const Joints& q, Pose& tool) const noexcept {
     Jacobian j = Jacobian::Zero();
     j.topLeftCorner<3, 3>() = delta_->moving(q.head<3>());
     if (count_ > 3) {
-      const Vec3 down(0, 0, -1);  // what the tool turns about
+      const Vec3 down(0, 0, -1);  // axis about which the tool turns
       j.block<3, 1>(0, 3) = down.cross(tool.position - delta_->position(q.head<3>()));
       j.block<3, 1>(3, 3) = down;
     }
@@ -167,14 +167,14 @@ int Arm::beyond_limits(const Joints& q, double slack) const noexcept {
 
 // Additive recurrence.
 Joints Arm::spread(int number) const noexcept {
-  // What is behind the point of the roots of primes: no two of them, nor sums, come round together.
+  // Fractional parts of square roots of primes: no two of them, nor their sums, have a common period.
   constexpr double kStride[] = {0.4142135623730951, 0.7320508075688772, 0.2360679774997898, 0.6457513110645907,
                                 0.3166247903553998, 0.6055512754639891, 0.1231056256176606, 0.3588989435406740};
   Joints q = Joints::Zero();
   for (int i = 0; i < count_; ++i) {
     const Axis& a = axis(i);
     const double part = std::fmod(0.5 + number * kStride[i], 1.0);
-    // A turn is enough.
+    // One turn is enough.
     const double lower = a.slides() ? a.lower : a.endless ? -kPi : std::max(a.lower, std::min(-kPi, a.upper - 2 * kPi));
     const double upper = a.slides() ? a.upper : a.endless ? kPi : std::min(a.upper, lower + 2 * kPi);
     q[i] = lower + part * (upper - lower);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How axes accelerate by torques of drives and pushes: the inertia matrix column by column, solved for the
-// acceleration.
+// Acceleration of axes by torques of drives and by pushes: the inertia matrix is computed column by column and solved
+// for the acceleration.
 #include <indurop/robot/arm_physics.h>
 
 #include <Eigen/Cholesky>
@@ -48,7 +48,7 @@ class Physics final : public ArmPhysics {
   }
 
  private:
-  // The torques of one axis' acceleration alone are that column of the inertia matrix.
+  // The torques for a unit acceleration of one axis alone are its column of the inertia matrix.
   [[nodiscard]] Joints acceleration(const Joints& q, const Joints& velocity, const Joints& torque) const noexcept {
     using Matrix = Eigen::Matrix<double, kAxes, kAxes>;
     Matrix inertia = Matrix::Identity();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motions of single axes by a table of times: what has to be so before they begin, and how they end.
+// Motions of single axes by a time table: conditions for their start, and how they end.
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ bool AxisControl::is_profile(AxisService service) noexcept {
          service == AxisService::AccelerationProfile;
 }
 
-// From what the axis does now.
+// Reads a table that begins at the present state of the axis.
 ErrorCode AxisControl::read_table(const Command& command, TimeProfile& table) const noexcept {
   const auto number = static_cast<std::size_t>(command.job) - 1;
   if (number >= kProfiles || command.number == 0 || (*row_.profiles)[number].command != command.number) {
@@ -61,7 +61,7 @@ ErrorCode AxisControl::read_table(const Command& command, TimeProfile& table) co
   return table.set((*row_.profiles)[number], of, scale, now);
 }
 
-// All of its way is looked at before anything moves.
+// Checks the whole path before anything moves.
 ErrorCode AxisControl::check_profile(const Command& command) const noexcept {
   constexpr double kRounding = 1e-6;
   TimeProfile table;
@@ -95,13 +95,13 @@ ErrorCode AxisControl::check_profile(const Command& command) const noexcept {
 
 void AxisControl::begin_profile(const Command& command) noexcept {
   TimeProfile table;
-  static_cast<void>(read_table(command, table));  // which has been looked at before
+  static_cast<void>(read_table(command, table));  // checked before
   const bool to_rest = service_of(command) == AxisService::PositionProfile;
   motion_.move_along(table, {own_.velocity, own_.acceleration, own_.jerk}, to_rest);
   state_ = to_rest ? AxisState::DiscreteMotion : AxisState::ContinuousMotion;
 }
 
-// A table is locked to time: an override, and a hold, end it.
+// A table is locked to time: an override or a hold ends it.
 void AxisControl::guard_table() noexcept {
   if (motion_.along() && !motion_.full_speed()) {
     abort_queue();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a motion of a single axis goes over into the next one.
+// Blending of a single axis' motion into the next one.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,8 @@
 
 namespace indurop::robot {
 
-// With which velocity the motion on its way goes over into the next one. It has to be possible to come to rest there.
+// Chooses the velocity with which the motion in progress blends into the next one. It must be possible to come to rest
+// there.
 void AxisControl::choose_passing() noexcept {
   if (!is_move(motion_owner_.service)) {
     return;

@@ -47,14 +47,14 @@ void AxisControl::sense(const DriveIn& in, double seconds) noexcept {
   placed_anew_ = state_ == AxisState::Homing;
   if (Drive::state_of(in.status) != Drive::State::OperationEnabled) {
     const bool moved = busy();
-    put({measured_, 0, 0});  // a drive without power is where it is
+    put({measured_, 0, 0});  // the commanded position of a drive without power is where it is
     placed_anew_ = true;
     if (moved) {
       fail(ErrorCode::Drive, 1);
     } else if (state_ == AxisState::Standstill && want_power_) {
       const Drive::State drive = Drive::state_of(in.status);
       const bool fault = drive == Drive::State::Fault || drive == Drive::State::FaultReaction;
-      fail(fault ? ErrorCode::Drive : ErrorCode::Power, 1);  // PLCopen: it comes back with a reset only
+      fail(fault ? ErrorCode::Drive : ErrorCode::Power, 1);  // PLCopen: the axis leaves ErrorStop by a reset only
     } else if (state_ != AxisState::ErrorStop) {
       state_ = AxisState::Disabled;
       release_stop();
@@ -82,14 +82,14 @@ void AxisControl::finish(Owner& owner, ErrorCode code) noexcept {
     table_->end(owner.ticket, code);
   }
   owner = {};
-  // Why it is in ErrorStop stays known.
+  // The reason for ErrorStop stays known.
   const bool keeps = code == ErrorCode::Aborted || (code == ErrorCode::Ok && state_ == AxisState::ErrorStop);
   report_.error = keeps ? report_.error : code;
 }
 
 void AxisControl::serve(const AxisRequest& request, ErrorCode permit) noexcept {
   if (first_) {
-    // What was asked for before this program started is not done now.
+    // Requests from before this program started are not executed.
     first_ = false;
     report_.acknowledged = report_.aborted = request.number;
     return;
@@ -142,8 +142,8 @@ void AxisControl::move_home(double seconds) noexcept {
   end_motion(failed ? ErrorCode::NotHomed : ErrorCode::Ok);
 }
 
-// A motion without target must not run into the end of the axis: from where it would be next it still has to come to
-// rest before.
+// A motion without a target must not run into the end of the axis: from its next position the axis must still be able
+// to come to rest before the end.
 void AxisControl::guard_limits(double seconds) noexcept {
   const LineState next = motion_.after(seconds);
   const double rest = next.position + ramp(next, 0, limits(1)).distance;
@@ -198,7 +198,7 @@ void AxisControl::move(double seconds) noexcept {
   }
 }
 
-// A motion without an end: its request ends here, its command when another one takes over.
+// For motions without an end: the request ends when the velocity is reached, the command when another one takes over.
 void AxisControl::note_velocity() noexcept {
   const bool reached = coupled_ ? coupling_.synced() : push_.on() ? push_.reached() : report_.in_velocity;
   if (motion_owner_.ticket == kRequest && reached && !coupled_) {
@@ -219,7 +219,7 @@ void AxisControl::follow(const LineState& state) noexcept {
 
 void AxisControl::fail(ErrorCode code, double hardness) noexcept {
   if (admin_.ticket == power_) {
-    admin_ = {};  // goes on once it has been reset
+    admin_ = {};  // continues once it has been reset
   } else if (admin_.service != AxisService::Reset) {
     finish(admin_, code);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One axis: its drive, its state as PLCopen has it, and what it was asked to do by itself. While the group moves, the
-// axis only follows.
+// One axis: its drive, its PLCopen state, and its own requests as a single axis. While the group moves, the axis only
+// follows.
 
 #pragma once
 
@@ -19,37 +19,37 @@ namespace indurop::robot {
 
 class AxisControl {
  public:
-  // All axes of the arm, and the gates behind them.
+  // All axes of the arm, and the gates after them.
   struct Row {
     std::span<const AxisControl> axes;
     std::span<const SetPointGate> gates;
     std::span<const Cam> cams;
     const ProfileTables* profiles = nullptr;
-    int own = 0;  // which one this is, from 0
+    int own = 0;  // index of this axis, from 0
   };
   struct Scale {
-    double counts = 1;  // per radian or metre; below 0: the drive turns the other way
+    double counts = 1;  // per radian or metre; negative: the drive turns the other way
     double gear = 1;
-    double unit = kPi / 180;  // what its users count in: degrees or millimetres
-    double zero = 0;          // radians or metres, where it is while the drive is at count 0
+    double unit = kPi / 180;  // unit of its users: degrees or millimetres
+    double zero = 0;          // radians or metres, position of the axis while the drive is at count 0
   };
   AxisControl() = default;
   void set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute, CommandTable* table,
               const Row& row) noexcept;
-  // It may push with so much, N m or N; 0: nobody could tell its drive how much that is (axis_torque.cpp).
+  // Permits pushing with up to `most`, in N m or N; 0: the torque unit of its drive is unknown (axis_torque.cpp).
   void allow_torque(double most) noexcept { most_torque_ = most; }
 
-  // What the drive says, at the start of a period. Real-time safe, as all the rest.
+  // Takes the drive's status at the start of a period. Real-time safe, like all functions below.
   void sense(const DriveIn& in, double seconds) noexcept;
-  // A new request, if its number is another one. `permit`: Ok, or why the axis may not move by itself.
+  // Takes a request if its number is new. `permit`: Ok, or the reason why the axis may not move as a single axis.
   void serve(const AxisRequest& request, ErrorCode permit) noexcept;
-  // A command from the table (axis_orders.cpp).
+  // Takes a command from the table (axis_orders.cpp).
   void take(int ticket, ErrorCode permit) noexcept;
-  // Goes on with its own motion; after its master's.
+  // Continues its own motion by one period; called after move() of its master.
   void move(double seconds) noexcept;
-  // Others may follow it.
+  // Returns whether other axes may follow this one.
   [[nodiscard]] bool leads() const noexcept;
-  // An axis that it follows by itself, from 0, and what each of its steps counts.
+  // An axis that it follows as a single axis, from 0, and the factor on its motion.
   struct Leader {
     int axis = 0;
     double ratio = 1;
@@ -57,25 +57,26 @@ class AxisControl {
   [[nodiscard]] std::span<const Leader> leaders() const noexcept { return {leaders_.data(), coupled_ ? leading_ : 0}; }
   // Follows the group.
   void follow(const LineState& state) noexcept;
-  // Is commanded to be here, whatever it was doing.
+  // Sets the commanded state, whatever the axis was doing.
   void put(const LineState& state) noexcept;
-  // Its gate has to bring it to rest, and says where it is meanwhile.
+  // Returns whether its gate has to bring it to rest; the gate then reports its state to braked().
   [[nodiscard]] bool brakes() const noexcept { return leaving_ && coupling_.brakes(); }
   void braked(const LineState& state) noexcept { motion_.lend(state); }
-  // The drive has not followed since the last period: the commanded position may be anywhere.
+  // Returns whether the drive has not followed since the last period: the commanded position may be anywhere.
   [[nodiscard]] bool placed_anew() const noexcept { return placed_anew_; }
-  // It pushes with a torque: the set point is where the drive is.
+  // Returns whether it pushes with a torque: the set point is the drive's position.
   [[nodiscard]] bool pushes() const noexcept { return push_.pushes(); }
   [[nodiscard]] bool led_by_drive() const noexcept { return led_by_drive_; }
   void carry(const TorqueControl::Load& load) noexcept { push_.carry(load); }
-  // N m or N for its drive, beside what the arm needs.
+  // Returns the torque for its drive in addition to what the arm needs, in N m or N.
   [[nodiscard]] double torque() const noexcept { return push_.torque(); }
-  // Stands still where it is commanded to be: the group's motion has ended.
+  // Rests at the commanded position: the group's motion has ended.
   void rest() noexcept { motion_.reset({motion_.state().position, 0, 0}); }
-  // What the drive is told.
+  // Returns the output for the drive.
   [[nodiscard]] DriveOut command(const DriveIn& in, bool quick_stop) noexcept;
 
-  // Part of the speed of its own motions, from 0 (it holds) to 1; of the accelerations and jerks of those that begin.
+  // Part of the speed of its own motions, from 0 (hold) to 1, and the factors on accelerations and jerks of motions
+  // that begin.
   void set_override(double part) noexcept {
     override_ = part;
     motion_.set_override(part);
@@ -83,20 +84,21 @@ class AxisControl {
   }
   void set_factors(double acceleration, double jerk) noexcept;
   void power(bool on) noexcept { want_power_ = on; }
-  // The group gives up power. An axis keeps it that moves by itself, or for which a command holds it (axis_power.cpp).
+  // The group switches power off. An axis keeps it while it moves as a single axis or a command holds its power
+  // (axis_power.cpp).
   void give_up_power() noexcept { want_power_ = want_power_ && (holds_power() || busy()); }
-  // The command that held power has lost its Execute.
+  // Returns whether the command that held power has lost its Execute.
   [[nodiscard]] bool power_falls() const noexcept { return power_ != kNobody && !holds_power(); }
-  // In an emergency no axis is reset, and while the group stops for an error it waits.
+  // In an emergency no axis is reset; while the group stops because of an error, a reset waits.
   void set_stops(bool emergency, bool group_stops) noexcept {
     emergency_ = emergency;
     group_stops_ = group_stops;
   }
-  // Homes on the group's behalf.
+  // Homes as part of the group.
   void home() noexcept;
-  // Comes to rest by itself and stays in ErrorStop until reset().
+  // Comes to rest on its own and stays in ErrorStop until reset().
   void fail(ErrorCode code, double hardness) noexcept;
-  // Comes to rest by itself, whatever it was asked for.
+  // Comes to rest on its own, whatever was requested.
   void halt() noexcept;
   // Leaves ErrorStop; a fault of the drive is acknowledged.
   void reset() noexcept;
@@ -106,11 +108,11 @@ class AxisControl {
   [[nodiscard]] bool homed() const noexcept { return homed_; }
   [[nodiscard]] bool wants_power() const noexcept { return want_power_; }
   [[nodiscard]] bool in_group() const noexcept { return state_ == AxisState::SynchronizedMotion && !coupled_; }
-  // In a motion of its own.
+  // Returns whether it is in a motion of its own.
   [[nodiscard]] bool busy() const noexcept;
   [[nodiscard]] bool at_rest() const noexcept { return !over_ && motion_.at_rest(); }
   [[nodiscard]] double unit() const noexcept { return scale_.unit; }
-  // 1 or -1: which way the drive's torque turns the axis, as it is measured and as it is told.
+  // Return 1 or -1: the sign of the drive's torque relative to the axis, for measured and for commanded values.
   [[nodiscard]] double drive_way() const noexcept { return std::copysign(1, scale_.counts); }
   [[nodiscard]] double command_way() const noexcept { return std::copysign(1, scale_.counts * scale_.gear); }
   [[nodiscard]] double measured() const noexcept { return measured_; }
@@ -118,28 +120,28 @@ class AxisControl {
   [[nodiscard]] AxisReport report() const noexcept;
 
  private:
-  // Who waits for the end of something: a place in the table, or the request.
+  // Who waits for the end of an action: a ticket of the table, or the request.
   static constexpr int kNobody = CommandTable::kNone;
   static constexpr int kRequest = -2;
   struct Owner {
     int ticket = kNobody;
     AxisService service = AxisService::None;
   };
-  // A motion as it was asked for, in radians or metres.
+  // A motion as requested, in radians or metres.
   struct Order {
     double target = 0;  // position or velocity
-    double end = 0;     // velocity it goes on with; of a torque, how fast it grows
+    double end = 0;     // velocity to continue with; for a torque, its rate of change
     LineLimits limits, braking;
   };
   static constexpr auto kServices = static_cast<std::size_t>(AxisService::TorqueControl) + 1;
-  // So far before its ends a motion without a target rests.
+  // A motion without a target rests at this distance from the ends of the axis.
   static constexpr double kEndMargin = radians(0.1);
 
   static AxisService service_of(const Command& command) noexcept;
-  static bool is_move(AxisService service) noexcept;       // to a place
-  static bool goes_on_from(AxisService service) noexcept;  // through a place
-  static bool follows(AxisService service) noexcept;       // another axis
-  static bool is_profile(AxisService service) noexcept;    // by a table of times
+  static bool is_move(AxisService service) noexcept;       // to a position
+  static bool goes_on_from(AxisService service) noexcept;  // through a position
+  static bool follows(AxisService service) noexcept;       // follows another axis
+  static bool is_profile(AxisService service) noexcept;    // by a time table
   void order(int ticket, const Command& command) noexcept;
   void ignore(int ticket, const Command& command) noexcept;
   // Power and reset (axis_power.cpp).
@@ -154,8 +156,8 @@ class AxisControl {
   void stop_for(int ticket, const Command& command) noexcept;
   void set_position(int ticket, const Command& command) noexcept;
   void queue(int ticket, const Command& command) noexcept;
-  // Its parameters (axis_parameters.cpp).
-  // Of motions by itself; the ends only if they count.
+  // Parameters of the axis (axis_parameters.cpp).
+  // Limits of its own motions; the ends apply only if they are enabled.
   struct Own {
     double lower = 0, upper = 0;
     bool lower_counts = true, upper_counts = true;
@@ -167,7 +169,7 @@ class AxisControl {
   void keep_ends() noexcept;
   void report_own(AxisReport& report) const noexcept;
   [[nodiscard]] ErrorCode check(const Command& command) const noexcept;
-  // As a motion (axis_resolve.cpp).
+  // Converts a command into a motion (axis_resolve.cpp).
   [[nodiscard]] ErrorCode resolve(const Command& command, double from, Order& order) const noexcept;
   [[nodiscard]] ErrorCode check_way(const Command& command, const Order& order) const noexcept;
   [[nodiscard]] double turned(double target, double from, Direction direction) const noexcept;
@@ -200,7 +202,7 @@ class AxisControl {
   void advance(double seconds) noexcept;
   void advance_own(double seconds) noexcept;
   void advance_coupled(double seconds) noexcept;
-  // On top of it (axis_superimpose.cpp).
+  // Superimposed motions (axis_superimpose.cpp).
   [[nodiscard]] ErrorCode check_superimposed(const Command& command) const noexcept;
   void superimpose(int ticket, const Command& command) noexcept;
   void halt_superimposed(int ticket, const Command& command) noexcept;
@@ -209,13 +211,13 @@ class AxisControl {
   void shift_master(int ticket, const Command& command) noexcept;
   [[nodiscard]] ErrorCode check_shift(const Command& command) const noexcept;
 
-  // By a table of times (axis_along.cpp).
+  // Motion by a time table (axis_along.cpp).
   ErrorCode read_table(const Command& command, TimeProfile& table) const noexcept;
   [[nodiscard]] ErrorCode check_profile(const Command& command) const noexcept;
   void begin_profile(const Command& command) noexcept;
   void guard_table() noexcept;
 
-  // By its drive's torque (axis_torque.cpp).
+  // Motion by its drive's torque (axis_torque.cpp).
   [[nodiscard]] ErrorCode resolve_torque(const Command& command, Order& order) const noexcept;
   void begin_torque(const Order& order) noexcept;
   void leave_torque() noexcept;
@@ -238,8 +240,8 @@ class AxisControl {
   [[nodiscard]] LineLimits limits(double hardness) const noexcept;
 
   Own own_;
-  double least_ = 0, greatest_ = 0;  // its ends
-  double lower_ = 0, upper_ = 0;     // those of its own that count, else its ends
+  double least_ = 0, greatest_ = 0;  // ends of the axis
+  double lower_ = 0, upper_ = 0;     // its own ends where they are enabled, else those of the axis
   bool endless_ = false;
   LineLimits most_;
   Scale scale_;
@@ -248,46 +250,46 @@ class AxisControl {
   Row row_;
   AxisCoupling coupling_;
   bool coupled_ = false;
-  bool over_ = false;     // the coupling is on top of its own motion
-  bool leaving_ = false;  // what is asked for begins once it has no acceleration
+  bool over_ = false;     // the coupling is superimposed on its own motion
+  bool leaving_ = false;  // the request begins once the axis has no acceleration
   std::array<Leader, 2> leaders_;
-  std::size_t leading_ = 1;  // so many of them
+  std::size_t leading_ = 1;  // number of leaders
   TorqueControl push_;
   double most_torque_ = 0;
   double override_ = 1;
-  bool led_by_drive_ = false;    // its set point is where the drive is
-  bool in_torque_mode_ = false;  // the drive
+  bool led_by_drive_ = false;    // its set point is the drive's position
+  bool in_torque_mode_ = false;  // whether the drive is
   double mode_waited_ = 0;       // s, for a change of its mode
-  int mode_late_ = 0;            // periods, likewise
-  double slowing_from_ = 0;      // rad/s or m/s: what it had as it got another velocity
+  int mode_late_ = 0;            // periods, for a change of its mode
+  double slowing_from_ = 0;      // rad/s or m/s: its speed when it got another velocity
   double slowing_ = 0;           // s since then
-  int too_fast_ = 0;             // so many periods
+  int too_fast_ = 0;             // number of periods
   AxisState state_ = AxisState::Disabled;
   double measured_ = 0;
   double measured_speed_ = 0;
   bool sensed_ = false;
   bool want_power_ = false;
-  bool letting_go_ = false;  // the drive, of what was before PowerOn: first it has to
+  bool letting_go_ = false;  // waits for the drive, still on from before PowerOn, to switch off
   bool homed_ = true;
   bool placed_anew_ = true;
-  bool first_ = true;  // before the first request was looked at
+  bool first_ = true;  // before the first request was read
   double waited_ = 0;  // s, for power or home
-  double origin_ = 0;  // of the positions that single axes are told, from the drive's
+  double origin_ = 0;  // of the positions reported for single axes, from the drive's
   double acceleration_factor_ = 1, jerk_factor_ = 1;
   CommandTable* table_ = nullptr;
   Owner admin_;          // of power and reset
   int power_ = kNobody;  // the command that holds power as long as it has its Execute
   bool emergency_ = false;
   bool group_stops_ = false;
-  bool quick_stopped_ = false;  // its drive is about to lose power, whatever it says
-  Owner motion_owner_;          // of the motion on its way
-  Owner super_;                 // of what is on top of it
+  bool quick_stopped_ = false;  // its drive is about to lose power, whatever its status
+  Owner motion_owner_;          // of the motion in progress
+  Owner super_;                 // of the superimposed motion
   Owner probing_;
   AxisProbe probe_;
   bool probe_windowed_ = false;
-  double probe_first_ = 0, probe_last_ = 0;  // as its users count
+  double probe_first_ = 0, probe_last_ = 0;  // in units of its users
   int stop_ = kNobody;                       // the stop that holds the axis
-  double began_at_ = 0;                      // where the motion on its way began
+  double began_at_ = 0;                      // where the motion in progress began
   double added_to_ = 0;                      // what MoveAdditive adds to
   std::array<int, CommandTable::kMost> queue_{};
   int queued_ = 0;

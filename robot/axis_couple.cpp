@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Single axes that follow another one: which one may lead, how that begins, and how it ends whoever ends it.
+// Single axes that follow another one: which axis may be a master, how following begins, and how it ends, by request or
+// by an error.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kMostRatio = 1e6;
-constexpr double kLeastWay = 1e-6;  // rad or m of a master, to come into gear on
+constexpr double kLeastWay = 1e-6;  // rad or m of the master, minimum distance to engage over
 
 }  // namespace
 
@@ -21,7 +22,7 @@ bool AxisControl::leads() const noexcept {
          state_ != AxisState::Homing;
 }
 
-// Nobody follows himself, not even by way of others.
+// Returns whether the axis would follow itself, directly or through other axes.
 bool AxisControl::follows_itself(const Coupled& way) const noexcept {
   std::array<bool, kAxes> ahead{};
   for (std::size_t i = 0; i < way.leading; ++i) {
@@ -64,7 +65,7 @@ ErrorCode AxisControl::resolve(const Command& command, const Order& order, Coupl
   }
 }
 
-// In gear with one: the law has the ratio. With two, it follows what they make together.
+// With one master, the law has the ratio. With two, the axis follows the sum of their scaled motions.
 ErrorCode AxisControl::resolve_ratios(const Command& command, Coupled& way) const noexcept {
   for (std::size_t i = 0; i < way.leading; ++i) {
     const double ratio = command.to[2 * i] / command.to[2 * i + 1];
@@ -80,7 +81,7 @@ ErrorCode AxisControl::resolve_ratios(const Command& command, Coupled& way) cons
   return ErrorCode::Ok;
 }
 
-// In gear from a place of both axes on.
+// Engages the gear at given positions of both axes.
 ErrorCode AxisControl::resolve_meeting(const Command& command, const Order& order, Coupled& way) const noexcept {
   const AxisControl& master = row_.axes[at(way.leaders[0].axis)];
   const auto finite = [](double x) { return std::abs(x) <= kMostRatio; };
@@ -100,7 +101,7 @@ ErrorCode AxisControl::resolve_meeting(const Command& command, const Order& orde
   const double asked = command.to[4] * master.scale_.unit;
   const double length = asked > 0 ? std::min(asked, std::abs(ahead)) : std::abs(ahead);
   if (length < kLeastWay) {
-    return ErrorCode::Speed;  // the master is there
+    return ErrorCode::Speed;  // the master is already there
   }
   const LineState& now = motion_.state();
   const LineLimits braking{order.limits.velocity, std::min(order.limits.acceleration, order.braking.acceleration),
@@ -115,7 +116,7 @@ bool AxisControl::inside(double one, double other) const noexcept {
   return endless_ || (std::min(one, other) >= lower_ - 1e-9 && std::max(one, other) <= upper_ + 1e-9);
 }
 
-// Its zeros are those of the axes, or where both are now.
+// Its zeros are those of the axes, or the present positions of both.
 ErrorCode AxisControl::resolve_cam(const Command& command, const AxisControl& master, CouplingLaw& law) const noexcept {
   const int number = command.job - 1;
   const double master_scale = command.to[2];
@@ -145,7 +146,7 @@ ErrorCode AxisControl::resolve_cam(const Command& command, const AxisControl& ma
 
 void AxisControl::couple(const Command& command, const Order& order) noexcept {
   Coupled way;
-  static_cast<void>(resolve(command, order, way));  // which has been looked at before
+  static_cast<void>(resolve(command, order, way));  // checked before
   LineLimits limits = order.limits;
   limits.acceleration = std::min(limits.acceleration, order.braking.acceleration);
   leaders_ = way.leaders;
@@ -159,7 +160,7 @@ void AxisControl::couple(const Command& command, const Order& order) noexcept {
   motion_.lend(motion_.state());
 }
 
-// Goes on with the speed that it has.
+// Continues with its present speed.
 void AxisControl::decouple(int ticket, const Command& /*command*/) noexcept {
   Owner owner{ticket, AxisService::Decouple};
   if (!coupled_) {
@@ -218,7 +219,7 @@ void AxisControl::advance_coupled(double seconds) noexcept {
   }
 }
 
-// One period on, whoever says where to.
+// Advances by one period, whichever motion sets the target.
 void AxisControl::advance(double seconds) noexcept {
   if (!prepare_torque(seconds)) {
     advance_torque(seconds);
@@ -246,7 +247,7 @@ void AxisControl::advance_own(double seconds) noexcept {
     guard_limits(seconds);
   }
   motion_.step(seconds);
-  // What passes its end goes on with the next one, several times if they are short.
+  // A motion that passes its end continues with the next one in the same period, several times if they are short.
   for (int i = 0; motion_.passed() && i < CommandTable::kMost; ++i) {
     const double rest = motion_.rest_of_step();
     end_motion(ErrorCode::Ok);

@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 namespace {
 
-// Part of the axis' limits that are for catching up, whatever its master does. Both together are limited anyway.
+// Minimum part of the axis' limits for catching up, whatever its master does. The gate limits the sum anyway.
 constexpr double kLeast = 0.2;
 constexpr double kMargin = 1 + 1e-4;
 
@@ -17,9 +17,9 @@ LineState difference(double now, const LineState& before, double seconds) noexce
   return {now, velocity, (velocity - before.velocity) / seconds};
 }
 
-// What rounding may move the place of an axis by: paths of the tool, which are off by more, lead no other axis.
+// Returns the rounding error of a position of an axis. Tool paths, which have larger errors, lead no other axis.
 double rounding_at(double position) noexcept {
-  constexpr double kPart = 1e-15, kTurns = 100;  // with what it was computed from
+  constexpr double kPart = 1e-15, kTurns = 100;  // with the values it was computed from
   return kPart * (kTurns + std::abs(position));
 }
 
@@ -41,7 +41,7 @@ void AxisCoupling::engage(const CouplingLaw& law, const LineLimits& limits, cons
   goal_ = 0;
 }
 
-// What the law has been saying.
+// Initializes the state of the law from the last periods of its master.
 void AxisCoupling::begin(const LineState& master, double seconds) noexcept {
   const double one = master.position - seconds * master.velocity;
   const double two = one - seconds * (master.velocity - seconds * master.acceleration);
@@ -51,7 +51,7 @@ void AxisCoupling::begin(const LineState& master, double seconds) noexcept {
   begun_ = true;
 }
 
-// `from`: the gap as differences between periods, which are what it had in the middle of a period.
+// `from`: the gap as differences between periods, which equal the values in the middle of a period.
 void AxisCoupling::plan(const LineState& from, double seconds) noexcept {
   const LineLimits limits{left(limits_.velocity, law_state_.velocity, most_.velocity),
                           left(limits_.acceleration, law_state_.acceleration, most_.acceleration), limits_.jerk};
@@ -88,13 +88,13 @@ ErrorCode AxisCoupling::step(const Master& master, const SetPointGate& gate, dou
   if (const ErrorCode code = gate.check(next, 1); code != ErrorCode::Ok) {
     return code;
   }
-  // The gate allows for the rounding of paths, which in short periods is as much as the limit of the jerk.
+  // The gate allows for the rounding of paths, which in short periods is as large as the jerk limit.
   const double noise = 8 * rounding_at(std::max(std::abs(next), std::abs(master.now))) / (seconds * seconds);
   const double change = difference(next, told, seconds).acceleration - told.acceleration;
   if (std::abs(change) > most_.jerk * seconds * kMargin + noise) {
     return ErrorCode::Jerk;
   }
-  // A change of acceleration just before its end is seen in the differences of three periods.
+  // A change of acceleration just before its end still shows in the differences of three periods.
   const bool settled = gap_.duration() <= 0 || time_ >= gap_.duration() + 2 * seconds;
   synced_ = synced_ || (settled && next == wanted && !phasing_ && !(held_ && to_place_));
   planned_ = next == wanted;
@@ -147,7 +147,7 @@ void AxisCoupling::step_phase(double seconds) noexcept {
   phasing_ = !ended || held_;
 }
 
-// On its way to the gear the law keeps the limits that were asked for, and at its end the follower has to be there.
+// On its way into gear the law keeps the requested limits, and at its end the follower has to be synchronized.
 ErrorCode AxisCoupling::judge_approach(double master, double jerk, double seconds) noexcept {
   if (!law_.approach.known()) {
     return ErrorCode::Ok;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Set points of an axis that follows another one, one for each of its master's. It gets there within its limits from
-// whatever it was doing, and is then exactly where the law says. Leaving, it takes back its acceleration first, so that
-// an ordinary motion can go on from there.
+// Set points of an axis that follows another one, one for each set point of its master. It gets to the coupling law
+// within its limits from any motion and then follows it exactly. When it leaves, it first removes its acceleration, so
+// that an ordinary motion can continue from there.
 
 #pragma once
 
@@ -13,14 +13,15 @@
 
 namespace indurop::robot {
 
-// Where the follower is for each place of its master. In gear only the speed is that of the law.
+// Position of the follower for each position of its master. If it does not define positions, only the speed
+// follows the law.
 struct CouplingLaw {
   double ratio = 1;
-  Cam cam;                                 // known(): instead of the ratio
-  Approach approach;                       // known(): how it comes to the ratio
-  double master_zero = 0, slave_zero = 0;  // where the cam's zeros are, or both in gear
+  Cam cam;                                 // if known(): instead of the ratio
+  Approach approach;                       // if known(): how it reaches the ratio
+  double master_zero = 0, slave_zero = 0;  // positions of the cam's zeros, or of both axes in gear
   double master_scale = 1, slave_scale = 1;
-  // The law says places, not only the speed.
+  // Returns whether the law defines positions, not only the speed.
   [[nodiscard]] bool places() const noexcept { return cam.known() || approach.known(); }
   [[nodiscard]] double at(double master) const noexcept {
     if (approach.leads(master)) {
@@ -33,35 +34,35 @@ struct CouplingLaw {
 
 class AxisCoupling {
  public:
-  // From the next step on; until then the axis is at `now`. `limits` of the way to the law, and no higher than `most`,
-  // which are those of the axis. Real-time safe, as all here.
+  // Engages from the next step on; until then the axis is at `now`. `limits` apply on the way to the law, but not above
+  // `most`, the limits of the axis. All functions of this class are real-time safe.
   void engage(const CouplingLaw& law, const LineLimits& limits, const LineLimits& most, const LineState& now) noexcept;
 
-  // What is between the law and the axis becomes so much more than it is. It is synced() again when that is done.
+  // Increases the offset between the law and the axis by `by`. It is synced() again when that is done.
   void shift(double by, const LineLimits& limits) noexcept;
-  // No further.
+  // Stops the shift where it is.
   void stop_shift(const LineLimits& limits) noexcept;
-  // The law sees its master so much further on than it is. `limits` are those of that way, in what the master counts;
-  // what the follower has no room for comes later. It is synced() again when that is done.
+  // Offsets the master's position as seen by the law to `to`. `limits` apply to this shift, in units of the master;
+  // what the follower's limits do not allow at once comes later. It is synced() again when that is done.
   void shift_master(double to, const LineLimits& limits) noexcept;
   [[nodiscard]] double phase() const noexcept { return phase_.position; }
 
   struct Master {
-    LineState before;  // its set point of the last period, as its gate has it
-    double now = 0;    // that of this one
+    LineState before;  // its set point of the last period, as reported by its gate
+    double now = 0;    // its set point of this period
   };
-  // The next set point, as state(). `gate`: of the follower, before it. Errors: those of SetPointGate::check(), and
-  // there is no set point; whoever gets one has to leave.
+  // Computes the next set point, as state(). `gate`: the follower's, before this set point. Errors: those of
+  // SetPointGate::check(); then there is no set point, and the caller has to leave.
   ErrorCode step(const Master& master, const SetPointGate& gate, double seconds) noexcept;
-  // Somebody holds all motions: what it has not caught up with waits. It follows all the same.
+  // While held, the remaining distance to the law is not closed; the axis follows its master all the same.
   void hold(bool held) noexcept;
-  // Instead of step() from then on, until there is no acceleration left: true. Where that would lead too near to the
-  // end of the axis the gate has to brake until it rests: brakes().
+  // Called instead of step() from then on, until it returns true: there is no acceleration left. Where that would lead
+  // too near to the end of the axis, the gate has to brake to standstill: brakes().
   bool leave(const SetPointGate& gate, double seconds) noexcept;
   [[nodiscard]] bool brakes() const noexcept { return brakes_; }
 
   [[nodiscard]] const LineState& state() const noexcept { return state_; }
-  // It is where the law says, but for what it had not caught up with before.
+  // Returns whether it follows the law exactly, apart from a distance that remained from before.
   [[nodiscard]] bool synced() const noexcept { return synced_ && !law_.approach.known(); }
 
  private:
@@ -79,11 +80,11 @@ class AxisCoupling {
   bool brakes_ = false;
   bool held_ = false;
   bool to_place_ = false;  // the gap is to be closed, else it may stay as it is
-  double goal_ = 0;        // what is to be left of it
-  LineState law_state_;    // where the law is, as differences between periods
-  Profile gap_;            // what is between the law and the axis, until it is caught up with
+  double goal_ = 0;        // remaining gap to reach
+  LineState law_state_;    // state of the law, as differences between periods
+  Profile gap_;            // distance between the law and the axis, until it is caught up
   double time_ = 0;
-  LineState phase_;  // what the master is further on
+  LineState phase_;  // offset of the master
   double phase_to_ = 0;
   LineLimits phase_limits_;
   Profile phase_way_;

@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kStill = 1e-3;  // an override below is a hold
+constexpr double kStill = 1e-3;  // an override below this is a hold
 constexpr double kRounding = 1e-9;
 
 }  // namespace
@@ -104,7 +104,7 @@ LineLimits AxisMotion::hardest() const noexcept {
   return {most_.velocity, std::max(most_.acceleration, limits_.acceleration), std::max(most_.jerk, limits_.jerk)};
 }
 
-// Whoever stands has nothing to brake.
+// An axis at rest need not brake.
 bool AxisMotion::keeps_bounds() const noexcept {
   const double speed = std::abs(state_.velocity);
   if (speed == 0 && state_.acceleration == 0) {
@@ -114,7 +114,7 @@ bool AxisMotion::keeps_bounds() const noexcept {
     return false;
   }
   if (passing_) {
-    return true;  // straight to a target that is between the ends
+    return true;  // straight to a target between the ends
   }
   const auto [low, high] = profile_.extent();
   const auto [start, end] = std::minmax(state_.position, profile_.end().position);
@@ -123,15 +123,15 @@ bool AxisMotion::keeps_bounds() const noexcept {
          (high <= end + kRounding || turns_in_time(1));
 }
 
-// What turns back before an end brakes through, without coming to rest: it could not rest there as well. It always has
-// to be able to rest before the end, or no nearer to it than if it braked now.
+// An axis that turns back before an end keeps braking through standstill, as it could also have come to rest there. It
+// always has to be able to rest before the end, or at least no nearer to it than if it braked now.
 bool AxisMotion::turns_in_time(double side) const noexcept {
   constexpr int kLooks = 32;
-  constexpr double kMargin = 2e-3;  // rad, between two of them
+  constexpr double kMargin = 2e-3;  // rad, between two samples
   const LineLimits hard = hardest();
   const auto rest = [&](const LineState& from) { return side * (from.position + ramp(from, 0, hard).distance); };
   const double most = std::max((side > 0 ? upper_ : -lower_) - kMargin, rest(state_)) + kRounding;
-  // Until it has turned, if it does.
+  // Until it turns back, if it does.
   int turned = 1;
   while (turned < kLooks && side * profile_.at(profile_.duration() * turned / kLooks).velocity > 0) {
     ++turned;
@@ -159,8 +159,8 @@ void AxisMotion::plan_wanted() noexcept {
   }
 }
 
-// Where it is to be faster than on its way, it gets so just before the end. False: that way does not lead through the
-// position, so it ends there.
+// If it is to be faster at the end than on the way there, it speeds up just before the end. Returns false if that
+// profile does not lead through the position; then it ends there.
 bool AxisMotion::plan_pass(double sign, double arrival) noexcept {
   const double length = std::abs(target_ - state_.position);
   if (arrival <= 0 || sign * state_.velocity < 0) {
@@ -221,7 +221,7 @@ void AxisMotion::step(double seconds) noexcept {
     return;
   }
   if (goal_ == Goal::Position && !passing_ && done()) {
-    goal_ = Goal::Rest;  // it is there
+    goal_ = Goal::Rest;  // it has arrived
   }
 }
 

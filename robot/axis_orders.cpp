@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What single axes are asked to do, one thing after the other: which command ends which, and what each of them means as
-// a motion.
+// Commands of single axes in their order: which command ends which, and how each of them becomes a motion.
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +41,7 @@ void AxisControl::take(int ticket, ErrorCode permit) noexcept {
 }
 
 void AxisControl::order(int ticket, const Command& command) noexcept {
-  // By whom each service is carried out.
+  // Handler of each service.
   static constexpr auto kBy = [] {
     using enum AxisService;
     std::array<void (AxisControl::*)(int, const Command&) noexcept, kServices> by{};
@@ -115,7 +114,7 @@ void AxisControl::halt() noexcept {
   }
 }
 
-// Where it is gets another name; nothing moves, and a motion keeps its target.
+// Gives the present position a new value; nothing moves, and a motion keeps its target.
 void AxisControl::set_position(int ticket, const Command& command) noexcept {
   Owner owner{ticket, AxisService::SetPosition};
   const double wanted = command.to[0] * scale_.unit;
@@ -131,7 +130,7 @@ void AxisControl::set_position(int ticket, const Command& command) noexcept {
   finish(owner, ErrorCode::Ok);
 }
 
-// What can be said before its turn comes.
+// Checks what can be checked before the command begins.
 ErrorCode AxisControl::check(const Command& command) const noexcept {
   const AxisService service = service_of(command);
   if (!drive_.enabled() || state_ == AxisState::ErrorStop || state_ == AxisState::Stopping) {
@@ -151,7 +150,7 @@ ErrorCode AxisControl::check(const Command& command) const noexcept {
   const bool adds = service == AxisService::MoveAdditive && is_move(motion_owner_.service);
   ErrorCode code = resolve(command, adds ? motion_.target() : commanded().position, order);
   code = code == ErrorCode::Ok ? check_way(command, order) : code;
-  return waits && code != ErrorCode::Value ? ErrorCode::Ok : code;  // where it begins is not known yet
+  return waits && code != ErrorCode::Value ? ErrorCode::Ok : code;  // its start is not known yet
 }
 
 void AxisControl::queue(int ticket, const Command& command) noexcept {
@@ -163,7 +162,7 @@ void AxisControl::queue(int ticket, const Command& command) noexcept {
   const bool moves = motion_owner_.ticket != kNobody;
   if (ticket == kRequest || command.buffer == BufferMode::Aborting) {
     abort_queue();
-    // What a target is added to is that of the motion before.
+    // An additive target is added to the target of the previous motion.
     added_to_ = is_move(motion_owner_.service) ? motion_.target() : motion_.state().position;
     finish(motion_owner_, ErrorCode::Aborted);
     begin(ticket, command);
@@ -197,7 +196,7 @@ void AxisControl::begin(int ticket, const Command& command) noexcept {
     code = ErrorCode::State;
   }
   if (code != ErrorCode::Ok) {
-    // It had to stand; what was to follow may lead anywhere from here.
+    // It had to be at rest; queued motions might lead anywhere from here.
     abort_queue();
     finish(owner, code);
     motion_.stop(limits(1));
@@ -255,7 +254,7 @@ void AxisControl::begin_motion(const Command& command, const Order& order) noexc
   }
 }
 
-// The motion on its way has ended; the next one begins where it is.
+// The motion in progress has ended; the next one begins where it ended.
 void AxisControl::end_motion(ErrorCode code) noexcept {
   added_to_ = motion_.state().position;
   finish(motion_owner_, code);
@@ -275,7 +274,7 @@ void AxisControl::begin_next() noexcept {
   begin(ticket, table_->command(ticket));
 }
 
-// What blocks change of commands that they have given.
+// Blocks may change commands that they have issued.
 void AxisControl::look_at_commands() noexcept {
   const int ticket = motion_owner_.ticket;
   if (ticket == kNobody || ticket == kRequest || !table_->updated(ticket) || is_profile(motion_owner_.service)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters of a single axis that programs write: ends and limits of its motions by itself, never beyond those that it
-// has.
+// Parameters of a single axis that programs write: ends and limits of its motions as a single axis, never beyond those
+// of the axis.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace indurop::robot {
 
 namespace {
 
-// Numbers of PLCopen Motion Control, part 1.
+// Parameter numbers of PLCopen Motion Control, part 1.
 enum class Parameter : std::int16_t {
   UpperEnd = 2,
   LowerEnd = 3,
@@ -40,7 +40,7 @@ void AxisControl::write_parameter(int ticket, const Command& command) noexcept {
   finish(owner, change(command.option, command.to[0]));
 }
 
-// Limits count for motions that begin. What can be read only, and what cannot be otherwise, is Value.
+// Limits apply to motions that begin. Writing a read-only parameter or an impossible value returns Value.
 ErrorCode AxisControl::change(int parameter, double value) noexcept {
   if (!std::isfinite(value)) {
     return ErrorCode::Value;
@@ -61,7 +61,7 @@ ErrorCode AxisControl::change(int parameter, double value) noexcept {
       own.lower_counts = value != 0;
       return change_ends(own);
     case Parameter::LagCounts:
-      return value != 0 ? ErrorCode::Ok : ErrorCode::Value;  // it always does
+      return value != 0 ? ErrorCode::Ok : ErrorCode::Value;  // lag monitoring is always on
     case Parameter::Velocity:
       return lower_than(most_.velocity, scaled, own_.velocity);
     case Parameter::Acceleration:
@@ -75,7 +75,7 @@ ErrorCode AxisControl::change(int parameter, double value) noexcept {
   }
 }
 
-// Only of an axis that stands between them: nothing is on its way to a place that is beyond them now.
+// Only possible while the axis rests between the ends: no motion may be on its way to a position beyond the new ones.
 ErrorCode AxisControl::change_ends(const Own& own) noexcept {
   constexpr double kSlack = 1e-9;
   if (endless_ || !(own.lower < own.upper) || own.lower < least_ - kSlack || own.upper > greatest_ + kSlack) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Power of an axis, and its reset. A command may hold the power as long as it has its Execute (MC_Power): it asks again
-// whenever the power is not there, and waits while the axis is in ErrorStop.
+// Power and reset of an axis. A command may hold the power as long as it has its Execute (MC_Power): it requests power
+// again whenever it is lost, and waits while the axis is in ErrorStop.
 
 #include <utility>
 
@@ -10,9 +10,9 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kPowerTime = 3;    // s a drive may take to get power or to leave a fault
-constexpr int kHolds = 1;           // option of a command: power as long as it has its Execute
-constexpr double kLetGoTime = 0.5;  // s it is waited for to give it up; one that keeps it has it
+constexpr double kPowerTime = 3;    // s a drive may take to switch on or to leave a fault
+constexpr int kHolds = 1;           // option of a command: holds power as long as it has its Execute
+constexpr double kLetGoTime = 0.5;  // s to wait for switching off; a drive that stays on is used
 
 }  // namespace
 
@@ -20,7 +20,7 @@ void AxisControl::administer(int ticket, const Command& command) noexcept {
   const AxisService service = service_of(command);
   const bool failed = state_ == AxisState::ErrorStop || drive_.faulty();
   if (service == AxisService::Reset && admin_.service == AxisService::PowerOff) {
-    Owner owner{ticket, service};  // that the power goes is not taken back by a reset
+    Owner owner{ticket, service};  // a reset does not cancel switching off
     finish(owner, failed ? ErrorCode::State : ErrorCode::Ok);
     return;
   }
@@ -50,12 +50,12 @@ void AxisControl::administer(int ticket, const Command& command) noexcept {
       if (emergency_) {
         finish(admin_, ErrorCode::Emergency);
       } else if (!failed && !group_stops_) {
-        finish(admin_, ErrorCode::Ok);  // there is nothing to reset, and will not be when the group stands
+        finish(admin_, ErrorCode::Ok);  // there is nothing to reset, and will not be when the group rests
       }
   }
 }
 
-// A later request ends the one in progress; what holds power goes on afterwards.
+// A later request ends the one in progress; a command that holds power continues afterwards.
 void AxisControl::interrupt_power() noexcept {
   if (admin_.ticket == power_) {
     admin_ = {};
@@ -71,7 +71,7 @@ void AxisControl::take_power(int ticket) noexcept {
   want_power_ = !letting_go_;
 }
 
-// At rest; until then it brakes.
+// Switches power off at rest; until then the axis brakes.
 void AxisControl::give_power(int ticket) noexcept {
   admin_ = {ticket, AxisService::PowerOff};
   release_stop();
@@ -120,7 +120,7 @@ void AxisControl::wait_for_reset(double seconds) noexcept {
 
 void AxisControl::reset() noexcept {
   drive_.reset();
-  // Power comes back on request only.
+  // Power returns on request only.
   want_power_ = want_power_ && drive_.enabled() && !quick_stopped_;
   if (state_ == AxisState::ErrorStop) {
     report_.error = ErrorCode::Ok;

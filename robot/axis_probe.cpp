@@ -9,12 +9,12 @@ namespace indurop::robot {
 
 namespace {
 
-// Of the function.
+// Bits of the touch probe function.
 constexpr unsigned kOn = 1U << 0U;
 constexpr unsigned kMark = 1U << 2U;
 constexpr unsigned kRise = 1U << 4U;
 constexpr unsigned kFall = 1U << 5U;
-// Of the status; bit 0 is kOn.
+// Bits of the touch probe status; bit 0 is kOn.
 constexpr unsigned kStoredRise = 1U << 1U;
 constexpr unsigned kStoredFall = 1U << 2U;
 
@@ -44,7 +44,7 @@ std::uint16_t AxisProbe::function() const noexcept {
   return static_cast<std::uint16_t>(kOn | (mark_ ? kMark : 0U) | (rising_ ? kRise : kFall));
 }
 
-// In any state: who turns an axis by hand may probe as well.
+// Permitted in any state: an axis turned by hand may be probed as well.
 void AxisControl::begin_probe(int ticket, const Command& command) noexcept {
   constexpr int kFalling = 1;
   constexpr int kAtMark = 2;

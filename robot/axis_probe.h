@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The master's side of a drive's touch probe (CiA 402, objects 60B8h to 60BBh): arms it anew and learns what it stored.
+// The master's side of a drive's touch probe (CiA 402, objects 60B8h to 60BBh): arms it again and reads the stored
+// position.
 
 #pragma once
 
@@ -9,17 +10,17 @@ namespace indurop::robot {
 
 class AxisProbe {
  public:
-  // Waits for the next edge, `rising` or falling, of the probe's input or of the encoder's `mark`. What was stored
-  // before does not count. Real-time safe, as all here.
+  // Waits for the next edge, `rising` or falling, of the probe's input or of the encoder's `mark`. Positions stored
+  // before are ignored. All functions of this class are real-time safe.
   void begin(bool rising, bool mark) noexcept;
-  // For the next one.
+  // Waits for the next edge again.
   void again() noexcept { step_ = Step::Clearing; }
   void stop() noexcept { step_ = Step::Idle; }
 
-  // What the drive says. True: there was one, at counts().
+  // Reads the drive's status. Returns true if there was an edge, at counts().
   bool sense(const DriveIn& in) noexcept;
   [[nodiscard]] std::int32_t counts() const noexcept { return counts_; }
-  // What the drive is told.
+  // Returns the touch probe function for the drive.
   [[nodiscard]] std::uint16_t function() const noexcept;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a command of a single axis means as a motion: from where it is, within its limits and ends.
+// Converts a command of a single axis into a motion, from where it is, within its limits and ends.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace indurop::robot {
 
 namespace {
 
-// deg/s, deg/s^2, deg/s^3 or mm: what is asked for, if it is neither 0 (as much as there is) nor something.
+// Returns whether a requested value in deg/s, deg/s^2, deg/s^3 or mm is negligible, but not 0 (0: the maximum).
 bool nothing(double value) noexcept {
   return value != 0 && std::abs(value) < 1e-6;
 }
@@ -31,7 +31,7 @@ bool AxisControl::goes_on_from(AxisService service) noexcept {
   return service == AxisService::MoveContinuousAbsolute || service == AxisService::MoveContinuousRelative;
 }
 
-// The target in the turn that the direction says.
+// Returns the target in the turn that the direction requires.
 double AxisControl::turned(double target, double from, Direction direction) const noexcept {
   if (!endless_ || direction == Direction::None) {
     return target;
@@ -96,8 +96,8 @@ ErrorCode AxisControl::resolve(const Command& command, double from, Order& order
   return inside(order.target, order.target) ? ErrorCode::Ok : ErrorCode::JointLimit;
 }
 
-// A motion that goes on behind a place has to be able to rest there before the end of the axis, and where it takes its
-// run-up.
+// A motion that continues after a position has to be able to rest after it before the end of the axis, and also where
+// it takes its run-up.
 ErrorCode AxisControl::check_way(const Command& command, const Order& order) const noexcept {
   if (is_profile(service_of(command))) {
     return check_profile(command);

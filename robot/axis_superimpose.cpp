@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motion on top of what a single axis does: of its own motion, of one that follows another axis, or of none. Both
-// together keep the limits of the axis: what there is no room for comes later.
+// A motion superimposed on the motion of a single axis: its own motion, following another axis, or standstill. The sum
+// keeps the limits of the axis: what they do not allow at once comes later.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ ErrorCode AxisControl::check_superimposed(const Command& command) const noexcept
   if (coupled_ || state_ == AxisState::ContinuousMotion || endless_) {
     return ErrorCode::Ok;
   }
-  // Where both of them end.
+  // Position after both motions have ended.
   const double own = is_move(motion_owner_.service) ? motion_.target() - motion_.state().position : 0;
   const double end = commanded().position + own + command.to[0] * scale_.unit;
   return end >= lower_ - 1e-9 && end <= upper_ + 1e-9 ? ErrorCode::Ok : ErrorCode::JointLimit;
@@ -82,7 +82,7 @@ ErrorCode AxisControl::check_shift(const Command& command) const noexcept {
   return one_master && sane ? ErrorCode::Ok : ErrorCode::Value;
 }
 
-// The follower sees its master somewhere else; the master knows nothing of it.
+// Shifts the master's position as seen by the follower; the master is not affected.
 void AxisControl::shift_master(int ticket, const Command& command) noexcept {
   Owner owner{ticket, AxisService::ShiftMaster};
   Order order;
@@ -108,7 +108,7 @@ void AxisControl::shift_master(int ticket, const Command& command) noexcept {
   }
 }
 
-// On top of the axis' own motion, which has made its step.
+// Adds to the axis' own motion, which has already advanced by this period.
 void AxisControl::advance_over(double seconds) noexcept {
   const SetPointGate& gate = row_.gates[static_cast<std::size_t>(row_.own)];
   const ErrorCode code = coupling_.step({gate.state(), motion_.state().position}, gate, seconds);
@@ -118,7 +118,7 @@ void AxisControl::advance_over(double seconds) noexcept {
   }
 }
 
-// What is on top is there; if nothing moves any more, the axis stands where both have led.
+// The superimposed motion has ended; if nothing moves any more, the axis rests where both have led.
 void AxisControl::note_superimposed() noexcept {
   if (super_.ticket != kNobody && coupling_.synced()) {
     finish(super_, ErrorCode::Ok);

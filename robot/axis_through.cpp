@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of a single axis through a position: there it has the velocity that it goes on with.
+// Motion of a single axis through a position, where it has the velocity that it continues with.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace indurop::robot {
 
 namespace {
 
-// Of a way, beyond rounding.
+// Returns the tolerance of a distance, above rounding.
 double slack(double length) noexcept {
   return 1e-12 + 1e-9 * std::abs(length);
 }
@@ -39,8 +39,8 @@ void AxisMotion::go_on_with(double velocity, const LineLimits& limits, const Lin
   went_through_ = place;
 }
 
-// All of it in the direction in which it passes the position. Whoever goes there without turning, and has room enough
-// for the velocity, goes straight there.
+// Computed in the direction in which the axis passes the position. An axis that gets there without turning back, and
+// has enough room for the velocity, goes straight there.
 std::optional<double> AxisMotion::rests_first(const LineState& from, double position, double velocity,
                                               const LineLimits& limits, const LineLimits& braking) noexcept {
   const double sign = velocity < 0 ? -1 : 1;
@@ -72,7 +72,7 @@ void AxisMotion::plan_through() noexcept {
   profile_ = Profile::to_rest(state_, rest.value_or(state_.position), limits, braking_);
 }
 
-// It is where it begins its last way, or at the position.
+// The axis is where it begins its final approach, or at the position.
 void AxisMotion::step_through() noexcept {
   const double end = profile_.duration() + (passing_ ? faster_.duration() : 0);
   const double left = time_ - end;
@@ -90,7 +90,7 @@ void AxisMotion::step_through() noexcept {
   state_ = on_profile(left);
 }
 
-// From here on with the velocity.
+// From here on it continues with the velocity.
 void AxisMotion::go_behind() noexcept {
   went_through_ = target_;
   goal_ = Goal::Velocity;

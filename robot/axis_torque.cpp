@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A single axis that pushes with a torque. It rests, its drive changes to the cyclic torque mode, and from then on set
-// points are where the axis is, so that it can brake from there at any time: by any other command, or because it is too
-// fast or too near its end.
+// A single axis that pushes with a torque. It comes to rest, its drive changes to the cyclic torque mode, and from then
+// on set points are the position of the axis, so that it can brake from there at any time: by any other command, or
+// because it is too fast or too near its end.
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kModeTime = 0.5;   // s a drive may take to change its mode
-constexpr double kTooFast = 1.2;    // times the velocity that was asked for
-constexpr double kSlowingTime = 1;  // s to another velocity that is lower
+constexpr double kTooFast = 1.2;    // factor on the requested velocity
+constexpr double kSlowingTime = 1;  // s to slow down to another velocity
 constexpr int kPeriodsTooFast = 2;
 
 }  // namespace
@@ -48,7 +48,7 @@ void AxisControl::begin_torque(const Order& order) noexcept {
   state_ = AxisState::ContinuousMotion;
 }
 
-// The drive follows set points again, and the axis brakes from where it is, as fast as it is.
+// The drive follows set points again, and the axis brakes from its present position and speed.
 void AxisControl::leave_torque() noexcept {
   if (!push_.on()) {
     return;
@@ -71,7 +71,8 @@ void AxisControl::fail_torque(ErrorCode code) noexcept {
   state_ = AxisState::Stopping;
 }
 
-// A drive that does not change its mode back follows nobody: without power its brake holds the axis.
+// A drive that does not leave torque mode follows no set point: power is switched off, so that its brake holds the
+// axis.
 void AxisControl::watch_mode(const DriveIn& in, double seconds) noexcept {
   in_torque_mode_ = Drive::state_of(in.status) == Drive::State::OperationEnabled && in.mode == Drive::kCyclicTorque;
   if (push_.on()) {
@@ -84,7 +85,7 @@ void AxisControl::watch_mode(const DriveIn& in, double seconds) noexcept {
   }
 }
 
-// False: it pushes, and its own motion waits.
+// Returns false if it pushes; its own motion then waits.
 bool AxisControl::prepare_torque(double seconds) noexcept {
   using enum TorqueControl::Phase;
   switch (push_.phase()) {
@@ -117,7 +118,7 @@ bool AxisControl::prepare_torque(double seconds) noexcept {
   return !push_.pushes();
 }
 
-// The set point is where the axis will be when the drive takes it.
+// The set point is the position that the axis will have when the drive takes it.
 void AxisControl::advance_torque(double seconds) noexcept {
   push_.set_override(override_);
   push_.step(measured_speed_, seconds);
@@ -127,7 +128,7 @@ void AxisControl::advance_torque(double seconds) noexcept {
   if (!in_torque_mode_) {
     mode_waited_ += seconds;
     if (mode_waited_ > push_.late() * seconds) {
-      fail_torque(ErrorCode::Drive);  // it has changed its mode by itself
+      fail_torque(ErrorCode::Drive);  // it has changed its mode on its own
     }
     return;
   }
@@ -148,7 +149,8 @@ bool AxisControl::too_fast(double seconds) noexcept {
   return too_fast_ >= kPeriodsTooFast;
 }
 
-// Before its end, with what the torque adds to its speed until the drive brakes.
+// Returns whether the axis comes to rest before its end, including the speed that the torque adds until the drive
+// brakes.
 bool AxisControl::rests_in_time(double ahead) const noexcept {
   if (endless_) {
     return true;

@@ -8,9 +8,9 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kQuick = 30;          // 1/s, of both filters: what belts do takes longer than 30 ms
+constexpr double kQuick = 30;          // 1/s, of both filters: motions of belts take longer than 30 ms
 constexpr double kJump = 5;            // mm or degrees
-constexpr double kMostOfPeriod = 0.3;  // a filter that is quicker than its periods is none
+constexpr double kMostOfPeriod = 0.3;  // a filter must not be faster than its periods
 
 LineState moved_on(const LineState& from, double jerk, double t) noexcept {
   return {from.position + t * (from.velocity + t * (from.acceleration / 2 + t * jerk / 6)),
@@ -26,7 +26,7 @@ void BeltWatch::begin_anew() noexcept {
   told_for_ = 0;
 }
 
-// A filter that forgets: three equal poles, so that it does not swing.
+// A filter with fading memory: three equal poles, so that it does not oscillate.
 void BeltWatch::hear(double place, double seconds) noexcept {
   if (heard_ == 0) {
     measured_ = {place, 0, 0};

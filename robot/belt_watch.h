@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a conveyor or a rotary table is, made smooth: its place is measured in steps and told once in a while, and a
-// robot that went by that would shake. At a steady speed or acceleration it is exact, without a lag.
+// The smoothed position of a conveyor or a rotary table: its position is measured in steps and reported now and then,
+// and a robot that followed these values directly would shake. At a steady speed or acceleration it is exact, without a
+// lag.
 
 #pragma once
 
@@ -14,15 +15,15 @@ class BeltWatch {
  public:
   explicit BeltWatch(double period = 0.01) noexcept;
 
-  // Once a period: what its reader tells. Real-time safe, as all here.
+  // Takes the value of its reader once a period. All functions of this class are real-time safe.
   void sense(const BeltIn& in) noexcept;
-  // It has been told for long enough to be relied on, and goes on being told.
+  // Returns whether its position has been reported for long enough to be relied on, and still is.
   [[nodiscard]] bool known() const noexcept { return told_for_ >= kSettles; }
-  // It is not, since what it told cannot be.
+  // Returns whether it is unknown because an impossible position was reported.
   [[nodiscard]] bool jumped() const noexcept { return jumped_; }
-  // mm or degrees; velocity and acceleration as differences between periods.
+  // The present state in mm or degrees; velocity and acceleration as differences between periods.
   [[nodiscard]] const LineState& now() const noexcept { return now_; }
-  // The same of the period before.
+  // The state of the previous period.
   [[nodiscard]] const LineState& before() const noexcept { return before_; }
 
  private:
@@ -33,15 +34,15 @@ class BeltWatch {
   void begin_anew() noexcept;
 
   double period_;
-  double pull_;  // 1/s, of the smooth place towards the measured one
+  double pull_;  // 1/s, rate of the smoothed position towards the measured one
   bool first_ = true;
   std::uint32_t beat_ = 0;
-  int heard_ = 0;      // places, up to 2
+  int heard_ = 0;      // positions received, up to 2
   double silent_ = 0;  // s since the last one
   double told_for_ = 0;
   bool jumped_ = false;
-  LineState measured_;  // estimated from what was told
-  LineState smooth_;    // goes after it by its jerk only
+  LineState measured_;  // estimated from the reported positions
+  LineState smooth_;    // follows the estimate, changing its jerk only
   double jerk_ = 0;
   LineState now_, before_;
 };

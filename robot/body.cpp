@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 namespace {
 
-// Of a point mass that is `away` from where its inertia is asked for.
+// Returns the inertia of a point mass at distance `away` from the reference point.
 Mat3 of_point(double mass, const Vec3& away) noexcept {
   return mass * (away.squaredNorm() * Mat3::Identity() - away * away.transpose());
 }
@@ -31,7 +31,7 @@ Body joined(const Body& a, const Body& b) noexcept {
 }
 
 std::string wrong_inertia(const Mat3& inertia) {
-  constexpr double kRounded = 1e-3;  // what files are rounded to
+  constexpr double kRounded = 1e-3;  // rounding of files
   if (!inertia.allFinite()) {
     return "an inertia is no number";
   }

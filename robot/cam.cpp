@@ -10,7 +10,7 @@ namespace {
 
 using Column = std::array<double, kCamPoints>;
 
-// Solves a tridiagonal system whose diagonal outweighs the rest; `right` becomes what is looked for.
+// Solves a diagonally dominant tridiagonal system; `right` becomes the solution.
 void solve(std::size_t count, const Column& lower, const Column& diagonal, const Column& upper,
            Column& right) noexcept {
   Column scaled{};
@@ -49,8 +49,8 @@ ErrorCode Cam::set(const CamTable& table, bool periodic) noexcept {
   return ErrorCode::Ok;
 }
 
-// Slopes of the cubic spline through the points, and how it bends there. The curve has both of them as well; at ends
-// that it does not pass it has neither.
+// Computes the slopes and second derivatives of the cubic spline through the points. The curve has the same at its
+// points; at the ends of a non-periodic cam both are 0.
 void Cam::bend_through() noexcept {
   const std::size_t last = count_ - 1;
   Column lower{};
@@ -66,7 +66,7 @@ void Cam::bend_through() noexcept {
     slopes[i] = 3 * (steep(i - 1) * lower[i] + steep(i) * upper[i]);
   }
   if (periodic_) {
-    // The last point is the first one. Sherman and Morrison: the two corners of the matrix by themselves.
+    // The last point is the first one. Sherman-Morrison formula: the two corners of the matrix are handled separately.
     const double corner = 1 / width(last - 1);
     upper[0] = 1 / width(0);
     const double first = 2 * (corner + upper[0]);
@@ -99,7 +99,7 @@ void Cam::bend_through() noexcept {
   }
 }
 
-// The only polynomial of fifth order with place, slope and bend of both points.
+// The unique polynomial of fifth order with position, slope and second derivative of both points.
 double Cam::between(const Point& a, const Point& b, double x) noexcept {
   const double h = b.x - a.x;
   const double t = (x - a.x) / h;

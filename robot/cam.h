@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cam: where a follower is for each place of its master, through the points of a table. Speed and acceleration have
-// no jumps if the master's have none.
+// A cam: the position of a follower for each position of its master, through the points of a table. Speed and
+// acceleration have no jumps if the master's have none.
 
 #pragma once
 
@@ -12,17 +12,17 @@ namespace indurop::robot {
 
 class Cam {
  public:
-  // Through all points. Periodic: its end is its beginning, one step further if they differ; else it comes from rest
-  // and ends at rest, and stays there beyond its ends. Errors: Value (less than two points, of a periodic one three;
-  // not numbers; a place of the master that is not behind the one before), and it is as before. Real-time safe, as all
-  // here.
+  // Sets a curve through all points. Periodic: the end continues at the beginning, one stride further if they differ.
+  // Otherwise the curve begins and ends at rest and stays constant beyond its ends. Errors: Value (fewer than two
+  // points, or three if periodic; not numbers; a position of the master that is not after the previous one); then the
+  // cam is unchanged. All functions of this class are real-time safe.
   ErrorCode set(const CamTable& table, bool periodic) noexcept;
   [[nodiscard]] bool known() const noexcept { return count_ > 0; }
 
   [[nodiscard]] double at(double master) const noexcept;
-  // The least and the greatest place of the follower, of one turn.
+  // Returns the smallest and the greatest position of the follower within one turn.
   [[nodiscard]] std::pair<double, double> extent() const noexcept;
-  // What each turn adds.
+  // Returns the offset that each turn adds.
   [[nodiscard]] double stride() const noexcept;
 
  private:

@@ -10,7 +10,7 @@ namespace indurop::robot {
 
 namespace {
 
-// The weight of what is `u` away, -1 to 1, its change, its sum from -1 on and the sum of that.
+// The weight at distance `u`, from -1 to 1, its derivative, its integral from -1 on and the integral of that.
 double weight(double u) noexcept {
   const double rest = 1 - u * u;
   return 15.0 / 16 * rest * rest;
@@ -29,7 +29,7 @@ double sum_of_sums(double u) noexcept {
   return 5.0 / 32 + u / 2 + 15.0 / 32 * square * (1 - square * (1.0 / 3 - square / 15));
 }
 
-// Grows as x does at first, and becomes 1.
+// Grows like x at first and reaches 1.
 double narrowed(double x) noexcept {
   if (x >= 2) {
     return 1;
@@ -74,7 +74,7 @@ bool Chain::add(const Line& line) noexcept {
 }
 
 void Chain::finish() noexcept {
-  constexpr int kWithin = 24;  // lines that a place may look at to either side
+  constexpr int kWithin = 24;  // lines in reach of a place to either side
   half_ = length() / 2;
   for (int i = 0; i + 1 < count_; ++i) {
     const double fastest = std::max(moving_[at(i)].norm(), moving_[at(i + 1)].norm());
@@ -90,7 +90,7 @@ int Chain::line_at(double place) const noexcept {
   return std::clamp(static_cast<int>(std::upper_bound(begin, begin + count_, place) - begin) - 1, 0, count_ - 1);
 }
 
-// At its ends a path has to be where the lines are, so there a place looks less far.
+// At its ends a path has to be where the lines are, so the mean is narrower there.
 Chain::Window Chain::window(double place) const noexcept {
   const double half = half_ * narrowed(place / half_) * narrowed((length() - place) / half_);
   return {half, line_at(place - half), line_at(place + half)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many lines with zones as one smooth path: each place is the mean of the lines around it, as far as the zone reaches,
-// so corners are round however short the lines are. It begins and ends exactly where the lines do.
+// Many lines with zones as one smooth path: each point is the mean of the lines around it, as far as the zone reaches,
+// so corners are round however short the lines are. The path begins and ends exactly where the lines do.
 
 #pragma once
 
@@ -18,19 +18,20 @@ class Chain final : public ToolPath {
     Pose end;
     double zone = 0;        // m, around its end
     double speed = 1;       // part of full speed, above 0 to 1
-    double tool_speed = 0;  // m/s, instead of it; 0: none
+    double tool_speed = 0;  // m/s, instead of speed; 0: none
     int source = 0;
   };
 
-  // Real-time safe, as all here.
+  // All functions of this class are real-time safe.
   void begin(const Pose& start, const ToolLimits& tool) noexcept;
-  // There is room for kMost. False if the line has no length: it is left out.
+  // The caller ensures that there is room (at most kMost lines). Returns false if the line has no length: it is left
+  // out.
   bool add(const Line& line) noexcept;
-  // Behind the last one.
+  // Called after the last line.
   void finish() noexcept;
 
   [[nodiscard]] int count() const noexcept { return count_; }
-  // Whether zones meet on a line, so that corners cannot be passed one after the other.
+  // Returns whether zones overlap on a line, so that corners cannot be passed one after the other.
   [[nodiscard]] bool crowded() const noexcept { return crowded_; }
   [[nodiscard]] double at_speed() const noexcept override { return at_speed_; }
   [[nodiscard]] double way() const noexcept override { return way_; }
@@ -42,7 +43,7 @@ class Chain final : public ToolPath {
 
  private:
   using Corners = std::array<Vec3, kMost + 1>;
-  // Lines `first` to `last` are within reach of a place.
+  // Lines `first` to `last` are within reach of a place on the path.
   struct Window {
     double half = 0;
     int first = 0, last = 0;
@@ -50,7 +51,7 @@ class Chain final : public ToolPath {
 
   [[nodiscard]] int line_at(double place) const noexcept;
   [[nodiscard]] Window window(double place) const noexcept;
-  // How far round corner i is at the place: 0 before it, 1 per second behind it.
+  // Returns the progress around corner i at this place: 0 before the corner, growing by 1 per second after it.
   [[nodiscard]] double ramp(int i, double place, double half) const noexcept;
 
   ToolLimits tool_;
@@ -58,10 +59,10 @@ class Chain final : public ToolPath {
   bool crowded_ = false;
   double way_ = 0;
   double at_speed_ = 0;
-  double half_ = 0;                     // s at full speed, how far a place looks to either side
+  double half_ = 0;                     // s at full speed, half width of the mean
   std::array<double, kMost + 1> at_{};  // where the lines begin, and the last one ends
   std::array<Pose, kMost + 1> poses_{};
-  // Of each line: how it moves and turns in a second (base frame), its turn (frame of its beginning).
+  // For each line: its velocity and turn rate (base frame), and its rotation (frame of its beginning).
   Corners moving_{}, turning_{}, turns_{};
   std::array<double, kMost> speeds_{}, zones_{};
   std::array<int, kMost> sources_{};

@@ -7,12 +7,12 @@ namespace indurop::robot {
 
 namespace {
 
-// Behind these it is not certain any more what comes next.
+// Returns whether the step may branch: after it, the next step is not certain.
 bool parts_ways(Op op) noexcept {
   return op == Op::If || op == Op::Unless || op == Op::Goto || op == Op::Return || op == Op::Try || op == Op::Again;
 }
 
-// The calls that every run of the job comes to.
+// Returns the calls that every run of the job reaches.
 std::vector<const Step*> certain_calls(const Job& job) {
   std::vector<const Step*> calls;
   for (const Step& step : job.steps) {
@@ -26,7 +26,7 @@ std::vector<const Step*> certain_calls(const Job& job) {
   return calls;
 }
 
-// Whether a run of `from` comes to job `to` for certain.
+// Returns whether every run of `from` reaches job `to`.
 bool comes_to(const JobBook& book, int from, int to, std::vector<bool>& seen) {
   if (from == to) {
     return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs that call themselves, at once or by way of others, whatever happens: they never end.
+// Finds jobs that unconditionally call themselves, directly or through others: they never end.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace indurop::robot {
 
-// Warnings, one for each job of such a circle, at its call.
+// Returns warnings, one for each job of such a cycle, at its call.
 std::vector<base::Diagnostic> check_calls(const JobBook& book);
 
 }  // namespace indurop::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the splines of jobs cannot work is said when the files are read.
+// Checks splines of jobs when the files are read.
 
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace indurop::robot {
 
-// Points that are out of reach, with the line of the spline. Of arms without a closed form all points have been
-// searched for already.
+// Returns points that are out of reach, with the line of the spline. For arms without a closed form all points have
+// been checked already.
 std::vector<base::Diagnostic> check_splines(const JobBook& book, const Inverse& inverse);
 
 }  // namespace indurop::robot

@@ -9,9 +9,9 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kFinest = 2e-4;    // m that a step has to prove; nearer to touching than that is touching
+constexpr double kFinest = 2e-4;    // m, the smallest step that has to be proved; anything nearer counts as touching
 constexpr double kRounding = 1e-7;  // m
-// m, the longest step of what touches, where it is looked at exactly, and in the tick.
+// m, the longest step of touching bodies, for exact checks and in the tick.
 constexpr double kComeApart = 2e-3;
 constexpr double kComeApartSoon = 2e-2;
 
@@ -104,7 +104,7 @@ ClearWay::Step ClearWay::next(const Joints& to, const Joints& moved) noexcept {
   return Step::Clear;
 }
 
-// What is known of a pair is not enough for this step.
+// Checks a pair whose known distance does not suffice for this step.
 ClearWay::Step ClearWay::look(std::size_t pair, double most, bool& placed, const Joints& to) noexcept {
   if (!placed) {
     clearance_.place(to, there_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A way of the arm that is looked at step by step, and nothing is missed between the steps: no body can have moved
-// farther than its axes let it, and two bodies that are farther apart than that did not meet.
+// Checks a path of the arm step by step without missing anything between the steps: no body can have moved farther than
+// its axes allow, and two bodies that are farther apart than that did not meet.
 
 #pragma once
 
@@ -14,37 +14,39 @@ namespace indurop::robot {
 
 class ClearWay {
  public:
-  // `exact`: as near as FCL can tell, not for the tick; else two bodies may count as touching that nearly do.
+  // `exact`: as exact as FCL can compute, not for the tick; otherwise two bodies may count as touching that only nearly
+  // do.
   ClearWay(const Clearance& clearance, bool exact);
 
   enum class Step {
     Clear,
-    Shorter,  // it cannot be said for all of the step: try a shorter one
-    Touches,  // pair() come too near to each other
-    Lost      // the way does not go on
+    Shorter,  // undecided for the whole step: try a shorter one
+    Touches,  // the bodies of pair() come too near to each other
+    Lost      // the path cannot be continued
   };
-  // Where a way begins. Real-time safe as all the rest, if it is not exact.
+  // Sets the start of a path. Real-time safe like all functions below, unless it is exact.
   void begin(const Joints& from, int tool) noexcept;
-  // Another one's bodies, and that one has these. clearance() has to follow.
+  // Exchanges the bodies with those of another one. clearance() has to follow.
   void swap(ClearWay& other) noexcept;
-  // Goes on where `other` is, which looks at the same bodies.
+  // Continues from the present place of `other`, which checks the same bodies.
   void take(const ClearWay& other) noexcept;
-  // On to `to`; the axes go `moved` on that step, there and back. What is too near already may not come nearer.
+  // Checks the step to `to`; `moved` is the distance that the axes travel in it, back and forth. Bodies that are
+  // already too near may not come nearer.
   Step next(const Joints& to, const Joints& moved) noexcept;
-  // Where the last step led to.
+  // Returns where the last step led to.
   [[nodiscard]] const Joints& at() const noexcept { return at_; }
-  // Of what touches, where it begins or on the last step; -1: nothing did.
+  // Returns the pair that touches, at the start or on the last step; -1: none did.
   [[nodiscard]] int pair() const noexcept { return pair_; }
 
  private:
-  // How far a pair is from touching, at least, at the last step.
+  // Minimum distance of a pair from touching, at the last step.
   struct Room {
     double left = 0;      // m
-    bool counts = false;  // with this tool
-    bool inside = false;  // it touches, and may only come apart
+    bool counts = false;  // applies to this tool
+    bool inside = false;  // it touches, and may only separate
   };
 
-  // m from touching, at one of the two places.
+  // Returns the distance from touching at one of the two places, in m.
   [[nodiscard]] double measure(std::size_t pair, const Clearance::Places& places) noexcept;
   Step look(std::size_t pair, double most, bool& placed, const Joints& to) noexcept;
   Step come_apart(std::size_t pair, double most) noexcept;
@@ -56,16 +58,17 @@ class ClearWay {
   Joints at_ = Joints::Zero();
   bool here_placed_ = false;
   int pair_ = -1;
-  double apart_ = 0;  // m, the longest step of what touches
+  double apart_ = 0;  // m, the longest step while bodies touch
 };
 
-// How far axes go on a way of which three places are known, the second in its middle: twice what a smooth way takes.
+// Returns how far axes travel at most on a path of which three places are known, the second in its middle; with twice
+// the allowance that a smooth path needs.
 [[nodiscard]] Joints moved_by(const Joints& from, const Joints& middle, const Joints& to) noexcept;
 
-// Along a way from place 0 on, in steps as long as can be.
+// Walks along a path from place 0 on, in steps as long as possible.
 class ClearWalk {
  public:
-  // `widest`: the longest step whose middle shows how the way bends.
+  // `widest`: the longest step in which the middle still shows how the path bends.
   void begin(double length, double widest) noexcept {
     length_ = length;
     width_ = widest_ = widest;
@@ -73,7 +76,8 @@ class ClearWalk {
   }
   [[nodiscard]] bool done() const noexcept { return !(place_ < length_); }
   [[nodiscard]] double place() const noexcept { return place_; }
-  // One step on, or none if it has to be shorter. `at(place, near, q)`: where the axes are; false if nowhere.
+  // Takes one step, or none if it has to be shorter. `at(place, near, q)`: the axes at a place; false if there are
+  // none.
   template <class At>
   ClearWay::Step step(ClearWay& way, const At& at) noexcept {
     if (width_ < 1e-9 * length_) {
@@ -98,7 +102,7 @@ class ClearWalk {
     return step;
   }
 
-  // All of it, if that is not too long to be shown in so many steps. Else pair() is what is in the way.
+  // Takes the whole path, if `steps` steps are enough for it. Otherwise pair() returns what is in the way.
   template <class At>
   bool all(ClearWay& way, int steps, const At& at) noexcept {
     for (; steps > 0 && !done(); --steps) {

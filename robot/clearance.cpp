@@ -13,8 +13,8 @@ namespace indurop::robot {
 
 namespace {
 
-// How far a solid can be from the axes that move it, whatever they do: from the last one back to the one behind
-// `first`.
+// Returns the maximum lever of a solid about the axes that move it, in any position: from the last axis back to the one
+// after `first`.
 Joints lever_of(const Arm& arm, const Solid& solid, int first, int last) {
   Joints lever = Joints::Zero();
   Vec3 from = solid.place.position;
@@ -85,7 +85,7 @@ void Clearance::add(const std::string& name, const Part& part) {
   }
 }
 
-// What is joined by one joint, or by none, is left out: it is made to touch.
+// Bodies that are joined by one joint or by none are left out: they touch by design.
 void Clearance::connect(const std::vector<std::pair<std::string, std::string>>& ignored) {
   std::vector<Solid> solids;
   std::transform(parts_.begin(), parts_.end(), std::back_inserter(solids), [](const Part& part) { return part.solid; });

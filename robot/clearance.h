@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which bodies of an arm must stay clear of which others, and how far they are apart at least when the axes stand
-// somewhere. Made once, when the task is loaded.
+// The pairs of bodies of an arm that must stay clear of each other, and a lower bound of their distance for given joint
+// positions. Created once, when the task is loaded.
 
 #pragma once
 
@@ -16,15 +16,15 @@ class Clearance {
  public:
   // One solid of the arm, of a tool or of a zone.
   struct Part {
-    int body = 0;   // its name
-    int joint = 0;  // so many moving joints of the chain move it
-    int tool = 0;   // only while this one is held; 0: always
+    int body = 0;   // index of its name
+    int joint = 0;  // number of moving joints of the chain that move it
+    int tool = 0;   // only while this tool is held; 0: always
     Solid solid;    // in the base's frame, joints at zero
   };
   struct Pair {
-    int a = 0, b = 0;  // parts; the joints between them are those of `b` behind `a`
+    int a = 0, b = 0;  // parts; the joints between them are those of `b` after `a`
     int tool = 0;
-    // m that a point of one goes at most, seen from the other, when an axis moves by 1 rad (or m).
+    // m that a point of one moves at most, seen from the other, when an axis moves by 1 rad (or m).
     Joints lever = Joints::Zero();
   };
   using Places = std::vector<PlacedSolid>;
@@ -32,23 +32,23 @@ class Clearance {
   Clearance() = default;
   Clearance(const Arm& arm, const Bodies& bodies);
 
-  // There is something that could touch.
+  // Returns whether there are bodies that could touch.
   [[nodiscard]] bool known() const noexcept { return !pairs_.empty(); }
   [[nodiscard]] const std::vector<Part>& parts() const noexcept { return parts_; }
   [[nodiscard]] const std::vector<Pair>& pairs() const noexcept { return pairs_; }
-  // m; nearer than that is touching.
+  // m; anything nearer counts as touching.
   [[nodiscard]] double margin() const noexcept { return margin_; }
 
-  // Where the parts are. `places` has one for each. Real-time safe, as all the rest.
+  // Computes where the parts are. `places` has one entry for each. Real-time safe, like all functions below.
   void place(const Joints& q, Places& places) const noexcept;
-  // m between the two, less the margin, at least.
+  // Returns a lower bound of the distance between the two, less the margin, in m.
   [[nodiscard]] double least(const Pair& pair, const Places& places) const noexcept {
     return least_distance(places[index(pair.a)], places[index(pair.b)]) - margin_;
   }
   [[nodiscard]] bool counts(const Pair& pair, int tool) const noexcept { return pair.tool == 0 || pair.tool == tool; }
-  // Writes what a pair is called: "'forearm' and zone 'table'".
+  // Writes the names of a pair: "'forearm' and zone 'table'".
   void name(int pair, char* to, std::size_t size) const noexcept;
-  // Which pairs are looked at and which are not, in words. Not real-time safe.
+  // Describes in words which pairs are checked and which are not. Not real-time safe.
   [[nodiscard]] std::string text() const;
 
  private:

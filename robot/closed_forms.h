@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arms of six turning axes whose inverse kinematics has a closed form, of all up to eight solutions. Axes are looked at
-// as lines in space, so that it does not matter how a file describes them.
+// Arms of six turning axes whose inverse kinematics has a closed form with up to eight solutions. Axes are treated as
+// lines in space, so it does not matter how a file describes them.
 
 #pragma once
 
@@ -14,11 +14,12 @@ namespace indurop::robot {
 // these: nearly all industrial ones. Shoulder, elbow and tool may have any offsets.
 class SphericalWrist {
  public:
-  // Nothing if the arm is of another kind.
+  // Returns nothing if the arm is of another kind.
   static std::optional<SphericalWrist> of(const Arm& arm);
 
-  // All solutions within the joint limits, each angle the turn nearest to that of `near`. In singular positions, where
-  // there are infinitely many, those that keep the joints of `near`. What::Nearest: no others but the nearest count.
+  // Returns all solutions within the joint limits, each angle in the turn nearest to that of `near`. In singular
+  // positions, where there are infinitely many, it returns those that keep the joints of `near`. What::Nearest: only
+  // the nearest solution counts.
   [[nodiscard]] Solutions solve(const Arm& arm, const Pose& pose, const Joints& near,
                                 Gathered::What what = Gathered::What::All) const noexcept;
 
@@ -27,7 +28,7 @@ class SphericalWrist {
   void with_first(Search& search, double q1, std::uint8_t posture) const noexcept;
   void with_arm(Search& search, const Eigen::Vector3d& first_three, std::uint8_t posture) const noexcept;
 
-  Vec3 center_ = Vec3::Zero();  // of the wrist, at joint angles zero
+  Vec3 center_ = Vec3::Zero();  // of the wrist, with all joints at zero
   Vec3 plane_x_, plane_y_;      // of the plane perpendicular to axes 2 and 3
   Eigen::Vector2d origin_;      // axis 2 in that plane
   Compass compass_;             // from there to axis 3, from there to the wrist
@@ -39,10 +40,10 @@ class SphericalWrist {
 // be any.
 class ParallelAxes {
  public:
-  // Nothing if the arm is of another kind.
+  // Returns nothing if the arm is of another kind.
   static std::optional<ParallelAxes> of(const Arm& arm);
 
-  // As of SphericalWrist.
+  // As for SphericalWrist.
   [[nodiscard]] Solutions solve(const Arm& arm, const Pose& pose, const Joints& near,
                                 Gathered::What what = Gathered::What::All) const noexcept;
 
@@ -51,7 +52,7 @@ class ParallelAxes {
   void with_first(Search& search, double q1, std::uint8_t posture) const noexcept;
   void with_wrist(Search& search, const Wrist::Angles& wrist, std::uint8_t posture) const noexcept;
 
-  Vec3 center_ = Vec3::Zero();  // where the last two axes meet, at joint angles zero
+  Vec3 center_ = Vec3::Zero();  // where the last two axes meet, with all joints at zero
   Vec3 plane_x_, plane_y_;      // of the plane perpendicular to the parallel axes
   Eigen::Vector2d origin_;      // axis 2 in that plane
   Compass compass_;             // from there to axis 3, from there to axis 4

@@ -11,7 +11,7 @@ void CommandTable::read(const Commands& places, bool known) noexcept {
     first_ = false;
     tickets_.fill(kNone);
     for (std::size_t i = 0; i < kCommands; ++i) {
-      // What was asked for before this program started is not done now.
+      // Commands from before this program started are not executed.
       seen_[i] = places[i].number;
       answers_[i] = {seen_[i], seen_[i] == 0 ? CommandState::None : CommandState::Aborted, ErrorCode::Ok, false};
     }
@@ -41,7 +41,7 @@ void CommandTable::look(std::size_t place, const Command& now) noexcept {
     at(ticket).command.execute = 0;
     tickets_[place] = kNone;
   }
-  // Of an empty place the last answer stays: it says which numbers there have been.
+  // An empty place keeps its last answer: it shows which numbers there have been.
   if (now.number != 0) {
     answers_[place] = {now.number, CommandState::None, ErrorCode::Ok, false};
     enter(place, now);
@@ -64,7 +64,7 @@ int CommandTable::take() noexcept {
   int first = kNone;
   for (int ticket = 0; ticket < kMost; ++ticket) {
     const Entry& entry = at(ticket);
-    // Numbers may go round.
+    // Numbers may wrap around.
     if (entry.used && !entry.taken &&
         (first == kNone || static_cast<std::int32_t>(entry.command.number - at(first).command.number) < 0)) {
       first = ticket;
@@ -88,7 +88,7 @@ void CommandTable::tell(int ticket, CommandState state, ErrorCode error) noexcep
     CommandAnswer& answer = answers_[static_cast<std::size_t>(place)];
     answer.state = state;
     answer.error = error;
-    // What took over as it was reached is told of in the same period.
+    // A command that replaces another one as it is reached: both are reported in the same period.
     answer.reached = answer.reached && (state == CommandState::Active || state == CommandState::Aborted);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands that were taken and have not ended, whoever carries them out, and what is told of them. A command whose
-// place has been written anew meanwhile goes on; nobody is told of it any more.
+// Accepted commands that have not ended, whichever module executes them, and their status. A command whose place has
+// been overwritten meanwhile continues, but its status is no longer reported.
 
 #pragma once
 
@@ -13,23 +13,23 @@ class CommandTable {
   static constexpr int kNone = -1;
   static constexpr int kMost = 64;
 
-  // Once per period. `known` is false while the board of who commands has not been heard. What is there the first time
-  // is not carried out, but answered with Aborted. Real-time safe, as all here.
+  // Called once per period. `known` is false while the commanding board has not been received. Commands that are there
+  // the first time are not executed, but answered with Aborted. All functions of this class are real-time safe.
   void read(const Commands& places, bool known) noexcept;
-  // The next new command, in the order of their numbers; kNone: there is none.
+  // Returns the next new command, in the order of their numbers; kNone: there is none.
   int take() noexcept;
 
   [[nodiscard]] const Command& command(int ticket) const noexcept { return at(ticket).command; }
-  // Whether its block still has its Execute. False if nobody waits for its answer any more.
+  // Returns whether its block still has its Execute. False if no block waits for its answer any more.
   [[nodiscard]] bool execute(int ticket) const noexcept { return at(ticket).command.execute != 0; }
-  // Its fields have changed since this was asked last.
+  // Returns whether its fields have changed since the last call.
   bool updated(int ticket) noexcept;
 
   void waits(int ticket) noexcept { tell(ticket, CommandState::Waits, ErrorCode::Ok); }
   void active(int ticket) noexcept { tell(ticket, CommandState::Active, ErrorCode::Ok); }
-  // Of motions without an end.
+  // For motions without an end.
   void reached(int ticket, bool is) noexcept;
-  // It is done and holds on: a stop whose Execute is still there.
+  // The command is done and keeps its effect: a stop that still has its Execute.
   void holds(int ticket) noexcept { tell(ticket, CommandState::Done, ErrorCode::Ok); }
   // The ticket is free afterwards.
   void end(int ticket, ErrorCode code) noexcept;
@@ -41,7 +41,7 @@ class CommandTable {
     bool used = false;
     bool taken = false;
     bool changed = false;
-    int place = kNone;  // kNone: written anew
+    int place = kNone;  // kNone: overwritten
     Command command;
   };
   [[nodiscard]] const Entry& at(int ticket) const noexcept { return entries_[static_cast<std::size_t>(ticket)]; }

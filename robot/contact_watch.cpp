@@ -8,10 +8,10 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kSmooth = 0.03;  // s: steps of the encoder are none of the arm
+constexpr double kSmooth = 0.03;  // s: steps of the encoder are not motions of the arm
 constexpr double kWaking = 0.2;   // s until brakes are open and drives hold the arm
 constexpr int kSure = 3;          // periods
-constexpr double kSlow = 0.01;    // rad/s or m/s: dry friction may hold either way
+constexpr double kSlow = 0.01;    // rad/s or m/s: below this, dry friction may act in either direction
 
 }  // namespace
 
@@ -37,7 +37,7 @@ double ContactWatch::allowed(const Dynamics& dynamics, const Joints& velocity, E
 }
 
 int ContactWatch::step(const Dynamics& dynamics, const Joints& q, const Joints& torque, double period) noexcept {
-  // Motion is known for the instant between the two last periods.
+  // Motion is computed for the instant between the last two periods.
   const Joints given = (torque + torque_) / 2;
   torque_ = torque;
   q_ = {q, q_[0], q_[1]};

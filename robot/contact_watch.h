@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells whether something pushes against the arm: what the drives measure as torque, beyond what the arm needs for how
-// it moves (the residual). Motion is taken from measured places, so a drive that lags behind is no push.
+// Detects contact with the arm: the torque that the drives measure beyond what the arm needs for its motion (the
+// residual). Motion is taken from measured positions, so a drive that lags behind does not count as contact.
 
 #pragma once
 
@@ -13,17 +13,17 @@ namespace indurop::robot {
 class ContactWatch {
  public:
   ContactWatch() = default;
-  // `limit`: N m of each axis, N of sliding ones.
+  // `limit`: N m for each axis, N for sliding ones.
   explicit ContactWatch(const Joints& limit) noexcept : limit_(limit), allowed_(limit) {}
 
-  // The drives have no power, or move by themselves. Real-time safe, as all here.
+  // Called while the drives have no power or move on their own. All functions of this class are real-time safe.
   void rest() noexcept;
-  // Somebody knows of a push that may last: only more than that counts from now on, until it is gone.
+  // Accepts a push that may last: only more than that counts from now on, until it is gone.
   void release() noexcept;
-  // The next period: where the axes are, and the torques of their drives, means of the period. The first axis that is
-  // pushed, from 0; -1: none.
+  // Takes the next period: the positions of the axes, and the torques of their drives, as means over the period.
+  // Returns the first axis that is pushed, from 0; -1: none.
   int step(const Dynamics& dynamics, const Joints& q, const Joints& torque, double period) noexcept;
-  // What the drives give beyond what the arm needs, without what changes quickly.
+  // Returns the torque of the drives beyond what the arm needs, low-pass filtered.
   [[nodiscard]] const Joints& residual() const noexcept { return residual_; }
 
  private:
@@ -36,7 +36,7 @@ class ContactWatch {
   Joints residual_ = Joints::Zero();
   std::array<int, kAxes> beyond_{};  // periods
   double awake_ = 0;                 // s
-  int known_ = 0;                    // of q_
+  int known_ = 0;                    // number of known q_
 };
 
 }  // namespace indurop::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An enabling switch whose hand is far away: it counts as pressed only while its beat goes on.
+// An enabling device that is operated remotely: it counts as pressed only while its beat continues.
 
 #pragma once
 
@@ -10,12 +10,13 @@ namespace indurop::robot {
 
 class DeadMan {
  public:
-  // How long it stays pressed after the last beat.
+  // Time it counts as pressed after the last beat.
   static constexpr double kPatience = 0.3;  // s
 
-  // Once a period, of `period` seconds. `beat` 0: the hand is at the switch, which counts by itself. Else it has to
-  // change within kPatience; once it has not, the switch has to be released before it counts again. Whoever finds a
-  // switch pressed when he begins to look waits for that, too. Real-time safe.
+  // Called once per period of `period` seconds. Returns whether the switch is held. `beat` 0: the switch is local and
+  // its contact alone counts. Otherwise `beat` has to change within kPatience; once it has not, the switch has to be
+  // released before it counts again. The same applies to a switch that is already pressed at the first call. Real-time
+  // safe.
   bool holds(bool pressed, std::uint32_t beat, double period) noexcept {
     const bool first = !last_;
     since_ = first || beat != *last_ ? 0 : since_ + period;

@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 namespace {
 
-// A vector of the plane of arm i.
+// Returns a vector in the plane of arm i.
 Vec3 in_plane(int i, double out, double up) noexcept {
   const double direction = 2 * kPi / 3 * i;
   return {out * std::cos(direction), out * std::sin(direction), up};
@@ -16,7 +16,7 @@ Vec3 in_plane(int i, double out, double up) noexcept {
 
 }  // namespace
 
-// Where the arms end, as if the platform were a point.
+// Returns the ends of the upper arms, as if the platform were a point.
 Mat3 Delta::knees(const Vec3& angles) const noexcept {
   Mat3 points;
   for (int i = 0; i < 3; ++i) {
@@ -25,7 +25,7 @@ Mat3 Delta::knees(const Vec3& angles) const noexcept {
   return points;
 }
 
-// The point as far from all knees as the rods are long, below them.
+// The point below all knees whose distance from each is the length of the rods.
 Vec3 Delta::position(const Vec3& angles) const noexcept {
   const Mat3 points = knees(angles);
   const Vec3 a = points.col(1) - points.col(0);

@@ -77,7 +77,7 @@ void Drive::step(const DriveIn& in, Want want) noexcept {
 
   resetting_ = resetting_ && faulty();
   if (resetting_) {
-    // The drive looks at the rising edge.
+    // The drive reacts to the rising edge.
     control_ = control_ == kResetFault ? kDisableVoltage : kResetFault;
     return;
   }

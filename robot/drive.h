@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The master's side of one CiA 402 drive: brings it to the wanted state by its control word, one transition per period,
-// and knows what its status word says.
+// The master's side of one CiA 402 drive: brings it to the requested state by its control word, one transition per
+// period, and evaluates its status word.
 
 #pragma once
 
@@ -26,13 +26,13 @@ class Drive {
 
   static State state_of(std::uint16_t status) noexcept;
 
-  // Takes what the drive says and decides on what it is told. Real-time safe.
+  // Takes the drive's status and determines its control word and mode. Real-time safe.
   void step(const DriveIn& in, Want want) noexcept;
-  // Acknowledge the drive's fault, until it has left it.
+  // Acknowledges the drive's fault until the drive has left it.
   void reset() noexcept { resetting_ = true; }
-  // Looks for its reference with the drive's own method, while `on`.
+  // Homes with the drive's own method while `on`.
   void home(bool on) noexcept { homing_ = on; }
-  // Gets torques instead of positions, while `on`.
+  // Commands torques instead of positions while `on`.
   void torque(bool on) noexcept { torque_ = on; }
 
   [[nodiscard]] State state() const noexcept { return state_; }

@@ -7,11 +7,11 @@ namespace indurop::robot {
 
 namespace {
 
-// A link on its way: where it is, and how its reference point moves.
+// The motion of a link: its joint, its centre, and the forces on its body.
 struct Moving {
   Vec3 direction, point;  // of its joint
   Vec3 centre;
-  Vec3 force, moment;  // that its body needs, the moment about its centre
+  Vec3 force, moment;  // needed by its body; the moment about its centre
 };
 
 }  // namespace
@@ -38,7 +38,7 @@ Joints Dynamics::friction(const Joints& velocity) const noexcept {
   return friction_.damping.cwiseProduct(velocity) + friction_.dry.cwiseProduct(against);
 }
 
-// All in the base's frame. What gravity does is what an upward acceleration of the base does.
+// Everything is in the base's frame. Gravity is represented by an upward acceleration of the base.
 Joints Dynamics::torques(const Joints& q, const Joints& velocity, const Joints& acceleration,
                          double gravity) const noexcept {
   std::array<Moving, Arm::kMostLinks> moving;
@@ -60,7 +60,7 @@ Joints Dynamics::torques(const Joints& q, const Joints& velocity, const Joints& 
     faster += turning_faster.cross(away) + turning.cross(turning.cross(away));
     reference = m.point;
     if (link.kind == AxisKind::Sliding) {
-      // The point that is there now belongs to the link before; the one that slides through it is taken instead.
+      // The point that is there now belongs to the previous link; the point of the sliding link is used instead.
       faster += 2 * speed * turning.cross(m.direction) + change * m.direction;
       shift += place * m.direction;
     } else {

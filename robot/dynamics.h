@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it takes to move an arm: torques of its axes (forces of sliding ones) from the masses of its links and of what
-// it holds, by Newton and Euler from one link to the next. It knows nothing of paths.
+// Inverse dynamics of an arm: torques of its axes (forces of sliding ones) from the masses of its links and of its
+// payload, by Newton-Euler recursion over the links. It is independent of paths.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace indurop::robot {
 
-// Of the axes, one each.
+// Friction, one value for each axis.
 struct Friction {
   Joints damping = Joints::Zero();  // N m s/rad, or N s/m
   Joints dry = Joints::Zero();      // N m, or N
@@ -20,33 +20,33 @@ struct Friction {
 
 class Dynamics {
  public:
-  // Nothing is known.
+  // Creates unknown dynamics.
   Dynamics() = default;
-  // `bodies`: what each of the `links` moves, in the base's frame with all joints at zero; Arm::kMostLinks at most.
-  // `end`: the arm's end, there. `effort`: the most of each axis; 0: no limit is known.
+  // `bodies`: the body that each of the `links` moves, in the base's frame with all joints at zero; at most
+  // Arm::kMostLinks. `end`: the arm's end in the same frame. `effort`: maximum of each axis; 0: no limit is known.
   Dynamics(const std::vector<Link>& links, const std::vector<Body>& bodies, const Pose& end, const Friction& friction,
            const Joints& effort) noexcept;
 
-  // Real-time safe, as all the rest.
+  // Real-time safe, like all functions below.
   [[nodiscard]] bool known() const noexcept { return count_ > 0; }
   [[nodiscard]] const Joints& effort() const noexcept { return effort_; }
-  // Whether the torque of an axis has a limit.
+  // Returns whether any axis has a torque limit.
   [[nodiscard]] bool limited() const noexcept { return (effort_.array() > 0).any(); }
-  // Inertia of the motors' rotors, gears included, as their axes feel it: kg m2, kg of sliding axes. What they do to
-  // each other by turning is left out, as is usual for gears of high ratio.
+  // Sets the inertia of the motors' rotors, gears included, as felt at the axes: kg m2, kg for sliding axes. The
+  // effects that rotors have on each other by turning are neglected, as is usual for high gear ratios.
   void turn_rotors(const Joints& inertia) noexcept { rotors_ = inertia; }
-  // What the arm holds, seen from its end; a mass of 0: nothing.
+  // Sets the payload, in the frame of the arm's end; mass 0: none.
   void hold(const Body& payload) noexcept;
 
-  // What the drives have to give for this motion, against gravity too, without friction.
+  // Returns the drive torques for this motion, including gravity, without friction.
   [[nodiscard]] Joints torques(const Joints& q, const Joints& velocity, const Joints& acceleration) const noexcept {
     return torques(q, velocity, acceleration, kGravity);
   }
-  // That part of it which accelerations alone need.
+  // Returns the part of these torques that accelerations alone need.
   [[nodiscard]] Joints inertial(const Joints& q, const Joints& acceleration) const noexcept {
     return torques(q, Joints::Zero(), acceleration, 0);
   }
-  // What friction adds at that velocity.
+  // Returns the friction torques at this velocity.
   [[nodiscard]] Joints friction(const Joints& velocity) const noexcept;
   [[nodiscard]] const Friction& friction() const noexcept { return friction_; }
 
@@ -60,7 +60,7 @@ class Dynamics {
   std::size_t count_ = 0;
   std::array<Link, Arm::kMostLinks> links_{};
   Bodies bodies_{};
-  Body last_;  // without what it holds
+  Body last_;  // the last body, without payload
   Pose end_;
   Friction friction_;
   Joints effort_ = Joints::Zero();

@@ -8,18 +8,18 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kOfEffort = 0.99;  // what lies between two places
-constexpr int kFewest = 32;         // places
+constexpr double kOfEffort = 0.99;  // part of the limits; margin for values between samples
+constexpr int kFewest = 32;         // number of places
 constexpr int kMost = 1500;
 constexpr double kStep = 0.004;    // s between instants of a timing
-constexpr double kSlowest = 0.02;  // part of the speed: slower is no motion
+constexpr double kSlowest = 0.02;  // part of the speed; below this the motion is rejected
 
-// The torque of an axis by the part of the speed: what holds the arm and rubs, what rubs by speed, what is by its
-// square.
+// The torque of an axis as a function of the part of the speed: gravity and dry friction, damping, and inertial
+// torques, which grow with its square.
 struct Share {
   double still, rubbing, moving;
   [[nodiscard]] double at(double part) const noexcept { return still + part * (rubbing + part * moving); }
-  // The most in either direction from rest up to that part.
+  // Returns the maximum in either direction from rest up to that part.
   [[nodiscard]] double most(double part) const noexcept {
     double most = std::max(std::abs(still), std::abs(at(part)));
     const double top = moving != 0 ? -rubbing / (2 * moving) : -1;
@@ -69,7 +69,7 @@ void EffortBound::look(const Dynamics& dynamics, const Joints& q, const Joints& 
   }
 }
 
-// At the planned pace and below it, as hard as it may change there.
+// Paces at and below the planned pace, with the greatest change that is allowed there.
 EffortLook::Paces EffortLook::changing(const PaceLimits& limits, double most) noexcept {
   Paces paces;
   for (std::size_t i = 0; i < kPaces; i += 2) {
@@ -92,7 +92,7 @@ void EffortLook::begin(const Segment& segment) noexcept {
   if (places_.dynamics() == nullptr || !(segment.length > 0)) {
     return;
   }
-  // Even what has a timing is followed at one speed where the motion before goes over into it; a chain never is.
+  // Even a segment with a timing is followed at one speed if the previous motion blends into it; a chain never is.
   begin_way(segment, segment.move == Move::Joint                          ? Way::JointsStraight
                      : segment.chain != nullptr && segment.timing.known() ? Way::Timing
                                                                           : Way::Speed);
@@ -132,7 +132,7 @@ void EffortLook::begin_way(const Segment& segment, Way way) noexcept {
   }
 }
 
-// Each way to follow it has its own slowness; of joints that arrive together one is for all.
+// Each way of following it is slowed down separately; for joints that arrive together one factor applies to all.
 void EffortLook::next_way(Segment& segment) noexcept {
   const double slower = bound_.slower();
   switch (way_) {
@@ -174,12 +174,12 @@ void EffortLook::look_at_joints(const Segment& segment, double part) noexcept {
   bound_.look(*places_.dynamics(), state.position, state.velocity, state.acceleration, paces_);
 }
 
-// The place before, by differences.
+// Checks the previous place, by differences.
 void EffortLook::look_at_tool(const Segment& segment, double part) noexcept {
   const double whole = way_ == Way::Timing ? segment.timing.duration() : segment.length;
   const double along = way_ == Way::Timing ? segment.timing.at(part * whole).place : part * whole;
   seen_ = {seen_[1], seen_[2], seen_[2]};
-  static_cast<void>(places_.on(segment, along, seen_[1], seen_[2]));  // that it is possible is known
+  static_cast<void>(places_.on(segment, along, seen_[1], seen_[2]));  // known to be reachable
   if (next_ >= 2) {
     const double step = whole / count_;
     bound_.look(*places_.dynamics(), seen_[1], (seen_[2] - seen_[0]) / (2 * step),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the torques of a motion are within what the axes can give, and how much slower it has to be for that. Torque
-// for accelerations falls with the square of the time that a motion takes; what holds the arm against gravity does not.
+// Checks whether the torques of a motion are within the limits of the axes, and how much slower it has to be for that.
+// Torque for accelerations falls with the square of the motion's duration; torque against gravity does not.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace indurop::robot {
 
-// The least slowness that is enough at any number of places.
+// The smallest factor of slowing down that is sufficient for all checked places of a path.
 class EffortBound {
  public:
   // How a path is followed at a place: the square of the speed along it, and the acceleration.
@@ -22,12 +22,13 @@ class EffortBound {
     double acceleration = 0;
   };
 
-  // `first` and `second` are derivatives by the place on the path. Real-time safe, as all here.
+  // Checks a place. `first` and `second` are derivatives by the place on the path. All functions of this class are
+  // real-time safe.
   void look(const Dynamics& dynamics, const Joints& q, const Joints& first, const Joints& second,
             std::span<const Pace> paces) noexcept;
-  // How many times as long it has to take.
+  // Returns the factor on the duration of the motion.
   [[nodiscard]] double slower() const noexcept { return 1 / part_; }
-  // Torque: no slowness helps.
+  // Returns Torque if no slower motion is possible.
   [[nodiscard]] const Fault& fault() const noexcept { return fault_; }
 
  private:
@@ -35,19 +36,19 @@ class EffortBound {
   Fault fault_;
 };
 
-// Looks at a motion that was planned, and makes it as slow as it has to be.
+// Checks a planned motion and slows it down as far as necessary.
 class EffortLook {
  public:
   EffortLook(const Places& places, const JointLimits& joints) noexcept : places_(places), joints_(joints) {}
 
-  // Nothing to do, if it is done() then.
+  // Begins with a segment. If it is done() then, there is nothing to check.
   void begin(const Segment& segment) noexcept;
   [[nodiscard]] bool done() const noexcept { return way_ == Way::None; }
-  // Looks at one place more. Errors: Torque.
+  // Checks one more place. Errors: Torque.
   Fault look(Segment& segment) noexcept;
 
  private:
-  // What a segment may be followed by: a timing of joints at the full pace or below, at one speed, by its timing.
+  // How a segment may be followed: joint timing at or below full pace, at one speed, or by its timing.
   enum class Way { None, JointsAtOnce, JointsLeaving, JointsStraight, Speed, Timing };
   static constexpr std::size_t kPaces = 6;
   using Paces = std::array<EffortBound::Pace, kPaces>;
@@ -70,7 +71,8 @@ class EffortLook {
   std::array<Joints, 3> seen_;
 };
 
-// What a path at one speed has to be, looked at in `count` + 1 equally spaced places. False: it cannot be.
+// Limits a path at one speed by torques, checked at `count` + 1 equally spaced places. Returns false if that is
+// impossible.
 bool slow_down(const Dynamics& dynamics, const Joints* places, int count, double spacing, LineLimits& limits) noexcept;
 
 }  // namespace indurop::robot

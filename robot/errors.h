@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can go wrong with a motion or service, with the numbers users see (ROBOT_ERROR in their .glb).
+// Errors of motions and services, with the numbers that users see (ROBOT_ERROR in their .glb).
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace indurop::robot {
 
-// An error and the axis it is about, from 1; 0: none in particular. Of a collision: what touches (Clearance::name), and
-// at which part of the way; below 0: at none in particular.
+// An error and the axis it refers to, from 1; 0: no particular axis. For a collision: the pair that touches
+// (Clearance::name), and the part of the path at which it touches; below 0: at no particular one.
 struct Fault {
   ErrorCode code = ErrorCode::Ok;
   int axis = 0;

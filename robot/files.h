@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with the files and properties of a robot module, for whoever looks at them before anything runs.
+// Finds errors in the files and properties of a robot module, before anything runs.
 
 #pragma once
 
@@ -14,19 +14,19 @@ namespace indurop::robot {
 
 struct FileNames {
   std::string urdf;
-  std::vector<std::string> jobs;  // points too
-  std::vector<double> workspace;  // as Settings has it; NaN: what is no number
-  double tool_speed = 0;          // mm/s, likewise; 0: anything goes
+  std::vector<std::string> jobs;  // including point files
+  std::vector<double> workspace;  // as in Settings; NaN: not a number
+  double tool_speed = 0;          // mm/s, as in Settings; 0: no limit
   double clearance = 5;           // mm
   std::string ignored{};          // Settings::ignore_collisions
 };
 
 struct Findings {
-  std::vector<base::Diagnostic> files;  // with a note of what the arm can do
+  std::vector<base::Diagnostic> files;  // including a note on the abilities of the arm
   std::vector<WrongSetting> properties;
   std::vector<NamedVariable> variables;  // shared ones that jobs name: numbers or bools
 };
-// All of both. Workspace and tool speed are taken from the properties.
+// Checks files and properties. Workspace and tool speed are taken from the properties.
 Findings check_module(FileNames names, const PropertyText& property);
 
 }  // namespace indurop::robot

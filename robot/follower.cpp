@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kRounded = 1e-6;  // a speed below is none
+constexpr double kRounded = 1e-6;  // a lower speed counts as none
 
 }  // namespace
 
@@ -94,7 +94,7 @@ double Follower::wanted_pace() const noexcept {
   return mode_ == Mode::Run && override_ >= kStill ? std::min(override_, pace_for(segment(0).tip_speed)) : 0;
 }
 
-// At which the tip goes no faster than it may.
+// Returns the pace at which the tip keeps its speed limit.
 double Follower::pace_for(double tip_speed) const noexcept {
   return tip_speed > tip_limit_ ? tip_limit_ / tip_speed : 1;
 }
@@ -115,8 +115,8 @@ const LineLimits& Follower::piece_limits() const noexcept {
   return in_blend_ ? blend_.limits : segment(0).limits;
 }
 
-// Whether a path is followed by its timing is decided where it begins: from rest, with no way into the next one. There
-// it is followed at once, since it begins at rest itself.
+// Whether a path is followed by its timing is decided where it begins: at rest, with no blend into the next one.
+// It is then followed at the requested pace at once, since the timing itself begins at rest.
 void Follower::begin_piece() noexcept {
   Segment& first = segments_[0];
   to_end_ = false;
@@ -133,7 +133,7 @@ void Follower::begin_piece() noexcept {
   replan();
 }
 
-// What has a timing is planned anew in each period.
+// A piece with a timing is planned again in each period.
 void Follower::replan() noexcept {
   if (segment(0).timed) {
     time_ = 0;
@@ -155,7 +155,7 @@ void Follower::replan() noexcept {
     next = into_blend();
     to_end = true;
     if (next.overshoots() && to_end_) {
-      return;  // by rounding; it is nearly there as planned
+      return;  // due to rounding; it is nearly there as planned
     }
   }
   profile_ = next;
@@ -163,7 +163,7 @@ void Follower::replan() noexcept {
   time_ = 0;
 }
 
-// When the end of the present piece is passed; it is between these two times.
+// Returns the time at which the end of the present piece is passed; it is between these two times.
 double Follower::crossing(double from, double to) const noexcept {
   const double end = piece_end();
   for (int i = 0; i < 50; ++i) {
@@ -174,12 +174,12 @@ double Follower::crossing(double from, double to) const noexcept {
 }
 
 void Follower::next_piece() noexcept {
-  // Without a blend it has come to rest, up to rounding.
+  // Without a blend it has come to rest, except for rounding.
   if (segment(0).timed || (blend_.zone <= 0 && state_.velocity < kRounded)) {
     state_ = {};
   }
   if (in_blend_ || blend_.zone <= 0) {
-    // On to the next segment, behind the blend if there was one.
+    // Continue with the next segment, after the blend if there was one.
     state_.position = in_blend_ ? blend_.zone : 0;
     std::move(segments_.begin() + 1, segments_.begin() + count_, segments_.begin());
     std::move(blends_.begin() + 1, blends_.begin() + count_, blends_.begin());
@@ -200,7 +200,7 @@ void Follower::next_piece() noexcept {
 
 double Follower::advance(double seconds) noexcept {
   double moved = 0;
-  // Short paths may begin and end within one period; more of them than this wait for the next one.
+  // Short paths may begin and end within one period; after this many the rest waits for the next period.
   for (int pieces = 0; pieces < 4 && count_ > 0; ++pieces) {
     const bool timed = segment(0).timed;
     if (timed) {
@@ -257,7 +257,7 @@ Reach Follower::joints_ahead(double distance, const Joints& near, Joints& q) con
   return places_.on(segment(1), blend_.zone + beyond, near, q);
 }
 
-// A blend begins or ends there.
+// Returns the distance to where a blend begins or ends.
 double Follower::smooth_until(double distance) const noexcept {
   if (count_ < 2 || (blend_.zone <= 0 && !in_blend_)) {
     return HUGE_VAL;
@@ -277,7 +277,7 @@ double Follower::left() const noexcept {
   return here + (in_blend_ ? 0 : blend_.length()) + segment(1).length - blend_.zone;
 }
 
-// Along the path, over the ends of pieces.
+// Moves along the path, over the ends of pieces.
 void Follower::go(double distance) noexcept {
   state_.position += distance;
   for (int pieces = 0; pieces < 4 && count_ > 1 && state_.position > piece_end(); ++pieces) {

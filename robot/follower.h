@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Follows paths in time: one speed along all of them, whatever they are made of. Override, hold, stop and emergency
-// stop change that speed and nothing else, so the robot never leaves its path.
+// Follows paths in time, with one speed along all of them, whatever they are made of. Override, hold, stop and
+// emergency stop change that speed and nothing else, so the robot never leaves its path.
 
 #pragma once
 
@@ -17,8 +17,8 @@ namespace indurop::robot {
 class Follower final : private PathAhead {
  public:
   static constexpr int kMost = 3;
-  static constexpr double kStill = 1e-3;  // an override below is a hold
-  // A path that was left, and where.
+  static constexpr double kStill = 1e-3;  // an override below this is a hold
+  // A path that was left, and the place where it was left.
   struct Aside {
     std::array<Segment, kMost> segments;
     std::array<Blend, kMost> blends;
@@ -32,64 +32,64 @@ class Follower final : private PathAhead {
   Follower(const Places& places, const JointLimits& limits) noexcept
       : places_(places), most_(limits), clear_(places.clearance(), false), brake_(limits) {}
 
-  // At rest at these joint angles, with nothing to do.
+  // Rests at these joint positions, with nothing to do.
   void reset(const Joints& q) noexcept;
-  // Whether another path can be taken; it has to begin at end().
+  // Returns whether another path can be added; it has to begin at end().
   [[nodiscard]] bool has_room() const noexcept { return count_ < kMost && !stopping(); }
   [[nodiscard]] const Joints& end() const noexcept { return count_ > 0 ? segment(count_ - 1).to : q_; }
-  // `blend`: from the one before into this one, if it may be passed without a stop.
+  // `blend`: from the previous segment into this one, if they may be passed without a stop.
   void add(const Segment& segment, const Blend& blend = {}) noexcept;
 
-  // For other bodies. It has nothing to do.
+  // Gives access to the collision check to exchange its bodies. The follower must be idle.
   [[nodiscard]] ClearWay& clear_way() noexcept { return clear_; }
-  // A joint motion instead of all that is to do, from whatever the joints are doing; not while it is stopping. Errors:
-  // JointLimit, Singular, Workspace, Collision; then all is as before.
+  // Replaces all remaining motion by a joint motion, from any motion of the joints; not while it is stopping. Errors:
+  // JointLimit, Singular, Workspace, Speed, Collision; then nothing has changed.
   Fault redirect(const Segment& target) noexcept;
 
-  // Whether what is added next may begin without a stop.
+  // Returns whether the next segment may begin without a stop.
   [[nodiscard]] bool goes_over() const noexcept { return count_ > 0 && segment(count_ - 1).zone > 0; }
 
-  // Keeps what is left of the path when it comes to rest or is reset, so that it can go on there (follower_aside.cpp).
+  // Keeps the rest of the path when it comes to rest or is reset, so that it can be resumed there (follower_aside.cpp).
   void set_aside() noexcept;
-  // Where that is.
+  // Returns where that path was left.
   [[nodiscard]] const Joints& aside() const noexcept { return aside_.q; }
   [[nodiscard]] const Aside& path_aside() const noexcept { return aside_; }
-  // Instead of what was put aside last.
+  // Replaces the path that was kept.
   void put_aside(const Aside& path) noexcept { aside_ = path; }
   [[nodiscard]] bool has_path_aside() const noexcept { return aside_.count > 0; }
-  // Idle and at rest at aside(): goes on from there.
+  // Resumes the kept path; called when idle and at rest at aside().
   void go_on() noexcept;
 
   // Part of the planned speed, from 0 to 1.
   void set_override(double part) noexcept;
-  // m/s that neither the tool's tip nor the arm's end goes beyond; HUGE_VAL: no such limit. Only while it is idle.
+  // Speed limit of the tool's tip and of the arm's end, in m/s; HUGE_VAL: no such limit. Only while it is idle.
   void set_tip_limit(double speed) noexcept { tip_limit_ = speed; }
-  // Slows down to rest on the path, or goes on.
+  // Slows down to rest on the path, or resumes.
   void set_hold(bool hold) noexcept;
-  // Comes to rest on the path and forgets the rest of it, as softly as it moves.
+  // Comes to rest on the path and discards the rest of it, as softly as it moves.
   void stop() noexcept;
-  // The same as hard as the joints can at this place. `hardness` multiplies their accelerations; of several, the
-  // greatest counts.
+  // Does the same as hard as the joints can at this place. `hardness` multiplies their accelerations; of several calls,
+  // the greatest value counts.
   void stop_hard(double hardness) noexcept;
 
-  // One period on. Errors: Unreachable, JointLimit, Singular, Speed: the path cannot be followed at this place;
-  // joints() then stays where it was.
+  // Advances by one period. Errors: Unreachable, JointLimit, Singular, Speed: the path cannot be followed at this
+  // place; joints() is then unchanged.
   Fault step(double seconds) noexcept;
 
   [[nodiscard]] const Joints& joints() const noexcept { return q_; }
-  // Nothing to do any more.
+  // Returns whether there is nothing left to do.
   [[nodiscard]] bool idle() const noexcept { return count_ == 0; }
   [[nodiscard]] bool stopping() const noexcept { return mode_ == Mode::Stop || mode_ == Mode::HardStop; }
-  // No motion at this moment, because of a hold or an override of 0, or because it is idle.
+  // Returns whether there is no motion at this moment, because of a hold or an override of 0, or because it is idle.
   [[nodiscard]] bool at_rest() const noexcept { return idle() || state_.velocity <= 0; }
   // Part of full speed.
   [[nodiscard]] double speed() const noexcept { return idle() ? 0 : speed_; }
   [[nodiscard]] double acceleration() const noexcept { return idle() ? 0 : acceleration_; }
-  // s until the end of the present path, as things are.
+  // Returns the time to the end of the present path at the present conditions, in s.
   [[nodiscard]] double to_go() const noexcept;
-  // On the present motion.
+  // Returns the place on the present motion.
   [[nodiscard]] PathPlace path_place() const noexcept;
-  // MoveCommand::source of the present path; 0: none.
+  // Returns MoveCommand::source of the present path; 0: none.
   [[nodiscard]] int source() const noexcept;
 
  private:
@@ -114,12 +114,12 @@ class Follower final : private PathAhead {
   void note_joints(double seconds) noexcept;
   void try_blend() noexcept;
   void replan() noexcept;
-  double advance(double seconds) noexcept;  // how far
+  double advance(double seconds) noexcept;  // returns the distance
   double crossing(double from, double to) const noexcept;
   void next_piece() noexcept;
   Fault place(double seconds) noexcept;
   Fault brake(double seconds) noexcept;
-  // Whether the joints may get from one place to the other in that time. Errors: JointLimit, Speed.
+  // Checks whether the joints may move from one position to the other in that time. Errors: JointLimit, Speed.
   [[nodiscard]] Fault allowed(const Joints& from, const Joints& to, double seconds) const noexcept;
   void go(double distance) noexcept;
   void note(double moved) noexcept;
@@ -137,7 +137,7 @@ class Follower final : private PathAhead {
 
   const Places& places_;
   JointLimits most_;
-  ClearWay clear_;  // of ways that are chosen in the tick
+  ClearWay clear_;  // for paths that are chosen in the tick
   Aside aside_;
   bool keep_ = false;
   std::array<Segment, kMost> segments_;
@@ -151,12 +151,13 @@ class Follower final : private PathAhead {
   PathBrake brake_;
   PathHistory past_;
   Profile profile_;
-  bool to_end_ = false;  // of the present piece, where the profile ends
+  bool to_end_ = false;  // the profile ends at the end of the present piece
   PaceChange pace_;
   double time_ = 0;    // in the profile
   double period_ = 0;  // the last one
   LineState state_;    // position: place on the present piece
-  // What it is in seconds at full speed, whether the piece has a timing or not, and where it was on a piece with one.
+  // Speed and acceleration along the path in seconds at full speed, whether the piece has a timing or not, and the last
+  // places on a piece with a timing.
   double speed_ = 0;
   double acceleration_ = 0;
   std::array<double, 3> passed_{};

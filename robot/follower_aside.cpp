@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path that was left before its end, and goes on later from where it was left.
+// Resuming a path that was left before its end, from where it was left.
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace indurop::robot {
 
 namespace {
 
-// What is left of a path was not looked at as a motion that begins there, so it is followed more gently.
+// The rest of a path was not checked as a motion that begins there, so it is followed at a reduced speed.
 constexpr double kGently = 0.7;
 
 }  // namespace
@@ -32,7 +32,7 @@ void Follower::put_aside() noexcept {
   aside_.place = state_.position;
   aside_.q = q_;
   if (count_ > 0) {
-    static_cast<void>(joints_on_piece(state_.position, q_, aside_.q));  // braking knows the path up to rounding only
+    static_cast<void>(joints_on_piece(state_.position, q_, aside_.q));  // braking computes the path only up to rounding
   }
 }
 
@@ -52,7 +52,7 @@ void Follower::go_on() noexcept {
   pace_ = {};
   Segment& s = segments_[0];
   if (s.timed && s.move == Move::Joint) {
-    // The same way again, at a pace that leaves something for changes of it.
+    // The same path again, at a pace that leaves a margin for changes of the pace.
     s.made_for = std::min(s.made_for, 1 - 1e-9);
     s.fastest = std::min(s.fastest, kGently);
     s.settled = 0;
@@ -68,7 +68,7 @@ void Follower::go_on() noexcept {
   replan();
 }
 
-// In a blend the present motion is the one before it.
+// In a blend, the present motion is the one before it.
 PathPlace Follower::path_place() const noexcept {
   if (idle()) {
     return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where one piece of the path goes over into the next: whether it does, and how fast.
+// Blending of one piece of the path into the next: whether it is possible, and how fast.
 
 #include <algorithm>
 
@@ -7,8 +7,8 @@
 
 namespace indurop::robot {
 
-// Whether the first two segments go over into each other is decided once, before the first one is so near its end that
-// it could not be at the blend's speed any more.
+// Whether the first two segments are blended is decided once, before the first one is too near its end to reach the
+// blend's speed.
 void Follower::try_blend() noexcept {
   if (in_blend_ || blend_.zone > 0 || stopping() || segment(0).timed) {
     return;
@@ -17,7 +17,7 @@ void Follower::try_blend() noexcept {
   if (wanted.zone <= 0) {
     return;
   }
-  // The second one may be the last: it must be possible to stop on it.
+  // The second segment may be the last: it must be possible to stop on it.
   const double rest = segment(1).length - wanted.zone;
   double& speed = wanted.limits.velocity;
   while (speed > kStill && ramp({0, speed, 0}, 0, segment(1).limits).distance > rest) {
@@ -33,8 +33,8 @@ void Follower::try_blend() noexcept {
   }
 }
 
-// To where the blend begins, as slowly as is possible on the way there: what is still braking then would go on in the
-// blend, which allows less.
+// Plans to the beginning of the blend, at the lowest possible speed there: braking that is not finished would continue
+// in the blend, which allows less.
 Profile Follower::into_blend() const noexcept {
   constexpr int kHalvings = 8;
   LineLimits limits = piece_limits();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joint motions whose axes arrive together, from rest or from whatever the joints are doing.
+// Joint motions whose axes arrive together, from rest or from any motion of the joints.
 
 #include <algorithm>
 #include <cmath>
@@ -11,20 +11,20 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kThere = 1e-9;           // rad
-constexpr int kLooks = 24;                // at a new way, whether it stays in the workspace
-constexpr int kClearLooks = 64;           // likewise, whether it stays clear: more takes too long
-constexpr double kSameWay = 0.84;         // at a pace up to that axes that come together go the way of full pace
+constexpr int kLooks = 24;                // samples of a new path for the workspace check
+constexpr int kClearLooks = 64;           // samples of a new path for the collision check: more take too long
+constexpr double kSameWay = 0.84;         // up to this pace, axes that arrive together take the path of full pace
 constexpr double kRounding = 1e-9;        // rad/s
-constexpr double kNearlyFull = 1 - 1e-9;  // a pace that leaves something for changes of it
+constexpr double kNearlyFull = 1 - 1e-9;  // a pace that leaves a margin for changes of the pace
 
-// Whether a joint that brakes at once comes to rest beyond its target.
+// Returns whether a joint that brakes at once comes to rest beyond its target.
 bool passes(double position, double target, double stop) noexcept {
   return (target - position) * (target - stop) < 0 && std::abs(target - stop) > kThere;
 }
 
 }  // namespace
 
-// By differences of places a little further on, or back where the path ends.
+// Computes the motion of the joints by differences of places a little ahead, or back where the path ends.
 Reach Follower::motion(JointState& now) const noexcept {
   now = {q_, Joints::Zero(), Joints::Zero()};
   if (at_rest()) {
@@ -53,8 +53,8 @@ Reach Follower::motion(JointState& now) const noexcept {
   return Reach::Ok;
 }
 
-// Of one that is made for a pace below 1, and so brakes later and softer: whether no joint gets too fast or too far, or
-// turns back only because it cannot take its braking back in time.
+// Checks a timing for a pace below 1, which brakes later and more softly: returns whether no joint gets too fast or too
+// far, or turns back only because it cannot end its braking in time.
 bool Follower::can_begin(const JointState& now, double pace, const JointLimits& most) const noexcept {
   const JointLimits limits = limits_for(most, 1, JointShares::at(pace));
   const JointState real{now.position, pace * now.velocity, pace * pace * now.acceleration};
@@ -70,7 +70,7 @@ bool Follower::can_begin(const JointState& now, double pace, const JointLimits& 
   return places_.arm().goes_beyond(now.position, JointTiming::stopping(now, limits), 1e-9) < 0;
 }
 
-// Of joints on their way, as far as places all along it show.
+// Returns the tip speed of a joint motion, as far as samples along it show.
 double Follower::measured_tip_speed(const Segment& segment) const noexcept {
   constexpr int kPlaces = 64;
   TipSpeed tip(places_.arm());
@@ -81,7 +81,8 @@ double Follower::measured_tip_speed(const Segment& segment) const noexcept {
   return segment.length > 0 ? tip.farthest() * kPlaces / segment.length : 0;
 }
 
-// For a pace, or a slower one at which the tip keeps its limit. What moves already keeps its pace.
+// Makes a timing for a pace, or for a slower one at which the tip keeps its limit. A motion that begins in motion keeps
+// its pace.
 void Follower::make_joint_timing(Segment& segment, const JointState& from, const JointLimits& limits,
                                  double pace) noexcept {
   const auto take = [&] { segment.take_joint_timing(from, limits, segment.moving ? pace : made_for(pace)); };
@@ -97,9 +98,9 @@ void Follower::make_joint_timing(Segment& segment, const JointState& from, const
   }
 }
 
-// It is made for the pace that is wanted, as far as what the joints do now can be part of it at that pace.
+// The timing is made for the requested pace, as far as the present motion of the joints can be part of it at that pace.
 Fault Follower::redirect(const Segment& target) noexcept {
-  constexpr double kNotExact = 0.98;  // of the jerk, where the present acceleration is not known exactly
+  constexpr double kNotExact = 0.98;  // factor on the jerk, where the present acceleration is not known exactly
   JointState now;
   if (motion(now) != Reach::Ok) {
     return {ErrorCode::Singular};
@@ -147,18 +148,18 @@ Fault Follower::redirect(const Segment& target) noexcept {
   return {};
 }
 
-// Where there is something to touch, a motion from rest goes the way that was looked at, that of full pace, and has
-// what a hold or another override needs to keep to it.
+// If there are bodies that could touch, a motion from rest takes the checked path, that of full pace, and has a margin
+// so that it stays on it at a hold or another override.
 double Follower::made_for(double pace) const noexcept {
   return places_.clearance().known() ? std::min(pace, kSameWay) : pace;
 }
 
-// Of a joint motion that nobody planned.
+// Checks a joint motion that was not planned by the planner for collisions.
 Fault Follower::stays_clear(const Segment& way) noexcept {
   if (!places_.clearance().known()) {
     return {};
   }
-  constexpr double kParts = 8;  // the longest step
+  constexpr double kParts = 8;  // one of this many parts of the path is the longest step
   clear_.begin(way.joints_at(0), places_.tool());
   ClearWalk walk;
   walk.begin(way.length, way.length / kParts);
@@ -170,8 +171,8 @@ Fault Follower::stays_clear(const Segment& way) noexcept {
   return clear ? Fault{} : Fault{ErrorCode::Collision, 0, clear_.pair(), walk.place() / way.length};
 }
 
-// From full limits to what leaves something for changes of the pace. Not where a joint could not come to rest before
-// its target then: it goes on to its end, which takes no longer than braking.
+// Changes from full limits to a timing that leaves a margin for changes of the pace. Not possible where a joint could
+// then not come to rest before its target: the motion continues to its end, which takes no longer than braking.
 bool Follower::leave_shares() noexcept {
   Segment& s = segments_[0];
   const JointState now = s.joint_timing.at(state_.position);
@@ -199,7 +200,7 @@ bool Follower::leave_shares() noexcept {
   return true;
 }
 
-// After a period.
+// Records the speed after a period.
 void Follower::note_place(double seconds) noexcept {
   if (!segment(0).timed) {
     speed_ = state_.velocity;
@@ -216,7 +217,7 @@ void Follower::note_place(double seconds) noexcept {
   speed_ = speed;
 }
 
-// The fastest of them is the speed.
+// The speed is that of the fastest joint.
 void Follower::note_joints(double seconds) noexcept {
   const Joints moved = past_.joints[0] - past_.joints[1];
   const double speed = moved.cwiseAbs().cwiseQuotient(most_.velocity).maxCoeff() / seconds;
@@ -244,12 +245,12 @@ Reach Follower::joints_on_path(double along, const Joints& near, Joints& q) cons
   return is_timed() ? places_.on_path(segment(0), passed_[0] + along, near, q) : joints_ahead(along, near, q);
 }
 
-// How the pace of a motion with a timing goes on.
+// Returns the further course of the pace of a motion with a timing.
 Profile Follower::pace_of_timing(double seconds) noexcept {
   Segment& s = segments_[0];
   double wanted = wanted_pace();
   if (state_.position <= 0 && !s.moving) {
-    // Where it has not begun there is nothing yet that a jump of the pace could change.
+    // Before the motion begins, the pace may jump.
     if (s.move == Move::Joint && s.made_for != made_for(wanted)) {
       make_joint_timing(s, {s.from, Joints::Zero(), Joints::Zero()}, most_, wanted);
     }
