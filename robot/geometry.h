@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of robot geometry: fixed-size Eigen types, so that nothing here ever allocates. Metres and radians.
+// Basic types and functions of robot geometry: fixed-size Eigen types, so that nothing in this file ever allocates.
+// Units are metres and radians.
 
 #pragma once
 
@@ -11,7 +12,7 @@
 
 namespace indurop::robot {
 
-// Room for that many; an arm may have fewer, and what the others stand at counts for nothing.
+// Maximum number of axes. An arm may have fewer; the values of unused axes are ignored.
 inline constexpr int kAxes = 8;
 inline constexpr double kPi = std::numbers::pi;
 
@@ -29,12 +30,12 @@ inline constexpr double degrees(double radians) noexcept {
   return radians * 180 / kPi;
 }
 
-// The index of an axis, for containers.
+// Converts the index of an axis for use with containers.
 constexpr std::size_t at(int axis) noexcept {
   return static_cast<std::size_t>(axis);
 }
 
-// The first axes; the others are at 0.
+// Returns joint values of which the first ones are given; the others are 0.
 Joints joints_of(std::initializer_list<double> first) noexcept;
 
 struct Pose {
@@ -42,20 +43,20 @@ struct Pose {
   Quat orientation = Quat::Identity();
 };
 
-// What `second` is, seen from the frame in which `first` is.
+// Composes poses: `second` is given in the frame of `first`.
 inline Pose operator*(const Pose& first, const Pose& second) noexcept {
   return {first.position + first.orientation * second.position, (first.orientation * second.orientation).normalized()};
 }
 
-// The rotation vector (axis times angle, at most pi) that turns `from` into `to`, in coordinates of `from`.
+// Rotation vector (axis times angle, at most pi) that turns `from` into `to`, in coordinates of `from`.
 Vec3 rotation_between(const Quat& from, const Quat& to) noexcept;
-// The rotation by a rotation vector.
+// Rotation that belongs to a rotation vector.
 Quat rotation_by(const Vec3& vector) noexcept;
-// Roll, pitch and yaw as in URDF: first about x, then y, then z of the fixed frame.
+// Converts roll, pitch and yaw as in URDF: about x first, then y, then z of the fixed frame.
 Quat from_rpy(const Vec3& rpy) noexcept;
-// Pitch is from -90 to 90 degrees; at these two ends roll is 0.
+// Converts to roll, pitch and yaw. Pitch is from -90 to 90 degrees; at these two limits roll is 0.
 Vec3 to_rpy(const Quat& orientation) noexcept;
-// What it takes to come from `from` to `to`: metres, and radians in the base's frame.
+// Displacement from `from` to `to`: metres, and radians in the base frame.
 Twist difference(const Pose& from, const Pose& to) noexcept;
 
 }  // namespace indurop::robot

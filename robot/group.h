@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The group of axes: the state machine behind the services, and the order of work in a period. Reading drives and
-// requests, moving, telling the drives, reporting.
+// The group of axes: the state machine behind the services, and the order of work in a period: read drives and
+// requests, move, command the drives, report.
 
 #pragma once
 
@@ -81,7 +81,7 @@ class Group final : public Controller, private MotionPort {
   [[nodiscard]] bool tip_too_fast() const noexcept;
   [[nodiscard]] ErrorCode axis_permit() const noexcept;
 
-  // Jobs that were left and go on (group_resume.cpp).
+  // Interrupted jobs that can be continued (group_resume.cpp).
   void set_job_aside() noexcept;
   void pause_job() noexcept;
   void drop_aside() noexcept;
@@ -93,7 +93,7 @@ class Group final : public Controller, private MotionPort {
   [[nodiscard]] bool is_near(const Joints& place) const noexcept;
   void ask_for_way_back(const Joints& to) noexcept;
 
-  // Jobs taken anew from their files (group_reload.cpp).
+  // Reloading jobs from their files (group_reload.cpp).
   [[nodiscard]] bool may_reload() const noexcept;
   void run_reload(Signals& signals) noexcept;
   ErrorCode take_program(Program& program, Signals& signals) noexcept;
@@ -120,13 +120,13 @@ class Group final : public Controller, private MotionPort {
   void end_interrupt(ErrorCode code) noexcept;
   ErrorCode set_transform(const Command& command) noexcept;
 
-  // Products that move (group_tracking.cpp).
+  // Moving products, conveyor tracking (group_tracking.cpp).
   ErrorCode track(const Command& command, bool turns) noexcept;
   void sense_belts(const Inputs& in) noexcept;
   [[nodiscard]] const BeltWatch& belt_watch() const noexcept {
     return belts_[static_cast<std::size_t>(tracking_.carrier().belt)];
   }
-  // What is possible of a carrier's motion; `tip`: m that the tip or the arm's end goes, of each m or rad.
+  // What a carrier's motion may use; `tip`: m that the tip or the arm's end moves per m or rad of the carrier.
   struct RideRoom {
     LineLimits limits;
     double tip = 0;
@@ -206,15 +206,15 @@ class Group final : public Controller, private MotionPort {
   void describe(Fault fault, char (&to)[kWhy]) const noexcept;
   void motion_failed(Fault fault, int source, std::uint32_t ticket) noexcept;
   void come_to_standby() noexcept;
-  // Why it stopped stays known until a reset.
+  // Why it stopped remains known until a reset.
   [[nodiscard]] bool failed() const noexcept { return state_ == GroupState::ErrorStop || to_error_; }
   [[nodiscard]] bool all_enabled() const noexcept;
   [[nodiscard]] bool powered() const noexcept;
-  // False: the set points only follow what the drives say.
+  // Returns false if the set points only follow the positions that the drives report.
   [[nodiscard]] bool commands_motion() const noexcept;
   [[nodiscard]] Joints commanded() const noexcept;
 
-  // The job's side.
+  // Functions that the job uses (MotionPort).
   [[nodiscard]] bool ready() const noexcept override { return ahead_.has_room(); }
   [[nodiscard]] bool settled() const noexcept override {
     return (aside_ || ahead_.empty()) && desk_.free() && follower_.idle();
@@ -248,15 +248,15 @@ class Group final : public Controller, private MotionPort {
   GroupParts parts_;
   ToolSet tools_;
   CommandTable table_;
-  Dynamics dynamics_;               // with what is held
-  Joints rated_ = Joints::Zero();   // torque of the drives; 0: not known
+  Dynamics dynamics_;               // including tool and load
+  Joints rated_ = Joints::Zero();   // torque of the drives; 0: unknown
   Joints torque_ = Joints::Zero();  // measured
   TorqueFeed feed_;
   ContactWatch contact_;
   char contact_text_[kWhy] = "";
   Places places_;
   int tool_ = 0;
-  Body load_;  // of a job, beside the tool
+  Body load_;  // of a job, in addition to the tool
   Follower follower_;
   JobRunner job_;
   ReadAhead ahead_;
@@ -272,44 +272,45 @@ class Group final : public Controller, private MotionPort {
   GroupState state_ = GroupState::Disabled;
   ErrorCode error_ = ErrorCode::Ok;
   int error_axis_ = 0;
-  bool to_error_ = false;     // what ends Stopping is ErrorStop
-  bool to_disabled_ = false;  // or Disabled
-  bool on_path_ = true;       // the stop goes along the path; else without it
+  bool to_error_ = false;     // Stopping ends in ErrorStop
+  bool to_disabled_ = false;  // Stopping ends in Disabled
+  bool on_path_ = true;       // the stop follows the path; else it leaves it
   bool braking_ = false;      // the gates bring the axes to rest
-  bool in_step_ = false;      // all axes together, as `brake_` says
+  bool in_step_ = false;      // all axes together, by `brake_`
   JointBrake brake_;
   double hardness_ = 1;  // of the stop in progress
   bool enabling_ = false;
-  bool letting_go_ = false;  // drives of what was before: first they have to
+  bool letting_go_ = false;  // drives still on from before must switch off first
   bool quick_stop_ = false;
   bool job_moves_ = false;
 
   OperatingMode mode_ = OperatingMode::Any;
   DeadMan enabling_switch_;
-  ErrorCode permit_ = ErrorCode::Ok;  // to move at all, or why not
+  ErrorCode permit_ = ErrorCode::Ok;  // Ok, or why no motion is permitted
 
-  // Of axes that are moved by themselves: clear up to the last set point, and a way to rest.
+  // Collision checks for axes that move as single axes: up to the last set point, and for a way to rest.
   ClearWay clear_, to_rest_;
   bool looks_ahead_ = false;
 
   DeadMan dead_man_;
   bool jogging_ = false;
-  bool jog_blocked_ = false;  // it cannot go on that way, until another one is asked for
-  double jog_part_ = 1;       // of the longest way
+  bool jog_blocked_ = false;  // jogging cannot continue in that direction until another one is requested
+  double jog_part_ = 1;       // part of the longest distance
   JogFrame jog_frame_ = JogFrame::Joint;
   Quat jog_axes_ = Quat::Identity();  // of a work frame
   int jog_index_ = -1;
-  double jog_speed_ = 0;  // part of the fastest, with its sign
+  double jog_speed_ = 0;  // part of the maximum speed, with its sign
 
-  // A job that can go on: its path is the follower's, what was to be planned is here and in `ahead_`.
+  // A job that can be continued: the follower has its path; what was to be planned is in this class and in `ahead_`.
   enum class Return { None, ToPath, Back, FromInterrupt };
   bool aside_ = false;
   int aside_tool_ = 0;
   Return return_ = Return::None;
   PlanRequest request_;  // the last one
   bool request_aside_ = false;
-  bool unconnected_ = false;  // the desk knows another motion as the last one
-  // What a job was doing when an interrupt came; the follower, the desk and `ahead_` are the interrupt's.
+  bool unconnected_ = false;  // the desk regards another motion as the last one
+  // What a job was doing when an interrupt began; meanwhile the follower, the desk and `ahead_` belong to the
+  // interrupt.
   struct Shelf {
     Shelf(const Places& places, const ToolLimits& limits) : ahead(places, limits) {}
     bool leaving = false;  // on the way to rest
@@ -325,12 +326,12 @@ class Group final : public Controller, private MotionPort {
     MoveCommand command;
     Joints from = Joints::Zero();
   };
-  std::array<Passed, 32> passed_;  // motions of the job, for steps back
+  std::array<Passed, 32> passed_;  // motions of the job, for stepping back
   std::size_t passed_count_ = 0;
   std::size_t passed_known_ = 0;  // the last ones of them, which were not overwritten
   double waited_ = 0;
 
-  // Commands: who waits for the service (kNone: the request), for the stop, for the interruption.
+  // The tickets of the commands that wait for the service (kNone: the request), for the stop, and for the interruption.
   int ticket_ = CommandTable::kNone;
   int stop_ = CommandTable::kNone;
   int interrupt_ = CommandTable::kNone;
@@ -338,21 +339,21 @@ class Group final : public Controller, private MotionPort {
   bool interrupted_ = false;
   std::array<int, CommandTable::kMost> motions_{};
   int motion_count_ = 0;
-  int fed_ = 0;                            // so many have been given to the planner
+  int fed_ = 0;                            // number of motions given to the planner
   int asked_ = 0;                          // MoveCommand::source of what is being planned
   Pose ahead_of_;                          // where the next motion begins
   Pose product_;                           // the product's coordinates
-  std::array<double, 6> product_given_{};  // as they were set
+  std::array<double, 6> product_given_{};  // as it was set
 
-  // The product may move: what is planned is seen from where the carrier was when the tool stood still on it last.
+  // The product may move: plans refer to the carrier's position when the tool last was at rest on the product.
   std::array<BeltWatch, kBelts> belts_;
   Tracking tracking_;
-  bool product_lost_ = false;  // it was to move, and nobody knows where it is
-  bool ride_held_ = false;     // somebody holds all motions
-  bool paused_ = false;        // likewise, also what does not ride
-  bool pace_wrong_ = false;    // an override or factor is no number
-  double ride_pace_ = 1;       // part of full speed that is left beside the ride
-  double ride_speed_ = 0;      // m/s of the tip or of the arm's end, by the ride
+  bool product_lost_ = false;  // it should move, and its position is unknown
+  bool ride_held_ = false;     // all motions are held
+  bool paused_ = false;        // all motions are held, also those without tracking
+  bool pace_wrong_ = false;    // an override or factor is not a number
+  double ride_pace_ = 1;       // part of full speed that the tracking leaves
+  double ride_speed_ = 0;      // m/s of the tip or of the arm's end, due to the tracking
 
   // The request that is being served.
   bool first_ = true;
@@ -365,7 +366,7 @@ class Group final : public Controller, private MotionPort {
   std::uint32_t done_ = 0;
   Pose last_pose_;
   Twist last_moved_ = Twist::Zero();
-  // A thread has crashed: why the task ends, and how long it has stood since then.
+  // A thread has crashed: why the task ends, and how long it has been at rest since then.
   char broken_[2 * kWhy] = "";
   double broken_for_ = 0;  // s
   Joints last_command_ = Joints::Zero();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the tool's pose back to joint angles: in closed form where the arm has one, for any other step by step.
+// Inverse kinematics, from the tool's pose to joint angles: in closed form if the arm has one, else by iteration.
 
 #pragma once
 
@@ -16,25 +16,26 @@ class Inverse {
     Reach reach = Reach::OutOfReach;
     Solution solution;
   };
-  // The solution nearest to `near`; with `posture` only that one of the eight. An arm without a closed form goes on
-  // from `near`, which has to be as close as places on a path are. Real-time safe.
+  // The solution nearest to `near`; with `posture` only the solution of that posture (one of eight). For an arm without
+  // a closed form it iterates from `near`, which has to be as close as neighbouring places on a path are. Real-time
+  // safe.
   [[nodiscard]] Result nearest(const Pose& pose, const Joints& near,
                                std::optional<std::uint8_t> posture = std::nullopt) const noexcept;
-  // The same among solutions that were found before.
+  // The same, chosen from solutions that were found earlier.
   [[nodiscard]] Result nearest(const Solutions& known, const Joints& near,
                                std::optional<std::uint8_t> posture) const noexcept;
-  // All solutions in closed form; of an arm without one only the nearest. Real-time safe.
+  // All solutions in closed form; only the nearest one for an arm without a closed form. Real-time safe.
   [[nodiscard]] Solutions all(const Pose& pose, const Joints& near) const noexcept;
-  // All solutions of any arm; without a closed form it takes milliseconds.
+  // All solutions of any arm; takes milliseconds if there is no closed form.
   [[nodiscard]] Solutions search(const Pose& pose, const Joints& near, const Search& how = {}) const noexcept;
 
   [[nodiscard]] bool closed_form() const noexcept { return wrist_ || parallel_; }
-  // Whether the arm can be held in different ways that have names.
+  // Returns whether the arm has named postures (different ways to reach the same pose).
   [[nodiscard]] bool has_postures() const noexcept { return postures_.has_value(); }
-  // These joints with the axes that a pose leaves open where `from` has them: along a line they stand there, whatever
-  // the place before it was.
+  // Returns `near` with the axes that a pose leaves undetermined set to their values in `from`: along a line they stay
+  // at these values, whatever the place before was.
   [[nodiscard]] Joints held_as(const Joints& from, Joints near) const noexcept;
-  // "spherical wrist, inverse kinematics in closed form"
+  // Text for the user, such as "spherical wrist, inverse kinematics in closed form".
   [[nodiscard]] const char* kind() const noexcept;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a job computes: numbers, its own variables and shared ones, in the order in which a stack takes them. ON is 1,
-// OFF is 0; everything but 0 counts as true.
+// An expression in a job: numbers, variables of the job and shared variables, in the order of a stack machine
+// (postfix). ON is 1, OFF is 0; every value except 0 counts as true.
 
 #pragma once
 
@@ -14,7 +14,7 @@ class Signals;
 
 enum class FormulaOp : std::uint8_t {
   Number,
-  Variable,  // index: of the job
+  Variable,  // index: variable of the job
   Signal,    // index: shared variable
   Negate,
   Not,
@@ -41,23 +41,23 @@ struct FormulaPart {
 
 class Formula {
  public:
-  static constexpr int kDeepest = 16;        // numbers that wait for their operation
+  static constexpr int kDeepest = 16;        // operands on the stack
   static constexpr std::size_t kMost = 100;  // parts
 
   void push(const FormulaPart& part);
-  // False: deeper or longer than can be computed.
+  // Returns false if the expression is deeper or longer than can be evaluated.
   [[nodiscard]] bool fits() const noexcept { return deepest_ <= kDeepest && parts_.size() <= kMost; }
   [[nodiscard]] std::size_t size() const noexcept { return parts_.size(); }
-  // It looks at variables of the job.
+  // Returns whether it reads variables of the job.
   [[nodiscard]] bool looks_in() const noexcept { return looks_in_; }
-  // It looks at shared variables.
+  // Returns whether it reads shared variables.
   [[nodiscard]] bool looks_out() const noexcept { return looks_out_; }
-  // NaN if any part of it has no finite value. Real-time safe.
+  // Evaluates the expression. NaN if any part of it has no finite value. Real-time safe.
   [[nodiscard]] double value(std::span<const double> variables, Signals& signals) const noexcept;
 
   static Formula number(double value);
   static Formula variable(int index);
-  // Both, and what is done with them.
+  // Joins two expressions by an operation.
   static Formula joined(Formula left, const Formula& right, FormulaOp op);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parser of one job file: points and motion in job_parser.cpp, the rest in job_flow.cpp. Names of points, jobs and
-// labels are noted with their places and resolved when all files have been read.
+// labels are recorded with their places and resolved when all files have been read.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace indurop::robot {
 
-// A name used before it is known.
+// A name that is used before its declaration has been read.
 struct JobReference {
   enum class To { Target, Mid, Job, Label, Tool };
   To to = To::Target;
@@ -35,7 +35,7 @@ class JobParser {
 
   // Reads one file as the next job of the book.
   void read(const JobFile& file);
-  // Once all files have been read.
+  // Resolves names; called after all files have been read.
   void resolve();
 
  private:
@@ -58,7 +58,7 @@ class JobParser {
   [[nodiscard]] int tool_called(std::string_view name) const noexcept;
   bool numbers(int count, double* to, const char* what);
   void joint_point(Target& target);
-  // "x y z RPY r p y", in mm and degrees.
+  // Parses "x y z RPY r p y", in mm and degrees.
   bool pose(Pose& pose);
   void pose_point(Target& target);
   void posture(Target& target);
@@ -95,7 +95,7 @@ class JobParser {
   static bool is_reserved(std::string_view word) noexcept;
   [[nodiscard]] int variable_called(std::string_view name) const noexcept;
   int new_variable(const JobToken& name);
-  // The number of the formula in the book.
+  // Returns the index of the formula in the book.
   int expression(const char* what);
   int keep(Formula formula);
   Formula disjunction(const char* what, int depth);
@@ -124,15 +124,15 @@ class JobParser {
   std::vector<JobToken> tokens_;
   std::size_t at_ = 0;
   std::size_t line_ = 0;
-  bool failed_ = false;  // one message per line is enough
-  // What END closes: LOOP, IF, WHILE and FOR.
+  bool failed_ = false;  // only one message per line
+  // A block that END closes: LOOP, IF, WHILE or FOR.
   struct Block {
     const char* word = "";
     std::size_t line = 0;
-    std::size_t start = 0;            // the step at its beginning
-    std::size_t pending = kNone;      // the step that goes behind this part of it
-    std::vector<std::size_t> ends{};  // steps that go behind it
-    int counter = -1;                 // FOR: its variable
+    std::size_t start = 0;            // first step of the block
+    std::size_t pending = kNone;      // step that jumps past this part of the block
+    std::vector<std::size_t> ends{};  // steps that jump past the block
+    int counter = -1;                 // variable of FOR
     double by = 1;
     bool has_else = false;
   };
@@ -151,7 +151,7 @@ class JobParser {
   std::vector<Declared> frame_points_;  // three for each taught frame
   std::vector<Declared> frame_tools_, tool_points_;
   std::vector<Declared> body_names_;                                  // frames of zones
-  std::vector<std::map<std::string, JobLabel, std::less<>>> labels_;  // of each job
+  std::vector<std::map<std::string, JobLabel, std::less<>>> labels_;  // per job
   std::map<std::string, std::string, std::less<>> point_places_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs a job, as many of its steps per period as can be done at once. Motions are read ahead so that they can be
-// blended; a step that looks at or changes the outside world waits until the robot stands still.
+// blended; a step that reads or changes the outside world waits until the robot is at standstill.
 
 #pragma once
 
@@ -15,29 +15,29 @@
 
 namespace indurop::robot {
 
-// What a job needs of the group.
+// The services of the group that a job uses.
 class MotionPort {
  public:
   virtual ~MotionPort() = default;
-  // Another motion can be taken now.
+  // Returns whether another motion can be accepted now.
   [[nodiscard]] virtual bool ready() const noexcept = 0;
-  // Everything commanded has ended.
+  // Returns whether all commanded motions have ended.
   [[nodiscard]] virtual bool settled() const noexcept = 0;
   virtual Fault move(const MoveCommand& command) noexcept = 0;
-  // Everything has ended. False: not yet.
+  // Selects a tool when all motions have ended. Returns false if it is not done yet.
   virtual bool take_tool(int) noexcept { return true; }
-  // Likewise.
+  // Selects a load when all motions have ended. Returns false if it is not done yet.
   virtual bool take_load(int) noexcept { return true; }
   [[nodiscard]] virtual PathPlace place() const noexcept { return {}; }
-  // For an interrupt: comes to rest on the path and keeps what was left of it. False: not yet.
+  // Begins an interrupt: comes to rest on the path and saves the rest of it. Returns false if it is not done yet.
   virtual bool step_aside() noexcept { return true; }
-  // Where it was left; null: no interrupt is being served.
+  // Joint values where the path was left; null if no interrupt is being served.
   [[nodiscard]] virtual const Joints* left_at() const noexcept { return nullptr; }
-  // The tip of the tool that is held, with the axes there.
+  // The tip of the selected tool at these joint values.
   [[nodiscard]] virtual Pose tip_at(const Joints&) const noexcept { return {}; }
-  // All is settled: goes back to where the path was left. False: not yet. Errors: Away.
+  // Returns to where the path was left; all motions must have ended. Returns false if it is not done yet. Errors: Away.
   virtual bool come_back(Fault&) noexcept { return true; }
-  // It is there.
+  // Returns whether it is back on the path.
   [[nodiscard]] virtual bool is_back() const noexcept { return true; }
 };
 
@@ -45,43 +45,43 @@ class JobRunner {
  public:
   explicit JobRunner(const JobBook& book) noexcept : book_(book) {}
 
-  // `job` counts from 0 and exists; `line`: where it begins, with what the lines before say of speed and so on.
-  // False: there is no step from there on. Real-time safe, as all here.
+  // Starts a job. `job` counts from 0 and exists; `line`: where to start, with the settings (speed and so on) of the
+  // lines before it. Returns false if there is no step from that line on. Real-time safe, like all functions of this
+  // class.
   bool start(int job, std::uint32_t line = 0) noexcept;
-  // Goes on behind stop(), fail() or a pause.
+  // Continues after stop(), fail() or a pause.
   void resume() noexcept;
-  // Whether a motion is one of the job that runs, not of one it called or that called it.
+  // Returns whether a motion belongs to the running job itself, not to a job that it called or that called it.
   [[nodiscard]] bool is_in(int source) const noexcept;
-  // A step back, to such a motion: its line comes next.
+  // Steps back to such a motion: its line is the next one to run.
   void go_back(int source) noexcept;
   void say(const char* text) noexcept;
-  // Pauses before lines: before each one, or these.
+  // Sets where to pause: before every line, or before these lines.
   void watch(bool each, const Breakpoints& lines) noexcept {
     single_ = each;
     breakpoints_ = lines;
   }
   [[nodiscard]] int tool() const noexcept { return tool_; }
-  // What it holds where it begins.
+  // The load that is held where the job starts.
   [[nodiscard]] int load() const noexcept { return load_; }
-  // Ends the job where it is. `why` is kept as message and must outlive this; null: ended by request.
+  // Ends the job where it is. `why` is kept as message and must outlive this object; null: ended by request.
   void stop() noexcept;
-  // Ends it with a message that names file and line: of the motion called `source`, or, if that is 0, of the present
-  // step.
+  // Ends it with a message that names file and line of the motion `source`, or of the present step if `source` is 0.
   void fail(Fault fault, const char* why, int source) noexcept;
-  // Goes on behind RECOVER, if the job is in a TRY. False: it is not, and has to fail. `ticket`: of a motion that is
-  // not possible; what is to be set on it and those behind is forgotten.
+  // Continues after RECOVER if the job is in a TRY. Returns false if it is not; then it has to fail. `ticket`: motion
+  // that is not possible; outputs that are to be set during it or a later motion are discarded.
   bool recover(Fault fault, const char* why, int source, std::uint32_t ticket) noexcept;
   void step(double seconds, Signals& signals, MotionPort& port) noexcept;
-  // Once a period, whether a job runs or not.
+  // Called once per period, whether a job runs or not.
   void end_pulses(double seconds, Signals& signals) noexcept { pulses_.step(seconds, signals); }
 
-  // Outputs are on for a time.
+  // Returns whether timed outputs are on.
   [[nodiscard]] bool pulses() const noexcept { return pulses_.any(); }
-  // Nothing of the jobs that it knew counts any more: the book is another one.
+  // Clears all state about jobs, because the book was replaced.
   void forget() noexcept;
 
   [[nodiscard]] bool running() const noexcept { return state_ == JobState::Runs || state_ == JobState::Waits; }
-  // With the line of the motion called `source` while the job runs ahead of it.
+  // Returns the report, with the line of the motion `source` while the job runs ahead of it.
   [[nodiscard]] JobReport report(int source) const noexcept;
   [[nodiscard]] JobState state() const noexcept { return state_; }
   // Why it failed last.
@@ -105,9 +105,9 @@ class JobRunner {
   [[nodiscard]] const Step* present() const noexcept;
   Next run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept;
   Next move(const Step& step, Signals& signals, MotionPort& port) noexcept;
-  // By the offset of a motion. False: it has no value.
+  // Adds the offset of a motion. Returns false if the offset has no value.
   bool shift(const Step& step, Signals& signals, Target& target) noexcept;
-  // False: it has no value, and the job has failed.
+  // Returns false if the formula has no value; the job has then failed.
   bool compute(int formula, Signals& signals, double& value) noexcept;
   Next wait_until(const Step& step, double seconds, Signals& signals) noexcept;
   Next set_on_path(const Step& step, Signals& signals) noexcept;
@@ -149,14 +149,14 @@ class JobRunner {
   int depth_ = 0;
   int job_ = -1;
   double waited_ = 0;  // s in the present step
-  // What holds until a line says otherwise.
+  // Settings that apply until a line changes them.
   struct Modal {
     double speed = 1, tool_speed = 0, zone = 0, acceleration = 1;
   };
   Modal modal_;
   int tool_ = 0;
   int load_ = 0;
-  // What is to be set on the way.
+  // An output that is to be set during a motion.
   struct Trigger {
     bool waits = false;
     int signal = 0;
@@ -164,22 +164,22 @@ class JobRunner {
     std::uint32_t ticket = 0;
     bool by_time = false, after = false;
     double amount = 0;  // m or s
-    double pulse = 0;   // s; 0: it is set
+    double pulse = 0;   // s; 0: it is set permanently
   };
   using Triggers = std::array<Trigger, 16>;
   Triggers triggers_{};
   Pulses pulses_;
-  // Conditions that are watched, in the order of the book.
+  // Monitored conditions, in the order of the book.
   struct Watched {
     bool on = false;
-    bool was = false;      // its condition, in the last period
+    bool was = false;      // value of its condition in the last period
     bool pending = false;  // it has become true
   };
   std::array<Watched, kMostInterrupts> watched_{};
   enum class Serving { None, Leaving, Runs, Returning };
   Serving serving_ = Serving::None;
   int served_ = -1;
-  // What goes on behind the interrupt.
+  // The state to continue with after the interrupt.
   struct Interrupted {
     JobState state = JobState::Runs;
     int depth = -1;
@@ -192,17 +192,17 @@ class JobRunner {
     bool in_job = false;
   };
   Interrupted interrupted_;
-  std::uint32_t ticket_ = 0;   // of the last motion that was commanded
-  std::uint32_t present_ = 0;  // of the one that was followed last
-  double since_ = 0;           // s, that this one has been followed
+  std::uint32_t ticket_ = 0;   // last motion that was commanded
+  std::uint32_t present_ = 0;  // motion that was followed last
+  double since_ = 0;           // s for which this motion has been followed
   bool single_ = false;
   Breakpoints breakpoints_{};
   bool free_ = false;    // the present line does not pause again
-  bool in_job_ = false;  // it began with another line than the first, and has not moved yet
-  int last_step_ = -1;   // done last, of last_job_
+  bool in_job_ = false;  // started with a line other than the first, and has not moved yet
+  int last_step_ = -1;   // step of last_job_ that ran last
   int last_job_ = -1;
   std::uint32_t line_ = 0;
-  int line_job_ = -1;  // of whose file that is
+  int line_job_ = -1;  // job whose file contains that line
   std::uint32_t cycles_ = 0;
   Fault fault_;
   char message_[160] = "";

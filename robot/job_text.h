@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One line of a job file as words, numbers and signs, with the places that error messages name.
+// One line of a job file as words, numbers and signs, with the columns that error messages name.
 
 #pragma once
 
@@ -20,7 +20,7 @@ struct JobToken {
 
 // The last token is always an End. Comments begin with # or //.
 std::vector<JobToken> split_job_line(std::string_view line);
-// Letters of ASCII only; keywords may be written small.
+// Compares ASCII letters regardless of case; keywords may be written in lower case.
 bool same_word(std::string_view a, std::string_view b) noexcept;
 
 std::string in_quotes(std::string_view text);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings joints to rest that cannot follow their path any more: all of them in step, on the way that their last set
-// points have begun. If each one braked by itself, one would stop before another, and the tool could get faster.
+// Brings joints to rest that can no longer follow their path: all of them in step, along the motion that their last set
+// points began. If each joint braked on its own, one would stop before another, and the tool could get faster.
 
 #pragma once
 
@@ -14,10 +14,11 @@ class JointBrake final : private PathAhead {
  public:
   explicit JointBrake(const JointLimits& limits) noexcept : brake_(limits) {}
 
-  // `past`: the last set points, the latest first, one each `period` s. `hardness` as of PathBrake. Real-time safe, as
-  // all here.
+  // Begins to brake. `past`: the last set points, the latest first, one each `period` s. `hardness` as in PathBrake.
+  // Real-time safe, like all functions of this class.
   void begin(const std::array<Joints, 3>& past, double period, double hardness) noexcept;
-  // The next set point. Where the limits cannot be kept on this way it breaks them least, so it has to be checked.
+  // Returns the next set point. Where the limits cannot be kept on this path it violates them as little as possible, so
+  // the set point has to be checked.
   [[nodiscard]] const Joints& next() noexcept;
 
  private:
@@ -28,7 +29,7 @@ class JointBrake final : private PathAhead {
 
   PathBrake brake_;
   PathHistory past_;
-  // Places are seconds, as if nothing braked.
+  // Places on the path are seconds of the motion without braking.
   Joints from_ = Joints::Zero(), velocity_ = Joints::Zero(), acceleration_ = Joints::Zero();
   double period_ = 0.01;
   double place_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motion of all joints from any state to rest: it ends as soon as the slowest of them can be there, and the others
-// arrive with it. Each keeps its own limits, so it is no straight line between joint angles.
+// A motion of all joints from any state to rest: it ends as soon as the slowest joint can arrive, and the others arrive
+// with it. Each joint keeps its own limits, so it is no straight line between joint angles.
 
 #pragma once
 
@@ -17,32 +17,34 @@ struct JointState {
   Joints acceleration = Joints::Zero();
 };
 
-// What a joint motion takes of the joints' limits; the rest is for changes of its pace.
+// The part of the joints' limits that a joint motion uses; the rest is left for changes of its pace.
 struct JointShares {
   double acceleration = 1;
   double jerk = 1;
-  // Of one that is to be followed at this pace: all at the full pace, and where the pace leaves enough by itself.
+  // Shares of a motion that is followed at this pace: all of the limits at full pace, and also where the pace alone
+  // leaves enough.
   static JointShares at(double pace) noexcept;
-  // The pace at which changes of it still have what lines leave them.
+  // The highest pace at which changes of pace still have the share that lines leave them.
   [[nodiscard]] double fastest() const noexcept;
 };
 
 class JointTiming {
  public:
-  // Any state within the limits; more speed or acceleration than that is taken back first. A joint that comes to rest
-  // without getting slower for the others may be there before them. Real-time safe, as all here.
+  // Plans from any state within the limits; speed or acceleration beyond them is reduced first. A joint that comes to
+  // rest without being slowed down for the others may arrive before them. Real-time safe, like all functions of this
+  // class.
   void plan(const JointState& from, const Joints& to, const JointLimits& limits) noexcept;
   [[nodiscard]] double duration() const noexcept { return duration_; }
-  // `jerk`: is told too, behind a change of it.
+  // `jerk`: if given, receives the jerk too; at a jump of the jerk the value after it.
   [[nodiscard]] JointState at(double time, Joints* jerk = nullptr) const noexcept;
-  // Of changes of the pace at which it is followed, if it took those shares of the limits.
+  // Limits for changes of the pace at which the motion is followed, if it uses those shares of the limits.
   [[nodiscard]] PaceLimits pace_limits(const JointLimits& limits, const JointShares& shares) const noexcept;
 
   // Where the joints come to rest if they brake at once.
   static Joints stopping(const JointState& from, const JointLimits& limits) noexcept;
-  // How fast they get if their accelerations are taken back at once.
+  // Speeds that are reached if the accelerations are reduced to 0 at once.
   static Joints unloaded(const JointState& from, const JointLimits& limits) noexcept;
-  // How long it takes until they are within these accelerations, and within `most` of speed.
+  // Time until the joints are within these accelerations, and their speeds within `most`.
   static double settling(const JointState& from, const JointLimits& limits, const Joints& most) noexcept;
 
  private:
@@ -50,7 +52,7 @@ class JointTiming {
   double duration_ = 0;
 };
 
-// Limits of motions at part of full speed.
+// Limits of motions at this part of full speed.
 JointLimits limits_for(const JointLimits& all, double speed, const JointShares& shares) noexcept;
 
 }  // namespace indurop::robot

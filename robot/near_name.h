@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which name of those that are known was meant by one that is not. This library stands alone: base/text.h is not in it.
+// The known name closest to a misspelled one. This library stands alone: it does not contain base/text.h.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::robot {
 
-// "; did you mean 'pallet'?", or nothing if none is near.
+// Returns "; did you mean 'pallet'?", or nothing if no known name is close.
 std::string meant(std::string_view name, const std::vector<std::string>& known);
 
 template <class List>
@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const List& list) {
   return names;
 }
 
-// "there is no frame 'palet'; did you mean 'pallet'?", or how to declare it, behind its name.
+// Returns "there is no frame 'palet'; did you mean 'pallet'?", or, after the name, how to declare it.
 template <class List>
 std::string no_such(const char* what, const std::string& name, const List& list, const char* keyword,
                     const char* example) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The distance of two solids as FCL finds it, proved. FCL says along which line two bodies are nearest; the planes
-// across that line hold them apart, whatever FCL did. The only place that knows FCL, which allocates: not for the tick.
+// The distance of two solids as FCL finds it, and verified. FCL returns the line along which two bodies are nearest;
+// planes across that line separate them, which proves the distance independently of FCL. The only file that knows FCL,
+// which allocates: not for the tick.
 
 #pragma once
 
@@ -18,8 +19,8 @@ class Nearest {
   Nearest& operator=(const Nearest&) = delete;
   ~Nearest();
 
-  // m between parts `a` and `b`, which are where the others say: never more than that, and less by rounding only. Where
-  // they meet below 0, as least_distance() has it.
+  // Distance in m between parts `a` and `b` at the given places: never too large, and too small by rounding only. Below
+  // 0 where they intersect, as in least_distance().
   [[nodiscard]] double distance(int a, int b, const PlacedSolid& at_a, const PlacedSolid& at_b) noexcept;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inverse kinematics of any arm, step by step. With six axes the tool comes to the pose; with more, some are held where
-// they are, so that a path always comes to the same joints; with fewer, it comes to the position, and turns as near to
-// the orientation as the arm can there.
+// Inverse kinematics of any arm by iteration. With six axes the tool reaches the pose. With more, some axes are held at
+// their values, so that a path always leads to the same joint angles. With fewer, the tool reaches the position, and
+// its orientation is as close as the arm can get there.
 
 #pragma once
 
@@ -9,9 +9,10 @@
 
 namespace indurop::robot {
 
-// Axes that are held, a bit each.
+// Set of axes that are held, one bit each.
 using Held = unsigned;
-// Of an arm with more than six axes: those that slide, else the third, whose angle says where the elbow is.
+// The redundant axes of an arm with more than six: those that slide, else the third, whose angle determines where the
+// elbow is.
 Held redundant_axes(const Arm& arm) noexcept;
 
 struct NumericSolution {
@@ -19,19 +20,19 @@ struct NumericSolution {
   Joints q = Joints::Zero();
 };
 
-// From `near` on, within the limits; at most a hundred steps. Real-time safe; on a path a few steps are enough.
+// Iterates from `near`, within the limits; at most a hundred steps. Real-time safe; on a path a few steps are enough.
 NumericSolution solve_numerically(const Arm& arm, const Pose& pose, const Joints& near) noexcept;
 
 struct Search {
-  // Places between the limits where it begins: `least`, and up to `most` if nothing was found.
+  // Number of start values between the limits: `least`, and up to `most` if nothing was found.
   int least = 64;
   int most = 512;
-  // rad by which arms of fewer than six axes may miss the orientation: what is written down is rounded.
+  // rad by which arms with fewer than six axes may miss the orientation, because written values are rounded.
   double turned = 2e-3;
-  // Axes that stand where those of `near` do; redundant ones may be anywhere otherwise.
+  // Axes that stay at their values in `near`; other redundant axes may have any value.
   Held held = 0;
 };
-// All the solutions that are found from there, told apart by `postures` if there are any. Takes milliseconds: for
+// All solutions that are found from these start values, distinguished by `postures` if given. Takes milliseconds: for
 // loading and planning.
 Solutions search_numerically(const Arm& arm, const std::optional<Postures>& postures, const Pose& pose,
                              const Joints& near, const Search& how) noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread beside the tick, for what may take its time.
+// A background thread for work that may take longer than a tick.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace indurop::robot {
 
-// Whatever the thread is that calls this: below every tick, on any processor, and with a stack of its own size, since
-// all of it may be locked in memory. False: there can be none.
+// Starts a thread with ordinary priority whatever the calling thread has: below every tick, on any processor, and with
+// a stack of the given size, since all of it may be locked in memory. Returns false if no thread can be created.
 bool begin_ordinary_thread(pthread_t& thread, const char* name, std::size_t stack, void* (*enter)(void*),
                            void* with) noexcept;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a path is where: its place as a smooth function of time, from rest to rest. Two splines make it: one gives the
-// place by a parameter whose knots lie where much happens, the other the square of the speed of that parameter.
+// The timing of a path: its place as a smooth function of time, from rest to rest. It consists of two splines: one
+// gives the place as a function of a parameter whose knots are dense where much happens, the other the square of the
+// speed of that parameter.
 
 #pragma once
 
@@ -8,7 +9,7 @@
 
 namespace indurop::robot {
 
-// The place on a path at some time, and its derivatives by time.
+// The place on a path at some time, and its derivatives with respect to time.
 struct Timed {
   double place = 0;
   double speed = 1;
@@ -23,18 +24,18 @@ class PathTiming {
     double value = 0, first = 0, second = 0, third = 0;
   };
 
-  // Nothing is known: the place is the time.
+  // Returns whether there is a timing; without one, the place is the time.
   [[nodiscard]] bool known() const noexcept { return count_ > 0; }
   [[nodiscard]] double duration() const noexcept { return times_[static_cast<std::size_t>(count_)]; }
-  // `time` is from 0 to duration(). Real-time safe, as all here.
+  // `time` is from 0 to duration(). Real-time safe, like all functions of this class.
   [[nodiscard]] Timed at(double time) const noexcept;
 
-  // Of the one who makes it. `shape`: B-spline coefficients of the place (degree 5), `count` + 5 of them; `squares`:
-  // those of the square of the parameter's speed (degree 3), `count` + 3.
+  // Sets the timing. `shape`: B-spline coefficients of the place (degree 5), `count` + 5 of them; `squares`:
+  // coefficients of the square of the parameter's speed (degree 3), `count` + 3.
   void set(int count, const double* shape, const double* squares) noexcept;
-  void slow_down(double factor) noexcept;  // as a whole; factor >= 1
+  void slow_down(double factor) noexcept;  // the whole timing; factor >= 1
   [[nodiscard]] int count() const noexcept { return count_; }
-  // Where that time is, likewise; known().
+  // The piece in which that time lies, from 0 to duration(); requires known().
   [[nodiscard]] int piece_at(double time) const noexcept;
 
  private:

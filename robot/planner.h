@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a command to a path that is known to work: geometry first, then a look at places all along it for reach, joint
-// limits and singular positions, a few at a time so that it can be given up in between.
+// From a command to a path that is known to work: geometry first, then a check of places along all of it for reach,
+// joint limits and singular positions, a few at a time so that planning can be abandoned in between.
 
 #pragma once
 
@@ -18,31 +18,31 @@ namespace indurop::robot {
 
 class Planner {
  public:
-  // Places that are looked at until a motion is refused: 50 ms of an ordinary processor.
+  // Places that are checked until a motion is rejected: 50 ms on an ordinary processor.
   static constexpr int kMostWork = 16000;
 
   Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool);
 
-  // Begins with a motion that starts at `from`. Real-time safe, as all here, unless something could be touched. Errors:
-  // Value, Unreachable, JointLimit, Circle, Workspace.
+  // Begins with a motion that starts at `from`. Real-time safe, like all functions of this class, unless collisions
+  // have to be checked. Errors: Value, Unreachable, JointLimit, Circle, Workspace.
   Fault begin(const MoveCommand& command, const Joints& from) noexcept;
-  // Begins with a way of many pieces that starts where the arm is at `from` and stays as it is until the motion has
-  // ended; its tool limits are those of `acceleration` already. Errors: Value.
+  // Begins with a path of many pieces that starts where the arm is at `from` and is not changed until the motion has
+  // ended; its tool limits already include `acceleration`. Errors: Value.
   Fault begin(const ToolPath& chain, const Joints& from, double acceleration = 1) noexcept;
-  // Looks at up to `places` more places of it; done() then says whether that was all. Errors: Unreachable, JointLimit,
+  // Checks up to `places` more places of it; done() then returns whether that was all. Errors: Unreachable, JointLimit,
   // Singular, Workspace, Collision, Torque.
   Fault check(int places) noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
   // Complete when done().
   [[nodiscard]] const Segment& segment() const noexcept { return segment_; }
-  // How much work that was, in places: the same on every machine.
+  // Work done so far, in places: the same on every machine.
   [[nodiscard]] int work() const noexcept { return work_; }
 
-  // For other bodies. Nothing is being planned.
+  // The collision check, for replacing its bodies while nothing is being planned.
   [[nodiscard]] ClearWay& clear_way() noexcept { return clear_; }
 
-  // How `first` goes over into `second` with first.zone; zone 0 in the result if it cannot, or if
-  // stopping at the corner is faster.
+  // How `first` blends into `second` within first.zone; the zone of the result is 0 if it cannot, or if stopping at the
+  // corner is faster.
   [[nodiscard]] Blend blend(const Segment& first, const Segment& second) noexcept;
 
  private:
@@ -50,25 +50,25 @@ class Planner {
   static constexpr double kSlowestPace = 0.02;  // part of full speed below which a path counts as singular
   using Samples = std::array<Joints, kMost + 1>;
 
-  // Looking for reach, limits and singular positions; for what would be touched; then for a timing; then going through
-  // what came out; then for torques.
+  // The stages: check reach, limits and singular positions; check collisions; search for a timing; rehearse the result;
+  // check torques.
   enum class Stage { Look, Clear, Search, RehearseTiming, RehearseProfile, Effort, Done };
 
   Fault look(int& places) noexcept;
   void time_it() noexcept;
-  // What would be touched (planner_clear.cpp).
+  // Collision check (planner_clear.cpp).
   void begin_clear() noexcept;
   Fault clear(int& places) noexcept;
   bool joints_on_way(double place, const Joints& near, Joints& q) const noexcept;
   [[nodiscard]] bool clear(const Segment& first, const Blend& blend, const Segment& second) noexcept;
-  int search() noexcept;  // returns the places that were looked at
+  int search() noexcept;  // returns the places that were checked
   void rehearse() noexcept;
   void rehearse_timing() noexcept;
   void rehearse_profile() noexcept;
   void begin_rehearsal(double duration) noexcept;
   void end_rehearsal() noexcept;
   void end_look() noexcept;
-  // How long it takes at least, by the tool, and as it is planned.
+  // Minimum duration as limited by the tool, and the planned duration.
   [[nodiscard]] double least() const noexcept;
   [[nodiscard]] double taken() const noexcept;
   [[nodiscard]] bool crawls() const noexcept;
@@ -95,7 +95,7 @@ class Planner {
   const Places& places_;
   const JointLimits all_joints_;
   const ToolLimits all_tool_;
-  JointLimits joints_;  // of the motion that is planned
+  JointLimits joints_;  // of the motion that is being planned
   ToolLimits tool_;
   Segment segment_;
   Samples samples_{};
@@ -103,21 +103,21 @@ class Planner {
   WayInside way_;
   ClearWay clear_;
   ClearWalk walk_;
-  Segment clear_way_;  // of joints, that is looked at
+  Segment clear_way_;  // joint path that is being checked
   int count_ = 0;      // places after the first
   int next_ = 1;
   int windows_ = 0;
   int noted_ = 0;
   int rehearsals_ = 0;
   int searches_ = 0;
-  bool unseen_ = false;  // the last rehearsal did not come to an end
-  // What was done for it, in places; one of an arm without a closed form is some. It is refused before kMostWork or not
-  // at all, but for what would touch and for torques, which are always looked at.
+  bool unseen_ = false;  // the last rehearsal did not reach the end
+  // Work done so far, in places; with an arm without a closed form one place counts as several. A motion is rejected
+  // before kMostWork or not at all, except for collisions and torques, which are always checked.
   int work_ = 0;
-  double most_factor_ = 1;  // of what is rehearsed: what takes so many times as long is refused
+  double most_factor_ = 1;  // of the rehearsed motion: one that takes more than this many times as long is rejected
   int weight_ = 1;
   Stage stage_ = Stage::Done;
-  // Stretches that are looked at closer before the path is known.
+  // Stretches that are checked more closely before the path is known.
   struct Window {
     double from = 0;
     double length = 0;
@@ -125,16 +125,16 @@ class Planner {
     Joints end;
     int depth = 0;
   };
-  static constexpr int kParts = 8;  // of a stretch
+  static constexpr int kParts = 8;  // per stretch
   std::array<Window, 256> window_{};
   std::array<Rates, std::size_t{3} * kMost> rates_{};
-  double wanted_ = 1;  // part of full speed that it would come to, before the joints were asked
+  double wanted_ = 1;  // part of full speed that it would reach without the joints' limits
   PathBounds bounds_;
   TimingSearch search_;
   Rehearsal rehearsal_;
   EffortLook effort_;
   Profile profile_;
-  double usual_volume_ = 0;  // of this arm, at most
+  double usual_volume_ = 0;  // maximum volume of this arm
   double least_volume_ = 0;  // on the path
 };
 

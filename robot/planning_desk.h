@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where motions are planned: by a thread beside the tick, or in it. The tick asks for a plan, looks for it in each
-// period, and never waits. A plan is due a number of periods after it was asked for, however soon it is made, so that a
-// motion begins in the same period on every run.
+// Plans motions, in a background thread or in the tick. The tick requests a plan, polls for it in each period, and
+// never waits. A plan is due a fixed number of periods after the request, however soon it is ready, so that a motion
+// begins in the same period on every run.
 
 #pragma once
 
@@ -17,14 +17,14 @@ namespace indurop::robot {
 
 struct PlanRequest {
   MoveCommand command;
-  const ToolPath* chain = nullptr;  // instead of it; stays as it is until the motion has ended
+  const ToolPath* chain = nullptr;  // instead of `command`; is not changed until the motion has ended
   Joints from = Joints::Zero();
-  bool follows = false;  // on the motion that was planned before, without a stop
+  bool follows = false;  // continues the motion that was planned before, without a stop
 };
 
 struct Plan {
   Fault fault;
-  Segment segment;  // if it failed only its source counts
+  Segment segment;  // if planning failed only its source is valid
   Blend blend;      // from the motion before into this one
 };
 
@@ -35,25 +35,25 @@ class PlanningDesk {
   PlanningDesk& operator=(const PlanningDesk&) = delete;
   ~PlanningDesk();
 
-  // Of the tick, real-time safe: no system call, no lock. Nothing is being planned.
+  // Called by the tick, real-time safe: no system call, no lock. Returns whether nothing is being planned.
   [[nodiscard]] bool free() const noexcept { return !asked_; }
-  // The thread has not let go of what was forgotten: its chain must stay as it is.
+  // Returns whether the thread still uses an abandoned request: its chain must not be changed.
   [[nodiscard]] bool holds_forgotten() noexcept;
-  // It is free.
+  // Requests a plan; requires free().
   void ask(const PlanRequest& request) noexcept;
-  // What is being planned is not wanted any more, and nothing follows on it.
+  // Abandons the plan in progress; no motion will follow on it.
   void forget() noexcept;
-  // Once per period. The plan, if it is due and made; it stays until the next one is asked for.
+  // Called once per period. Returns the plan if it is due and ready; it remains valid until the next request.
   const Plan* take() noexcept;
-  // For other bodies. It is free and holds nothing that was forgotten.
+  // The planner, for replacing its bodies; requires free() and no abandoned request in use.
   [[nodiscard]] Planner& planner() noexcept { return planner_; }
-  // Plans are soon to be asked for.
+  // Announces that plans will soon be requested.
   void expect_work(bool soon) noexcept { soon_.store(soon, std::memory_order_relaxed); }
-  // Of a plan with ErrorCode::Planner: how the thread crashed.
+  // For a plan with ErrorCode::Planner: how the thread crashed.
   [[nodiscard]] const char* crash() const noexcept { return crash_; }
 
  private:
-  // What the request and the plan are: the tick's in Free, Asked and Made; the planning thread's in Working.
+  // The owner of the request and the plan: the tick in Free, Asked and Made; the planning thread in Working.
   enum class State { Free, Asked, Working, Made };
 
   [[nodiscard]] bool learned(bool what) const noexcept { return learned_ != nullptr ? learned_(what) : what; }
@@ -71,10 +71,10 @@ class PlanningDesk {
   bool (*learned_)(bool what) noexcept;
   decltype(Settings::guarded) guarded_;
 
-  // The tick's.
+  // Used by the tick only.
   bool asked_ = false;
-  bool waits_ = false;   // for the thread to end what was forgotten
-  bool forgot_ = false;  // something that the thread may not have let go of yet
+  bool waits_ = false;   // for the thread to end an abandoned request
+  bool forgot_ = false;  // an abandoned request that the thread may still use
   int periods_left_ = 0;
   PlanRequest waiting_;
 
@@ -83,10 +83,10 @@ class PlanningDesk {
   PlanRequest request_;
   Plan plan_;
 
-  // The planning thread's.
+  // Used by the planning thread only.
   Planner planner_;
   Segment before_;
-  bool crashed_ = false;  // it plans nothing more
+  bool crashed_ = false;  // it plans no more motions
   char crash_[96] = "";
   pthread_t thread_{};
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points as lines of job files: written, and put where they belong in a file's text.
+// Points as lines of job files: formats them, and inserts them into the text of a file.
 
 #pragma once
 
@@ -11,21 +11,22 @@
 
 namespace indurop::robot {
 
-// "JOINT 10 -20 30.5 0 90 0" of the arm's axes, deg (mm where they slide), to a thousandth.
+// Returns "JOINT 10 -20 30.5 0 90 0": the arm's axes in deg (mm if they slide), to a thousandth.
 std::string joint_text(const Arm& arm, const Joints& joints);
-// "POSE 500 -200 350 RPY 180 0 180" mm and deg, likewise. `pose` as it is seen from the frame it is given in.
+// Returns "POSE 500 -200 350 RPY 180 0 180", in mm and deg, to a thousandth. `pose` is seen from the frame in which it
+// is given.
 std::string pose_text(const Pose& pose);
-// The same as the file has it: in its frame.
+// The same as written in the file: in the frame of the point.
 std::string place_text(const JobBook& book, const Point& point, const Arm& arm);
 
-// Where `pose` is, seen from `frame`; both seen from the same.
+// Transforms `pose` into coordinates of `frame`; both are given in the same frame.
 Pose seen_from(const Pose& frame, const Pose& pose);
 
 struct WithPoint {
   std::string text;
-  int line = 0;  // where the point stands, from 1
+  int line = 0;  // where the point is written, from 1
 };
-// The text with "POINT name = place" instead of what `line` says, whose comment stays, or at the end if it is 0.
+// Returns the text with "POINT name = place" in line `line`, whose comment stays, or at the end if `line` is 0.
 WithPoint put_point(std::string_view text, int line, std::string_view name, std::string_view place);
 
 }  // namespace indurop::robot

@@ -21,7 +21,8 @@ struct LineState {
   double acceleration = 0;
 };
 
-// From one velocity and acceleration to another velocity, there without acceleration: up to three phases.
+// A change from one velocity and acceleration to another velocity, with zero acceleration at its end: up to three
+// phases.
 struct Ramp {
   struct Phase {
     double duration = 0;
@@ -32,28 +33,28 @@ struct Ramp {
   [[nodiscard]] double duration() const noexcept;
 };
 
-// Speed once the acceleration has been taken back to zero, as fast as the jerk allows. Real-time safe.
+// Speed after the acceleration has been reduced to zero, as fast as the jerk allows. Real-time safe.
 double unloaded(const LineState& from, const LineLimits& limits) noexcept;
 
-// The fastest ramp. `from.position` does not count. Only acceleration and jerk of the limits do. Real-time safe, as
-// everything here.
+// The fastest ramp. `from.position` is ignored, and only acceleration and jerk of the limits are used. Real-time safe,
+// like all functions of this file.
 Ramp ramp(const LineState& from, double velocity, const LineLimits& limits) noexcept;
-// The same to `velocity` >= 0: `braking` counts where it has to become slower.
+// The same to `velocity` >= 0; `braking` applies where it has to become slower.
 Ramp ramp(const LineState& from, double velocity, const LineLimits& limits, const LineLimits& braking) noexcept;
 
 class Profile {
  public:
   Profile() = default;
 
-  // At rest, or moving on, as `state` says, for ever.
+  // At rest, or moving on with the velocity of `state`, without end.
   static Profile coast(const LineState& state) noexcept;
   // As fast as possible to a velocity (not above the limit), which it then keeps.
   static Profile to_velocity(const LineState& from, double velocity, const LineLimits& limits) noexcept;
-  // As fast as possible to `position`, not behind `from.position`, being there at the velocity `arrival` >= 0 (at the
-  // limit, if that is lower) or, where the way is too short for that, as near to it as possible but never above
-  // `arrival`. `from.velocity` is not negative. If the way is too short even for that, it comes to rest as soon as
-  // possible behind `position`, and overshoots() says so.
-  // `braking`: of its last ramp, where that is one down.
+  // As fast as possible to `position`, which is not before `from.position`, arriving at the velocity `arrival` >= 0 (at
+  // the limit if that is lower) or, if the distance is too short for that, as close to it as possible but never above
+  // `arrival`. `from.velocity` is not negative. If the distance is too short even for that, it comes to rest as soon as
+  // possible after `position`, and overshoots() returns true.
+  // `braking`: limits of its last ramp, if that slows down.
   static Profile to_position(const LineState& from, double position, double arrival, const LineLimits& limits,
                              const LineLimits& braking) noexcept;
   static Profile to_position(const LineState& from, double position, double arrival,
@@ -61,26 +62,26 @@ class Profile {
     return to_position(from, position, arrival, limits, limits);
   }
 
-  // From any velocity and acceleration to rest at `position`, wherever that is, as fast as possible.
+  // From any velocity and acceleration to rest at `position`, in either direction, as fast as possible.
   static Profile to_rest(const LineState& from, double position, const LineLimits& limits,
                          const LineLimits& braking) noexcept;
   static Profile to_rest(const LineState& from, double position, const LineLimits& limits) noexcept {
     return to_rest(from, position, limits, limits);
   }
-  // What to_rest() made with these limits, but in `duration` by not getting that fast; the same if it takes as long
-  // anyway, or where nothing takes just that long.
+  // The result of to_rest() with these limits, stretched to `duration` by a lower speed; unchanged if it takes that
+  // long anyway, or if no speed gives exactly that duration.
   [[nodiscard]] Profile slower(const LineLimits& limits, double duration) const noexcept;
 
-  // At `time` seconds after the start; beyond the end it moves on with its last velocity.
+  // State at `time` seconds after the start; after the end it moves on with its last velocity.
   [[nodiscard]] LineState at(double time) const noexcept;
   [[nodiscard]] double jerk_at(double time) const noexcept;
   [[nodiscard]] double duration() const noexcept { return duration_; }
   [[nodiscard]] bool overshoots() const noexcept { return overshoots_; }
-  // Where it is at the end of its last phase.
+  // State at the end of its last phase.
   [[nodiscard]] const LineState& end() const noexcept { return end_; }
-  // The greatest speed and acceleration on its way, in either direction; no position.
+  // The greatest speed and acceleration of the motion, in either direction; the position is not set.
   [[nodiscard]] LineState peak() const noexcept;
-  // The least and the greatest position on its way.
+  // The smallest and the greatest position of the motion.
   [[nodiscard]] std::pair<double, double> extent() const noexcept;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the job files say, with all that is made of it, ready to take the place of what a robot has: nothing of it
-// allocates once it is there.
+// The content of the job files with everything that is derived from it, ready to replace what a robot has loaded:
+// nothing of it allocates once it exists.
 
 #pragma once
 
@@ -23,12 +23,13 @@ struct Program {
   JobBook book;
   Clearance clearance;
   ToolSet tools;
-  // Of the same bodies: for planning, for the follower, for what nobody planned, and its way to rest.
+  // Collision checks of the same bodies: for planning, for the follower, for motions that were not planned, and for
+  // their way to rest.
   ClearWay planned, followed, unplanned, to_rest;
 };
 
-// Reads the job files anew. Null, and why in `error` (one line, and how many others there are), if they or the
-// surroundings have errors, or if the arm's description is not `urdf` any more.
+// Reads the job files again. Returns null, and the reason in `error` (one line, with the number of further errors), if
+// they or the surroundings have errors, or if the arm's description is no longer `urdf`.
 std::unique_ptr<Program> read_program(const FileNames& names, const std::string& urdf, std::string& error);
 
 }  // namespace indurop::robot

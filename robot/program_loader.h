@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the job files anew while the robot stands: a thread beside the tick, which asks, looks in each period whether
-// it is done, and takes what came of it. In a simulation the tick reads, so that it is done in the same period on every
-// run.
+// Reads the job files again while the robot is at standstill: a background thread does it; the tick requests it, polls
+// in each period until it is done, and takes the result. In a simulation the tick itself reads, so that it is done in
+// the same period on every run.
 
 #pragma once
 
@@ -18,30 +18,32 @@ namespace indurop::robot {
 
 class ProgramLoader {
  public:
-  // `urdf`: the arm's description, which has to stay as it is.
+  // `urdf`: the arm's description, which must not change.
   ProgramLoader(const Settings& settings, std::string urdf);
   ProgramLoader(const ProgramLoader&) = delete;
   ProgramLoader& operator=(const ProgramLoader&) = delete;
   ~ProgramLoader();
 
-  // Of the tick, real-time safe: no system call, no lock. Nothing is being read, and nothing is left of it.
+  // Called by the tick, real-time safe: no system call, no lock. Returns whether nothing is being read and no result is
+  // left.
   [[nodiscard]] bool free() const noexcept { return state_.load(std::memory_order_acquire) == State::Free; }
-  // It is free. `signals` is told of the variables that the jobs name; `present`: those they name now.
+  // Requests a reload; requires free(). `signals` receives the variables that the jobs name; `present`: those that they
+  // name now.
   void ask(Signals& signals, const std::vector<std::string>& present) noexcept;
-  // Something was asked for and is done. Once a period.
+  // Returns whether a requested reload is done. Called once per period.
   [[nodiscard]] bool made() noexcept;
-  // It is made: what was read, or null and why().
+  // After made(): what was read, or null and the reason in why().
   [[nodiscard]] Program* program() noexcept { return program_.get(); }
   [[nodiscard]] const char* why() const noexcept { return why_.c_str(); }
-  // It is made. The thread crashed, and how; else empty.
+  // After made(): how the thread crashed; empty if it did not.
   [[nodiscard]] const char* crash() const noexcept { return crash_; }
-  // The variables are others than before, and `signals` has them ready.
+  // Returns whether the variables differ from the earlier ones; `signals` has them ready.
   [[nodiscard]] bool other_signals() const noexcept { return other_signals_; }
-  // It is made: the thread may destroy what is left there.
+  // After made(): returns the result; the thread may destroy it.
   void give_back() noexcept;
 
  private:
-  // What is read is the tick's in Free and Made, the thread's in the others.
+  // The owner of the result: the tick in Free and Made, the thread in the other states.
   enum class State { Free, Asked, Made, Spent };
 
   void read() noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outputs that jobs switch on for a time: they go off whatever became of the job. Real-time safe.
+// Outputs that jobs switch on for a time: they switch off even if the job has ended. Real-time safe.
 
 #pragma once
 
@@ -13,7 +13,8 @@ namespace indurop::robot {
 
 class Pulses {
  public:
-  // On from now for `seconds`, which begin anew if it is on already. False: 16 others are.
+  // Switches on for `seconds` from now; the time starts again if it is on already. Returns false if 16 other outputs
+  // are on.
   bool start(std::size_t signal, double seconds, Signals& signals) noexcept {
     auto* place =
         std::find_if(all_.begin(), all_.end(), [&](const Pulse& one) { return one.on && one.signal == signal; });
@@ -27,7 +28,7 @@ class Pulses {
     signals.write(signal, 1);
     return true;
   }
-  // Once a period, before jobs run.
+  // Called once per period, before jobs run.
   void step(double seconds, Signals& signals) noexcept {
     for (Pulse& one : all_) {
       one.left -= seconds;
@@ -40,7 +41,7 @@ class Pulses {
   [[nodiscard]] bool any() const noexcept {
     return std::any_of(all_.begin(), all_.end(), [](const Pulse& one) { return one.on; });
   }
-  // Whoever sets the output otherwise takes it over.
+  // Called when the output is set in another way: it is no longer switched off here.
   void forget(std::size_t signal) noexcept {
     for (Pulse& one : all_) {
       one.on = one.on && one.signal != signal;

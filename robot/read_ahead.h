@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Motions of a job that wait to be planned. Lines whose zones meet become one chain: as many as the job gives before
-// something else comes. The points of a spline become one too.
+// another kind of step. The points of a spline become one chain too.
 
 #pragma once
 
@@ -15,27 +15,27 @@ namespace indurop::robot {
 
 class ReadAhead {
  public:
-  // Allocates; nothing else here does.
+  // Allocates; no other function of this class does.
   ReadAhead(const Places& places, const ToolLimits& tool);
 
   void clear() noexcept;
-  // Each becomes what the other one was; chains and splines stay where they are.
+  // Exchanges the motions of both; chains and splines stay where they are.
   void swap(ReadAhead& other) noexcept;
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
   [[nodiscard]] int count() const noexcept { return count_; }
-  // For a few motions, and for many lines with zones.
+  // Returns whether there is room for a few motions, and for many lines with zones.
   [[nodiscard]] bool has_room() const noexcept;
-  // There is room.
+  // Adds a motion; requires has_room().
   void add(const MoveCommand& command) noexcept;
 
-  // What is to be planned now: one of both, or none as long as it may become longer.
+  // The next motion to plan: a chain or a command, or neither while it may still become longer.
   struct Next {
-    const ToolPath* chain = nullptr;  // stays as it is while five others are taken
+    const ToolPath* chain = nullptr;  // is not changed while five others are taken
     const MoveCommand* command = nullptr;
     std::uint32_t ticket = 0;  // of a spline
-    double acceleration = 1;   // of a chain, MoveCommand::acceleration
+    double acceleration = 1;   // of a chain, as MoveCommand::acceleration
   };
-  // It begins at `from`. `more`: other motions may follow at once.
+  // Returns the next motion, which begins at `from`. `more`: other motions may follow at once.
   Next next(const Joints& from, bool more) noexcept;
 
  private:
@@ -53,8 +53,8 @@ class ReadAhead {
   std::vector<MoveCommand> commands_;  // a ring
   int first_ = 0;
   int count_ = 0;
-  int scanned_ = 0;  // from the first on, into the present chain
-  int single_ = 0;   // from the first on, are no chain
+  int scanned_ = 0;  // motions from the first on that are in the present chain
+  int single_ = 0;   // motions from the first on that form no chain
   bool closed_ = false;
   std::vector<Chain> chains_;
   std::size_t chain_ = 0;

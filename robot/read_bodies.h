@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All bodies of a cell out of its files, what must stay clear of what, and which points are too near to something.
+// All bodies of a cell from its files, the pairs that must stay clear of each other, and the points that are too close
+// to something.
 
 #pragma once
 
@@ -17,15 +18,16 @@ struct ReadBodies {
   Clearance clearance;
   std::vector<base::Diagnostic> found;
 };
-// `ignored`: names of links, tools or zones that may touch, "forearm gripper, wrist table". `clearance`: mm. Tools and
-// frames have found their places.
+// Reads the bodies. `ignored`: names of links, tools or zones that may touch, such as "forearm gripper, wrist table".
+// `clearance`: mm. Tools and frames have been placed before.
 ReadBodies read_bodies(const ArmModel& model, const JobBook& book, const std::string& urdf, const std::string& ignored,
                        double clearance);
 
-// What is too near to each other at many places of the axes, so that the robot would seldom move: warnings.
+// Warns about bodies that are too close to each other at many positions of the axes, so that the robot could seldom
+// move.
 std::vector<base::Diagnostic> check_room(const Arm& arm, const Clearance& clearance, const std::string& urdf);
 
-// Points at which the arm would touch something, however it is held there: warnings.
+// Warns about points at which the arm would touch something in every posture.
 std::vector<base::Diagnostic> check_clear(const JobBook& book, const Arm& arm, const Clearance& clearance);
 
 }  // namespace indurop::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a robot, read and checked against each other.
+// Reads the files of a robot and checks them against each other.
 
 #pragma once
 
@@ -17,7 +17,7 @@ struct ReadFiles {
   std::optional<ArmModel> model;
   JobBook book;
   Clearance clearance;
-  std::vector<base::Diagnostic> errors;  // without any, the others count
+  std::vector<base::Diagnostic> errors;  // if empty, the other members are valid
   std::vector<base::Diagnostic> notes;
   std::string kind;  // what the arm can do
 };

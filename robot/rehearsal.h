@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motion is gone through before it begins, from one instant to the next: how far its joints go beyond their shares
-// anywhere, and what changes of its pace may take of what is left.
+// Steps through a motion before it begins, from one instant to the next: by how much its joints exceed their shares
+// anywhere, and how much of the remaining limits changes of its pace may use.
 
 #pragma once
 
@@ -17,25 +17,25 @@ class Rehearsal {
   Rehearsal(const Places& places, const JointLimits& joints) noexcept
       : places_(places), joints_(joints), tip_(places.arm()) {}
 
-  // A motion from rest to rest, with or without a timing. `step`: from one instant to the next, at most. Real-time
-  // safe, as all here.
+  // Begins a motion from rest to rest, with or without a timing. `step`: maximum time from one instant to the next.
+  // Real-time safe, like all functions of this class.
   void begin(const Joints& from, double duration, double step, bool timed) noexcept;
   [[nodiscard]] bool done() const noexcept { return next_ > count_ + 3; }
-  // The instant that is looked at next, and where the motion is then.
+  // The instant that is checked next; look() gets the place of the motion at that time.
   [[nodiscard]] double time() const noexcept;
   [[nodiscard]] bool look(const Segment& segment, double place) noexcept;
-  // Of a long motion, which is mostly calm: the instant that it may go on from, behind many others; below 0: the next
-  // one has to be looked at.
+  // For a long motion, which is mostly calm: the instant many steps later from which it may continue; below 0: the next
+  // instant has to be checked.
   [[nodiscard]] double far_time() const noexcept;
-  // Goes on from there if joints keep about their speeds until then.
+  // Continues from there if joints nearly keep their speeds until then.
   void skip(const Segment& segment, double far_place) noexcept;
 
-  // How many times as long it has to take, 1 at least: by the last instant, and, when done, as a whole.
+  // Factor by which the duration has to grow, at least 1: for the last instant, and, when done, for the whole motion.
   [[nodiscard]] double last_factor() const noexcept;
   [[nodiscard]] double factor() const noexcept;
-  // m/s, of the tool's tip or the arm's end.
+  // m/s, of the tool's tip or the arm's end, whichever is faster.
   [[nodiscard]] double tip_speed() const noexcept { return std::max(tip_.farthest(), tip_far_) / step_; }
-  // Of changes of the pace at which it is followed.
+  // Limits for changes of the pace at which the motion is followed.
   [[nodiscard]] const PaceLimits& pace_limits() const noexcept { return pace_; }
 
  private:
@@ -52,10 +52,10 @@ class Rehearsal {
   PaceLimits pace_;
   TipSpeed tip_;
   std::array<Joints, 4> seen_;
-  int skip_ = 0;        // so many instants, next time
-  int wait_ = 0;        // so many are looked at before
-  int unknown_ = 0;     // so many whose differences are not known, behind skipped ones
-  double tip_far_ = 0;  // m that the tip or the arm's end goes at most in a step of skipped ones
+  int skip_ = 0;        // instants to skip next time
+  int wait_ = 0;        // instants to check before that
+  int unknown_ = 0;     // instants after skipped ones whose differences are not known
+  double tip_far_ = 0;  // m that the tip or the arm's end moves at most in one skipped step
 };
 
 }  // namespace indurop::robot

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last gate before the drive of one axis: no set point passes that breaks a limit, whoever made it. It looks at set
-// points as the drive sees them, one per period, and knows nothing of paths. Once it has refused one it brakes by
-// itself.
+// The last check before the drive of one axis: no set point passes that violates a limit, whatever produced it. It sees
+// set points as the drive does, one per period, and does not know paths. After it has rejected one it brakes on its
+// own.
 
 #pragma once
 
@@ -14,37 +14,38 @@ class SetPointGate {
  public:
   struct Range {
     double lower = 0, upper = 0;  // rad
-    bool endless = false;         // turns on and on; lower and upper do not count
+    bool endless = false;         // turns without end; lower and upper are ignored
   };
   SetPointGate() = default;
   SetPointGate(const Range& range, const LineLimits& limits, double period) noexcept
       : range_(range), limits_(limits), period_(period) {}
 
-  // The axis stands here: its drive has no power, or has just found its place. Real-time safe, as all here.
+  // The axis is at rest at `position`: its drive has no power, or has just been referenced. Real-time safe, like all
+  // functions of this class.
   void stand(double position) noexcept;
-  // The drive moves the axis by itself, which is here, and as fast; it brakes from here.
+  // The drive moves the axis on its own, with this position and velocity; braking starts from there.
   void follow(double position, double velocity) noexcept;
-  // Whether the drive may get this set point next: within position, speed, acceleration and jerk, and such that the
-  // axis can still come to rest before its end. An axis that stands beyond its end may come back. `hardness` multiplies
-  // the acceleration. Changes nothing. Errors: Value (no number), JointLimit, Speed, Acceleration, Jerk.
+  // Checks whether the drive may get this set point next: within position, speed, acceleration and jerk, and such that
+  // the axis can still come to rest before its limit. An axis beyond its limit may return. `hardness` multiplies the
+  // acceleration. Changes nothing. Errors: Value (not a number), JointLimit, Speed, Acceleration, Jerk.
   [[nodiscard]] ErrorCode check(double position, double hardness) const noexcept;
-  // It gets it. `hardness`: as it was checked with.
+  // Records that the drive gets this set point. `hardness`: the one it was checked with.
   void pass(double position, double hardness) noexcept;
-  // The next set point on the shortest way to rest, as `hardness` allows.
+  // Computes the next set point of the shortest way to rest with this `hardness`.
   void brake(double hardness) noexcept;
 
-  // The set point nearest to `wanted` that speed, acceleration and jerk allow next; `wanted` itself, if they do.
+  // The set point nearest to `wanted` that speed, acceleration and jerk allow next; `wanted` itself if they allow it.
   [[nodiscard]] double nearest(double wanted) const noexcept;
-  // The next set point on the shortest way to no acceleration.
+  // The next set point of the shortest way to zero acceleration.
   [[nodiscard]] LineState unloaded() const noexcept;
-  // Whether it could still come to rest before its end from there.
+  // Returns whether the axis could still come to rest before its limit from that state.
   [[nodiscard]] bool can_rest(const LineState& from) const noexcept {
     return range_.endless || can_rest(from, limits_);
   }
-  // No acceleration, but for rounding.
+  // Returns whether the acceleration is zero, except for rounding.
   [[nodiscard]] bool coasts() const noexcept;
 
-  // The last set point, its speed and its acceleration, as differences between periods.
+  // The last set point, its speed and its acceleration, computed as differences between periods.
   [[nodiscard]] const LineState& state() const noexcept { return state_; }
   [[nodiscard]] bool at_rest() const noexcept { return state_.velocity == 0 && state_.acceleration == 0; }
 
@@ -60,8 +61,8 @@ class SetPointGate {
   LineLimits limits_;
   double period_ = 0.01;  // s
   LineState state_;
-  // The acceleration, had it never changed faster than it may: what rounding adds comes and goes, what a wrong path
-  // adds stays and grows.
+  // The acceleration as if it had never changed faster than allowed: differences caused by rounding come and go, those
+  // caused by a wrong path stay and grow.
   double steady_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A smooth way of the tool through points: pieces of the fifth degree of its position and of the components of its
+// A smooth path of the tool through points: pieces of the fifth degree of its position and of the components of its
 // orientation, with four continuous derivatives, so that jerk is continuous at any speed; straight at both ends. It
 // passes each point exactly.
 
@@ -18,20 +18,20 @@ class Spline final : public ToolPath {
 
   struct Knot {
     Pose pose;
-    double speed = 1;       // part of full speed on the way to it, above 0 to 1
-    double tool_speed = 0;  // m/s, instead of it; 0: none
+    double speed = 1;       // part of full speed towards it, above 0 to 1
+    double tool_speed = 0;  // m/s, instead of `speed`; 0: none
     int source = 0;
   };
 
-  // Real-time safe, as all here.
+  // Real-time safe, like all functions of this class.
   void begin(const Pose& start, const ToolLimits& tool) noexcept;
-  // There is room for kMost. False if it is where the one before is: it is left out.
+  // Adds a point; there is room for kMost. Returns false if it is at the same place as the one before: it is left out.
   bool add(const Knot& knot) noexcept;
-  // Behind the last one, and there is one at least.
+  // Called after the last point; there must be at least one.
   void finish() noexcept;
 
   [[nodiscard]] int count() const noexcept { return count_; }
-  // Where it passes point `i`; 0 is the start.
+  // The place at which it passes point `i`; 0 is the start.
   [[nodiscard]] double place_of(int i) const noexcept { return at_[static_cast<std::size_t>(i)]; }
 
   [[nodiscard]] Pose pose_at(double place) const noexcept override;
@@ -60,7 +60,7 @@ class Spline final : public ToolPath {
   std::array<double, kMost + 1> at_{};
   std::array<Knot, kMost + 1> knots_{};
   std::array<Values, kMost + 1> values_{};
-  std::array<Values, kMost + 1> slopes_{}, bends_{};  // first and second derivatives there
+  std::array<Values, kMost + 1> slopes_{}, bends_{};  // first and second derivatives at the points
 };
 
 }  // namespace indurop::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of a robot's files, for whoever looks at them and writes them beside the robot. Not real-time safe.
+// Lists and writes the points of a robot's files, for tools that run in addition to the robot. Not real-time safe.
 
 #pragma once
 
@@ -20,11 +20,11 @@ struct ListedPoint {
 struct ListedPoints {
   std::vector<ListedPoint> points;       // in the order of the files
   std::vector<std::string> frames;       // work frames, by name
-  std::vector<base::Diagnostic> errors;  // of the files; without any, the others count
+  std::vector<base::Diagnostic> errors;  // of the files; if empty, the others are valid
 };
 ListedPoints list_points(const FileNames& names);
 
-// Where the robot stands.
+// The present position of the robot.
 struct Stand {
   std::vector<double> joints;           // deg, of sliding axes mm; at least as many as the arm has
   std::array<double, 3> position{};     // mm, of the tip in the base
@@ -33,19 +33,19 @@ struct Stand {
 
 struct TeachOrder {
   std::string point;
-  bool as_joint = false;  // neither: as the file has it, a new one as joint angles
+  bool as_joint = false;  // if neither is set: as in the file; a new point as joint angles
   bool as_pose = false;
-  std::string frame;  // as a pose in this work frame; empty: as the file has it
-  std::string file;   // for a point that is new; empty: where most of the others are
+  std::string frame;  // as a pose in this work frame; empty: as in the file
+  std::string file;   // for a new point; empty: the file with most of the other points
 };
 
 struct TaughtPoint {
-  std::vector<base::Diagnostic> errors;  // of the files; with any, nothing was changed
-  std::string problem;                   // with the order, likewise
+  std::vector<base::Diagnostic> errors;  // of the files; if there are any, nothing was changed
+  std::string problem;                   // with the request; if there is one, nothing was changed
   ListedPoint now;
-  std::string before;  // its place; empty: it is new
+  std::string before;  // its earlier place; empty: the point is new
 };
-// Writes the point into the file that declares it, whole or not at all; what is around its place stays.
+// Writes the point into the file that declares it, completely or not at all; the text around its place is unchanged.
 TaughtPoint teach_point(const FileNames& names, const TeachOrder& order, const Stand& stand);
 
 }  // namespace indurop::robot

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motion that is given by a table of times: where, how fast or how hard an axis is at each of them. It begins as the
-// axis is, and has no jumps of speed and acceleration.
+// A motion that is given by a table of times: position, velocity or acceleration of an axis at each of them. It begins
+// with the state of the axis, and has no jumps of speed and acceleration.
 
 #pragma once
 
@@ -13,23 +13,23 @@ namespace indurop::robot {
 class TimeProfile {
  public:
   enum class Of { Position, Velocity, Acceleration };
-  // What the numbers of the table stand for: values * scale + offset, times * time_scale.
+  // Converts the numbers of the table: values * scale + offset, times * time_scale.
   struct Scale {
     double time = 1;
     double value = 1;
     double offset = 0;
   };
-  // From `start` on, which counts at time 0. Positions: a spline through all of them, at rest at the end. Velocities: a
-  // curve that is nowhere beyond two neighbours, without acceleration at the end. Accelerations: straight from one to
-  // the next. Errors: Value (no points, not numbers, times that do not rise from above 0), and it is as before.
-  // Real-time safe, as all here.
+  // Sets the table, beginning with `start` at time 0. Positions: a spline through all of them, at rest at the end.
+  // Velocities: a curve that never exceeds two neighbouring values, without acceleration at the end. Accelerations:
+  // linear between neighbours. Errors: Value (no points, not numbers, times that do not rise from above 0); the profile
+  // is then unchanged. Real-time safe, like all functions of this class.
   ErrorCode set(const ProfileTable& table, Of of, const Scale& scale, const LineState& start) noexcept;
 
   [[nodiscard]] double duration() const noexcept { return duration_; }
-  // Beyond its end it moves on with its last velocity.
+  // State at `time`; after its end it moves on with its last velocity.
   [[nodiscard]] LineState at(double time) const noexcept;
 
-  // The least and the greatest of it on all of its way, exactly.
+  // The exact minimum and maximum of a quantity over the whole motion.
   struct Range {
     double least = 0;
     double greatest = 0;
@@ -42,7 +42,7 @@ class TimeProfile {
 
  private:
   static constexpr std::size_t kDegree = 5;
-  using Polynomial = std::array<double, kDegree + 1>;  // position, by the time since the segment began
+  using Polynomial = std::array<double, kDegree + 1>;  // position as a function of the time since the segment began
   struct Segment {
     double begin = 0;
     double duration = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the timing of a path that is as fast as the joints allow at each place: speed, acceleration and jerk of every
-// joint and of the tool. It chooses where the knots lie and asks what limits the motion there.
+// joint and of the tool. It chooses the positions of the knots and determines what limits the motion there.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace indurop::robot {
 
-// What is known of a path before its timing is looked for: bounds of its speed in equal parts of its length.
+// What is known of a path before the search for a timing: bounds of its speed in equal parts of its length.
 struct PathBounds {
   static constexpr int kParts = 512;
   std::array<double, kParts> speed{};
@@ -24,16 +24,17 @@ class TimingSearch {
   TimingSearch(const Places& places, const JointLimits& joints) noexcept : places_(places), joints_(joints) {}
 
   void begin(const Segment& segment, const PathBounds& bounds) noexcept;
-  // What was found takes `factor` times the time it may take, at this time of it.
+  // Records that the timing takes too little time around `time`: it needs `factor` times as long.
   void note(double time, double factor) noexcept;
-  // Looks for it once more, with the limits kept half way between the knots as well; the next time, slower where it was
-  // noted that it is too fast.
+  // Searches again, with the limits also kept half way between the knots; the next time, slower where note() recorded
+  // that it is too fast.
   void refine() noexcept;
-  // Works on a little; returns how much that was, in places whose inverse kinematics take as long. Real-time safe.
+  // Does a part of the work; returns how much that was, as the number of places whose inverse kinematics take as long.
+  // Real-time safe.
   int work() noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
-  // When done; not known() if none was found. It keeps the limits at its knots, once refined also half way between. If
-  // refining finds none, that of before.
+  // The result when done; not known() if none was found. It keeps the limits at its knots, after refine() also half way
+  // between. If refining finds none, it is the earlier one.
   [[nodiscard]] const PathTiming& timing() const noexcept { return timing_; }
 
  private:
@@ -52,7 +53,7 @@ class TimingSearch {
   Stage stage_ = Stage::Done;
   int count_ = 0;
   int per_knot_ = 1;
-  // By how much the limits of a piece are made lower, and by how much more they have to be.
+  // The factors by which the limits of a piece are reduced, and by which they have to be reduced further.
   std::array<double, PathTiming::kMost> slower_{}, noted_{};
   int next_ = 0;
   Joints near_ = Joints::Zero();

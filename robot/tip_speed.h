@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast the tool's tip and the arm's end are: the speed of both counts where people are near (ISO 10218-1, reduced
-// speed: 250 mm/s). Axes may move against each other, so that the tip is slow only while all of them work: near a
-// stretched elbow it is much faster if one of them stops. A speed that is planned counts that, too.
+// The speed of the tool's tip and of the arm's end: both are limited where people are near (ISO 10218-1, reduced speed:
+// 250 mm/s). Axes may move against each other, so that the tip is slow only while all of them move: near a stretched
+// elbow it is much faster if one of them stops. A planned speed takes that into account.
 
 #pragma once
 
@@ -17,12 +17,12 @@ class TipSpeed {
  public:
   explicit TipSpeed(const Arm& arm) noexcept : arm_(&arm) {}
 
-  // Begins at these joint angles. Real-time safe, as all here.
+  // Begins at these joint angles. Real-time safe, like all functions of this class.
   void begin(const Joints& q) noexcept {
     at_ = where(q);
     moved_ = farthest_ = 0;
   }
-  // The next ones on the way.
+  // Adds the next joint angles of the motion.
   void note(const Joints& q) noexcept {
     const Place next = where(q);
     const Vec3 tip = next.tip - at_.tip;
@@ -38,11 +38,11 @@ class TipSpeed {
     }
     at_ = next;
   }
-  // What is in between does not count.
+  // Continues from these joint angles; the motion up to them is not counted.
   void go_on_from(const Joints& q) noexcept { at_ = where(q); }
-  // m that the faster of both goes at most, from one to the next.
+  // m that the tip or the arm's end, whichever is faster, moves at most from one step to the next.
   [[nodiscard]] double moved() const noexcept { return moved_; }
-  // The same, also if one axis stood on the way, whichever it is, or all others did.
+  // The same, also if any one axis, or all others, had stopped during the step.
   [[nodiscard]] double farthest() const noexcept { return farthest_; }
 
  private:

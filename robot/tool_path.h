@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A way of the tool that is made of many pieces, as the planner sees it: where the tool is at each place, and what it
-// and the commands allow of the speed there. Places are seconds at full speed.
+// A path of the tool that consists of many pieces, as the planner sees it: the tool's pose at each place, and the speed
+// that it and the commands allow there. Places are seconds at full speed.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::robot {
 
-// How fast the tool may move.
+// Limits of the tool's motion.
 struct ToolLimits {
   double velocity = 1;            // m/s
   double acceleration = 5;        // m/s^2
@@ -31,17 +31,17 @@ class ToolPath {
  public:
   virtual ~ToolPath() = default;
 
-  // Real-time safe, as all here.
+  // Real-time safe, like all functions of this class.
   [[nodiscard]] virtual Pose pose_at(double place) const noexcept = 0;
-  // Of the speed along the path.
+  // Limits of the speed along the path.
   [[nodiscard]] virtual LineLimits limits_at(double place) const noexcept = 0;
   [[nodiscard]] virtual int source_at(double place) const noexcept = 0;
   [[nodiscard]] virtual const Pose& end() const noexcept = 0;
   // s at full speed, as for all paths.
   [[nodiscard]] virtual double length() const noexcept = 0;
-  // s at the speeds of its commands, without any ramps.
+  // s at the speeds of its commands, without ramps.
   [[nodiscard]] virtual double at_speed() const noexcept = 0;
-  // m
+  // Length in m.
   [[nodiscard]] virtual double way() const noexcept = 0;
 
  protected:
@@ -49,13 +49,13 @@ class ToolPath {
   ToolPath(const ToolPath&) = default;
   ToolPath& operator=(const ToolPath&) = default;
 
-  // How the tool moves and turns at a place in a second at full speed, and the derivatives of that.
+  // Movement and rotation of the tool at a place, per second at full speed, and their derivatives.
   struct Shape {
     Vec3 moving = Vec3::Zero(), turning = Vec3::Zero();
     Vec3 bend = Vec3::Zero(), turn_bend = Vec3::Zero();
     Vec3 twist = Vec3::Zero(), turn_twist = Vec3::Zero();
   };
-  // `speed`: what the commands allow.
+  // `speed`: the speed that the commands allow.
   static LineLimits limits_for(const Shape& shape, double speed, const ToolLimits& tool) noexcept;
 };
 

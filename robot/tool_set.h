@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm with each of its tools: what a tool's tip does is asked of an arm that ends there. Tool 0 is none.
+// The arm with each of its tools: each tool has an arm that ends at its tip. Tool 0 is no tool.
 
 #pragma once
 
@@ -12,7 +12,7 @@ namespace indurop::robot {
 
 class ToolSet {
  public:
-  // `tools`: where each tip is, seen from the arm's end; at least one. Allocates; nothing else here does.
+  // `tools`: the tips, seen from the arm's end; at least one. Allocates; no other function of this class does.
   ToolSet(const Arm& arm, const std::vector<Pose>& tools);
 
   [[nodiscard]] int count() const noexcept { return static_cast<int>(held_.size()); }
@@ -25,7 +25,7 @@ class ToolSet {
   struct Held {
     explicit Held(const Arm& with_tool) : arm(with_tool), inverse(arm) {}
     Arm arm;
-    Inverse inverse;  // of that arm, so neither moves
+    Inverse inverse;  // refers to `arm`, so neither may move
   };
   std::vector<std::unique_ptr<const Held>> held_;
 };

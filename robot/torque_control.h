@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One axis in its drive's cyclic torque mode (CiA 402: 10): what torque the drive is told, beside what the arm needs to
-// hold itself, so that the axis pushes with what was asked for, and where nothing is in its way goes no faster than it
-// may. It knows neither positions nor drives.
+// Controls one axis in its drive's cyclic torque mode (CiA 402: 10): computes the torque set point, in addition to the
+// torque that the arm needs to hold itself, so that the axis pushes with the requested torque, and, if nothing is in
+// its way, does not exceed its speed limit. It knows neither positions nor drives.
 
 #pragma once
 
@@ -12,16 +12,16 @@ namespace indurop::robot {
 
 class TorqueControl {
  public:
-  // N m, N m/s, rad/s, rad/s^2; N and m of an axis that slides. The torque has a sign, velocity and acceleration are
-  // above 0. The ramp is the most: it is slower where what stands in the way and gives way would
-  // make the axis too fast. 0: as quickly as that allows.
+  // N m, N m/s, rad/s, rad/s^2; N and m for an axis that slides. The torque has a sign, velocity and acceleration are
+  // above 0. The ramp is a maximum: it is slower if an obstacle that gives way would make the axis too fast. 0: as fast
+  // as that allows.
   struct Wish {
     double torque = 0;
     double ramp = 0;
     double velocity = 1;
     double acceleration = 1;
   };
-  // What it moves: kg m2 (kg), and between which torques the axis has to stay beside what the arm needs.
+  // The moved inertia: kg m2 (kg); and the limits of the axis torque in addition to what the arm needs.
   struct Load {
     double inertia = 1;
     double lower = -std::numeric_limits<double>::infinity();
@@ -30,22 +30,22 @@ class TorqueControl {
   enum class Phase {
     Off,
     Resting,   // the axis comes to rest first
-    Entering,  // the drive is told to change its mode
-    Pushing    // the drive has
+    Entering,  // the drive is commanded to change its mode
+    Pushing    // the drive has changed its mode
   };
 
-  // From now on, also in place of another wish. Real-time safe, as all here.
+  // Starts with this request, or replaces an earlier one. Real-time safe, like all functions of this class.
   void take(const Wish& wish) noexcept;
   void off() noexcept;
-  // The axis rests; the drive is told to change its mode.
+  // The axis is at rest; the drive is commanded to change its mode.
   void enter() noexcept;
-  // The drive is `late` periods away; more than kMostLate, it takes to change its mode.
+  // The drive responds after `late` periods; if more than kMostLate, the drive needs them to change its mode.
   void push(int late) noexcept;
   void carry(const Load& load) noexcept { load_ = load; }
-  // Part of the wish's velocity, from 0 to 1. 0: it lets go of what it pushes against, as quickly as it may.
+  // Part of the requested velocity, from 0 to 1. 0: it stops pushing, as fast as it may.
   void set_override(double part) noexcept { override_ = part; }
 
-  // The next period, while it pushes. `speed`: of the axis, as it was measured.
+  // Computes the next period, while it pushes. `speed`: measured speed of the axis.
   void step(double speed, double period) noexcept;
 
   [[nodiscard]] Phase phase() const noexcept { return phase_; }
@@ -53,11 +53,11 @@ class TorqueControl {
   [[nodiscard]] bool pushes() const noexcept { return phase_ == Phase::Pushing; }
   [[nodiscard]] const Wish& wish() const noexcept { return wish_; }
   [[nodiscard]] const Load& load() const noexcept { return load_; }
-  // Periods from a change of what the drive is told to when it is seen.
+  // Periods from a change of the set point until its effect is measured.
   [[nodiscard]] int late() const noexcept { return late_; }
-  // For the drive, without what the arm needs.
+  // Torque set point, without what the arm needs.
   [[nodiscard]] double torque() const noexcept { return told_; }
-  // It pushes with all of what was asked for.
+  // Returns whether it pushes with the full requested torque.
   [[nodiscard]] bool reached() const noexcept { return reached_; }
 
  private:
@@ -70,8 +70,8 @@ class TorqueControl {
   Load load_;
   int late_ = 1;
   double override_ = 1;
-  double asked_ = 0;    // on its ramp
-  double carried_ = 0;  // what is in its way, as it seems
+  double asked_ = 0;    // with its ramp
+  double carried_ = 0;  // estimated torque of the obstacle
   double told_ = 0;
   std::array<double, kMostLate + 1> given_{};  // the last ones
   double speed_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What drives are told of the torque that a motion needs, without steps where the arm takes or lays down a load.
+// The torque feed-forward of a motion for the drives, without steps when the arm picks up or puts down a load.
 
 #pragma once
 
@@ -11,11 +11,12 @@ namespace indurop::robot {
 
 class TorqueFeed {
  public:
-  // What is needed will be another's, at the same place. Real-time safe, as all here.
+  // The needed torque will change at the same position, because the load changes. Real-time safe, like all functions of
+  // this class.
   void reweigh() noexcept { left_ = kTime; }
-  // The drives have no power: what is needed next counts at once.
+  // The drives have no power: the torque that is needed next applies at once.
   void rest() noexcept { left_ = 0; }
-  // The next period.
+  // Computes the next period.
   const Joints& step(const Joints& needed, double period) noexcept {
     if (left_ >= kTime) {
       missing_ = told_ - needed;
@@ -27,7 +28,7 @@ class TorqueFeed {
 
  private:
   static constexpr double kTime = 0.1;  // s
-  double left_ = 0;                     // until all of it is told
+  double left_ = 0;                     // until the full torque is commanded
   Joints told_ = Joints::Zero();
   Joints missing_ = Joints::Zero();
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product's coordinates go with a conveyor or a rotary table, and the tool rides along: it gets onto the belt as an
-// axis gets into gear, and off it to rest. Knows nothing of arms: what it says is how far the tool has been carried.
+// The product's coordinates move with a conveyor or a rotary table, and the tool follows: it synchronizes with the belt
+// as an axis does with its gear, and leaves it by coming to rest. Knows nothing of arms: its result is how much the
+// tool has been carried along.
 
 #pragma once
 
@@ -14,54 +15,56 @@ class Tracking {
  public:
   struct Carrier {
     bool turns = false;  // about z of `origin`; else it goes along x of it
-    int belt = 0;        // whose place counts, from 0
+    int belt = 0;        // index of the belt, from 0
     Pose origin;         // in the base
-    Pose product;        // in `origin`, where the belt is now
+    Pose product;        // in `origin`, at the present position of the belt
   };
   explicit Tracking(double period = 0.01) noexcept : period_(period) {}
 
-  // The product's coordinates move from here on. It does not ride. Real-time safe, as all here.
+  // The product's coordinates move from now on. It must not be tracking. Real-time safe, like all functions of this
+  // class.
   void set(const Carrier& carrier, const BeltWatch& watch) noexcept;
-  // They stay where they are.
+  // The product's coordinates stay where they are.
   void forget() noexcept { known_ = false; }
   [[nodiscard]] bool known() const noexcept { return known_; }
   [[nodiscard]] const Carrier& carrier() const noexcept { return carrier_; }
-  // Of metres or radians, what mm or degrees are.
+  // Metres or radians per mm or degree.
   [[nodiscard]] double scale() const noexcept { return carrier_.turns ? kPi / 180 : 0.001; }
-  // m or rad since it was set, and the same per s.
+  // m or rad since set(), and the same per s.
   [[nodiscard]] LineState belt(const BeltWatch& watch) const noexcept { return seen(watch.now()); }
-  // What a carrier does to a pose in the base when it goes so far.
+  // Moves a pose in the base by this much of the carrier's motion.
   [[nodiscard]] static Pose carried(const Carrier& carrier, double by, const Pose& pose) noexcept;
-  // Where the product is when the carrier is there.
+  // The product's pose when the carrier is at `place`.
   [[nodiscard]] Pose product(double place) const noexcept {
     return carried(carrier_, place, carrier_.origin * carrier_.product);
   }
 
-  // Gets onto the belt, within `way`; neither it nor the belt may do more than `most`. If it has been on it before, it
-  // comes to where on the belt it was then.
+  // Synchronizes with the belt within the limits `way`; neither the motion nor the belt may exceed `most`. If it
+  // tracked the belt before, it returns to its earlier place on the belt.
   void join(const BeltWatch& watch, const LineLimits& way, const LineLimits& most) noexcept;
-  // Comes to rest beside it. `stays`: it will go on where on the belt it is now.
+  // Leaves the belt and comes to rest. `stays`: it will continue at the present place on the belt.
   void leave(const LineLimits& way, bool stays) noexcept;
-  // At once, wherever it is; somebody else brings the arm to rest.
+  // Ends at once, wherever it is; the caller brings the arm to rest.
   void drop() noexcept;
-  // One period on. Errors: Speed, Acceleration, Jerk: the belt does more than it may; then it has to leave.
+  // Computes the next period. Errors: Speed, Acceleration, Jerk: the belt exceeds its limits; then tracking has to end.
   ErrorCode step(const BeltWatch& watch) noexcept;
 
-  // It carries the tool, or has to bring it to rest.
+  // Returns whether it moves the tool, or has to bring it to rest.
   [[nodiscard]] bool on() const noexcept { return phase_ != Phase::Off; }
-  // Each of its steps is the belt's.
+  // Returns whether it is synchronized: each of its steps equals the belt's.
   [[nodiscard]] bool rides() const noexcept { return phase_ == Phase::Riding; }
   [[nodiscard]] bool leaves() const noexcept { return phase_ == Phase::Leaving; }
   [[nodiscard]] bool at_rest() const noexcept { return !on() || (leaves() && gate_.at_rest()); }
-  // Where on the belt's way the tool has been carried to; while it rides the product is at place() - lag().
+  // The position on the belt's path to which the tool has been carried; while synchronized the product is at place() -
+  // lag().
   [[nodiscard]] double place() const noexcept { return gate_.state().position; }
   [[nodiscard]] double lag() const noexcept { return lag_; }
-  // What is commanded from here on is seen from where the carrier is now.
+  // Later commands refer to the present position of the carrier.
   void anchor() noexcept { anchor_ = place(); }
   [[nodiscard]] double anchored() const noexcept { return anchor_; }
-  // What was planned there, carried along.
+  // Moves a pose that was planned there with the carrier.
   [[nodiscard]] Pose carried(const Pose& pose) const noexcept { return carried(ridden_, place() - anchor_, pose); }
-  // What it rides on, also once the product is elsewhere.
+  // The carrier it follows, also after the product has been set elsewhere.
   [[nodiscard]] const Carrier& ridden() const noexcept { return ridden_; }
 
  private:
@@ -72,7 +75,7 @@ class Tracking {
   double period_;
   bool known_ = false;
   Carrier carrier_, ridden_;
-  double zero_ = 0;  // mm or degrees, where the belt was
+  double zero_ = 0;  // mm or degrees, position of the belt at set()
   Phase phase_ = Phase::Off;
   SetPointGate gate_;
   AxisCoupling coupling_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The masses of an arm out of its URDF: what each joint of the chain moves, branches and fixed links with it.
+// Reads the masses of an arm from its URDF: what each joint of the chain moves, including branches and fixed links.
 
 #pragma once
 
@@ -19,12 +19,12 @@ Pose pose_of(const urdf::Pose& pose) noexcept;
 struct ChainLink {
   urdf::LinkConstSharedPtr link;
   Pose frame;     // with all joints at zero
-  int body = -1;  // the number of the joint before it that moves; -1: none does
+  int body = -1;  // number of the moving joint before it; -1: none
 };
 
 struct UrdfBodies {
-  std::vector<Body> bodies;          // in the base's frame, one of each joint that moves
-  std::vector<std::string> without;  // links behind such a joint, where nothing that it moves has a mass
+  std::vector<Body> bodies;          // in the base's frame, one per moving joint
+  std::vector<std::string> without;  // links after such a joint if nothing that it moves has a mass
   std::vector<base::Diagnostic> errors;
 };
 

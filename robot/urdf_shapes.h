@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What <collision> says of the links of a URDF file.
+// Reads the <collision> elements of the links of a URDF file.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace indurop::robot {
 
-// The bodies of all links that the chain moves, or that stand on its base. What cannot be looked at is a warning, what
-// makes no sense an error; their places are those in `text`.
+// The bodies of all links that the chain moves, or that are fixed to its base. A shape that cannot be checked is a
+// warning, one that makes no sense an error; they refer to places in `text`.
 std::vector<LinkBody> shapes_of(const urdf::ModelInterface& model, const std::vector<ChainLink>& chain,
                                 const std::string& file, const std::string& text, std::vector<base::Diagnostic>& found);
 

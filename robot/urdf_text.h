@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places in the text of a URDF file, which urdfdom does not tell.
+// Places in the text of a URDF file, which urdfdom does not report.
 
 #pragma once
 
@@ -9,9 +9,9 @@
 
 namespace indurop::robot {
 
-// Where a link or joint begins; 0 if nowhere.
+// Offset at which a link or joint begins; 0 if it is not found.
 std::size_t place_in_urdf(const std::string& text, const std::string& element, const std::string& name);
-// An error there.
+// An error at that offset.
 base::Diagnostic wrong_urdf(const std::string& file, const std::string& text, std::size_t offset,
                             const std::string& what);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three turns about axes one behind the other that make a rotation, as those of a wrist do: two ways.
+// Three rotations about successive axes that yield a given rotation, as in a wrist: there are two solutions.
 
 #pragma once
 
@@ -16,19 +16,21 @@ class Wrist {
     double middle = 0;
     double last = 0;
   };
-  // Where only the sum of the first and the last counts, this one stays as it is.
+  // If only the sum of the first and the last angle matters, this one is kept.
   struct Keep {
     bool first = true;
     double angle = 0;
   };
 
   Wrist() = default;
-  // Directions at angles zero; neighbours are not parallel. Real-time safe, as all here.
+  // Directions of the axes at angles zero; neighbours are not parallel. Real-time safe, like all functions of this
+  // class.
   Wrist(const Vec3& first, const Vec3& middle, const Vec3& last) noexcept;
 
-  // What the middle one says: which of the two ways an angle belongs to is the sign of its sine behind this one.
+  // The middle angle at which the wrist is straight: the sign of the sine of the middle angle minus this one tells
+  // which of the two solutions it belongs to.
   [[nodiscard]] double straight() const noexcept;
-  // Nothing if no turns make it. `other`: the other way.
+  // Returns nothing if no angles yield the rotation. `other`: the other solution.
   [[nodiscard]] std::optional<Angles> turn(const Mat3& rotation, bool other, const Keep& keep) const noexcept;
 
  private:
