@@ -9,8 +9,8 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kPowerTime = 4;    // s all drives may take to get power or to leave a fault
-constexpr double kLetGoTime = 0.5;  // s they are waited for to give it up; one that keeps it has it
+constexpr double kPowerTime = 4;    // s within which all drives must have power or have left a fault
+constexpr double kLetGoTime = 0.5;  // s to wait for drives to switch off; one that stays on is used as it is
 AxisControl::Scale scale_of(const Settings& settings, const Axis& axis, std::size_t i) noexcept {
   const auto own = [i](const std::vector<double>& values) { return values.size() > 1 ? values[i] : values[0]; };
   const double unit = axis.slides() ? 0.001 : kPi / 180;
@@ -101,7 +101,7 @@ void Group::sense(const Inputs& in) noexcept {
   sense_belts(in);
 }
 
-// What may end a motion from outside: the emergency stop, drives, axes that do not follow.
+// Monitors what may end a motion from outside: the emergency stop, drives, axes that do not follow.
 void Group::watch(const Inputs& in) noexcept {
   if (in.emergency && !stopped_for_emergency() && commands_motion()) {
     trip(ErrorCode::Emergency, 0, parts_.settings.emergency_factor);
@@ -127,7 +127,7 @@ void Group::watch(const Inputs& in) noexcept {
   }
 }
 
-// In words; of a collision, what of the arm and where.
+// Describes a fault in words; for a collision also the pair of bodies and the place on the path.
 void Group::describe(Fault fault, char (&to)[kWhy]) const noexcept {
   if (fault.pair < 0) {
     std::snprintf(to, sizeof to, "%s", to_string(fault.code));
@@ -151,7 +151,7 @@ void Group::motion_failed(Fault fault, int source, std::uint32_t ticket) noexcep
   char why[kWhy];
   describe(fault, why);
   if (source > 0 && job_.recover(fault, why, source, ticket)) {
-    ahead_.clear();  // it begins anew where the motion before ends
+    ahead_.clear();  // the next one begins where the motion before it ends
     passed_known_ = 0;
     return;
   }
@@ -269,7 +269,7 @@ void Group::follow_path() noexcept {
   if (!fault.ok()) {
     const bool stands = std::all_of(gates_.begin(), gates_.end(), [](const SetPointGate& g) { return g.at_rest(); });
     if (jogging_ && stands && state_ == GroupState::Moving) {
-      follower_.reset(commanded());  // at the end of an axis there may be no first step
+      follower_.reset(commanded());  // an axis at its limit may have no first step
       jog_blocked_ = true;
       return;
     }
@@ -279,7 +279,7 @@ void Group::follow_path() noexcept {
   const Joints speed = (q - last_command_) / period_;
   for (int i = 0; i < count(); ++i) {
     if (to_error_ && !axes_[at(i)].in_group()) {
-      continue;  // its drive has no power, so that it is where it is
+      continue;  // its drive has no power, so it stays where it is
     }
     axes_[at(i)].follow({q[i], speed[i], (speed[i] - last_speed_[i]) / period_});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The axes one by one: in which order they move by themselves, and which of them does not follow.
+// The single axes: the order in which they move on their own, and the check that they follow.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace indurop::robot {
 
-// Each one after the one that it follows; circles there are none.
+// Moves each axis after the one that it follows; there are no cycles.
 void Group::move_axes() noexcept {
   std::array<bool, kAxes> moved{};
   for (int left = count(); left > 0;) {
@@ -27,7 +27,7 @@ void Group::move_axes() noexcept {
   }
 }
 
-// Axes that were reset one by one are stopped again.
+// Returns whether all axes are stopped for the emergency; axes that were reset one by one are stopped again.
 bool Group::stopped_for_emergency() const noexcept {
   return error_ == ErrorCode::Emergency &&
          (to_error_ || std::all_of(axes().begin(), axes().end(),
@@ -39,13 +39,13 @@ bool Group::is_behind(const AxisControl& a) const noexcept {
   return a.state() != AxisState::Homing && !a.pushes() && behind > a.unit() * parts_.settings.following_limit;
 }
 
-// The first axis that is too far from its set point; -1: none.
+// Returns the first axis that is too far from its set point; -1: none.
 int Group::axis_behind() const noexcept {
   const auto found = std::find_if(axes().begin(), axes().end(), [this](const AxisControl& a) { return is_behind(a); });
   return found == axes().end() ? -1 : static_cast<int>(found - axes().begin());
 }
 
-// Axes that move by themselves while the group has no power: the others go on.
+// Stops axes that lag while they move as single axes without power of the group; the others continue.
 void Group::fail_axes_behind() noexcept {
   for (AxisControl& a : axes()) {
     if (a.state() != AxisState::ErrorStop && is_behind(a)) {

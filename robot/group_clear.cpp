@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Axes that are moved by themselves, or follow others, and arms that ride on a belt: nobody planned their way, so in
-// each period they must be able to come to rest before anything touches.
+// Collision check for axes that move as single axes or follow others, and for arms that track a belt: their path was
+// not planned, so in each period they must be able to come to rest before anything touches.
 
 #include <algorithm>
 
@@ -25,8 +25,8 @@ void Group::look_ahead() noexcept {
   }
 }
 
-// From the last set point to this one, and on to rest if all axes brake at once. The one before was looked at like
-// this, so the gates can still brake there.
+// Checks the way from the last set point to this one, and on to rest if all axes brake at once. The one before was
+// checked in the same way, so the gates can still brake there.
 Fault Group::stays_clear() noexcept {
   constexpr int kLooks = 24;
   constexpr double kParts = 4;  // of the way to rest: the longest step

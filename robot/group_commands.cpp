@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands of the group that are no motions: each one ends by itself, and a later one takes over from the one before.
+// Commands of the group that are no motions: each one ends on its own, and a later one replaces the one before.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ bool is_motion(Service service) noexcept {
 
 void Group::serve_commands(const Inputs& in) noexcept {
   table_.read(in.commands, in.requests_known);
-  profiles_ = in.profiles;  // those of commands that wait are still there
+  profiles_ = in.profiles;  // those of waiting commands are still in it
   if (later_ != CommandTable::kNone && !desk_.holds_forgotten()) {
     const int ticket = std::exchange(later_, CommandTable::kNone);
     administer(ticket, static_cast<Service>(table_.command(ticket).code));
@@ -90,7 +90,7 @@ void Group::take(int ticket, const CamTables& cams) noexcept {
   }
 }
 
-// Who follows another cam of that number goes on with it.
+// A follower that uses another cam of that number continues with the old one.
 ErrorCode Group::select_cam(const Command& command, const CamTables& cams) noexcept {
   const int number = command.option - 1;
   if (number < 0 || number >= static_cast<int>(kCams)) {
@@ -107,7 +107,7 @@ void Group::administer(int ticket, Service service) noexcept {
   }
   const bool tools = service == Service::JobStart || service == Service::SelectTool;
   if (tools && settled() && desk_.holds_forgotten()) {
-    later_ = ticket;  // a plan of the tool before is still looked at
+    later_ = ticket;  // a plan for the tool before is still being checked
     return;
   }
   ServiceRequest request;
@@ -118,7 +118,7 @@ void Group::administer(int ticket, Service service) noexcept {
   begin_service(service, request);
 }
 
-// From any state with power: it holds as long as its block has its Execute.
+// Stops from any state with power, and holds as long as its function block has its Execute input set.
 void Group::stop_for(int ticket) noexcept {
   if (!powered() || to_error_ || to_disabled_) {
     table_.end(ticket, ErrorCode::State);
@@ -153,7 +153,7 @@ void Group::release_stop() noexcept {
   }
 }
 
-// At rest on the path, whatever is to come.
+// Interrupts: comes to rest on the path, whatever follows.
 void Group::interrupt(int ticket) noexcept {
   if (state_ != GroupState::Moving) {
     table_.end(ticket, ErrorCode::State);
@@ -178,8 +178,8 @@ void Group::end_interrupt(ErrorCode code) noexcept {
   }
 }
 
-// Hold and override, of the path and of axes that move by themselves. More than all of the speed is all of it; what is
-// no number holds, and pace_wrong_ says so.
+// Sets hold and override, for the path and for single axes. Values above full speed count as full speed; values that
+// are not numbers hold all motions, which pace_wrong_ indicates.
 void Group::set_pace(const Inputs& in) noexcept {
   pace_wrong_ = false;
   const auto factor = [this](double given) {
@@ -199,7 +199,7 @@ void Group::set_pace(const Inputs& in) noexcept {
   }
 }
 
-// Where the product's coordinates are in those of the machine.
+// Sets the product's coordinates in those of the machine.
 ErrorCode Group::set_transform(const Command& command) noexcept {
   if (!std::all_of(command.to.begin(), command.to.begin() + 6, [](double x) { return std::isfinite(x); })) {
     return ErrorCode::Value;

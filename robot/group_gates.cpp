@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last gates before the drives: one of each axis, and the box that the tool stays in.
+// The last checks before the drives: one for each axis, and one for the box that the tool must not leave.
 
 #include <algorithm>
 
@@ -7,8 +7,7 @@
 
 namespace indurop::robot {
 
-// Paths were planned inside of the box, and a stop stays on them. Axes that move by themselves have to be able to come
-// to rest inside.
+// Paths were planned inside the box, and a stop follows them. Single axes have to be able to come to rest inside.
 bool Group::leaves_workspace() const noexcept {
   const Workspace& box = places_.box();
   const bool placed = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.placed_anew(); });
@@ -24,7 +23,7 @@ bool Group::leaves_workspace() const noexcept {
   return box.left(places_.arm().forward(last).position, next) || ((alone || tracking_.on()) && !rests_inside(next));
 }
 
-// If all axes brake at once.
+// Returns whether the tool comes to rest inside the box if all axes brake at once.
 bool Group::rests_inside(const Vec3& start) const noexcept {
   constexpr int kLooks = 12;
   std::array<Profile, kAxes> stops;
@@ -47,7 +46,7 @@ bool Group::rests_inside(const Vec3& start) const noexcept {
   return true;
 }
 
-// Nothing reaches a drive but through here.
+// Every set point passes through here before it reaches a drive.
 void Group::pass_gates() noexcept {
   for (int i = 0; i < count(); ++i) {
     if (axes_[at(i)].placed_anew()) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interrupts of jobs: what the job was doing is put on a shelf while the job that was called moves the robot, and is
-// taken from there when the robot has come back.
+// Interrupts of jobs: the state of the running job is saved while the job that was called moves the robot, and is
+// restored when the robot has come back.
 
 #include "robot/group.h"
 
 namespace indurop::robot {
 
-// As softly as it moves. While it is held it stays on its path, and the interrupt waits.
+// Comes to rest as softly as the motion itself. While the motion is held it stays on its path, and the interrupt waits.
 bool Group::step_aside() noexcept {
   Shelf& shelf = *shelf_;
   if (!shelf.leaving) {
@@ -23,7 +23,7 @@ bool Group::step_aside() noexcept {
   if (!follower_.idle() || desk_.holds_forgotten()) {
     return false;
   }
-  follower_.reset(commanded());  // where braking ends with the path, nothing of it was put aside yet
+  follower_.reset(commanded());  // braking ends where the path ends; nothing of it was saved yet
   shelf.leaving = false;
   shelf.used = true;
   shelf.path = follower_.path_aside();
@@ -53,7 +53,7 @@ bool Group::come_back(Fault& fault) noexcept {
   return true;
 }
 
-// The job that was interrupted is the one that is left, or goes on.
+// The interrupted job becomes the current one again, to be left or continued.
 void Group::take_from_shelf() noexcept {
   Shelf& shelf = *shelf_;
   shelf.used = false;
@@ -78,7 +78,7 @@ void Group::end_come_back() noexcept {
   }
 }
 
-// A stop on the way from or to the path. False: neither.
+// Handles a stop on the way from or to the path. Returns false if it is on neither.
 bool Group::set_shelf_aside() noexcept {
   if (return_ == Return::FromInterrupt) {
     aside_tool_ = shelf_->tool;

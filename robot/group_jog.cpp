@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moving by hand: a straight motion of one axis, or of the tip, as far as it is possible, that ends when it is not
-// asked for any more. So it keeps all limits like any other motion, and the tip is never faster than 250 mm/s (ISO
-// 10218-1).
+// Jogging: a straight motion of one axis, or of the tip, as long as possible, which ends when it is no longer
+// requested. So it keeps all limits like any other motion, and the tip is never faster than 250 mm/s (ISO 10218-1).
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +15,10 @@ namespace {
 constexpr double kFastest = 0.98 * kReducedSpeed;  // m/s of the tip
 constexpr double kFarthest = 1;                    // m
 constexpr double kMostTurned = kPi / 2;
-constexpr double kAhead = 8;              // s of motion of the tip that are planned: more makes the hand wait for it
+constexpr double kAhead = 8;              // s of tip motion that are planned: more would delay the start
 constexpr double kTurning = 0.15;         // part of full speed
-constexpr double kShortest = 1.0 / 1024;  // part of the longest way that is tried
-constexpr double kEndless = 2 * kPi;      // rad, of an axis that turns on and on
+constexpr double kShortest = 1.0 / 1024;  // part of the longest distance that is tried
+constexpr double kEndless = 2 * kPi;      // rad, of an axis that turns without end
 
 }  // namespace
 
@@ -71,7 +70,7 @@ void Group::begin_jog() noexcept {
   ask_for_plan({command, nullptr, commanded(), false});
 }
 
-// Not possible that far, or, after some times, not at all.
+// Tries a shorter distance; after some attempts jogging counts as blocked.
 void Group::jog_shorter() noexcept {
   jog_part_ /= 2;
   jog_blocked_ = jog_part_ < kShortest;
@@ -83,10 +82,11 @@ void Group::jog_shorter() noexcept {
 MoveCommand Group::jog_axis(int axis, double part) const noexcept {
   const Axis& a = parts_.arm.axis(axis);
   Joints to = commanded();
-  // One that stands beyond its end comes back the other way only.
+  // An axis beyond its limit may only return.
   const double left = jog_speed_ > 0 ? std::max(a.upper - to[axis], 0.0) : std::min(a.lower - to[axis], 0.0);
   to[axis] += part * (a.endless ? std::copysign(kEndless, jog_speed_) : left);
-  // How far the tip goes in a unit of the axis does not change while only this one moves, unless the axis slides.
+  // While only this axis moves, the distance that the tip moves per unit of the axis is constant, unless the axis
+  // slides.
   const double arm = places_.arm().jacobian(commanded()).block<3, 1>(0, axis).norm();
   MoveCommand command;
   command.straight = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Torques of the group: what the arm holds, what the drives are told before they see it, and who pushes.
+// Torques of the group: what the arm holds, the feed-forward of the drives, and contact detection.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr double kThousandth = 1000;
 
 }  // namespace
 
-// Nothing is planned.
+// Called only while nothing is planned.
 void Group::weigh() noexcept {
   const JobBook& book = parts_.book;
   dynamics_.hold(joined(book.tools[static_cast<std::size_t>(tool_)].body, load_));
@@ -39,14 +39,14 @@ void Group::set_up_torques() noexcept {
   contact_ = ContactWatch(of_axes(parts_.settings.collision_limit));
 }
 
-// What an axis may push with; 0: what that is for its drive, or for the arm, is not known.
+// The maximum torque with which an axis may push; 0: unknown for its drive or for the arm.
 double Group::most_torque(int axis) const noexcept {
   const bool known = dynamics_.known() && rated_[axis] > 0;
   const double effort = dynamics_.effort()[axis];
   return !known ? 0 : effort > 0 ? effort : rated_[axis];
 }
 
-// A drive that looks for its place moves by itself. One that pushes is to, and what it pushes against may stay.
+// A drive that is homing moves on its own. An axis that pushes is meant to do so, and the obstacle may remain.
 void Group::watch_contact(const Inputs& in) noexcept {
   Joints measured = Joints::Zero();
   for (int i = 0; i < count(); ++i) {
@@ -72,7 +72,7 @@ void Group::watch_contact(const Inputs& in) noexcept {
   trip(ErrorCode::Contact, axis + 1, parts_.settings.emergency_factor);
 }
 
-// What each axis that pushes moves, and what is left of its effort.
+// Sets the inertia that each pushing axis moves, and the part of its effort that is left.
 void Group::weigh_pushing() noexcept {
   for (int i = 0; i < count(); ++i) {
     if (!axes_[at(i)].pushes()) {
@@ -90,8 +90,8 @@ void Group::weigh_pushing() noexcept {
   }
 }
 
-// For the motion that is commanded. What friction needs is not told where the drive says how fast the axis is: more
-// than it has would turn it on.
+// Torques of the commanded motion. Friction is not included if the drive reports the speed of the axis: a value above
+// the real friction would turn the axis.
 Joints Group::needed_torques() const noexcept {
   Joints velocity = Joints::Zero();
   Joints acceleration = Joints::Zero();
@@ -104,7 +104,7 @@ Joints Group::needed_torques() const noexcept {
   return dynamics_.torques(commanded(), velocity, acceleration) + dynamics_.friction(own);
 }
 
-// 1/1000 of the rated torque, as the drive takes it (60B2h, 6071h).
+// Feed-forward in 1/1000 of the rated torque, as the drive expects it (60B2h, 6071h).
 void Group::feed_torques(Outputs& out) noexcept {
   const bool any = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.drive().enabled(); });
   if (!dynamics_.known() || !(rated_.array() > 0).any() || !any) {

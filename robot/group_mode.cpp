@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Operating modes (ISO 10218-1). In manual mode neither the tool's tip nor the arm's end is faster than 250 mm/s, and
-// everything comes to rest when the enabling switch is released. What was stopped goes on only when it is asked for.
+// everything comes to rest when the enabling switch is released. A stopped motion continues only on request.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kPlanned = 0.98 * kReducedSpeed;  // m/s; what is between two places that were looked at may be faster
+constexpr double kPlanned = 0.98 * kReducedSpeed;  // m/s; the motion may be faster between two checked places
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void Group::serve_mode(const ModeRequest& asked) noexcept {
   }
 }
 
-// On the path; power stays on (stop category 2). Whoever lets the switch go may be in danger.
+// Comes to rest on the path; power stays on (stop category 2). The person who releases the switch may be in danger.
 void Group::rest_for(ErrorCode code) noexcept {
   if (to_error_) {
     return;
@@ -73,8 +73,8 @@ double Group::tip_limit() const noexcept {
   return reduced() ? kPlanned : HUGE_VAL;
 }
 
-// Of single axes that move by themselves: at which part of their full speed the tip and the arm's end keep the limit,
-// even if all that move are as fast as they can.
+// For single axes: the part of their full speed at which the tip and the arm's end keep the limit, even if all moving
+// axes are as fast as they can be.
 double Group::axes_pace() const noexcept {
   if (!reduced()) {
     return 1;
@@ -90,7 +90,7 @@ double Group::axes_pace() const noexcept {
   return most > kPlanned ? kPlanned / most : 1;
 }
 
-// What the last gate asks, of the set points that are to go out.
+// The check of the last gate, for the set points that are about to be sent.
 bool Group::tip_too_fast() const noexcept {
   if (mode_ != OperatingMode::Manual || !powered() || state_ == GroupState::Homing) {
     return false;
@@ -102,7 +102,7 @@ bool Group::tip_too_fast() const noexcept {
   TipSpeed tip(places_.arm());
   tip.begin(last);
   tip.note(commanded());
-  // Nobody planned where a belt carries the arm to, and how axes move against each other there.
+  // The path on which a belt carries the arm was not planned, so axes may move against each other.
   return (tracking_.on() ? tip.farthest() : tip.moved()) > kReducedSpeed * period_;
 }
 

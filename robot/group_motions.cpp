@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motions of the group by commands: one after the other, or at once instead of those before. The first ones have been
-// given to the planner; what the follower is on says which of them are done.
+// Motions of the group by commands: one after another, or replacing earlier ones at once. The first ones have been
+// given to the planner; the motion that the follower executes determines which of them are done.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kOnProduct = 0.4;  // part of the accelerations that a ride leaves for motions on it
+constexpr double kOnProduct = 0.4;  // part of the accelerations that tracking leaves for motions on the product
 
 Service service_of(const Command& command) noexcept {
   return static_cast<Service>(command.code);
@@ -28,7 +28,7 @@ bool is_circle(Service service) noexcept {
   return service == Service::CircularAbsolute || service == Service::CircularRelative;
 }
 
-// By which a motion is known to the planner and the follower; those of jobs are positive.
+// The number by which the planner and the follower know a motion; motions of jobs have positive ones.
 int source_of(int ticket) noexcept {
   return -ticket - 1;
 }
@@ -42,7 +42,7 @@ bool sane(const Command& c) noexcept {
          (!is_direct(service_of(c)) || c.velocity <= 100);
 }
 
-// Through which point a circle leads that is given otherwise. The end counts for the side it comes to.
+// Returns the point through which a circle passes that is given in another way. The end only determines the direction.
 Vec3 circle_mid(const Vec3& from, const Vec3& center, const Vec3& to, const Vec3& up, bool clockwise) noexcept {
   const Vec3 a = from - center;
   const Vec3 b = to - center;
@@ -57,8 +57,8 @@ Vec3 circle_mid(const Vec3& from, const Vec3& center, const Vec3& to, const Vec3
   return center + Eigen::AngleAxisd(angle / 2, normal.normalized()) * a;
 }
 
-// Where the middle of a circle through two points is, seen from its plane's normal whose length is the radius; on the
-// side of the shorter way round.
+// Computes the centre of a circle through two points from the normal of its plane, whose length is the radius; on the
+// side of the shorter arc.
 bool circle_center(const Vec3& from, const Vec3& to, const Vec3& radius, Vec3& center) noexcept {
   const Vec3 half = (to - from) / 2;
   const double far = radius.squaredNorm() - half.squaredNorm();
@@ -85,7 +85,7 @@ Joints Group::joints_of_axes(const std::array<double, 8>& numbers) const noexcep
   return q;
 }
 
-// In the machine's coordinates. `from`: where a relative motion begins.
+// Converts to the machine's coordinates. `from`: where a relative motion begins.
 Pose Group::pose_of(const std::array<double, 8>& numbers, const Command& command, const Pose& from) const noexcept {
   const bool product = command.coords == CoordSystem::Product;
   const Pose given = pose_of(numbers);
@@ -171,7 +171,7 @@ void Group::queue_motion(int ticket) noexcept {
   const Command& command = table_.command(ticket);
   ErrorCode code = may_move();
   if (code == ErrorCode::Ok && active_ && state_ == GroupState::Moving) {
-    code = ErrorCode::State;  // a service moves it
+    code = ErrorCode::State;  // a service is moving it
   }
   if (code == ErrorCode::Ok && !sane(command)) {
     code = ErrorCode::Value;
@@ -193,14 +193,14 @@ void Group::queue_motion(int ticket) noexcept {
 
 void Group::begin_moving() noexcept {
   if (state_ == GroupState::Standby) {
-    drop_aside();  // a job that was left is not gone on with after other motions
+    drop_aside();  // an interrupted job is not continued after other motions
     follower_.reset(commanded());
     last_command_ = commanded();
     state_ = GroupState::Moving;
   }
 }
 
-// Joint motions go on from whatever the joints do; for a line or circle it has to come to rest on the path before.
+// Joint motions start from any motion of the joints; for a line or circle it first has to come to rest on the path.
 void Group::replace_motions(int ticket) noexcept {
   const Command& command = table_.command(ticket);
   const bool joints = is_direct(service_of(command)) && command.coords == CoordSystem::Axes && !follower_.stopping();
@@ -230,7 +230,7 @@ void Group::replace_motions(int ticket) noexcept {
   begin_moving();
 }
 
-// How far before its end it may turn to the next one.
+// Distance before its end at which it may blend into the next one.
 double Group::zone_of(int i) const noexcept {
   if (i + 1 >= motion_count_) {
     return 0;
@@ -238,12 +238,12 @@ double Group::zone_of(int i) const noexcept {
   const Command& next = table_.command(motions_[at(i + 1)]);
   const auto on_product = [](const Command& c) { return c.coords == CoordSystem::Product; };
   if (tracking_.known() && on_product(next) != on_product(table_.command(motions_[at(i)]))) {
-    return 0;  // the tool gets onto the product in between, or off it
+    return 0;  // in between, the tool synchronizes with the product or leaves it
   }
   return next.buffer >= BufferMode::BlendingLow && service_of(next) != Service::Halt ? next.transition / 1000 : 0;
 }
 
-// The one that is followed, and the next one.
+// Plans the motion that is followed, and the next one.
 void Group::feed_motions() noexcept {
   constexpr int kAhead = 2;
   bool goes_on = false;
@@ -273,7 +273,7 @@ void Group::feed_motions() noexcept {
   }
 }
 
-// When its turn has come.
+// Executes a halt when it is its turn.
 void Group::halt(int ticket) noexcept {
   if (fed_ > 0) {
     return;
@@ -306,7 +306,7 @@ void Group::note_progress() noexcept {
     return;
   }
   if (tracking_.on() && !tracking_.rides()) {
-    done = 0;  // it is not there as long as the tool is beside the belt
+    done = 0;  // it has not arrived as long as the tool is not on the belt
   }
   end_first(done, ErrorCode::Ok);
   if (fed_ > 0 && !waiting) {
@@ -323,7 +323,7 @@ void Group::end_first(int many, ErrorCode code) noexcept {
   fed_ = std::max(0, fed_ - many);
 }
 
-// It cannot be done; what was to follow on it would begin anywhere.
+// Ends a motion that is not possible, and those after it, whose start is no longer defined.
 void Group::fail_motions(int ticket, ErrorCode code) noexcept {
   int i = 0;
   while (i < motion_count_ && motions_[at(i)] != ticket) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what was commanded to paths: what is planned next, and what becomes of a plan.
+// From commands to paths: chooses what is planned next, and takes the plans.
 
 #include <algorithm>
 #include <cstdio>
@@ -13,7 +13,7 @@ Fault Group::move(const MoveCommand& command) noexcept {
   return {};
 }
 
-// For a motion that begins where the last one ends.
+// Requests a plan for a motion that begins where the last one ends.
 void Group::ask_for_plan(const PlanRequest& request) noexcept {
   PlanRequest asked = request;
   asked.follows = asked.follows && follower_.goes_over() && !unconnected_;
@@ -27,7 +27,7 @@ void Group::ask_for_plan(const PlanRequest& request) noexcept {
 }
 
 void Group::begin_next(bool more) noexcept {
-  // Chains are few and used again, so none is begun while a forgotten one is still looked at.
+  // Chains are few and reused, so none is begun while an abandoned one is still being checked.
   const bool leaving = shelf_->leaving;
   if (state_ != GroupState::Moving || leaving || !can_plan() || desk_.holds_forgotten()) {
     return;
@@ -35,7 +35,7 @@ void Group::begin_next(bool more) noexcept {
   const Joints from = planned_end();
   const ReadAhead::Next next = ahead_.next(from, more);
   if (next.chain != nullptr) {
-    passed_known_ = 0;  // no step back goes over it
+    passed_known_ = 0;  // no step back is possible across it
     asked_ = next.chain->source_at(0);
     PlanRequest request{{}, next.chain, from, !follower_.idle()};
     request.command.ticket = next.ticket;
@@ -63,7 +63,8 @@ void Group::take_plan() noexcept {
   }
 }
 
-// What the thread wrote last may be anything, so the task ends: at rest, and without power. The tick has its own data.
+// The data that the thread wrote last may be corrupt, so the task ends: at rest, and without power. The tick has its
+// own data.
 void Group::break_down(const char* what, const char* how) noexcept {
   if (broken_[0] == '\0') {
     std::snprintf(broken_, sizeof broken_, "%s crashed: %s", what, how);
@@ -72,7 +73,7 @@ void Group::break_down(const char* what, const char* how) noexcept {
 }
 
 void Group::report_break_down(Outputs& out) noexcept {
-  constexpr double kMost = 1;  // s; a drive that keeps its power has it
+  constexpr double kMost = 1;  // s; a drive that is still on by then stays on
   const bool stands = broken_[0] != '\0' && state_ != GroupState::Stopping;
   const bool power =
       std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.drive().enabled(); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs, points, tools, frames and zones taken anew from their files, while the robot stands.
+// Reloads jobs, points, tools, frames and zones from their files while the robot is at standstill.
 
 #include <algorithm>
 #include <utility>
@@ -14,7 +14,7 @@ bool Group::may_reload() const noexcept {
   return stands && !enabling_ && !busy && settled() && motion_count_ == 0 && !job_.pulses();
 }
 
-// Once a period. What was read counts only if the service still waits for it, and nothing moves.
+// Called once per period. The result is used only if the service still waits for it, and nothing moves.
 void Group::run_reload(Signals& signals) noexcept {
   const bool wanted = active_ && service_ == Service::JobReload;
   if (wanted && !reloading_ && !may_reload()) {
@@ -40,7 +40,7 @@ void Group::run_reload(Signals& signals) noexcept {
   loader_.give_back();
 }
 
-// What the robot has goes there, for the thread to destroy.
+// Replaces the robot's program; the old one is left in `program`, for the thread to destroy.
 ErrorCode Group::take_program(Program& program, Signals& signals) noexcept {
   const std::vector<Tool>& tools = program.book.tools;
   const std::string& held = parts_.book.tools[at(tool_)].name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the group says about itself in every period.
+// The status that the group reports in every period.
 
 #include <algorithm>
 
@@ -45,7 +45,7 @@ bool Group::commands_motion() const noexcept {
 void Group::report_motion(Outputs& out) noexcept {
   const Joints now = commanded();
   const Pose pose = places_.arm().forward(now);
-  if (!commands_motion()) {  // drives tell where they are only now, or somebody moves the arm by hand
+  if (!commands_motion()) {  // drives have only just reported their positions, or the arm is moved by hand
     last_pose_ = pose;
     last_command_ = now;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs that were left, by a stop, an error or a pause, and go on where they were: back to the path slowly, then on. And
-// single steps back.
+// Continues jobs that a stop, an error or a pause interrupted: slowly back to the path, then on. Also single steps
+// back.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSlowly = 0.1;       // part of full speed, on the way back to the path
 constexpr double kTipSlowly = 0.1;    // m/s, of the tip
-constexpr double kMostTurned = 0.79;  // rad that a joint may be away: farther, it may be another way to hold the tool
+constexpr double kMostTurned = 0.79;  // rad that a joint may be away: farther, it may be another posture
 constexpr double kThere = 1e-9;       // rad
 
 }  // namespace
@@ -37,7 +37,7 @@ void Group::drop_aside() noexcept {
   shelf_->ahead.clear();
 }
 
-// The robot stands, and nothing of the job is on its way.
+// Pauses the job: the robot is at standstill, and no motion of the job is in progress.
 void Group::pause_job() noexcept {
   aside_ = true;
   aside_tool_ = tool_;
@@ -47,7 +47,7 @@ void Group::pause_job() noexcept {
   finish_service(ErrorCode::Ok);
 }
 
-// Of a straight joint motion there, by the tip's mean speed.
+// Speed of a straight joint motion to `to`, from the mean speed of the tip.
 double Group::speed_back(const Joints& to) const noexcept {
   constexpr int kParts = 16;
   const Joints from = commanded();
@@ -106,7 +106,7 @@ bool Group::is_near(const Joints& place) const noexcept {
          (place - commanded()).head(count()).cwiseAbs().maxCoeff() <= kMostTurned;
 }
 
-// Nothing, if it is there.
+// Requests no motion if the robot is already there.
 void Group::ask_for_way_back(const Joints& to) noexcept {
   if ((to - commanded()).head(count()).cwiseAbs().maxCoeff() > kThere) {
     MoveCommand back;
@@ -117,7 +117,7 @@ void Group::ask_for_way_back(const Joints& to) noexcept {
   }
 }
 
-// One motion back, of a job that pauses between two.
+// Goes back one motion, in a job that pauses between two motions.
 ErrorCode Group::back_job() noexcept {
   if (!aside_ || passed_known_ == 0) {
     return ErrorCode::NoResume;
@@ -145,7 +145,7 @@ ErrorCode Group::back_job() noexcept {
   return ErrorCode::Ok;
 }
 
-// It stands where the job left its path, or a motion further back.
+// The robot is where the job left its path, or one motion further back.
 void Group::end_return() noexcept {
   if (return_ == Return::FromInterrupt) {
     end_come_back();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Services of the group: taking a request, what it begins in which state, and how its end is told.
+// Services of the group: accepts a request, executes it depending on the state, and reports its end.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ bool is_move(Service service) noexcept {
          service == Service::DirectAbsolute || service == Service::LinearAbsolute;
 }
 
-// All of it if nothing is said.
+// Full speed if none is given.
 double part_of_speed(const ServiceRequest& request, bool direct) noexcept {
   const double percent = direct && request.velocity != 0 ? request.velocity : request.speed;
   return percent == 0 ? 1 : percent / 100;
@@ -25,7 +25,7 @@ double part_of_speed(const ServiceRequest& request, bool direct) noexcept {
 
 void Group::serve(const ServiceRequest& request, bool edit) noexcept {
   if (first_) {
-    // What was asked for before this program started is not done now.
+    // Requests from before this program started are ignored.
     first_ = false;
     acknowledged_ = done_ = request.number;
     error_ = request.number != 0 ? ErrorCode::Aborted : ErrorCode::Ok;
@@ -38,15 +38,15 @@ void Group::serve(const ServiceRequest& request, bool edit) noexcept {
     return;
   }
   if (is_move(static_cast<Service>(request.code)) && state_ == GroupState::Moving && !job_.running() && !desk_.free()) {
-    return;  // the motion before it is being planned
+    return;  // the motion before it is still being planned
   }
   const auto asked = static_cast<Service>(request.code);
   if ((asked == Service::SelectTool || asked == Service::JobStart || asked == Service::JobResume) && settled() &&
       desk_.holds_forgotten()) {
-    return;  // a plan of the tool before is still looked at
+    return;  // a plan for the tool before is still being checked
   }
   if (asked == Service::JobResume && comes_to_rest()) {
-    return;  // it goes on once it stands
+    return;  // it continues at standstill
   }
   acknowledged_ = request.number;
   by_edit_ = !numbered;
@@ -56,7 +56,7 @@ void Group::serve(const ServiceRequest& request, bool edit) noexcept {
   begin_service(asked > Service::JobBack && asked != Service::JobReload ? static_cast<Service>(-1) : asked, request);
 }
 
-// A job was stopped, and nothing else speaks against going on with it.
+// Returns whether a job was stopped and nothing else prevents its continuation.
 bool Group::comes_to_rest() const noexcept {
   return state_ == GroupState::Stopping && aside_ && !to_error_ && !to_disabled_ && stop_ == CommandTable::kNone &&
          permit_ == ErrorCode::Ok;
@@ -134,7 +134,7 @@ ErrorCode Group::begin(Service service, const ServiceRequest& request) noexcept 
     case Service::SelectTool:
       return select_tool(request.tool);
     case Service::JobReload:
-      return ErrorCode::Ok;  // run_reload() goes on with it
+      return ErrorCode::Ok;  // run_reload() continues with it
     default:
       break;
   }
@@ -155,7 +155,7 @@ ErrorCode Group::enable() noexcept {
   enabling_ = true;
   quick_stop_ = false;
   waited_ = 0;
-  // A drive that was told to let go says so later: what it says now counts for nothing.
+  // A drive that was commanded to switch off reports it later: its present status is ignored.
   letting_go_ = lets_go();
   if (!letting_go_) {
     take_power();
@@ -196,7 +196,7 @@ ErrorCode Group::home() noexcept {
   return ErrorCode::Ok;
 }
 
-// By a service, which moves nothing that a job moves.
+// Checks whether a service may move the robot, which it may not while a job does.
 ErrorCode Group::may_move() const noexcept {
   if (permit_ != ErrorCode::Ok) {
     return permit_;
@@ -248,7 +248,7 @@ ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
   return ErrorCode::Ok;
 }
 
-// At once and in the tick, since what the joints do now is part of it: a few microseconds.
+// Done at once in the tick, since the present motion of the joints is part of it: takes a few microseconds.
 ErrorCode Group::redirect(const ServiceRequest& request) noexcept {
   if (const ErrorCode code = may_move(); code != ErrorCode::Ok) {
     return code;
@@ -299,7 +299,7 @@ ErrorCode Group::start_job(std::uint32_t number, std::uint32_t line) noexcept {
   }
   if (!take_tool(job_.tool()) || !take_load(job_.load())) {
     job_.stop();
-    return ErrorCode::State;  // what a job does must not depend on what the one before held
+    return ErrorCode::State;  // a job must not depend on the load of the job before
   }
   follower_.reset(commanded());
   last_command_ = commanded();
@@ -308,7 +308,7 @@ ErrorCode Group::start_job(std::uint32_t number, std::uint32_t line) noexcept {
   return ErrorCode::Ok;
 }
 
-// False while a forgotten plan is still looked at, which was made for the tool before.
+// Returns false while an abandoned plan, made for the tool before, is still being checked.
 bool Group::take_tool(int tool) noexcept {
   if (!settled() || desk_.holds_forgotten()) {
     return false;
@@ -322,7 +322,7 @@ bool Group::take_tool(int tool) noexcept {
   return true;
 }
 
-// Between motions only: what moves goes on with the tool it was planned for.
+// Only between motions: a moving robot continues with the tool it was planned for.
 ErrorCode Group::select_tool(std::uint32_t tool) noexcept {
   if (tool >= parts_.book.tools.size()) {
     return ErrorCode::Tool;

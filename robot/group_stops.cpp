@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the group stops when something is wrong, and how it is reset. It stays on its path if that can still be followed,
-// whatever an axis does that has no power; else its axes brake in step.
+// How the group stops after an error, and how it is reset. It stays on its path if that can still be followed, even if
+// an axis has no power; otherwise its axes brake in step.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace indurop::robot {
 
 namespace {
 
-// What leaves the path as it was: the other axes can still follow it.
+// Returns whether an error leaves the path unchanged: the other axes can still follow it.
 bool keeps_path(ErrorCode code) noexcept {
   switch (code) {
     case ErrorCode::Emergency:
@@ -26,14 +26,14 @@ bool keeps_path(ErrorCode code) noexcept {
   }
 }
 
-// The look ahead has seen to it that each axis can brake by itself.
+// Returns whether the check ahead has ensured that each axis can brake on its own.
 bool is_foreseen(ErrorCode code) noexcept {
   return code == ErrorCode::Collision || code == ErrorCode::Workspace;
 }
 
 }  // namespace
 
-// Everything stops: along the path if there is one and it can still be followed, else without it.
+// Stops everything: along the path if there is one and it can still be followed, else without it.
 void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   set_job_aside();
   job_.fail({code, axis}, code == ErrorCode::Contact ? contact_text_ : to_string(code),
@@ -65,7 +65,7 @@ void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   }
 }
 
-// The path or a set point cannot be; during a stop the first error is what the user has to know.
+// The path or a set point is not possible; during a stop the first error remains the reported one.
 void Group::fall_off(ErrorCode code, int axis) noexcept {
   if (to_error_) {
     leave_path(error_);
@@ -74,7 +74,8 @@ void Group::fall_off(ErrorCode code, int axis) noexcept {
   }
 }
 
-// The gates know speed and acceleration of the axes as their drives do, so they can brake whatever went wrong before.
+// The gates know speed and acceleration of the axes as their drives do, so they can brake whatever error occurred
+// before.
 void Group::leave_path(ErrorCode code) noexcept {
   const bool alone = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
   drop_ride(code);
@@ -104,7 +105,8 @@ void Group::begin_braking(bool in_step) noexcept {
   brake_.begin(past, period_, hardness_);
 }
 
-// The next set points. An axis that cannot brake in step within its limits, or before its end, does so by itself.
+// Computes the next set points. An axis that cannot brake in step within its limits, or before its end, brakes on its
+// own.
 void Group::brake_axes() noexcept {
   const Joints q = in_step_ ? brake_.next() : Joints::Zero();
   for (int i = 0; i < count(); ++i) {
@@ -118,7 +120,7 @@ void Group::brake_axes() noexcept {
   }
 }
 
-// Rest on the path, then ErrorStop.
+// Comes to rest on the path, then enters ErrorStop.
 void Group::stop_for(Fault fault) noexcept {
   error_ = fault.code;
   error_axis_ = fault.axis;
@@ -163,8 +165,8 @@ void Group::run_stopping() noexcept {
   on_path_ = true;
 }
 
-// Acknowledges the fault of one drive after another. False while one has not left its own; if that takes too long, the
-// service ends.
+// Acknowledges the fault of one drive after another. Returns false while one of them still has its fault; if that takes
+// too long, the service ends.
 bool Group::clear_faults() noexcept {
   constexpr double kTime = 4;  // s
   for (int i = 0; i < count(); ++i) {
@@ -177,7 +179,7 @@ bool Group::clear_faults() noexcept {
       return false;
     }
   }
-  // An axis that is still on its way to its set point would trip again.
+  // An axis that has not reached its set point yet would trip again.
   if (const int behind = axis_behind(); behind >= 0) {
     if (waited_ > kTime) {
       finish_service(ErrorCode::Following, behind + 1);
@@ -187,11 +189,11 @@ bool Group::clear_faults() noexcept {
   return true;
 }
 
-// Called again every period until the robot stands still and the drives have left their faults. Those have them without
-// power, too.
+// Called again in every period until the robot is at standstill and the drives have left their faults. Drives have
+// faults without power, too.
 ErrorCode Group::reset() noexcept {
   if (to_error_) {
-    // PLCopen: only what stands still is reset.
+    // PLCopen: reset only at standstill.
     return emergency_ ? ErrorCode::Emergency : ErrorCode::Ok;
   }
   const bool faulty =
@@ -210,7 +212,7 @@ ErrorCode Group::reset() noexcept {
   if (!clear_faults() || state_ != GroupState::ErrorStop) {
     return ErrorCode::Ok;
   }
-  // A drive that is stopped in an emergency is about to lose its power, whatever it says now.
+  // A drive that is stopped in an emergency is about to lose its power, whatever it reports now.
   const bool has_power = error_ != ErrorCode::Emergency && all_enabled();
   quick_stop_ = false;
   contact_.release();

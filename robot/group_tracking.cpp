@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Products that move with a conveyor or a rotary table. A motion in the product's coordinates is planned as if the
-// product stood where it was when the tool was last at rest on it; each set point is then carried along with the belt.
+// product were where it was when the tool was last at rest on it; each set point is then moved along with the belt.
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +12,15 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kLook = 1e-4;      // m or rad along the belt, to see what the joints need for it
-constexpr double kWay = 0.25;       // part of the joints' accelerations to get onto the belt and off it
+constexpr double kLook = 1e-4;      // m or rad along the belt, to determine which joint motion it requires
+constexpr double kWay = 0.25;       // part of the joints' accelerations for synchronizing with the belt and leaving it
 constexpr double kCatchUp = 0.1;    // m/s or rad/s
-constexpr double kMostSpeed = 0.8;  // of a joint, for the ride alone
+constexpr double kMostSpeed = 0.8;  // of a joint, for tracking alone
 constexpr double kSlowest = 0.1;    // part of full speed that is left for motions on it
-constexpr double kFull = 0.95;      // of a joint's speed, for both together
+constexpr double kFull = 0.95;      // of a joint's speed, for tracking and path together
 constexpr double kExact = 1e-6;     // m
 
-// What a set point that was carried along may have broken.
+// Returns whether an error may result from moving a set point along with the belt.
 bool is_by_ride(ErrorCode code) noexcept {
   switch (code) {
     case ErrorCode::Unreachable:
@@ -45,7 +45,7 @@ LineLimits Group::most_of(const Tracking::Carrier& carrier) const noexcept {
                        : LineLimits{tool.velocity, tool.acceleration, tool.jerk};
 }
 
-// What the joints allow of the carrier's motion where the arm is; false: they cannot follow it at all.
+// Limits of the carrier's motion set by the joints at the present position; false: they cannot follow it at all.
 bool Group::room_to_ride(const Tracking::Carrier& carrier, RideRoom& room) const noexcept {
   const Joints now = commanded();
   const Pose tip = places_.arm().forward(now);
@@ -75,7 +75,7 @@ bool Group::room_to_ride(const Tracking::Carrier& carrier, RideRoom& room) const
   return true;
 }
 
-// The product's coordinates go with a belt from now on.
+// The product's coordinates move with a belt from now on.
 ErrorCode Group::track(const Command& command, bool turns) noexcept {
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::all_of(command.to.begin(), command.to.begin() + 6, finite) ||
@@ -98,7 +98,7 @@ ErrorCode Group::track(const Command& command, bool turns) noexcept {
   return ErrorCode::Ok;
 }
 
-// Before the product's coordinates become others: the tool comes to rest, and what was to be done on it is dropped.
+// Called before the product's coordinates change: the tool comes to rest, and motions on the product are discarded.
 void Group::get_off() noexcept {
   if (tracking_.on() && state_ == GroupState::Moving) {
     forget_plans();
@@ -116,7 +116,7 @@ void Group::sense_belts(const Inputs& in) noexcept {
   }
 }
 
-// The tool comes to rest by itself, without the belt.
+// The tool comes to rest on its own, without the belt.
 void Group::lose_product(const char* why) noexcept {
   char text[kWhy];
   std::snprintf(text, sizeof text, "belt %d %s: see to its encoder and its reader, then track it anew",
@@ -143,7 +143,7 @@ ErrorCode Group::get_on() noexcept {
   }
   LineLimits most = most_of(tracking_.carrier());
   most.velocity = std::min(most.velocity, tip_limit() / std::max(room.tip, 1e-9));
-  // A product that has gone on is caught up with slowly: farther on the arm may not be able to do as much as here.
+  // Catches up slowly with a product that has moved on: further along, the arm may not be able to do as much as here.
   const double most_speed = std::min({limits.velocity / 2, most.velocity, 2 * speed + kCatchUp});
   tracking_.join(belt_watch(), {most_speed, kWay * limits.acceleration, kWay * limits.jerk}, most);
   return ErrorCode::Ok;
@@ -160,14 +160,14 @@ void Group::leave_belt(bool stays) noexcept {
   tracking_.leave({room.limits.velocity, kWay * room.limits.acceleration, kWay * room.limits.jerk}, stays);
 }
 
-// Whether the tool is where the motion is to be seen from: at rest on the product, or off any.
+// Returns whether the tool is at the reference of the motion: at rest on the product, or off any.
 bool Group::is_on_product(int ticket) noexcept {
   const bool wanted = tracking_.known() && table_.command(ticket).coords == CoordSystem::Product;
   if (wanted == tracking_.on() && !wanted) {
     return true;
   }
   if (!follower_.idle()) {
-    return wanted && tracking_.rides();  // planned from where the one before begins, too
+    return wanted && tracking_.rides();  // also planned from where the one before begins
   }
   if (!wanted) {
     leave_belt(false);
@@ -183,8 +183,8 @@ bool Group::is_on_product(int ticket) noexcept {
   return true;
 }
 
-// The tool is at rest on the product: what comes next is planned from there. What the ride leaves of the joints' speed
-// is for the path.
+// The tool is at rest on the product: later motions are planned from there. The path may use the joint speed that
+// tracking leaves.
 void Group::keep_to_product() noexcept {
   tracking_.anchor();
   follower_.reset(commanded());
@@ -197,12 +197,12 @@ void Group::keep_to_product() noexcept {
   ride_speed_ = speed * room.tip;
 }
 
-// Where the product is for what is being planned.
+// The product's pose for the motion that is being planned.
 Pose Group::product_ahead() const noexcept {
   return tracking_.rides() ? tracking_.product(tracking_.anchored() - tracking_.lag()) : product_;
 }
 
-// A hold stops the ride too, and it goes on where on the product it was. Any other stop ends it.
+// A hold also stops tracking, which later continues at the same place on the product. Any other stop ends it.
 void Group::steer_ride() noexcept {
   if (state_ != GroupState::Moving) {
     leave_belt(false);
@@ -218,7 +218,7 @@ void Group::steer_ride() noexcept {
   }
 }
 
-// The set point of this period, from that of the path.
+// The set point of this period, computed from that of the path.
 Fault Group::ride(Joints& q) noexcept {
   if (!tracking_.on()) {
     return {};
@@ -251,8 +251,8 @@ Fault Group::ride(Joints& q) noexcept {
   return {};
 }
 
-// Whether an axis has not enough torque there. The path was planned with the arm as it is where the product was; the
-// belt carries it to where it may weigh more.
+// Returns whether an axis has not enough torque there. The path was planned for the arm where the product was; the belt
+// moves it to where it may need more torque.
 Fault Group::too_heavy(const Joints& q) const noexcept {
   if (!dynamics_.limited()) {
     return {};
@@ -269,7 +269,7 @@ Fault Group::too_heavy(const Joints& q) const noexcept {
   return {};
 }
 
-// Axes stop by themselves: there is no ride any more.
+// Ends tracking when axes stop on their own.
 void Group::drop_ride(ErrorCode code) noexcept {
   if (!tracking_.on()) {
     return;

@@ -12,7 +12,7 @@ Inverse::Inverse(const Arm& arm)
 
 Inverse::Result Inverse::nearest(const Pose& pose, const Joints& near,
                                  std::optional<std::uint8_t> posture) const noexcept {
-  // One that is asked for by its posture may be any of them.
+  // A solution requested by its posture may be any of them.
   const Solutions found = solve(pose, near, posture ? Gathered::What::All : Gathered::What::Nearest);
   if (const Solution* best = found.nearest(near, posture)) {
     return {Reach::Ok, *best};

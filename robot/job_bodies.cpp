@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements about bodies: what the arm keeps out of, and what its tools are made of.
+// Statements about bodies: zones that the arm must not enter, and parts of its tools.
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +17,14 @@ constexpr const char* kForms =
     "BOX x y z x y z (two opposite corners), CYLINDER x y z x y z RADIUS r (the middles of its ends) or BALL x y z "
     "RADIUS r, in mm";
 
-// z goes along a direction, whichever way the others do.
+// Rotation that turns z into a direction; x and y are arbitrary.
 Quat along(const Vec3& direction) noexcept {
   return Quat::FromTwoVectors(Vec3::UnitZ(), direction);
 }
 
 }  // namespace
 
-// "KEEPOUT table = BOX -800 -800 -50 800 800 0", "KEEPOUT post = CYLINDER 0 700 0 0 700 900 RADIUS 60 IN cell"
+// Parses "KEEPOUT table = BOX -800 -800 -50 800 800 0", "KEEPOUT post = CYLINDER 0 700 0 0 700 900 RADIUS 60 IN cell"
 void JobParser::keepout() {
   BodyLine line;
   if (!begin_body(line, "KEEPOUT table = ")) {
@@ -46,7 +46,7 @@ void JobParser::keepout() {
   }
 }
 
-// "BODY gripper = BOX -60 -30 0 60 30 90", as often as it has parts
+// Parses "BODY gripper = BOX -60 -30 0 60 30 90"; once per part of the tool
 void JobParser::body() {
   BodyLine line;
   if (!begin_body(line, "BODY gripper = ") || !solid(line.solid)) {
@@ -99,7 +99,7 @@ bool JobParser::solid(Solid& solid) {
   return !failed_;
 }
 
-// m; 0 if it is wrong.
+// Radius in m; 0 if it is wrong.
 double JobParser::radius() {
   double radius = 0;
   if (!accept("RADIUS")) {

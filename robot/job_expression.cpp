@@ -155,7 +155,7 @@ Formula JobParser::operand(const char* what, int depth) {
   return named();
 }
 
-// "n", "I4", "I4 ON", "I4 OFF"
+// Parses "n", "I4", "I4 ON", "I4 OFF"
 Formula JobParser::named() {
   const int variable = variable_called(peek().text);
   Formula formula;

@@ -33,7 +33,7 @@ int JobParser::signal(const char* what) {
   return static_cast<int>(found - book_.signals.begin());
 }
 
-// "PULSE O8 0.2s", "PULSE O8 200 ms BEFORE 50 mm"
+// Parses "PULSE O8 0.2s", "PULSE O8 200 ms BEFORE 50 mm"
 void JobParser::pulse() {
   Step step;
   step.index = signal("the name of a variable");
@@ -52,7 +52,7 @@ void JobParser::set() {
   add_setting(step);
 }
 
-// At rest, or on the way of the motion before.
+// Adds a setting that takes effect at rest, or during the motion before it.
 void JobParser::add_setting(Step step) {
   const bool before = !failed_ && accept("BEFORE");
   if (before || (!failed_ && accept("AFTER"))) {
@@ -66,7 +66,7 @@ void JobParser::add_setting(Step step) {
   added = step;
 }
 
-// "SET O8 ON BEFORE 50 mm", "SET O8 ON AFTER 0.2s"
+// Parses "SET O8 ON BEFORE 50 mm", "SET O8 ON AFTER 0.2s"
 void JobParser::set_on_path(Step wanted) {
   const auto& steps = job().steps;
   auto motion = steps.rbegin();
@@ -130,7 +130,7 @@ void JobParser::variable() {
   const JobToken name = take();
   int formula = -1;
   if (accept("=")) {
-    formula = expression("its value");  // which cannot look at the variable itself
+    formula = expression("its value");  // which cannot read the variable itself
   }
   const int index = failed_ ? -1 : new_variable(name);
   Step& step = add(Op::Assign);
@@ -222,7 +222,7 @@ void JobParser::jump() {
   reference(JobReference::To::Label, "label");
 }
 
-// "IF ... GOTO label" in one line, or the beginning of a block.
+// Parses "IF ... GOTO label" in one line, or the beginning of a block.
 void JobParser::if_goto() {
   const int formula = expression("a condition");
   if (failed_) {
@@ -262,7 +262,7 @@ void JobParser::while_block() {
   blocks_.push_back({"WHILE", line_, start, start, {}, -1, 1, false});
 }
 
-// FOR i = first TO last STEP by
+// Parses FOR i = first TO last STEP by
 void JobParser::for_block() {
   const JobToken name = take();
   const int known = variable_called(name.text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tools: where their tips are. Work frames: where the points that are given in them are.
+// Computes the tips of tools, and the poses of points that are given in work frames.
 #include <array>
 #include <iomanip>
 #include <sstream>
@@ -20,7 +20,8 @@ Vec3 place_of(const Target& target, const Arm& arm) {
   return target.is_pose ? target.pose.position : arm.forward(target.joints).position;
 }
 
-// x from the first point to the second, the third on the side of y. Empty, or why it cannot be.
+// Computes a frame: x from the first point to the second, the third on the side of y. Returns an empty text, or why it
+// is impossible.
 std::string taught(const std::array<Vec3, 3>& at, Pose& frame) {
   const Vec3 x = at[1] - at[0];
   const Vec3 side = at[2] - at[0];

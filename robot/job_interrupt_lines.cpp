@@ -7,7 +7,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr std::size_t kLongest = 16;  // parts of a condition, which is computed in each period
+constexpr std::size_t kLongest = 16;  // parts of a condition, which is evaluated in each period
 
 }  // namespace
 

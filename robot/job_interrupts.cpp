@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interrupts of a job: conditions that are watched while it runs. One that becomes true stops the robot on its path;
-// the job it calls runs, the robot comes back, and all goes on as it was.
+// Interrupts of a job: conditions that are monitored while it runs. One that becomes true stops the robot on its path;
+// the job it calls runs, the robot returns, and the interrupted job continues.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ bool JobRunner::holds(int interrupt, Signals& signals) const noexcept {
   return !std::isnan(value) && value != 0;
 }
 
-// What is true already has to become false before it counts.
+// Arms an interrupt. A condition that is already true has to become false before it triggers.
 JobRunner::Next JobRunner::arm(const Step& step, Signals& signals) noexcept {
   if (step.op == Op::Arm) {
     Watched& one = watched_[static_cast<std::size_t>(step.slot)];
@@ -28,7 +28,7 @@ JobRunner::Next JobRunner::arm(const Step& step, Signals& signals) noexcept {
   return Next::Go;
 }
 
-// Once a period. True: nothing else of the job is done in it.
+// Called once per period. Returns true if the job does nothing else in this period.
 bool JobRunner::interrupt(Signals& signals, MotionPort& port) noexcept {
   for (std::size_t i = 0; i < book_.interrupts.size(); ++i) {
     Watched& one = watched_[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tools and loads weigh.
+// Masses of tools and loads.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace indurop::robot {
 
-// "2.5 kg CENTRE 0 0 60", "2.5 kg CENTRE 0 0 60 INERTIA 0.01 0.01 0.02 0 0 0"
+// Parses "2.5 kg CENTRE 0 0 60", "2.5 kg CENTRE 0 0 60 INERTIA 0.01 0.01 0.02 0 0 0"
 void JobParser::mass(Body& body) {
   const JobToken number = peek();
   if (!numbers(1, &body.mass, "a mass, 2.5 kg")) {
@@ -44,7 +44,7 @@ void JobParser::mass(Body& body) {
   }
 }
 
-// "LOAD 2.5 kg CENTRE 0 0 60", "LOAD 0"
+// Parses "LOAD 2.5 kg CENTRE 0 0 60", "LOAD 0"
 void JobParser::load() {
   add(Op::Load).index = 0;
   if (peek().kind == JobToken::Kind::Number && peek().value == 0) {

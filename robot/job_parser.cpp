@@ -216,7 +216,7 @@ void JobParser::posture(Target& target) {
   target.posture = static_cast<std::uint8_t>(posture);
 }
 
-// What a pose leaves open on arms of more than six axes.
+// Parses the axis that a pose leaves undetermined on arms with more than six axes.
 void JobParser::held_axis(Target& target) {
   double axis = 0;
   double value = 0;
@@ -263,7 +263,7 @@ void JobParser::point() {
     book_.points.push_back(
         {text, target, job().file, {static_cast<int>(line_), static_cast<int>(name.column)}, -1, Quat::Identity(), {}});
   } else if (!point_frames_.empty() && point_frames_.back().owner == book_.points.size()) {
-    point_frames_.pop_back();  // the frame of a point that there is not
+    point_frames_.pop_back();  // the frame of a point that does not exist
   }
 }
 
@@ -294,7 +294,7 @@ void JobParser::move(Move kind) {
   }
 }
 
-// A step for each of its points.
+// Adds a step for each point of the spline.
 void JobParser::spline() {
   const JobToken start = tokens_[at_ - 1];
   int points = 0;
@@ -330,7 +330,7 @@ void JobParser::speed() {
     }
     return;
   }
-  // "mm/s" is a word, and a sign no other statement has.
+  // "mm/s" is a word followed by a sign that no other statement has.
   const bool mm = accept("mm");
   const bool per_second = mm && accept("/") && accept("s");
   if (!per_second) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where jobs begin, pause and go on: at their first line or another one, behind a stop, a step further or back.
+// Where jobs start, pause and continue: at their first line or another one, after a stop, one step further or back.
 
 #include <algorithm>
 #include <cstdio>
@@ -93,7 +93,7 @@ void JobRunner::say(const char* text) noexcept {
   std::snprintf(message_, sizeof message_, "%s", text);
 }
 
-// Behind the first step of a line the others belong to it.
+// The other steps of a line belong to its first one, so there is no pause between them.
 bool JobRunner::pauses_before(const Step& step) const noexcept {
   const int job = frame().job;
   const auto& steps = job_of(job).steps;

@@ -10,7 +10,7 @@
 
 namespace indurop::robot {
 
-// "FRAME pallet = POSE 500 0 100 RPY 0 0 45", "FRAME pallet = POINTS O X Y"
+// Parses "FRAME pallet = POSE 500 0 100 RPY 0 0 45", "FRAME pallet = POINTS O X Y"
 void JobParser::frame() {
   const JobToken name = take();
   if (name.kind != JobToken::Kind::Word || !accept("=")) {
@@ -55,7 +55,7 @@ void JobParser::frame() {
   book_.frames.push_back(std::move(frame));
 }
 
-// "OFFSET 0, 0, 100", "OFFSET TOOL 0, 0, -50"
+// Parses "OFFSET 0, 0, 100", "OFFSET TOOL 0, 0, -50"
 void JobParser::offset() {
   const bool by_tool = accept("TOOL");
   int first = -1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is only known when all job files have been read: which point, job or label a name means.
+// Resolves names after all job files have been read: the point, job or label that a name refers to.
 
 #include <algorithm>
 #include <charconv>

@@ -8,8 +8,8 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting goes on in the next period
-constexpr int kPartsPerStep = 4;     // of formulas; a step that computes more counts as several
+constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting continues in the next period
+constexpr int kPartsPerStep = 4;     // of formulas; a longer formula counts as several steps
 constexpr int kOffsets = 3;          // x, y, z
 
 }  // namespace
@@ -145,7 +145,7 @@ JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
   return Next::Wait;
 }
 
-// Long: a case for each kind of step.
+// Long function: one case for each kind of step.
 JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept {
   Next next = Next::Go;
   switch (step.op) {
@@ -323,7 +323,7 @@ JobRunner::Next JobRunner::wait_until(const Step& step, double seconds, Signals&
 }
 
 JobRunner::Next JobRunner::wait_time(const Step& step, double seconds) noexcept {
-  // The period in which the wait begins does not count, so that a wait is never shorter than written.
+  // The period in which the wait begins is not counted, so that a wait is never shorter than written.
   waited_ += state_ == JobState::Waits ? seconds : 0;
   state_ = JobState::Waits;
   constexpr double kRounding = 1e-9;
@@ -351,7 +351,7 @@ JobRunner::Next JobRunner::call(const Step& step, Signals& signals) noexcept {
 void JobRunner::jump(int step) noexcept {
   Frame& here = frame();
   here.step = step;
-  // Loops that do not enclose the label are left; one entered from outside runs once.
+  // Loops that do not enclose the label are left; one that is entered from outside runs once.
   const auto& steps = job_of(here.job).steps;
   int open = 0;
   for (int i = 0; i < step; ++i) {

@@ -18,7 +18,7 @@ char small(char c) noexcept {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
 }
 
-// Names of variables have dots, colons and indices.
+// Length of a word; names of variables contain dots, colons and indices.
 std::size_t word_length(std::string_view text) noexcept {
   std::size_t n = 0;
   while (n < text.size() &&
@@ -30,7 +30,7 @@ std::size_t word_length(std::string_view text) noexcept {
 }
 
 std::size_t number_length(std::string_view text, double& value) noexcept {
-  // from_chars takes "inf" and "nan" too, and no plus sign.
+  // from_chars also accepts "inf" and "nan", and no plus sign.
   const bool plus = text.front() == '+';
   const std::string_view digits = text.substr(plus ? 1 : 0);
   const std::string_view unsigned_part = digits.substr(!plus && digits.starts_with('-') ? 1 : 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements about tools: what they are, and which one is held from here on.
+// Statements about tools: their declaration, and the selection of the tool that is held from here on.
 
 #include <algorithm>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace indurop::robot {
 
-// "TOOL pen", "TOOL pen = POSE 0 0 120 RPY 0 0 0", "TOOL pen = POINTS A B C D", "TOOL grip = POSE ... MASS 2.5 kg
-// CENTRE 0 0 60"
+// Parses "TOOL pen", "TOOL pen = POSE 0 0 120 RPY 0 0 0", "TOOL pen = POINTS A B C D", "TOOL grip = POSE ... MASS 2.5
+// kg CENTRE 0 0 60"
 void JobParser::tool() {
   const JobToken name = take();
   if (name.kind != JobToken::Kind::Word) {
@@ -48,7 +48,7 @@ void JobParser::tool() {
   }
 }
 
-// Points at which its tip touches the same place; how it is turned can only be said.
+// Parses points at which its tip touches the same place; its orientation cannot be taught, only given.
 void JobParser::taught_tool(Tool& tool) {
   tool.is_taught = true;
   const JobToken first = peek();

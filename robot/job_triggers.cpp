@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a job sets on the way of its motions, at a distance or time from their beginning or end.
+// Outputs that a job sets during its motions, at a distance or time from their beginning or end.
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ JobRunner::Next JobRunner::set_on_path(const Step& step, Signals& signals) noexc
   return Next::Go;
 }
 
-// Behind the end of its motion everything is set, whatever was asked for.
+// Sets the outputs that are due. After the end of its motion each one is set in any case.
 void JobRunner::fire(double seconds, Signals& signals, const MotionPort& port) noexcept {
   const PathPlace now = port.place();
   since_ = now.ticket == present_ ? since_ + seconds : 0;

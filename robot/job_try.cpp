@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TRY and RECOVER: their lines, and what becomes of an error between them.
+// TRY and RECOVER: their lines, and the handling of an error between them.
 
 #include <algorithm>
 #include <cstdio>
@@ -38,7 +38,7 @@ void JobParser::recover() {
   add(Op::Recover);
 }
 
-// The innermost TRY counts, also one around a CALL; that of a job that was interrupted does not.
+// The innermost TRY applies, also one around a CALL, but not one of an interrupted job.
 bool JobRunner::recover(Fault fault, const char* why, int source, std::uint32_t ticket) noexcept {
   if (!running() || serving_ == Serving::Leaving || serving_ == Serving::Returning) {
     return false;
@@ -66,7 +66,7 @@ bool JobRunner::recover(Fault fault, const char* why, int source, std::uint32_t 
   return false;
 }
 
-// With file and line: of the motion called `source`, or of the present step.
+// Adds file and line: of the motion `source`, or of the present step.
 void JobRunner::describe(const char* why, int source) noexcept {
   const int job = source > 0 ? source >> kLineBits : frame().job;
   line_ = source > 0 ? line_of(source) : line_;
@@ -77,7 +77,7 @@ void JobRunner::describe(const char* why, int source) noexcept {
 }
 
 void JobRunner::refuse(Fault fault, const char* why) noexcept {
-  constexpr std::uint32_t kNone = ~0U;  // all that was commanded is possible
+  constexpr std::uint32_t kNone = ~0U;  // all commanded motions are possible
   if (!recover(fault, why, 0, kNone)) {
     fail(fault, why, 0);
   }
