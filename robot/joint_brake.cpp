@@ -3,7 +3,7 @@
 
 namespace indurop::robot {
 
-// The parabola through the last three.
+// Continues the parabola through the last three set points.
 void JointBrake::begin(const std::array<Joints, 3>& past, double period, double hardness) noexcept {
   from_ = past[0];
   acceleration_ = (past[0] - 2 * past[1] + past[2]) / (period * period);
@@ -29,7 +29,7 @@ PathAhead::Shape JointBrake::shape_ahead(double distance) const noexcept {
 const Joints& JointBrake::next() noexcept {
   double distance = 0;
   Joints q = past_.joints[0];
-  static_cast<void>(brake_.next(*this, past_, period_, distance, q));  // this way goes on everywhere
+  static_cast<void>(brake_.next(*this, past_, period_, distance, q));  // this path continues without end
   place_ += distance;
   past_.moved = {distance, past_.moved[0]};
   past_.joints = {q, past_.joints[0], past_.joints[1]};

@@ -20,7 +20,7 @@ LineLimits of(const JointLimits& limits, int axis) noexcept {
 
 }  // namespace
 
-// What arrives early may stand there until the others come, so no joint makes another one wait longer than for itself.
+// A joint that arrives early may wait there for the others, so no joint delays another by more than its own duration.
 void JointTiming::plan(const JointState& from, const Joints& to, const JointLimits& limits) noexcept {
   duration_ = 0;
   for (int i = 0; i < kAxes; ++i) {
@@ -36,7 +36,7 @@ void JointTiming::plan(const JointState& from, const Joints& to, const JointLimi
     if (axis.duration() > 0) {
       axis = axis.slower(of(limits, i), together);
     }
-    duration_ = std::max(duration_, axis.duration());  // up to rounding it is that
+    duration_ = std::max(duration_, axis.duration());  // equal except for rounding
   }
 }
 
@@ -91,7 +91,8 @@ double JointTiming::settling(const JointState& from, const JointLimits& limits, 
   return time;
 }
 
-// So that a hold begins at once: less than lines take, since nobody pays for it while nothing disturbs.
+// Uses less of the limits than lines do, so that a hold begins at once; this costs nothing while nothing disturbs the
+// motion.
 JointShares JointShares::at(double pace) noexcept {
   constexpr JointShares kLeaving{0.8, 0.6};
   if (pace >= 1) {

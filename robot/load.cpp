@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loading the robot task: settings, files, and everything that is wrong with them at once.
+// Loads the robot task: settings, files, and all errors in them at once.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ void take_over(const std::vector<WrongSetting>& from, Diagnostics& to) {
   }
 }
 
-// Of each axis, from deg or mm.
+// Converts one value per axis from deg or mm.
 void take(const std::vector<double>& values, const Arm& arm, Joints& to) {
   for (int i = 0; i < static_cast<int>(values.size()); ++i) {
     to[i] = values[static_cast<std::size_t>(i)] * (arm.axis(i).slides() ? 0.001 : kPi / 180);
@@ -89,7 +89,7 @@ std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vect
   if (wrong.empty()) {
     return std::make_unique<Group>(parts_of(settings, std::move(files)));
   }
-  // The header users include knows nothing of ours.
+  // The header that users include does not contain our types.
   std::transform(wrong.begin(), wrong.end(), std::back_inserter(errors),
                  [](const base::Diagnostic& one) { return base::to_string(one); });
   return nullptr;

@@ -29,7 +29,7 @@ std::size_t edits(std::string_view a, std::string_view b) {
 
 std::string meant(std::string_view name, const std::vector<std::string>& known) {
   const std::string* best = nullptr;
-  std::size_t fewest = std::min(name.size() / 3 + 2, name.size());  // not what has no letter in common
+  std::size_t fewest = std::min(name.size() / 3 + 2, name.size());  // excludes names that have no letter in common
   for (const std::string& one : known) {
     if (const std::size_t n = edits(name, one); n < fewest) {
       fewest = n;

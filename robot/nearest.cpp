@@ -52,7 +52,7 @@ double Nearest::distance(int a, int b, const PlacedSolid& at_a, const PlacedSoli
     if (!(fcl::distance(&first, &second, objects_->request, objects_->result) > 0)) {
       return least;
     }
-  } catch (const std::exception&) {  // where it does not find an answer
+  } catch (const std::exception&) {  // if FCL finds no answer
     return least;
   }
   const Vec3 line = objects_->result.nearest_points[1] - objects_->result.nearest_points[0];

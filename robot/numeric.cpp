@@ -10,10 +10,10 @@ namespace indurop::robot {
 namespace {
 
 constexpr int kSteps = 100;
-constexpr double kNear = 1e-14;    // metres and radians: what it goes on for, since jerk shows what is left of it
-constexpr double kEnough = 1e-10;  // the same, where another step leads no nearer
-constexpr double kGood = 1e-7;     // the same, of a place on a path
-constexpr double kExact = 1e-9;    // of a solution that was searched
+constexpr double kNear = 1e-14;    // metres and radians: iteration continues down to this, since jerk shows the rest
+constexpr double kEnough = 1e-10;  // the same, if another step brings no improvement
+constexpr double kGood = 1e-7;     // the same, for a place on a path
+constexpr double kExact = 1e-9;    // for a solution of the search
 constexpr double kClose = 1e-3;    // worth more steps
 
 using Square = Eigen::Matrix<double, kAxes, kAxes>;
@@ -31,7 +31,7 @@ Joints within_limits(const Arm& arm, Joints q) noexcept {
   return q;
 }
 
-// A step of half a turn leaves the neighbourhood where the linear model says anything.
+// A step of half a turn would leave the range in which the linear model is valid.
 Joints shortened(const Joints& change) noexcept {
   return change * std::min(1.0, 0.5 / std::max(change.lpNorm<Eigen::Infinity>(), 1e-300));
 }
@@ -48,11 +48,11 @@ Jacobian moving(const Arm& arm, const Joints& q, Held held) noexcept {
 
 struct Descent {
   int steps = kSteps;
-  bool limited = true;  // stays within the limits all the way
+  bool limited = true;  // stays within the limits in every step
   Held held = 0;
 };
 
-// Damped least squares. Returns the square of what is left.
+// Damped least squares. Returns the square of the remaining error.
 double descend(const Arm& arm, const Pose& pose, const Descent& how, Joints& q) noexcept {
   const auto allowed = [&](const Joints& there) { return how.limited ? within_limits(arm, there) : there; };
   q = allowed(q);
@@ -80,8 +80,8 @@ double descend(const Arm& arm, const Pose& pose, const Descent& how, Joints& q) 
   return error;
 }
 
-// The position exactly, and among all ways to hold it there the one with the least turn to the orientation. Returns
-// what is left of both, as squares.
+// Reaches the position exactly, and among all joint angles for it those with the orientation closest to the requested
+// one. Returns the remaining errors of both, as squares.
 std::pair<double, double> place_first(const Arm& arm, const Pose& pose, Joints& q) noexcept {
   constexpr int kMost = 40;
   constexpr double kDamping = 1e-6;
@@ -96,7 +96,7 @@ std::pair<double, double> place_first(const Arm& arm, const Pose& pose, Joints& 
     const Eigen::Matrix<double, kAxes, 3> across = solver.solve(j.topRows<3>().transpose());
     const Joints turn = solver.solve(j.bottomRows<3>().transpose() * twist.tail<3>());
     Mat3 reach = j.topRows<3>() * across;
-    reach.diagonal().array() += 1e-14 * reach.trace() + 1e-14;  // where a direction is missing
+    reach.diagonal().array() += 1e-14 * reach.trace() + 1e-14;  // for directions that are missing
     const Vec3 force = reach.ldlt().solve(twist.head<3>() - j.topRows<3>() * turn);
     const Joints change = shortened(turn + across * force);
     q = within_limits(arm, q + change);
@@ -108,7 +108,7 @@ std::pair<double, double> place_first(const Arm& arm, const Pose& pose, Joints& 
   return {twist.head<3>().squaredNorm(), twist.tail<3>().squaredNorm()};
 }
 
-// Each angle by as many turns as bring it nearest to `near`; false if that is beyond the limits.
+// Shifts each angle by the full turns that bring it nearest to `near`; returns false if that is beyond the limits.
 bool turn_back(const Arm& arm, const Joints& near, Joints& q) noexcept {
   for (int i = 0; i < arm.count(); ++i) {
     const auto angle = turn_nearest(arm.axis(i), q[i], near[i]);
@@ -135,8 +135,8 @@ bool known(const Arm& arm, const Solutions& found, const Joints& q) noexcept {
   return false;
 }
 
-// From q on, which is near to a solution. Returns by how much the orientation is missed, as a square; all of it where
-// the position is.
+// Iterates from q, which is near to a solution. Returns the square of the remaining error of the orientation; infinite
+// if the position (with six or more axes: the pose) is not reached.
 double missed(const Arm& arm, const Pose& pose, const Search& how, Joints& q) noexcept {
   if (arm.count() >= 6) {
     return descend(arm, pose, {kSteps, true, how.held}, q) < kExact * kExact ? 0 : HUGE_VAL;
@@ -181,16 +181,17 @@ NumericSolution solve_numerically(const Arm& arm, const Pose& pose, const Joints
 
 Solutions search_numerically(const Arm& arm, const std::optional<Postures>& postures, const Pose& pose,
                              const Joints& near, const Search& how) noexcept {
-  constexpr int kFew = 40;  // steps: a start that is no use shows it early
+  constexpr int kFew = 40;  // steps: a start value that leads nowhere shows it early
   const double close = std::max(kClose, arm.count() < 6 ? 2 * how.turned : 0.0);
   Solutions found;
-  bool exact = false;  // what was found; then what a limit keeps from it does not count
+  bool exact = false;  // an exact solution was found; errors caused by a limit are then ignored
   for (int i = 0; i < how.least || (found.count == 0 && i < how.most); ++i) {
     Joints q = i == 0 ? near : arm.spread(i);
     for (int a = 0; a < arm.count(); ++a) {
       q[a] = (how.held >> static_cast<unsigned>(a) & 1U) != 0 ? near[a] : q[a];
     }
-    // A way that leaves the limits often comes back into them a turn later, and one along a limit may lead round it.
+    // An iteration that leaves the limits often returns into them a turn later, and one along a limit may lead round
+    // it.
     if (descend(arm, pose, {kFew, i % 2 == 0, how.held}, q) > close * close) {
       continue;
     }

@@ -19,14 +19,14 @@ bool can_level_off(const LineState& now, double top, const PaceLimits& limits) n
 }  // namespace
 
 LineLimits PaceLimits::at(double pace) const noexcept {
-  // Half of the jerk that is left is for the change of pace itself, half for what it makes of accelerations.
+  // Half of the jerk that is left is for the change of pace itself, half for its effect on accelerations.
   const double left = (1 - jerk_share * pace * pace * pace) / 2;
   return {1, std::min((1 - acceleration_share * pace * pace) * acceleration, left * mixed / (3 * std::max(pace, 1e-3))),
           left * jerk};
 }
 
-// Upwards less and less is left for changes, so the pace must be able to level off somewhere, with what is left there.
-// Of the stages on the way that allow this, the one that leads farthest.
+// When the pace rises, less and less is left for changes, so it must be able to level off at some pace with what is
+// left there. Of the intermediate paces that allow this, the highest one is chosen.
 Profile PaceChange::faster(const LineState& now, double wanted, double seconds, const PaceLimits& limits) noexcept {
   Profile best;
   double most = -1;
@@ -50,7 +50,7 @@ Profile PaceChange::faster(const LineState& now, double wanted, double seconds, 
   return best;
 }
 
-// It was getting faster, up to more than is wanted now: it levels off as low as it can first.
+// The pace was rising to more than is requested now: first it levels off as low as possible.
 Profile PaceChange::no_faster(const LineState& now, double wanted, const PaceLimits& limits) noexcept {
   const double before = top_;
   for (int i = kStages - 1; i >= 0; --i) {

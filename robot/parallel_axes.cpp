@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closed form: how far the point where the last two axes meet is off the plane of the parallel axes depends on axis
-// 1 alone (two ways); the sum of the parallel angles and the last two make up the orientation (two ways); then axes 2
-// and 3 reach axis 4 like a compass (two ways).
+// The closed form: the distance of the point where the last two axes meet from the plane of the parallel axes depends
+// on axis 1 alone (two solutions); the sum of the parallel angles and the last two angles yield the orientation (two
+// solutions); then axes 2 and 3 reach axis 4 like the legs of a compass (two solutions).
 
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace indurop::robot {
 struct ParallelAxes::Search {
   Gathered gathered;
   Mat3 rotation;  // of all six axes together
-  Vec3 shift;     // the same
+  Vec3 shift;     // of all six axes together
   double q1 = 0;
 };
 
@@ -90,7 +90,7 @@ void ParallelAxes::with_wrist(Search& search, const Wrist::Angles& wrist, std::u
   const Arm& arm = search.gathered.arm();
   const Axis& a1 = arm.axis(0);
   const Mat3 wrist_turn = turned(arm.axis(4).direction, wrist.middle) * turned(arm.axis(5).direction, wrist.last);
-  // Where axis 4 has to be: behind the wrist in the tool's frame, then before axis 1.
+  // The required position of axis 4: first relative to the wrist in the tool's frame, then before axis 1.
   const Vec3 behind = center_ + wrist_turn.transpose() * (arm.axis(3).point - center_);
   const Vec3 there = search.rotation * behind + search.shift;
   const Vec3 before = turned(a1.direction, -search.q1) * (there - a1.point) + a1.point;

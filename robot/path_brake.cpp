@@ -8,9 +8,9 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kKept = 0.97;        // of the jerk when looking ahead: what the polynomials miss
-constexpr double kWithin = 1 - 2e-5;  // of the limits: what is lost to rounding
-constexpr int kParts = 8;             // of the time in which braking is taken back
+constexpr double kKept = 0.97;        // of the jerk when planning ahead: covers the error of the polynomials
+constexpr double kWithin = 1 - 2e-5;  // of the limits: covers rounding
+constexpr int kParts = 8;             // of the time in which braking is released
 constexpr double kTooLate = -1;
 constexpr double kDropped = 0.3;  // of a period's jerk: the speed that is left for the last one
 
@@ -64,7 +64,7 @@ Reach PathBrake::look_ahead(const PathAhead& path, const Joints& here, double di
   return Reach::Ok;
 }
 
-// Between two instants a polynomial of the fifth degree.
+// Interpolates between two instants by a polynomial of the fifth degree.
 Timed PathBrake::timed(double place) const noexcept {
   if (!timed_) {
     return {place, 1, 0, 0};
@@ -89,7 +89,8 @@ Timed PathBrake::timed(double place) const noexcept {
           unit * unit * unit * (6 * c3 + t * (24 * c4 + 60 * t * c5))};
 }
 
-// That of a place on the path, which becomes the place in quarters of it; `unit`: of them for each of the path.
+// The polynomial for a place on the path; the place is converted to quarters of its part, `unit` is their number per
+// unit of the path.
 const PathBrake::Polynomial& PathBrake::polynomial(double& place, double& unit) const noexcept {
   std::size_t i = 0;
   while (i + 1 < pieces_ && place > bounds_[i + 1]) {
@@ -138,7 +139,7 @@ PathBrake::Span PathBrake::span_of(const Joints& first, const Joints& rest, cons
   return span;
 }
 
-// The differences between set points are what is limited, so they are what is looked at: exact for any period.
+// The limits apply to the differences between set points, so these are checked: exact for any period.
 PathBrake::Span PathBrake::distances(const PathHistory& past, const Joints& there, double distance,
                                      double period) const noexcept {
   const auto& q = past.joints;
@@ -163,8 +164,8 @@ PathBrake::Span PathBrake::jerks(const Rates& r, const Motion& m) const noexcept
                  kKept * jerk_);
 }
 
-// As many periods as it takes, several at a time if they are many; as differences between periods add up, so that the
-// last of them comes out exactly.
+// Steps through as many periods as it takes, several at a time if there are many; computed as differences between
+// periods add up, so that the last period is exact.
 double PathBrake::left_over(Motion m, double period) const noexcept {
   Span jerk = jerks(rates(m.place), m);
   const double stride = std::max(1.0, std::ceil(-m.acceleration / (jerk.high * period * kParts)));
@@ -196,7 +197,7 @@ double PathBrake::left_over(Motion m, double period) const noexcept {
     m = next;
     jerk = behind;
   }
-  // What is so slow may stand in the next period.
+  // A motion that slow may stop in the next period.
   return m.speed - kDropped * jerk.high * period * period;
 }
 
@@ -210,7 +211,7 @@ double PathBrake::choose(const Span& span, const PathHistory& past, double perio
   }
   double late = span.low;
   double early = span.high;
-  // The last few periods are what it takes to stand still at their end.
+  // The last few periods are those needed for standing still at their end.
   const double change = (span.high - span.low) / (period * period);
   const bool last = -after(early, past, period).acceleration < 2 * change;
   for (int i = 0; i < (last ? 20 : 6); ++i) {
@@ -220,7 +221,7 @@ double PathBrake::choose(const Span& span, const PathHistory& past, double perio
   return early;
 }
 
-// How far it is to rest, about: as if the path went on as it did.
+// The approximate distance to rest, as if the path continued as it did so far.
 double PathBrake::far(const PathHistory& past, double period) const noexcept {
   const double step = past.moved[0];
   const Joints first = (past.joints[0] - past.joints[1]).cwiseAbs() / std::max(step, 1e-12);
@@ -239,7 +240,7 @@ Reach PathBrake::keep_in_sight(const PathAhead& path, const PathHistory& past, d
   return seen ? Reach::Ok : look_ahead(path, past.joints[0], need);
 }
 
-// Whether the axes may stand still from this set point on.
+// Returns whether the axes may stand still from this set point on.
 bool PathBrake::can_stand(const PathHistory& past, double period) const noexcept {
   const auto& q = past.joints;
   const Joints last = q[0] - q[1];
@@ -267,7 +268,7 @@ Joints PathBrake::joints_at(double place) const noexcept {
 Reach PathBrake::next(const PathAhead& path, const PathHistory& past, double period, double& distance,
                       Joints& q) noexcept {
   constexpr int kTries = 8;
-  constexpr double kInset = 1e-3;  // of what is possible: the polynomials are not that exact
+  constexpr double kInset = 1e-3;  // of the possible span: the polynomials are not that exact
   distance = 0;
   q = past.joints[0];
   if (can_stand(past, period) || path.left() <= 0) {
@@ -279,8 +280,8 @@ Reach PathBrake::next(const PathAhead& path, const PathHistory& past, double per
       return reach;
     }
   }
-  // A look along the polynomials first, which costs no inverse kinematics. Where they are not exact enough, it is
-  // looked at once more from the place that came out.
+  // First uses the polynomials, which needs no inverse kinematics. Where they are not exact enough, the check is
+  // repeated from the resulting place.
   const double as_before = std::max(0.0, 2 * past.moved[0] - past.moved[1] + changed_);
   Span guessed = distances(past, q + joints_at(gone_ + as_before) - joints_at(gone_), as_before, period);
   double wanted = choose(inside(guessed, kInset), past, period);

@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kSpeed = 0.98;  // the fastest place lies between two that were looked at
+constexpr double kSpeed = 0.98;  // the fastest place lies between two checked ones
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace {
 // A uniform B-spline piece of degree 5 and its first three derivatives, by de Boor's triangle.
 PathTiming::Value spline(const double* coefficients, double part) noexcept {
   constexpr std::size_t kDegree = 5;
-  // Differences give the derivatives; what is left of the degree is evaluated.
+  // Differences give the derivatives; the remaining degree is evaluated.
   std::array<double, kDegree + 1> c{};
   std::copy_n(coefficients, kDegree + 1, c.begin());
   std::array<double, 4> result{};
@@ -42,8 +42,9 @@ struct Cubic {
   [[nodiscard]] double at(double x) const noexcept { return a + x * (b + x * (c + x * d)); }
   [[nodiscard]] double slope(double x) const noexcept { return b + x * (2 * c + x * 3 * d); }
   [[nodiscard]] double bend(double x) const noexcept { return 2 * c + x * 6 * d; }
-  // From x on, for which a Gaussian quadrature of one over its root is exact: such are as good as the zeros of what is
-  // under the root are far away, here three halves of the stretch at least. Where a path begins or ends they are near.
+  // Distance from x over which Gaussian quadrature of one over its root is exact enough: the quadrature is as good as
+  // the zeros under the root are far away, here at least three halves of the distance. Where a path begins or ends they
+  // are near.
   [[nodiscard]] double stretch(double x) const noexcept {
     constexpr double kOfWay = 2.0 / 3;
     constexpr double kLeast = 1e-6;
@@ -73,7 +74,7 @@ PathTiming::Value PathTiming::place(int piece, double part) const noexcept {
   return spline(shape_.data() + piece, part);
 }
 
-// From the beginning of the piece. What is lost shows as a step of speed between pieces.
+// Time from the beginning of the piece. An error would show as a step of speed between pieces.
 double PathTiming::seconds(int piece, double part) const noexcept {
   const Cubic square(squares_.data() + piece);
   double sum = 0;
@@ -115,9 +116,9 @@ Timed PathTiming::at(double time) const noexcept {
   const double begin = times_[static_cast<std::size_t>(piece)];
   const double length = times_[static_cast<std::size_t>(piece) + 1] - begin;
   const double rest = std::clamp(time - begin, 0.0, length);
-  // Newton's steps from a cubic with the right speeds at both ends; what is left of the last one is its square. Two do,
-  // but where a path begins slowly and is many times as fast at the end of the piece: a step of place between pieces is
-  // what too few would leave.
+  // Newton steps from a cubic with the right speeds at both ends; the remaining error is squared with each step. Two
+  // are enough, except where a path begins slowly and is many times as fast at the end of the piece: too few steps
+  // would leave a step of place between pieces.
   constexpr double kNearly = 1e-9;
   constexpr int kMostSteps = 16;
   const double x = rest / length;

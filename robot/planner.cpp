@@ -9,8 +9,8 @@ namespace indurop::robot {
 namespace {
 
 constexpr int kFewest = 24;            // places
-constexpr double kJump = radians(60);  // between places next to each other: the arm would have to turn over
-constexpr double kSlowest = 1e-9;      // m/s, and parts of full speed: below it is no motion
+constexpr double kJump = radians(60);  // between neighbouring places: the arm would have to flip over
+constexpr double kSlowest = 1e-9;      // m/s, and parts of full speed: below it counts as no motion
 
 ErrorCode code_of(Reach reach) noexcept {
   switch (reach) {
@@ -59,7 +59,7 @@ Fault Planner::resolve(const MoveCommand& command, const Joints& near, Joints& j
   }
   pose = target.pose;
   if (command.move != Move::Joint && !places_.inverse().closed_form()) {
-    return {};  // what goes on from place to place comes to its end by itself
+    return {};  // a path that is followed from place to place reaches its end anyway
   }
   const Inverse& inverse = places_.inverse();
   const auto found = target.known != nullptr ? inverse.nearest(*target.known, near, target.posture)
@@ -69,8 +69,8 @@ Fault Planner::resolve(const MoveCommand& command, const Joints& near, Joints& j
   return {code_of(found.reach)};
 }
 
-// Of an arm without a closed form, where nobody has searched before: beside a point, or a pose that a block says. An
-// axis that the pose leaves open stays where it is, if it can.
+// Searches for an arm without a closed form if no solutions are known: next to a point, or for a pose given by a
+// command. An axis that the pose leaves undetermined stays where it is, if possible.
 Inverse::Result Planner::search(const Target& target, const Joints& near) noexcept {
   const Inverse& inverse = places_.inverse();
   Search how{32, 96};
@@ -142,7 +142,7 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   return {};
 }
 
-// Axes that come together go another way at another pace.
+// Axes that arrive together follow another path at another pace, so several paces are checked.
 Fault Planner::check_joint_way() const noexcept {
   constexpr int kPlaces = 64;
   if (!places_.box().known()) {
@@ -160,7 +160,7 @@ Fault Planner::check_joint_way() const noexcept {
   return {};
 }
 
-// `spacing`: m between places.
+// `spacing`: distance in m between places.
 void Planner::begin_look(double spacing, int most) noexcept {
   Segment& s = segment_;
   bounds_.speed.fill(s.limits.velocity);
@@ -196,8 +196,8 @@ Fault Planner::check_next() noexcept {
   return {};
 }
 
-// From one place to another one, by as many others as it takes to stay in the same posture: beside a singular position
-// joints turn far on a short way, and the nearest of what comes behind it is often another one.
+// Goes from one place to another in as many steps as it takes to stay in the same posture: next to a singular position
+// joints turn far over a short distance, and beyond it the nearest solution is often another posture.
 Fault Planner::walk(double from, const Joints& start, double to, Joints& q) noexcept {
   constexpr double kSure = radians(30);
   constexpr double kAtLimit = radians(1);
@@ -221,7 +221,7 @@ Fault Planner::walk(double from, const Joints& start, double to, Joints& q) noex
       continue;
     }
     if (jump > kJump) {
-      // What would go on in this posture may be beyond a limit.
+      // The continuation in this posture may be beyond a limit.
       const int ended = places_.arm().beyond_limits(before, -kAtLimit);
       return ended >= 0 ? Fault{ErrorCode::JointLimit, ended + 1}
                         : Fault{ErrorCode::Singular, static_cast<int>(axis) + 1};
@@ -234,7 +234,7 @@ Fault Planner::walk(double from, const Joints& start, double to, Joints& q) noex
   return {};
 }
 
-// 0 in singular positions, and with another sign on their other side.
+// 0 in singular positions, and of opposite sign on their two sides.
 double Planner::volume(const Joints& q) const noexcept {
   return places_.arm().volume(q);
 }
@@ -264,7 +264,7 @@ Fault Planner::look(int& places) noexcept {
   }
   segment_.to = samples_[static_cast<std::size_t>(count_)];
   measure_tip();
-  // What few axes cannot do is told by where they come to.
+  // An arm with few axes may not reach the orientation: compare with the one it reaches.
   constexpr double kTurned = 2e-3;  // rad
   const Quat turned_to = places_.arm().forward(segment_.to).orientation;
   if (places_.arm().count() < 6 && rotation_between(turned_to, segment_.end.orientation).norm() > kTurned) {
@@ -278,7 +278,8 @@ void Planner::time_it() noexcept {
   for (int i = 0; i < noted_; ++i) {
     leave_for_changes(rates_[static_cast<std::size_t>(i)], joints_, segment_.limits);
   }
-  // What may be blended has one speed for all of it; what would be far too slow then comes to rest at its end.
+  // A path that may be blended has one speed for all of it; if that is far too slow, it comes to rest at its end
+  // instead.
   if (segment_.limits.velocity < kSlowestPace * wanted_) {
     segment_.zone = 0;
   }

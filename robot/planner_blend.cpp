@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How one path goes over into the next.
+// Blends: the transition from one path to the next.
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr int kBlendPlaces = 64;  // its jerk is greatest at its ends, where differences see the mean of three parts
+constexpr int kBlendPlaces = 64;  // its jerk is greatest at its ends, where differences are the mean of three parts
 
-// Whether a sharp corner is not so slow to go round that stopping there would be faster.
+// Returns whether rounding the corner is at least as fast as stopping there.
 bool faster(const Segment& first, const Blend& blend, const Segment& second) noexcept {
   const double speed = blend.limits.velocity;
   if (!(speed > 0)) {
@@ -25,12 +25,12 @@ bool faster(const Segment& first, const Blend& blend, const Segment& second) noe
                                                   Profile::to_position({}, second.length, 0, second.limits).duration();
 }
 
-// How the tool moves and turns at full speed, in the base's frame.
+// The velocity and rotation of the tool at full speed, in the base's frame.
 struct Heading {
   Vec3 moving, turning;
 };
 
-// Of a line or circle, where it begins or ends.
+// The heading of a line or circle at its beginning or end.
 Heading heading(const Segment& s, bool at_end) noexcept {
   const Vec3 turning = s.start.orientation * s.turn / s.length;
   if (s.move != Move::Circle) {
@@ -47,7 +47,7 @@ Blend Planner::blend(const Segment& first, const Segment& second) noexcept {
   if (first.zone <= 0 || first.chain != nullptr || second.chain != nullptr || first.length <= 0 || second.length <= 0) {
     return result;
   }
-  // How fast the tool is at the corner, at full speed, says how long the zone is.
+  // The tool's speed at the corner, at full speed, determines the length of the zone.
   const Jacobian j = places_.arm().jacobian(first.to);
   const auto pace = [&](const Segment& s) {
     return s.move == Move::Joint ? (j.topRows<3>() * ((s.to - s.from) / s.length)).norm() : s.pace();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is different when a path is made of many pieces: a chain of lines, or a spline.
+// The differences for a path that consists of many pieces: a chain of lines, or a spline.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kSpacing = 0.005;  // m between places that are looked at
+constexpr double kSpacing = 0.005;  // m between checked places
 
 }  // namespace
 
@@ -31,7 +31,7 @@ Fault Planner::begin(const ToolPath& chain, const Joints& from, double accelerat
   return {};
 }
 
-// The tool's limits between this place of a chain and the one before.
+// Applies the tool's limits between this place of a chain and the one before.
 void Planner::bound_tool(int place) noexcept {
   const double part = 1.0 / count_;
   const int last = static_cast<int>(part * place * PathBounds::kParts);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a motion stays clear of the arm itself, of what it holds and of zones, all along its way.
+// Checks that a motion stays clear of the arm itself, of the tool and of zones, all along its path.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kParts = 8;  // of a way of joints: the longest step
+constexpr double kParts = 8;  // of a joint path: the longest step
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void Planner::begin_clear() noexcept {
   clear_.begin(segment_.from, places_.tool());
   if (joints) {
     clear_way_ = segment_;
-    if (clear_way_.together) {  // the follower sees to it that it is the same way at any pace
+    if (clear_way_.together) {  // the follower ensures that it is the same path at any pace
       clear_way_.take_joint_timing({segment_.from, Joints::Zero(), Joints::Zero()}, all_joints_, 1);
     }
     walk_.begin(clear_way_.length, clear_way_.length / kParts);
@@ -33,7 +33,7 @@ void Planner::begin_clear() noexcept {
   }
 }
 
-// Places that were looked at before are known.
+// Joint angles at a place; places that were checked before are already known.
 bool Planner::joints_on_way(double place, const Joints& near, Joints& q) const noexcept {
   if (segment_.move == Move::Joint) {
     q = clear_way_.joints_at(place);

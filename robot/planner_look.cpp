@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closer look at parts of a path, and what was seen there.
+// The closer check of parts of a path, and its results.
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace indurop::robot {
 
-// What is to be looked at closer: where joints are near a limit, and where their pace grows so fast that it may have a
-// peak between two places.
+// Selects the parts to be checked more closely: where joints are near a limit, and where their speed rises so fast that
+// it may have a peak between two places.
 void Planner::choose_windows(const Joints* places, const double* volumes, int count, double from, double spacing,
                              int depth) noexcept {
   constexpr double kNear = 0.4;  // of a limit
@@ -48,7 +48,7 @@ Fault Planner::look_closer() noexcept {
   }
   Eigen::Index axis = 0;
   if ((places[kParts] - window.end).cwiseAbs().maxCoeff(&axis) > 1e-6) {
-    return {ErrorCode::Singular, static_cast<int>(axis) + 1};  // a closer look comes out in another posture
+    return {ErrorCode::Singular, static_cast<int>(axis) + 1};  // a closer check arrives in another posture
   }
   Rates most;
   for (int i = 0; i < kParts; ++i) {
@@ -63,7 +63,7 @@ Fault Planner::look_closer() noexcept {
   return {};
 }
 
-// Of the speed in a part of the path, and how it may change there.
+// Bounds of the speed in a part of the path, and of its changes there.
 void Planner::bound(const Rates& rates, double from, double length) noexcept {
   constexpr double kChanging = 0.7;  // of a joint's acceleration
   const double part = segment_.length / PathBounds::kParts;
@@ -78,7 +78,7 @@ void Planner::bound(const Rates& rates, double from, double length) noexcept {
   }
 }
 
-// More than fit are summed up in the last one, which can only make the path slower.
+// Entries that do not fit are merged into the last one, which can only make the path slower.
 void Planner::note(const Rates& rates) noexcept {
   segment_.limits.velocity = velocity_for(rates, joints_, segment_.limits.velocity);
   if (noted_ < static_cast<int>(rates_.size())) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a path is by its geometry: circles, lengths, and the limits that the tool and the command give it.
+// The geometric properties of a path: circles, lengths, and the limits set by the tool and the command.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kMeasureSpacing = 0.01;  // m between places that are looked at
+constexpr double kMeasureSpacing = 0.01;  // m between checked places
 
 }  // namespace
 
@@ -25,7 +25,7 @@ Fault Planner::make_circle(const Vec3& mid) noexcept {
   segment_.center =
       segment_.start.position + (a.squaredNorm() * b.cross(normal) - b.squaredNorm() * a.cross(normal)) / (2 * area);
   segment_.radius_x = segment_.start.position - segment_.center;
-  // The normal is such that the way from start through mid to end turns left about it.
+  // The normal is such that the path from start through mid to end turns left about it.
   segment_.radius_y = normal.normalized().cross(segment_.radius_x);
   const Vec3 last = segment_.end.position - segment_.center;
   segment_.angle = std::atan2(segment_.radius_y.dot(last), segment_.radius_x.dot(last));
@@ -58,7 +58,7 @@ void Planner::measure_joint_motion(double speed) noexcept {
   segment_.tip_speed = tip.farthest() * kPlaces / segment_.length;
 }
 
-// Of a motion of the tool, at the places that were looked at.
+// Tip speed of a motion of the tool, from the checked places.
 void Planner::measure_tip() noexcept {
   TipSpeed tip(places_.arm());
   tip.begin(samples_[0]);
@@ -75,7 +75,7 @@ void Planner::measure_tool_motion(const MoveCommand& command) noexcept {
   s.length = std::max(s.way / tool_.velocity, angle / tool_.turn_velocity);
   if (s.length <= 1e-9) {
     s.length = 0;
-    s.to = s.from;  // joint angles of the target may be another way to hold the tool there
+    s.to = s.from;  // the joint angles of the target may be another posture
     return;
   }
   const double pace = s.way / s.length;

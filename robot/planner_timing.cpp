@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What comes behind the look at a path: its timing, and a rehearsal of the motion.
+// The stages after the check of a path: its timing, and a rehearsal of the motion.
 
 #include <algorithm>
 
@@ -9,17 +9,17 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kStep = 0.002;      // s between instants of a motion that are looked at
-constexpr double kFineStep = 0.001;  // of chains, whose corners may be narrow, and near singular positions
+constexpr double kStep = 0.002;      // s between checked instants of a motion
+constexpr double kFineStep = 0.001;  // for chains, whose corners may be narrow, and near singular positions
 constexpr double kNearlyOne = 1.02;
-constexpr int kMostSearches = 3;  // what is lost by going slower everywhere is worth another one
+constexpr int kMostSearches = 3;  // another search is worthwhile, since slowing down everywhere costs time
 constexpr int kMostRehearsals = 3;
-// Times slower in a place than was searched for: another search does not make that up.
+// Factor by which the motion is too fast in one place above which another search does not help.
 constexpr double kHopeless = 35;
-// Likewise, after so much work; and after it was made slower for the same reason.
+// The same after this much work, and after it has already been slowed down for that reason.
 constexpr int kLate = 2 * Planner::kMostWork;
 constexpr double kDoubtful = 6, kDoubtfulAgain = 1.3;
-constexpr double kNotFound = 1.1;  // after all of them: what happens there is too narrow to be seen
+constexpr double kNotFound = 1.1;  // after all rehearsals: the critical place is too narrow to be resolved
 
 }  // namespace
 
@@ -44,7 +44,8 @@ void Planner::rehearse_timing() noexcept {
   begin_rehearsal(segment_.timing.duration());
 }
 
-// Where joint speeds change abruptly, not only the places but the motion itself is looked at, at one speed too.
+// Where joint speeds change abruptly, the motion itself is checked, not only places on the path, also at constant
+// speed.
 void Planner::rehearse_profile() noexcept {
   profile_ = Profile::to_position({}, segment_.length, 0, segment_.limits);
   if (rehearsal_step() < kStep) {
@@ -78,7 +79,7 @@ void Planner::rehearse() noexcept {
     search_.note(time, rehearsal_.last_factor());
   }
   if (seen && rehearsal_.factor() > (timing && searches_ < kMostSearches ? kHopeless : most_factor_)) {
-    unseen_ = true;  // whatever comes behind that
+    unseen_ = true;  // whatever the rest of it would show
     stage_ = Stage::Done;
     return;
   }
@@ -90,7 +91,7 @@ void Planner::rehearse() noexcept {
   }
 }
 
-// What was too fast is gone through once more, since what lies between two instants shows when it is slower.
+// A motion that was too fast is rehearsed again, since effects between two instants show when it is slower.
 void Planner::end_rehearsal() noexcept {
   const double slower = rehearsal_.factor();
   if (work_ > kLate && slower > (rehearsals_ > 0 ? kDoubtfulAgain : kDoubtful)) {
@@ -125,7 +126,7 @@ void Planner::end_rehearsal() noexcept {
   segment_.timing.slow_down(slower);
   segment_.timing_tip_speed = rehearsal_.tip_speed() / slower;
   if (crawls()) {
-    end_look();  // what comes of it is refused; going through it once more may take long
+    end_look();  // the result is rejected; another rehearsal could take long
     return;
   }
   segment_.pace_limits = rehearsal_.pace_limits();
@@ -154,8 +155,9 @@ double Planner::taken() const noexcept {
   return s.timing.known() ? s.timing.duration() : Profile::to_position({}, s.length, 0, s.limits).duration();
 }
 
-// Whether all of it takes so much longer than it would by the tool's speed that nobody waits for it: what is seen in
-// places only, a singular position that is nearly met, shows in the rehearsal; or does not, however slow it is.
+// Returns whether the whole motion takes unacceptably longer than the tool's speed would allow. A singular position
+// that is nearly met affects only a few places, so it shows in the rehearsal, or not at all, however slow the motion
+// is.
 bool Planner::crawls() const noexcept {
   return unseen_ || taken() * kSlowestPace > least();
 }

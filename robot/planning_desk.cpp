@@ -11,10 +11,10 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr int kPortion = 64;  // places, between two looks whether it is still wanted
+constexpr int kPortion = 64;  // places, between two checks whether the plan is still needed
 constexpr std::chrono::milliseconds kSoon{1}, kLater{10};
 constexpr std::size_t kStack = std::size_t{256} * 1024;
-constexpr double kPerSecond = 1;  // what a second of a path takes longer to plan, as part of the time for all of it
+constexpr double kPerSecond = 1;  // additional planning time per second of a path, as part of the time for all of it
 constexpr double kLongest = 60;   // s
 
 }  // namespace
@@ -28,7 +28,8 @@ PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, cons
       learned_(settings.learned),
       guarded_(settings.guarded),
       planner_(places, joints, tool) {
-  in_tick_ = in_tick_ || !begin_ordinary_thread(thread_, "robot-plan", kStack, enter, this);  // else the tick plans
+  in_tick_ = in_tick_ || !begin_ordinary_thread(thread_, "robot-plan", kStack, enter,
+                                                this);  // if there is no thread, the tick plans
 }
 
 PlanningDesk::~PlanningDesk() {
@@ -44,7 +45,7 @@ void* PlanningDesk::enter(void* desk) noexcept {
   return nullptr;
 }
 
-// After a crash it goes on, to say so of all that is asked for.
+// After a crash it continues, to report the crash for each request.
 void PlanningDesk::run() noexcept {
   const auto loop = [](void* desk) noexcept { static_cast<PlanningDesk*>(desk)->look_for_work(); };
   if (guarded_ == nullptr) {
@@ -60,7 +61,7 @@ void PlanningDesk::run() noexcept {
   }
 }
 
-// By itself: waking it would be a system call of the tick.
+// The thread polls: waking it would be a system call of the tick.
 void PlanningDesk::look_for_work() noexcept {
   while (!ending_.load(std::memory_order_relaxed)) {
     State asked = State::Asked;
@@ -95,7 +96,8 @@ void PlanningDesk::work() noexcept {
   }
 }
 
-// About how long the motion takes at least. Where lines and circles are looked at in time, that decides.
+// The approximate minimum duration of the motion: lines and circles are checked in time steps, so it determines the
+// work.
 double PlanningDesk::seconds_of(const PlanRequest& request) const noexcept {
   const MoveCommand& command = request.command;
   if (request.chain != nullptr) {
@@ -116,7 +118,7 @@ double PlanningDesk::seconds_of(const PlanRequest& request) const noexcept {
   const double turn = rotation_between(start.orientation, end.orientation).norm();
   const double speed = command.tool_speed > 0 ? command.tool_speed : command.speed * tool_.velocity;
   const double seconds = std::max(way / speed, turn / (command.speed * tool_.turn_velocity));
-  return seconds < kLongest ? seconds : kLongest;  // also if it is no number
+  return seconds < kLongest ? seconds : kLongest;  // also if it is not a number
 }
 
 void PlanningDesk::ask(const PlanRequest& request) noexcept {
@@ -163,7 +165,7 @@ const Plan* PlanningDesk::take() noexcept {
   if (!learned(made())) {
     return nullptr;
   }
-  // What was learned in a recording may not be so yet: there is time in a replay.
+  // In a replay the recorded answer may not be true yet; there is time to wait for it.
   while (!made()) {
     std::this_thread::sleep_for(kSoon);
     post();

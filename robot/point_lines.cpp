@@ -9,7 +9,7 @@
 namespace indurop::robot {
 namespace {
 
-// "12.5", "-0.001", never "-0".
+// Formats as "12.5", "-0.001", never "-0".
 std::string number(double value) {
   const double rounded = std::round(value * 1000) / 1000;
   std::array<char, 64> text{};
@@ -18,7 +18,7 @@ std::string number(double value) {
   return error == std::errc{} ? std::string(text.data(), end) : "?";
 }
 
-// Where a line's comment begins, with the spaces before it; its end if there is none.
+// Offset at which a line's comment begins, including the spaces before it; the end of the line if there is none.
 std::size_t comment_of(std::string_view line) {
   std::size_t at = std::min(line.find('#'), line.find("//"));
   at = std::min(at, line.size());

@@ -31,7 +31,8 @@ LineState after(const Ramp& ramp, const LineState& from, double time) noexcept {
   return state;
 }
 
-// The argument between `fits`, whose way fits into `length`, and `beyond`, whose way does not, where it just fits.
+// Bisects between `fits`, with a length that fits into `length`, and `beyond`, with one that does not: returns the last
+// argument that fits.
 template <class Way>
 double just_fitting(double fits, double beyond, double length, const Way& way) noexcept {
   for (int i = 0; i < 60 && std::abs(beyond - fits) > 1e-15 * (beyond + fits); ++i) {
@@ -41,8 +42,8 @@ double just_fitting(double fits, double beyond, double length, const Way& way) n
   return fits;
 }
 
-// The argument from 0 to `most` where `excess`, which falls and is infinite at 0, becomes 0: one where it is at most
-// `slack`, and not below 0. By secants; an end that stays twice counts half.
+// Finds the argument from 0 to `most` where `excess`, which falls and is infinite at 0, becomes 0: one where it is from
+// 0 to `slack`. Uses secants; an end that stays twice has half the weight.
 template <class Excess>
 double root(double most, double slack, const Excess& excess) noexcept {
   double low = 0;
@@ -84,13 +85,13 @@ double Ramp::duration() const noexcept {
 }
 
 Ramp ramp(const LineState& from, double velocity, const LineLimits& limits) noexcept {
-  // Upwards; a ramp down is one up in the mirror.
+  // Computed as a rising ramp; a falling one is mirrored.
   const double sign = velocity >= unloaded(from, limits) ? 1 : -1;
   const double a0 = sign * from.acceleration;
   const double gain = sign * (velocity - from.velocity);
   const double jerk = limits.jerk;
   const double peak = std::min(std::sqrt(std::max(0.0, jerk * gain + a0 * a0 / 2)), limits.acceleration);
-  // An acceleration above the limit (which has just been lowered) is taken back first.
+  // An acceleration above the limit (which has just been reduced) is reduced first.
   const double first = peak >= a0 ? 1 : -1;
   const double first_gain = first * (peak * peak - a0 * a0) / (2 * jerk);
   const double last_gain = peak * peak / (2 * jerk);
@@ -125,7 +126,7 @@ void Profile::append(const Ramp& ramp) noexcept {
   for (const auto& phase : ramp.phases) {
     append(phase.duration, phase.jerk);
   }
-  end_.acceleration = 0;  // up to rounding it is
+  end_.acceleration = 0;  // equal except for rounding
 }
 
 Profile Profile::to_velocity(const LineState& from, double velocity, const LineLimits& limits) noexcept {
@@ -136,8 +137,8 @@ Profile Profile::to_velocity(const LineState& from, double velocity, const LineL
   return profile;
 }
 
-// First on the ramp to the top speed, then down to the last one: the later it leaves the ramp the farther it comes, and
-// the limits are used up all the way.
+// First the ramp towards top speed, then down to the last speed: the later it leaves the first ramp the longer the
+// distance, and the limits are fully used all the way.
 void Profile::append_way(double length, double last, const LineLimits& limits, const LineLimits& braking) noexcept {
   const LineState from{0, end_.velocity, end_.acceleration};
   const Ramp up = ramp(from, limits.velocity, limits);
@@ -147,7 +148,7 @@ void Profile::append_way(double length, double last, const LineLimits& limits, c
   };
   double time = up.duration();
   double cruise = 0;
-  // At the top speed exactly: what rounding leaves of it would be the root of that in time.
+  // Exactly at the top speed: a rounding error would become its square root in time.
   const double all = up.distance + ramp({0, limits.velocity, 0}, last, braking).distance;
   if (all <= length) {
     cruise = limits.velocity > 0 ? (length - all) / limits.velocity : 0;
@@ -176,7 +177,7 @@ Profile Profile::to_position(const LineState& from, double position, double arri
   if (straight(last) <= length) {
     profile.append_way(length, last, limits, braking);
   } else {
-    // Too short to come to the wanted velocity: as near to it as possible, but when slowing down not above `arrival`.
+    // Too short to reach the requested velocity: as near to it as possible, but when slowing down not above `arrival`.
     const double at_least = unloaded(from, limits);
     double nearest = last < at_least ? std::min(at_least, arrival) : std::max(at_least, 0.0);
     nearest = straight(nearest) <= length ? nearest : 0;
@@ -195,7 +196,7 @@ Profile Profile::to_rest(const LineState& from, double position, const LineLimit
                          const LineLimits& braking) noexcept {
   const double length = position - from.position;
   const double stopping = ramp(from, 0, braking).distance;
-  // Where it comes to rest if it brakes at once decides in which direction it has to go; the other one in the mirror.
+  // The place where it comes to rest if it brakes at once determines the direction; the opposite direction is mirrored.
   const double sign = length < stopping ? -1 : 1;
   Profile profile = coast({0, sign * from.velocity, sign * from.acceleration});
   profile.append_way(std::max(sign * length, sign * stopping), 0, limits, braking);
@@ -203,7 +204,7 @@ Profile Profile::to_rest(const LineState& from, double position, const LineLimit
   return profile;
 }
 
-// What was made in the mirror becomes a motion from there to rest.
+// Turns the mirrored profile into a motion from `from` to rest at `position`.
 void Profile::mirror(double sign, const LineState& from, double position) noexcept {
   for (auto& phase : phases_) {
     phase.jerk *= sign;
@@ -271,7 +272,7 @@ std::pair<double, double> Profile::extent() const noexcept {
   LineState state = start_;
   for (int i = 0; i < count_; ++i) {
     const auto& phase = phases_[static_cast<std::size_t>(i)];
-    // Where its velocity becomes 0, up to twice; where it never does these are no numbers.
+    // Times at which its velocity becomes 0, at most two; NaN if it never does.
     const double root = std::sqrt(state.acceleration * state.acceleration - 2 * phase.jerk * state.velocity);
     const double before = -state.acceleration - std::copysign(root, state.acceleration);
     for (const double turn : {before / phase.jerk, 2 * state.velocity / before}) {

@@ -43,13 +43,13 @@ void* ProgramLoader::enter(void* loader) noexcept {
   return nullptr;
 }
 
-// After a crash it reads nothing more, and says so of what is asked for.
+// After a crash it reads nothing more, and reports the crash for each request.
 void ProgramLoader::run() noexcept {
   const auto loop = [](void* loader) noexcept { static_cast<ProgramLoader*>(loader)->look_for_work(); };
   if (guarded_ == nullptr) {
     look_for_work();
   } else if (!guarded_(loop, this, crash_, sizeof crash_)) {
-    static_cast<void>(program_.release());  // nobody knows what it is now
+    static_cast<void>(program_.release());  // its state is unknown
     for (; !ending_.load(std::memory_order_relaxed); std::this_thread::sleep_for(kLooks)) {
       State asked = State::Asked;
       state_.compare_exchange_strong(asked, State::Made, std::memory_order_acq_rel);
@@ -57,7 +57,7 @@ void ProgramLoader::run() noexcept {
   }
 }
 
-// By itself: waking it would be a system call of the tick.
+// The thread polls: waking it would be a system call of the tick.
 void ProgramLoader::look_for_work() noexcept {
   for (; !ending_.load(std::memory_order_relaxed); std::this_thread::sleep_for(kLooks)) {
     const State state = state_.load(std::memory_order_acquire);
@@ -113,7 +113,7 @@ bool ProgramLoader::made() noexcept {
   if (!(learned_ != nullptr ? learned_(is_made()) : is_made())) {
     return false;
   }
-  // What was learned in a recording may not be so yet: there is time in a replay.
+  // In a replay the recorded answer may not be true yet; there is time to wait for it.
   while (!is_made()) {
     std::this_thread::sleep_for(kSoon);
   }

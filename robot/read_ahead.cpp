@@ -7,9 +7,9 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr int kPerPeriod = 16;      // lines that are looked at
-constexpr double kLongest = 10;     // s that a chain may take: what a timing has knots for
-constexpr std::size_t kLiving = 6;  // chains: one in the making, one that is planned, those that are followed
+constexpr int kPerPeriod = 16;      // lines that are checked
+constexpr double kLongest = 10;     // s that a chain may take: as long as a timing has knots for
+constexpr std::size_t kLiving = 6;  // chains: one being built, one being planned, and those being followed
 
 }  // namespace
 
@@ -85,14 +85,14 @@ Pose ReadAhead::pose_of(const Target& target) const noexcept {
   return target.is_pose ? target.pose : places_.arm().forward(target.joints);
 }
 
-// With its first point at the front.
+// The first point of the spline is at the front.
 ReadAhead::Next ReadAhead::next_spline(const Joints& from) noexcept {
   int points = 1;
   while (points < count_ && command(points - 1).more) {
     ++points;
   }
   if (command(points - 1).more) {
-    return {};  // the others are still to come
+    return {};  // the other points are still to come
   }
   Spline& spline = splines_[spline_];
   const double acceleration = command(0).acceleration;
@@ -105,7 +105,7 @@ ReadAhead::Next ReadAhead::next_spline(const Joints& from) noexcept {
   count_ -= points - 1;
   const MoveCommand& last = take();
   if (spline.count() == 0) {
-    return {nullptr, &last};  // it is there
+    return {nullptr, &last};  // it is already there
   }
   spline.finish();
   spline_ = (spline_ + 1) % splines_.size();

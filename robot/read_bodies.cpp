@@ -17,7 +17,7 @@ namespace {
 using Diagnostics = std::vector<base::Diagnostic>;
 using Severity = base::Diagnostic::Severity;
 
-constexpr double kTip = 0.0005;  // m round the tip of a tool that has no body
+constexpr double kTip = 0.0005;  // m around the tip of a tool that has no body
 
 bool known(const std::string& name, const ArmModel& model, const JobBook& book) {
   const auto same = [&](const auto& each) { return each.name == name; };
@@ -26,7 +26,7 @@ bool known(const std::string& name, const ArmModel& model, const JobBook& book) 
          std::any_of(book.keepouts.begin(), book.keepouts.end(), same);
 }
 
-// "link1 link3, link1 link4"
+// Parses "link1 link3, link1 link4"
 void take_ignored(const std::string& text, const ArmModel& model, const JobBook& book, Bodies& bodies,
                   Diagnostics& found) {
   std::istringstream pairs(text);
@@ -92,7 +92,7 @@ void tell(const ArmModel& model, const JobBook& book, const std::string& urdf, c
   }
 }
 
-// What it would touch there; nothing if it is clear.
+// The pair that would touch there; empty if it is clear.
 std::string touched(const Clearance& clearance, ClearWay& way, const Joints& q, int tool) {
   way.begin(q, tool);
   if (way.pair() < 0) {
@@ -156,7 +156,7 @@ Diagnostics check_room(const Arm& arm, const Clearance& clearance, const std::st
   return warnings;
 }
 
-// Which tool is held there is known when the job runs: what every tool touches is told here.
+// The tool at a point is known only when the job runs: collisions that every tool would have are reported now.
 Diagnostics check_clear(const JobBook& book, const Arm& arm, const Clearance& clearance) {
   Diagnostics warnings;
   if (!clearance.known()) {

@@ -59,7 +59,7 @@ std::vector<JobFile> read_jobs(const FileNames& names, Diagnostics& errors) {
   return files;
 }
 
-// Points given as joint angles can be checked against the arm right away.
+// Checks points given as joint angles against the arm.
 Diagnostics check_points(const JobBook& book, const Arm& arm) {
   Diagnostics errors;
   for (const Point& point : book.points) {
@@ -76,7 +76,7 @@ Diagnostics check_points(const JobBook& book, const Arm& arm) {
   return errors;
 }
 
-// Where taught tools and points in frames are is not known while other things are wrong: nothing is said of them then.
+// Taught tools and points in frames have no known positions while there are other errors: no messages about them then.
 bool is_known(const Point& point, const JobBook& book, bool placed) {
   const auto taught = [](const Tool& tool) { return tool.is_taught; };
   return placed || (point.frame < 0 && std::none_of(book.tools.begin(), book.tools.end(), taught));
@@ -96,7 +96,7 @@ Diagnostics check_workspace(const FileNames& names, const JobBook& book, const A
   for (const Point& point : book.points) {
     const Target& target = point.target;
     if (!is_known(point, book, placed) || (!target.is_pose && book.tools.size() > 1)) {
-      continue;  // where the tip is there depends on the tool
+      continue;  // the tip position depends on the tool
     }
     const Vec3 place = target.is_pose ? target.pose.position : arm.forward(target.joints).position;
     if (box.outside(place) > 0) {
@@ -126,7 +126,8 @@ ArmShape shape_of(const Arm& arm) {
   return shape;
 }
 
-// "RPY 180 0 12.5", what comes nearest to the orientation of a pose where only that is in the way; else nothing.
+// Returns "RPY 180 0 12.5", the reachable orientation closest to that of a pose, if only the orientation prevents it;
+// else nothing.
 std::string nearest_turn(const Arm& arm, const Inverse& inverse, const Pose& pose) {
   const Solutions found = inverse.search(pose, Joints::Zero(), {64, 64, HUGE_VAL, 0});
   double least = HUGE_VAL;
@@ -156,7 +157,7 @@ std::string out_of_reach(const Arm& arm, const Inverse& inverse, const Target& t
          "; give it a nearer position or another orientation";
 }
 
-// Only where a pose leaves an axis open may a point say where that is.
+// A point may give the value of an axis only if its pose leaves that axis undetermined.
 std::string wrong_axis(const Arm& arm, const Target& target) {
   const Held more = target.held & ~redundant_axes(arm);
   for (unsigned i = 0; i < kAxes; ++i) {
@@ -183,8 +184,9 @@ std::string wrong_pose(const Arm& arm, const Inverse& inverse, const Target& tar
   return "";
 }
 
-// Which tool is held at a point is known when the job runs; what no tool reaches is told here. How an arm without a
-// closed form is held at poses takes a search, which is made here, before anything moves: there it is an error.
+// The tool at a point is known only when the job runs; points that no tool reaches are reported now. The posture of an
+// arm without a closed form at poses has to be searched for, which is done here, before anything moves: a pose without
+// solution is an error there.
 Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
   Diagnostics errors;
   const ToolSet tools(arm, book.tips());
@@ -218,7 +220,7 @@ Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
   return errors;
 }
 
-// They are no danger: lines run at full speed then.
+// Speeds above the limit are no danger: lines then run at full speed.
 Diagnostics check_speeds(const JobBook& book, double most) {
   Diagnostics warnings;
   for (const Job& job : book.jobs) {
@@ -235,7 +237,7 @@ Diagnostics check_speeds(const JobBook& book, double most) {
   return warnings;
 }
 
-// What is held counts for torques only.
+// Loads affect torques only.
 Diagnostics check_loads(const JobBook& book, const Dynamics& dynamics) {
   Diagnostics warnings;
   const auto warn = [&](const std::string& file, base::SourcePlace place, const std::string& what) {

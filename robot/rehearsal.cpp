@@ -10,7 +10,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kSure = 0.99;  // of the limits, between two instants
+constexpr double kSure = 0.99;  // of the limits, margin for the motion between two instants
 constexpr int kFewest = 300;    // instants: jerk of short motions peaks between the knots of their timing
 constexpr int kMost = 1 << 20;
 constexpr int kLong = kMost;                          // instants; longer motions have calm stretches
@@ -35,7 +35,7 @@ void Rehearsal::begin(const Joints& from, double duration, double step, bool tim
 }
 
 double Rehearsal::time() const noexcept {
-  return step_ * std::min(next_, count_);  // a few instants beyond the end, where it rests
+  return step_ * std::min(next_, count_);  // a few instants after the end, where it rests
 }
 
 bool Rehearsal::look(const Segment& segment, double place) noexcept {
@@ -99,8 +99,8 @@ void Rehearsal::skip(const Segment& segment, double far_place) noexcept {
   skip_ = std::min(2 * skip_, kManySkipped);
 }
 
-// Speeds that are so small that they may change at once are no news. What turns back, or turns over, in between has
-// another speed on average.
+// Speeds that are so small that they may change at once are ignored. A joint that reverses in between has a different
+// mean speed.
 bool Rehearsal::calm(const Joints& far) const noexcept {
   constexpr double kMoved = 0.05;  // rad or m
   constexpr double kFast = 0.3, kSudden = 0.25, kChange = 0.25;

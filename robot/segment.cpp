@@ -69,8 +69,8 @@ Pose Segment::pose_on_path(double along) const noexcept {
 }
 
 void Blend::parts_at(double place, double& first, double& second) const noexcept {
-  // The second one's speed grows from 0 to 1, the first one's falls the same way: two fifths of the time with constant
-  // jerk, a fifth with constant acceleration, two fifths with jerk again.
+  // The speed of the second path rises from 0 to 1, that of the first falls in the same way: two fifths of the time
+  // with constant jerk, a fifth with constant acceleration, two fifths with jerk again.
   const double u = length() > 0 ? std::clamp(place / length(), 0.0, 1.0) : 1;
   const double at_end = std::min(u, 1 - u);
   double part = 25.0 / 36 * at_end * at_end * at_end;
@@ -138,8 +138,8 @@ Reach Places::on(const Segment& first, const Blend& blend, const Segment& second
     }
     return found.reach;
   }
-  // At least one of them is a path of joints: the sum is made of joint angles, and what it adds says where the other
-  // one is.
+  // At least one of them is a joint path: the sum is made of joint angles, and the contribution of that path determines
+  // the posture of the other one.
   Joints a;
   Joints b;
   Reach reach = Reach::Ok;

@@ -8,13 +8,14 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kRounding = 1e-4;  // part of a limit: what plans lose to rounding
-constexpr double kEdge = 1e-9;      // rad, likewise at the end of an axis
-// rad or m: what rounding moves a set point by where joints turn far on a short way, beside singular positions. Far
-// below what a drive resolves, but differences of short periods show it: one of order n is off by 2^n times as much.
+constexpr double kRounding = 1e-4;  // part of a limit: covers the rounding of plans
+constexpr double kEdge = 1e-9;      // rad, the same at the end of an axis
+// rad or m: the error that rounding adds to a set point where joints turn far over a short distance, next to singular
+// positions. It is far below the resolution of a drive, but differences over short periods show it: one of order n has
+// 2^n times this error.
 constexpr double kNoise = 5e-11;
 
-// Speed at the end if the acceleration becomes `a` in this period and is then taken back as fast as possible.
+// Speed at the end if the acceleration becomes `a` in this period and is then reduced to 0 as fast as possible.
 double speed_unloaded(double velocity, double a, double step, double period) noexcept {
   const double size = std::abs(a);
   const double steps = std::max(0.0, std::ceil(size / step) - 1);
@@ -52,7 +53,7 @@ double SetPointGate::most_step(double hardness) const noexcept {
   return harder(hardness).jerk * period_ * (1 + kRounding);
 }
 
-// The differences between set points are what is limited, so the ramp is made of differences: exact for any period.
+// The limits apply to differences between set points, so the ramp is made of differences: exact for any period.
 LineState SetPointGate::braked(LineState state, const LineLimits& limits) const noexcept {
   const double step = limits.jerk * period_;
   const double most = limits.acceleration;
@@ -67,7 +68,7 @@ LineState SetPointGate::braked(LineState state, const LineLimits& limits) const 
   } else if (end(high) < 0) {
     low = high;
   }
-  // Once the acceleration is being taken back, this is it.
+  // Once the acceleration is being reduced, this is the next value.
   const double back = state.acceleration > 0 ? low : high;
   if (std::abs(end(back)) < 1e-13) {
     low = high = back;
@@ -96,19 +97,19 @@ LineState SetPointGate::unloaded() const noexcept {
 }
 
 bool SetPointGate::coasts() const noexcept {
-  // Of set points that are no path's: in short periods the rounding of those is as much as a change by the jerk.
+  // Rounding of set points that belong to no path: in short periods it is as large as a change by the jerk limit.
   const double rounding = 1e-15 * (100 + std::abs(state_.position));
   return std::abs(state_.acceleration) <= 4 * rounding / (period_ * period_);
 }
 
-// Half of what rounding may add is kept back, so that check() lets pass what this finds.
+// Keeps half of the tolerance for rounding in reserve, so that check() accepts the result.
 double SetPointGate::nearest(double wanted) const noexcept {
   constexpr double kMargin = 1 + kRounding / 2;
   const double step = limits_.jerk * period_ * kMargin;
   const double most = limits_.acceleration * kMargin;
   double low = std::max(steady_ - step, -most);
   double high = std::min(steady_ + step, most);
-  // The speed that it would come to, even if the acceleration were taken back at once.
+  // The speed that it would reach even if the acceleration were reduced at once.
   const auto fastest = [&](double a) {
     return speed_unloaded(state_.velocity + a * period_, a, limits_.jerk * period_, period_) - a * period_;
   };
@@ -133,14 +134,14 @@ double SetPointGate::nearest(double wanted) const noexcept {
   return state_.position + (state_.velocity + a * period_) * period_;
 }
 
-// An axis that stands beyond an end may stay there and come back, not go further.
+// An axis beyond a limit may stay there and return, but not move further out.
 bool SetPointGate::may_be(double position) const noexcept {
   return position >= std::min(range_.lower - kEdge, state_.position) &&
          position <= std::max(range_.upper + kEdge, state_.position);
 }
 
 bool SetPointGate::can_rest(LineState state, const LineLimits& limits) const noexcept {
-  // Far from the ends an estimate that is too long does.
+  // Far from the limits an estimate that is too long is sufficient.
   const double speed = std::abs(state.velocity) + period_ * std::abs(state.acceleration);
   const double unload = limits.acceleration / limits.jerk + period_;
   const double longest =
@@ -178,7 +179,8 @@ ErrorCode SetPointGate::check(double position, double hardness) const noexcept {
   if (std::abs(next.acceleration - steady_) > most_step(hardness) + 2 * noise) {
     return ErrorCode::Jerk;
   }
-  // What is so fast that taking back its acceleration makes it too fast will have to be refused later: refuse it now.
+  // A speed that would exceed the limit while its acceleration is reduced would have to be rejected later: reject it
+  // now.
   const double sure = std::copysign(std::max(0.0, std::abs(next.acceleration) - noise), next.acceleration);
   if (std::abs(speed_unloaded(next.velocity, sure, limits.jerk * period_, period_) - period_ * sure) > fastest) {
     return ErrorCode::Speed;

@@ -18,7 +18,7 @@ struct Number {
   const char* name;
   double Settings::*member;
 };
-// All of them have to be above 0.
+// Settings that must be above 0.
 constexpr Number kNumbers[] = {
     {"time_to_speed", &Settings::time_to_speed},
     {"time_to_acceleration", &Settings::time_to_acceleration},
@@ -29,7 +29,7 @@ constexpr Number kNumbers[] = {
     {"plan_time", &Settings::plan_time},
     {"clearance", &Settings::clearance},
 };
-// These not.
+// Settings that need not be above 0.
 constexpr Number kOtherNumbers[] = {
     {"emergency_factor", &Settings::emergency_factor},
 };
@@ -66,7 +66,7 @@ std::string quoted(const std::string& text) {
   return "'" + text + "'";
 }
 
-// As take_properties() has them: trimmed.
+// Reads a number. take_properties() has trimmed the texts of properties.
 void take_number(const PropertyText& property, const Number& number, Settings& settings, Wrong& wrong) {
   const std::string text = property(number.name);
   if (text.empty()) {

@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kNone = 1e-9;  // what is shorter has no direction
+constexpr double kNone = 1e-9;  // a shorter vector has no direction
 
 // The greatest gap seen along the directions that were tried.
 class Greatest {
@@ -28,7 +28,7 @@ class Greatest {
   double gap_ = -HUGE_VAL;
 };
 
-// Across its faces, and away from the axis of a cylinder.
+// Tries the directions across its faces, and away from the axis of a cylinder.
 void try_faces(const PlacedSolid& one, const Vec3& between, Greatest& greatest) noexcept {
   if (one.kind == SolidKind::Ball) {
     return;
@@ -43,8 +43,8 @@ void try_faces(const PlacedSolid& one, const Vec3& between, Greatest& greatest) 
   }
 }
 
-// From the line between the middles to the one between the nearest points: what lies farthest along it says where to
-// look next (Gilbert).
+// Goes from the line between the middles to the one between the nearest points: the farthest points along it give the
+// next direction to try (Gilbert).
 void try_nearer(const PlacedSolid& a, const PlacedSolid& b, Greatest& greatest) noexcept {
   constexpr int kTries = 16;
   Vec3 line = b.middle - a.middle;

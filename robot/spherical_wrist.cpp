@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The closed form: the wrist's center depends on the first three axes alone. Axis 1 turns the center into the plane of
-// axes 2 and 3 (two ways), these reach it like a compass (two ways), and the wrist makes up the orientation (two ways).
+// axes 2 and 3 (two solutions), these reach it like the legs of a compass (two solutions), and the wrist yields the
+// orientation (two solutions).
 
 #include <array>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace indurop::robot {
 struct SphericalWrist::Search {
   Gathered gathered;
   Mat3 rotation;  // of all six axes together
-  Vec3 center;    // where the wrist has to be
+  Vec3 center;    // required position of the wrist
 };
 
 std::optional<SphericalWrist> SphericalWrist::of(const Arm& arm) {
@@ -54,7 +55,7 @@ Solutions SphericalWrist::solve(const Arm& arm, const Pose& pose, const Joints& 
       {arm, near, what}, (pose.orientation * arm.home().orientation.conjugate()).toRotationMatrix(), Vec3::Zero()};
   search.center = pose.position + search.rotation * (center_ - arm.home().position);
 
-  // In a frame on axis 1 the plane of the arm stands off by `offset`, whatever axes 2 and 3 do.
+  // In a frame on axis 1 the plane of the arm has the distance `offset`, whatever axes 2 and 3 do.
   const Axis& a1 = arm.axis(0);
   const Vec3 side = arm.axis(1).direction;
   const Vec3 across = a1.direction.cross(side);

@@ -24,7 +24,7 @@ bool Spline::add(const Knot& knot) noexcept {
   if (!(length > 1e-9)) {
     return false;
   }
-  // Of the two ways to write an orientation the one that is nearer to the one before.
+  // Of the two representations of an orientation the one closer to the previous one.
   const Eigen::Vector4d before = values_[at(count_)].tail<4>();
   const Eigen::Vector4d turned = knot.pose.orientation.coeffs();
   ++count_;
@@ -36,8 +36,8 @@ bool Spline::add(const Knot& knot) noexcept {
   return true;
 }
 
-// Pieces of the fifth degree go on with the same third and fourth derivatives at each point, which makes a system of
-// blocks for the first and second ones. At the ends the second and fourth are 0.
+// Pieces of the fifth degree have the same third and fourth derivatives at each point, which yields a block system for
+// the first and second ones. At the ends the second and fourth are 0.
 void Spline::finish() noexcept {
   using Block = Eigen::Matrix2d;
   using Right = Eigen::Matrix<double, 2, 7>;
@@ -109,7 +109,7 @@ Spline::Place Spline::look(double place) const noexcept {
   const double t = place - at_[k];
   const Values& slope = slopes_[k];
   const Values& bend = bends_[k];
-  // What the end of the piece has beyond going on like its beginning.
+  // The difference between the end of the piece and its start continued.
   const Values way = (values_[k + 1] - values_[k]) / (h * h) - slope / h - bend / 2;
   const Values turn = (slopes_[k + 1] - slope) / h - bend;
   const Values more = bends_[k + 1] - bend;
@@ -126,7 +126,7 @@ Pose Spline::pose_at(double place) const noexcept {
   return {value.head<3>(), Quat(Eigen::Vector4d(value.tail<4>())).normalized()};
 }
 
-// In the tool's frame; only how long it is counts.
+// In the tool's frame; only its length is used.
 Vec3 Spline::turning_at(double place) const noexcept {
   const Place here = look(place);
   const double size = here.value.tail<4>().norm();
@@ -143,7 +143,7 @@ LineLimits Spline::limits_at(double place) const noexcept {
   shape.moving = here.first.head<3>();
   shape.bend = here.second.head<3>();
   shape.twist = here.third.head<3>();
-  // By differences within the piece.
+  // Computed by differences within the piece.
   const std::size_t k = piece_at(place);
   const double step = (at_[k + 1] - at_[k]) / 64;
   const double middle = std::clamp(place, at_[k] + step, at_[k + 1] - step);

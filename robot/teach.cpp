@@ -38,7 +38,7 @@ Pose tip_of(const Stand& stand) {
   return {Vec3(x, y, z) / 1000, from_rpy({radians(roll), radians(pitch), radians(yaw)})};
 }
 
-// Where a new point goes to; empty: the robot does not read the file that was named.
+// The file for a new point; empty: the robot does not read the file that was named.
 std::string file_for(const TeachOrder& order, const JobBook& book, const std::vector<std::string>& files) {
   if (!order.file.empty()) {
     const auto same = std::find_if(files.begin(), files.end(), [&](const std::string& one) {
@@ -56,7 +56,7 @@ std::string file_for(const TeachOrder& order, const JobBook& book, const std::ve
   return most == files.end() ? std::string() : *most;
 }
 
-// "POSE ... IN pallet"; empty if the frame that was named is none.
+// Returns "POSE ... IN pallet"; empty if there is no frame of that name.
 std::string place_for(const TeachOrder& order, const JobBook& book, const Arm& arm, const Stand& stand,
                       const Point* before) {
   const bool was_pose = before != nullptr && before->target.is_pose;
@@ -80,7 +80,7 @@ ArmShape shape_of(const Arm& arm) {
   return shape;
 }
 
-// What would be wrong with the files if one of them had this text.
+// The errors that the files would have if one of them had this text.
 std::vector<base::Diagnostic> problems_with(const FileNames& names, const std::string& file, const std::string& text,
                                             const Arm& arm) {
   std::vector<JobFile> all;

@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 namespace {
 
-// Of polynomials, the lowest power first.
+// Functions of polynomials, the lowest power first.
 template <std::size_t N>
 double value(const std::array<double, N>& p, double t) noexcept {
   double sum = 0;
@@ -27,14 +27,14 @@ std::array<double, N - 1> derivative(const std::array<double, N>& p) noexcept {
   return d;
 }
 
-// Places where something may turn, from 0 to the end.
+// Places where the direction may change, including 0 and the end.
 struct Places {
   std::array<double, 8> at{};
   std::size_t count = 0;
   void add(double place) noexcept { at[count++] = place; }
 };
 
-// Between two places where it rises or falls all the way.
+// Finds a root between two places between which the polynomial is monotonic.
 template <std::size_t N>
 double zero_between(const std::array<double, N>& p, double low, double high) noexcept {
   const bool rises = value(p, low) < 0;
@@ -45,7 +45,7 @@ double zero_between(const std::array<double, N>& p, double low, double high) noe
   return (low + high) / 2;
 }
 
-// 0, where it is 0 between, and the end: between two zeros of its derivative it has one at most.
+// Returns 0, the roots inside, and the end; there is at most one root between two zeros of the derivative.
 template <std::size_t N>
 Places zeros(const std::array<double, N>& p, double end) noexcept {
   Places found;
@@ -73,7 +73,7 @@ void widen(TimeProfile::Range& range, const std::array<double, N>& p, double end
 
 }  // namespace
 
-// The beginning and what the table says.
+// The start and the points of the table.
 struct TimeProfile::Points {
   static constexpr std::size_t kMost = kProfilePoints + 1;
   std::array<double, kMost> time{};
@@ -121,8 +121,8 @@ ErrorCode TimeProfile::set(const ProfileTable& table, Of of, const Scale& scale,
   return ErrorCode::Ok;
 }
 
-// Slopes of the cubic spline from the speed that it has to rest, and how it bends in each point. Each part is the only
-// polynomial of fifth order with place, slope and bend of both its ends.
+// Slopes of the cubic spline from the initial speed to rest, and its second derivative at each point. Each part is the
+// only polynomial of fifth order with position, slope and second derivative of both its ends.
 void TimeProfile::through_positions(const Points& points, const LineState& start) noexcept {
   const std::size_t last = points.last;
   std::array<double, Points::kMost> slopes{};
@@ -157,8 +157,8 @@ void TimeProfile::through_positions(const Points& points, const LineState& start
   }
 }
 
-// Third order between two velocities. Where they rise and then fall the curve is level, else its slope is the harmonic
-// mean of those on both sides: no part leaves what is between its ends.
+// Third order between two velocities. At a maximum or minimum the curve is level, else its slope is the harmonic mean
+// of those on both sides: no part leaves the range between its ends.
 void TimeProfile::through_velocities(const Points& points, const LineState& start) noexcept {
   double position = start.position;
   double slope = start.acceleration;

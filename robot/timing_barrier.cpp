@@ -10,12 +10,12 @@ namespace {
 
 constexpr int kMostSteps = 60;
 constexpr double kEnough = 1e-3;  // of the duration: what the barrier may still cost
-// Places that are worked on while one is looked at, inverse kinematics and all.
+// Places that are derived in the time of checking one place including its inverse kinematics.
 constexpr int kDerivedPerLook = 8;
 constexpr int kWeighedPerLook = 16;
 }  // namespace
 
-// At an even speed that keeps all limits.
+// Starts at a constant speed that keeps all limits.
 void TimingBarrier::begin(int count, int per_knot) noexcept {
   count_ = count;
   per_knot_ = per_knot;
@@ -44,7 +44,7 @@ TimingBarrier::Local TimingBarrier::local(const double* z, int place) const noex
           (z[0] - z[1] - z[2] + z[3]) / 2};
 }
 
-// What is made least: the duration and the barrier; infinite beyond a limit.
+// The function to be minimized: the duration and the barrier; infinite beyond a limit.
 double TimingBarrier::height(const double* z) const noexcept {
   double time = 0;
   double logs = 0;
@@ -75,7 +75,7 @@ double TimingBarrier::height(const double* z) const noexcept {
   return time - weight_ * logs + stiff_ / 2 * (first * first + last * last);
 }
 
-// At rest no limit tells how the parameter's speed changes: it does not.
+// At rest no limit determines how the parameter's speed changes: it is kept constant.
 void TimingBarrier::hold_ends() noexcept {
   for (const int i : {0, count_}) {
     const double change = z_[at(i + 2)] - z_[at(i)];
@@ -87,12 +87,12 @@ void TimingBarrier::hold_ends() noexcept {
   }
 }
 
-// Adds what this place has of gradient and curvature.
+// Adds the contribution of this place to gradient and curvature.
 void TimingBarrier::derive(int place) noexcept {
   const TimingPlace& k = places_[at(place)];
   const Local m = local(z_.data(), place);
   const double root = 1 / std::sqrt(m.w);
-  // In w, w' and w''.
+  // With respect to w, w' and w''.
   double g[3] = {-0.5 * share(place) * root / m.w, 0, 0};
   double h00 = 0.75 * share(place) * root / (m.w * m.w);
   double h01 = 0;
@@ -103,7 +103,7 @@ void TimingBarrier::derive(int place) noexcept {
   const double left = weight_ / (k.fastest - m.w);
   g[0] += left;
   h00 += left * left / weight_;
-  const double fall = -0.5 * root / m.w;  // of the root
+  const double fall = -0.5 * root / m.w;  // derivative of the root
   for (std::size_t r = 0; r < kRows; ++r) {
     const double p = k.bend[r];
     const double d = k.drive[r];
@@ -138,7 +138,7 @@ void TimingBarrier::derive(int place) noexcept {
   add(place, {{g[0], g[1], g[2]}, {{{h00, h01, h02}, {h01, h11, h12}, {h02, h12, h22}}}});
 }
 
-// By the coefficients.
+// Converts to derivatives with respect to the coefficients.
 void TimingBarrier::add(int place, const Curve& curve) noexcept {
   static constexpr double kAtKnot[3][3] = {{1.0 / 6, -0.5, 1}, {4.0 / 6, 0, -2}, {1.0 / 6, 0.5, 1}};
   static constexpr double kHalfWay[4][3] = {
@@ -165,7 +165,7 @@ bool TimingBarrier::solve() noexcept {
   for (int i = 0; i < n; ++i) {
     auto& row = band_[at(i)];
     double sum = -gradient_[at(i)];
-    // From the farthest on; each still has its pivot while the nearer ones need it.
+    // Begins with the farthest; each still has its pivot while the nearer ones need it.
     const int band = std::min(i, kBand - 1);
     for (int far = band; far > 0; --far) {
       for (int other = band; other > far; --other) {
@@ -201,7 +201,7 @@ void TimingBarrier::begin_step() noexcept {
   stage_ = Stage::Derive;
 }
 
-// Which way down, and how high it is here.
+// Finds the descent direction and the present height.
 void TimingBarrier::find_direction() noexcept {
   hold_ends();
   here_ = height(z_.data());

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPerKnot = 0.02;  // s, about
 constexpr int kFewest = 24;
-constexpr double kMargin = 0.98;  // of the limits: what lies between two knots
+constexpr double kMargin = 0.98;  // of the limits: margin for places between two knots
 constexpr double kDenser = 0.2;
 constexpr int kSmoothings = 16;  // a parameter that bends quickly has peaks of jerk between its knots
 }  // namespace
@@ -44,7 +44,7 @@ void TimingSearch::refine() noexcept {
   stage_ = Stage::Look;
 }
 
-// Knots at equal times of a motion without limits of jerk, so that they are dense where it is slow.
+// Places knots at equal times of a motion without jerk limits, so that they are dense where it is slow.
 bool TimingSearch::guess(const PathBounds& bounds) noexcept {
   constexpr int kParts = PathBounds::kParts;
   const double step = segment_.length / kParts;
@@ -62,14 +62,14 @@ bool TimingSearch::guess(const PathBounds& bounds) noexcept {
   for (int i = 0; i < kParts; ++i) {
     time[at(i + 1)] = time[at(i)] + 2 * step / (std::sqrt(square[at(i)]) + std::sqrt(square[at(i + 1)]));
   }
-  const double duration = time[kParts] + 0.1;  // jerk takes time at both ends
+  const double duration = time[kParts] + 0.1;  // jerk limits cost time at both ends
   if (!std::isfinite(duration)) {
     return false;
   }
   count_ = std::clamp(static_cast<int>(duration / kPerKnot), kFewest, PathTiming::kMost);
   int part = 0;
   for (int i = 0; i <= count_; ++i) {
-    // Denser at the ends, where jerk decides.
+    // Denser at the ends, where jerk is the limit.
     const double y = static_cast<double>(i) / count_;
     const double t = time[kParts] * (y - kDenser * std::sin(2 * kPi * y) / (2 * kPi));
     while (part < kParts - 1 && time[at(part + 1)] < t) {
@@ -91,7 +91,7 @@ bool TimingSearch::guess(const PathBounds& bounds) noexcept {
   return true;
 }
 
-// As the cube of the parameter at both ends: so begins what is limited in jerk.
+// Makes the path the cube of the parameter at both ends, as a jerk-limited motion begins.
 void TimingSearch::smooth_ends() noexcept {
   constexpr double kCube[] = {0, -0.5, 5, 22.5};
   const double length = segment_.length;
@@ -106,7 +106,7 @@ void TimingSearch::smooth_ends() noexcept {
   }
 }
 
-// By the parameter.
+// Place and derivatives with respect to the parameter.
 PathTiming::Value TimingSearch::place_at(int index) const noexcept {
   const double* c = shape_.data() + index / per_knot_;
   if (index % per_knot_ == 0) {
@@ -124,7 +124,7 @@ bool TimingSearch::look(int index) noexcept {
   const double g1 = g.first;
   const double g2 = g.second;
   const double g3 = g.third;
-  // Not farther apart than what happens there: beside a singular position that is little of the way.
+  // Steps are not longer than the features of the path: next to a singular position these are short.
   const double e = std::min({2e-4, segment_.length / 64, std::max(4 * g1, 1e-9 * segment_.length)});
   const double middle = std::clamp(g.value, 2 * e, segment_.length - 2 * e);
   std::array<Joints, 5> q;

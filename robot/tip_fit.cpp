@@ -8,8 +8,8 @@ namespace indurop::robot {
 
 namespace {
 
-// The least of the three stretches of the differences between orientations: below it, an error of a mm at the place
-// would be one of 12 mm at the tip. Three points that differ by 30 degrees about two axes have 0.1.
+// Minimum of the smallest of the three singular values of the differences between orientations: below it, an error of
+// one mm at the place would be one of 12 mm at the tip. Three points that differ by 30 degrees about two axes have 0.1.
 constexpr double kLeastTurned = 0.08;
 constexpr double kLargestError = 0.005;  // m
 

@@ -10,7 +10,7 @@ namespace indurop::robot {
 
 namespace {
 
-// Parts of the tool's acceleration and jerk along the path and across it, in bends: together they make the whole.
+// Parts of the tool's acceleration and jerk along the path and across it, in bends: together they make up the whole.
 constexpr double kAlong = 0.8;
 constexpr double kAcross = 0.6;
 

@@ -8,11 +8,11 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kSmooth = 0.03;    // s: steps of the encoder are no accelerations
-constexpr int kDelays = 5;          // times as slow as the drive is late
-constexpr double kStanding = 0.02;  // of the velocity
+constexpr double kSmooth = 0.03;    // s: smooths encoder steps, which are no accelerations
+constexpr int kDelays = 5;          // the control is this many times slower than the drive's delay
+constexpr double kStanding = 0.02;  // part of the velocity that counts as standstill
 constexpr double kReached = 1 - 1e-9;
-constexpr double kFaster = 0.1;  // of the velocity, that it may run away with
+constexpr double kFaster = 0.1;  // part of the velocity by which the axis may exceed it
 constexpr double kQuick = 0.1;   // s
 
 double towards(double from, double to, double step) noexcept {
@@ -46,16 +46,17 @@ void TorqueControl::push(int late) noexcept {
   given_.fill(0);
 }
 
-// What comes free runs away with what the torque has grown until that is seen, and until it is taken back.
+// An axis that comes free is accelerated by the torque increase until that is measured and corrected, which limits the
+// ramp.
 double TorqueControl::ramp(double smooth, double period) const noexcept {
   const double safe = kFaster * wish_.velocity * load_.inertia / (late_ * period * smooth);
   const double quick = std::max(std::abs(wish_.torque), std::abs(asked_)) / kQuick;
   return std::min(safe, wish_.ramp > 0 ? wish_.ramp : quick);
 }
 
-// The torque is what seems to be in its way, and what accelerates the axis towards its velocity; never more than what
-// is asked for. So an axis that is free keeps its velocity, and one that stands against something pushes with all of
-// it. What is in its way is what the drive gave beyond what the inertia took: as a disturbance observer has it.
+// The torque is the estimated torque of the obstacle plus the torque that accelerates the axis towards its velocity;
+// never more than requested. So a free axis keeps its velocity, and one that stands against an obstacle pushes with the
+// full torque. The obstacle's torque is what the drive gave beyond what the inertia took, as in a disturbance observer.
 void TorqueControl::step(double speed, double period) noexcept {
   const bool held = !(override_ > 0);
   const double smooth = std::max(kSmooth, kDelays * late_ * period);

@@ -31,7 +31,7 @@ void Tracking::join(const BeltWatch& watch, const LineLimits& way, const LineLim
   SetPointGate gate({0, 0, true}, most, period_);
   gate.stand(from);
   if (!fresh) {
-    // Into the new gate with what it was doing: two periods of it.
+    // Initializes the new gate with the present motion: two periods of it.
     const double before = from - period_ * now.velocity;
     gate.stand(before - period_ * (now.velocity - period_ * now.acceleration));
     gate.pass(before, HUGE_VAL);

@@ -19,7 +19,7 @@ namespace indurop::robot {
 
 namespace {
 
-// What urdfdom says while this lives; it would write to stderr otherwise.
+// Collects the messages of urdfdom while this object exists; they would go to stderr otherwise.
 class Listener : public console_bridge::OutputHandler {
  public:
   Listener() { console_bridge::useOutputHandler(this); }
@@ -63,10 +63,10 @@ class Reader {
   std::vector<base::Diagnostic> notes_;
   Arm::Axes axes_;
   Joints velocity_ = Joints::Ones();
-  Pose frame_;  // behind the joint that was read last
+  Pose frame_;  // after the joint that was read last
   int count_ = 0;
   std::vector<Link> links_;
-  std::vector<urdf::JointConstSharedPtr> driven_by_;  // the joint of a linkage; else none
+  std::vector<urdf::JointConstSharedPtr> driven_by_;  // the joint that drives a linkage joint; else null
   std::vector<urdf::JointConstSharedPtr> joints_;     // of `links_`
   std::vector<ChainLink> chain_;
 };
@@ -92,7 +92,7 @@ std::vector<urdf::JointConstSharedPtr> Reader::chain_to(const urdf::LinkConstSha
   return chain;
 }
 
-// The named tool, else the link with the most moving joints before it, among these the farthest.
+// The named tool, else the link with the most moving joints before it, and of these the farthest one.
 urdf::LinkConstSharedPtr Reader::tip_of(const urdf::ModelInterface& model) {
   for (const char* name : {"tool0", "tcp"}) {
     if (auto link = model.getLink(name)) {
@@ -178,7 +178,7 @@ void Reader::note(const std::string& text) {
   notes_.push_back({base::Diagnostic::Severity::Note, file_, {1, 1}, text});
 }
 
-// Without all of them nothing is known of torques.
+// Unless all masses are given, torques are unknown.
 Dynamics Reader::masses() {
   UrdfBodies found = bodies_of(chain_, links_.size(), file_, text_);
   std::move(found.errors.begin(), found.errors.end(), std::back_inserter(errors_));
@@ -220,8 +220,8 @@ Dynamics Reader::masses() {
   return {links_, found.bodies, frame_, friction, effort};
 }
 
-// What URDF has no words for, since its chains have no loops: <delta arms="a1 a2 a3" turn="a4" base="0.2" upper="0.24"
-// lower="0.8" platform="0.05" tool="0.03"/>, and the limits of the joints that it names.
+// Reads what URDF cannot express, since its chains have no loops: <delta arms="a1 a2 a3" turn="a4" base="0.2"
+// upper="0.24" lower="0.8" platform="0.05" tool="0.03"/>, and the limits of the joints that it names.
 Result<ArmModel, std::vector<base::Diagnostic>> Reader::read_delta(const urdf::ModelInterface& model) {
   const std::size_t at = text_.find("<delta");
   Delta delta;
@@ -255,7 +255,7 @@ Result<ArmModel, std::vector<base::Diagnostic>> Reader::read_delta(const urdf::M
   return ArmModel{Arm(std::move(axes_), delta, count_), velocity_, {}, {}, {}, std::move(notes_)};
 }
 
-// Of the element at `at`; empty if it has none of that name.
+// Returns an attribute of the element at `at`; empty if there is none of that name.
 std::string Reader::attribute(std::size_t at, const std::string& name) const {
   const std::string element = text_.substr(at, text_.find('>', at) - at);
   for (const char quote : {'"', '\''}) {
@@ -300,7 +300,7 @@ void Reader::take_chain(const std::vector<urdf::JointConstSharedPtr>& chain) {
   }
 }
 
-// Where a linkage stands when all axes are at zero.
+// The position of a linkage when all axes are at zero.
 void Reader::follow(const urdf::JointMimic& mimic, const Link& link) {
   const Vec3 local = frame_.orientation.conjugate() * link.direction;
   if (link.kind == AxisKind::Sliding) {
@@ -318,7 +318,7 @@ void Reader::take_axis(const urdf::Joint& joint, const Link& link) {
   limits_of(joint, axis, velocity_[link.axis]);
 }
 
-// Joints of linkages find the axis that moves them.
+// Connects joints of linkages with the axis that moves them.
 void Reader::connect() {
   if (links_.size() > Arm::kMostLinks) {
     error(0, "the chain has more than " + std::to_string(Arm::kMostLinks) + " moving joints");

@@ -11,7 +11,7 @@ namespace indurop::robot {
 
 namespace {
 
-// The <inertial> of a link, or the link itself.
+// Offset of the <inertial> of a link, or of the link itself.
 std::size_t inertial_of(const std::string& text, const std::string& link) {
   const std::size_t at = place_in_urdf(text, "link", link);
   const std::size_t inertial = text.find("<inertial", at);
@@ -23,7 +23,7 @@ class Gatherer {
   Gatherer(UrdfBodies& found, const std::string& file, const std::string& text)
       : found_(found), file_(file), text_(text) {}
 
-  // A link, and those that branch off from it, however they are fixed there; `next`: the chain goes on with that one.
+  // Collects the masses of a link and of fixed or moving branches of it; `next`: link with which the chain continues.
   void gather(const urdf::Link& link, const Pose& frame, int body, const urdf::Link* next);
 
  private:

@@ -19,7 +19,7 @@ class BodyReader {
   BodyReader(const std::vector<ChainLink>& chain, const std::string& file, const std::string& text, Diagnostics& found)
       : chain_(chain), file_(file), text_(text), found_(found) {}
 
-  // Nothing if it has no body that could be looked at.
+  // Returns nothing if the link has no body that can be checked.
   std::optional<LinkBody> read(const urdf::LinkConstSharedPtr& link);
 
  private:
@@ -37,7 +37,7 @@ class BodyReader {
   Diagnostics& found_;
 };
 
-// A link of the chain, or what is fixed to one.
+// Finds the link of the chain that carries a link: itself, or one that it is fixed to. Returns false if there is none.
 bool BodyReader::carried(const urdf::LinkConstSharedPtr& link, Pose& home, int& joint) {
   Pose behind;
   for (auto one = link; one != nullptr; one = one->getParent()) {
@@ -117,7 +117,7 @@ std::vector<LinkBody> shapes_of(const urdf::ModelInterface& model, const std::ve
       bodies.push_back(std::move(*body));
     }
   }
-  // From the base on, whatever the names are.
+  // In order from the base, regardless of names.
   std::stable_sort(bodies.begin(), bodies.end(),
                    [](const LinkBody& a, const LinkBody& b) { return a.joint < b.joint; });
   constexpr std::size_t kMost = 64;

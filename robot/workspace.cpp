@@ -9,7 +9,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kEdge = 1e-7;  // m: what is lost to rounding
+constexpr double kEdge = 1e-7;  // m: tolerance for rounding
 
 }  // namespace
 
@@ -32,7 +32,8 @@ std::string Workspace::text() const {
   return text.str();
 }
 
-// Between two places a smooth way is off the straight line by an eighth of how it bends there; twice that is sure.
+// Between two places a smooth path deviates from the straight line by an eighth of its second difference; twice that is
+// safe.
 bool WayInside::next(const Vec3& place) noexcept {
   const double bulge = begun_ ? (place - 2 * seen_[0] + seen_[1]).norm() / 4 : 0;
   const bool inside = !box_.left(seen_[0], place, box_.outside(place) < 0 ? bulge : 0);

@@ -20,7 +20,7 @@ double Wrist::straight() const noexcept {
   return std::atan2(sine_, cosine_);
 }
 
-// How far from straight; where that is little, a cosine says nothing of it.
+// Angle from straight; if it is small, its cosine is not accurate enough.
 std::optional<double> Wrist::bent_by(const Vec3& wanted) const noexcept {
   constexpr double kAligned = 1e-12;
   const double most = std::hypot(cosine_, sine_);
@@ -41,7 +41,7 @@ std::optional<Wrist::Angles> Wrist::turn(const Mat3& rotation, bool other, const
   angles.middle = straight() + (other ? -*half : *half);
   const Mat3 bend = turned(middle_, angles.middle);
   const Vec3 bent = bend * last_;
-  // Something perpendicular to an axis, to see how far that is turned.
+  // Uses a vector perpendicular to an axis to measure the rotation about it.
   const auto turn_of = [](const Vec3& axis, const Mat3& by) {
     const Vec3 mark = axis.unitOrthogonal();
     return angle_about(axis, mark, by * mark);
