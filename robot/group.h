@@ -126,7 +126,7 @@ class Group final : public Controller, private MotionPort {
   [[nodiscard]] const BeltWatch& belt_watch() const noexcept {
     return belts_[static_cast<std::size_t>(tracking_.carrier().belt)];
   }
-  // What a carrier's motion may use; `tip`: m that the tip or the arm's end moves per m or rad of the carrier.
+  // Limits of a carrier's motion; `tip`: m that the tip or the arm's end moves per m or rad of the carrier.
   struct RideRoom {
     LineLimits limits;
     double tip = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the group stops after an error, and how it is reset. It stays on its path if that can still be followed, even if
+// Stops the group after an error, and resets it. It stays on its path if that can still be followed, even if
 // an axis has no power; otherwise its axes brake in step.
 
 #include <algorithm>

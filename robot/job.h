@@ -137,7 +137,7 @@ struct JobBook {
   std::vector<std::string> signals;
   std::vector<NamedVariable> named{};  // the same signals, with their places
   std::vector<Formula> formulas;
-  // An armed ON condition: the job that it calls when the condition becomes true.
+  // An ON statement: its condition, and the job that it calls when the condition becomes true.
   struct Interrupt {
     int formula = -1;
     int job = -1;

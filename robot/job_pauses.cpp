@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where jobs start, pause and continue: at their first line or another one, after a stop, one step further or back.
+// Starts, pauses and continues jobs: at their first line or another one, after a stop, one step further or back.
 
 #include <algorithm>
 #include <cstdio>

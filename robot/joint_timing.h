@@ -40,7 +40,7 @@ class JointTiming {
   // Limits for changes of the pace at which the motion is followed, if it uses those shares of the limits.
   [[nodiscard]] PaceLimits pace_limits(const JointLimits& limits, const JointShares& shares) const noexcept;
 
-  // Where the joints come to rest if they brake at once.
+  // The positions at which the joints come to rest if they brake at once.
   static Joints stopping(const JointState& from, const JointLimits& limits) noexcept;
   // Speeds that are reached if the accelerations are reduced to 0 at once.
   static Joints unloaded(const JointState& from, const JointLimits& limits) noexcept;

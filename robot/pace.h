@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a motion that has a timing becomes slower and faster while it runs. Its pace is 1 as planned; the part of the
+// Makes a motion that has a timing slower and faster while it runs. Its pace is 1 as planned; the part of the
 // joints' limits that the timing leaves grows as the pace falls: by its square for accelerations, by its cube for
 // jerks.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast joint angles change along a path, and which speed along the path keeps the joints' limits.
+// The rates at which joint angles change along a path, and the speed along the path that keeps the joints' limits.
 
 #pragma once
 

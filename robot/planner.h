@@ -41,8 +41,8 @@ class Planner {
   // The collision check, for replacing its bodies while nothing is being planned.
   [[nodiscard]] ClearWay& clear_way() noexcept { return clear_; }
 
-  // How `first` blends into `second` within first.zone; the zone of the result is 0 if it cannot, or if stopping at the
-  // corner is faster.
+  // The blend of `first` into `second` within first.zone; the zone of the result is 0 if it cannot, or if stopping at
+  // the corner is faster.
   [[nodiscard]] Blend blend(const Segment& first, const Segment& second) noexcept;
 
  private:

@@ -73,7 +73,7 @@ Blend Planner::blend(const Segment& first, const Segment& second) noexcept {
                   std::min(first.limits.acceleration, second.limits.acceleration),
                   std::min(first.limits.jerk, second.limits.jerk)};
   if (first.move != Move::Joint && second.move != Move::Joint) {
-    // What changes between the two, at full speed, changes that much as fast in the middle as on average.
+    // A change between the two, at full speed, is this many times as fast in the middle as on average.
     constexpr double kMiddle = 5.0 / 3;
     const ToolLimits tool = gentler(all_tool_, gentlest);
     const Heading before = heading(first, true);

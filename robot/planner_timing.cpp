@@ -44,7 +44,7 @@ void Planner::rehearse_timing() noexcept {
   begin_rehearsal(segment_.timing.duration());
 }
 
-// Where joint speeds change abruptly, the motion itself is checked, not only places on the path, also at constant
+// If joint speeds change abruptly, the motion itself is checked, not only places on the path, also at constant
 // speed.
 void Planner::rehearse_profile() noexcept {
   profile_ = Profile::to_position({}, segment_.length, 0, segment_.limits);

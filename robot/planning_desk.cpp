@@ -28,8 +28,7 @@ PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, cons
       learned_(settings.learned),
       guarded_(settings.guarded),
       planner_(places, joints, tool) {
-  in_tick_ = in_tick_ || !begin_ordinary_thread(thread_, "robot-plan", kStack, enter,
-                                                this);  // if there is no thread, the tick plans
+  in_tick_ = in_tick_ || !begin_ordinary_thread(thread_, "robot-plan", kStack, enter, this);  // else the tick plans
 }
 
 PlanningDesk::~PlanningDesk() {

@@ -41,7 +41,7 @@ class Pulses {
   [[nodiscard]] bool any() const noexcept {
     return std::any_of(all_.begin(), all_.end(), [](const Pulse& one) { return one.on; });
   }
-  // Called when the output is set in another way: it is no longer switched off here.
+  // Called when the output is set in another way: its pulse no longer switches it off.
   void forget(std::size_t signal) noexcept {
     for (Pulse& one : all_) {
       one.on = one.on && one.signal != signal;

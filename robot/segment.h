@@ -85,7 +85,7 @@ struct Segment {
   double fastest = 1;
   double settled = 0;
   bool moving = false;  // begins while the joints move
-  // Of joints that arrive together: part of full speed, and the factor by which torque limits lengthen the motion.
+  // For joints that arrive together: part of full speed, and the factor by which torque limits lengthen the motion.
   double speed = 1;
   double slowness = 1;
 
@@ -109,7 +109,7 @@ struct Segment {
   [[nodiscard]] double pace() const noexcept { return length > 0 ? way / length : 0; }
 };
 
-// How much of a motion has been followed.
+// The progress of a motion on its path.
 struct PathPlace {
   std::uint32_t ticket = 0;  // of the motion; 0: none
   double gone = 0;           // m, since its start

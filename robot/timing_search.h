@@ -12,7 +12,7 @@
 
 namespace indurop::robot {
 
-// What is known of a path before the search for a timing: bounds of its speed in equal parts of its length.
+// The data known of a path before the search for a timing: bounds of its speed in equal parts of its length.
 struct PathBounds {
   static constexpr int kParts = 512;
   std::array<double, kParts> speed{};

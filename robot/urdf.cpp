@@ -92,7 +92,7 @@ std::vector<urdf::JointConstSharedPtr> Reader::chain_to(const urdf::LinkConstSha
   return chain;
 }
 
-// The named tool, else the link with the most moving joints before it, and of these the farthest one.
+// The named tool, else the link with the most moving joints before it, and of these the one farthest from the root.
 urdf::LinkConstSharedPtr Reader::tip_of(const urdf::ModelInterface& model) {
   for (const char* name : {"tool0", "tcp"}) {
     if (auto link = model.getLink(name)) {
