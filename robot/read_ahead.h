@@ -23,7 +23,7 @@ class ReadAhead {
   void swap(ReadAhead& other) noexcept;
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
   [[nodiscard]] int count() const noexcept { return count_; }
-  // Returns whether there is room for a few motions, and for many lines with zones.
+  // Returns whether there is room: for a few motions, but for many if they are lines with zones or points of a spline.
   [[nodiscard]] bool has_room() const noexcept;
   // Adds a motion; requires has_room().
   void add(const MoveCommand& command) noexcept;
