@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables that are named from outside of POUs: by VAR_ACCESS, and where a configuration connects a program's inputs
-// and outputs with global variables.
+// Variables that are named from outside of POUs: by VAR_ACCESS, and where a configuration connects the inputs and
+// outputs of a program with global variables.
 
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace indurop::plc {
 
-// Finds what VAR_ACCESS and the connections of programs name. Call when the variables of all POUs are declared, before
-// their bodies are checked: what is reached from outside counts as used.
+// Resolves the paths of VAR_ACCESS and of the connections of programs. Call it after the variables of all POUs are
+// declared and before their bodies are checked: a variable reached from outside counts as used.
 void resolve_accesses(Context& context);
 
 }  // namespace indurop::plc

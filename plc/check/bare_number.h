@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expressions of numbers without a type: 807 * MAX(-1, 154). What stands beside them says what they are.
+// Expressions of numbers without a type: 807 * MAX(-1, 154). They take their type from the operands around them.
 
 #pragma once
 
@@ -7,14 +7,15 @@
 
 namespace indurop::plc {
 
-// Numbers without a type, operators between them, and library functions that give the type they are given.
+// Returns true for numbers without a type, operators between them, and library functions that return the type of their
+// arguments.
 [[nodiscard]] bool is_bare(const ast::Expression& expression, const Program& program);
 
-// Whether its value may be another than those of its numbers: not so of MAX(1, 2).
+// Returns whether the value of the expression can differ from those of its numbers: false for MAX(1, 2).
 [[nodiscard]] bool computes(const ast::Expression& bare);
 
-// The type that holds what becomes of such an expression where nothing beside it says one: LINT, or LREAL if there is a
-// number with a point in it.
+// Returns the type that holds the result of such an expression where nothing around it gives a type: LINT, or LREAL if
+// it contains a number with a point.
 [[nodiscard]] Elementary widest_of(const ast::Expression& bare, const Program& program);
 
 }  // namespace indurop::plc

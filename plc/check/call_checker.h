@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls: which function is meant, which argument belongs to which parameter, and the types all that leads to.
+// Checks calls: which function is called, which argument belongs to which parameter, and the types that follow from
+// that.
 
 #pragma once
 
@@ -14,21 +15,21 @@ class CallChecker {
  public:
   explicit CallChecker(ExpressionChecker& expressions) : expressions_(expressions), context_(expressions.context_) {}
 
-  // A call with a result. EN and ENO are allowed if it is the whole right side of an assignment.
-  // Standard.LEN becomes LEN, unless the program has something called Standard.
+  // Checks a call with a result. EN and ENO are allowed if it is the whole right side of an assignment.
+  // Replaces Standard.LEN by LEN, unless the program declares something named Standard.
   void leave_out_library(ast::Expression& callee) const;
   const Type* function(ast::Expression& call, const Type* wanted, bool whole_side);
-  // A call as a statement: a function, or an instance of a function block.
+  // Checks a call as a statement: a function, or an instance of a function block.
   void statement(ast::Expression& call);
-  // A call of a method, or of what a property is read or written by.
+  // Checks a call of a method or of an accessor of a property.
   const Type* method(ast::Expression& call, const Pou& pou);
-  // + - * / MOD **: the library's function of the same meaning.
+  // Resolves + - * / MOD ** to the library function of the same meaning.
   const Type* operation(ast::Expression& expression, const Type* wanted);
 
  private:
   struct Choice {
     const LibraryFunction* function = nullptr;
-    std::vector<const Type*> types;  // of the inputs, by position
+    std::vector<const Type*> types;  // types of the inputs, by position
     const Type* result = nullptr;
     int cost = 0;
   };

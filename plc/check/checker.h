@@ -14,12 +14,12 @@ namespace indurop::plc {
 
 struct CheckOptions {
   std::string space = "plc";              // namespace of the shared variables it declares
-  bool library = false;                   // there may be no PROGRAM
-  bool infinite_division = false;         // a REAL divided by zero is infinite or NaN, else a fault
+  bool library = false;                   // a PROGRAM is not required
+  bool infinite_division = false;         // a REAL divided by zero is infinite or NaN; otherwise it is a fault
   std::vector<schema::Variable> foreign;  // shared variables of other .glb files
 };
 
-// Everything that is wrong goes to `diagnostics`; the result is complete if that did not fail.
+// Reports all errors to `diagnostics`; the result is complete if there are none.
 [[nodiscard]] std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc

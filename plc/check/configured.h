@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VAR_CONFIG: places and initial values that variables of instances get in the configuration.
+// VAR_CONFIG: addresses and initial values that a configuration gives to variables of instances.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::plc {
 
-// Writes them into the declarations. Requires all types, and that no variables of POUs are declared yet.
+// Writes them into the declarations. Requires that all types are declared, and no variables of POUs yet.
 void apply_configured(Context& context);
 
 }  // namespace indurop::plc

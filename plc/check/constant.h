@@ -17,26 +17,26 @@ __extension__ using Integer = __int128;
 
 using Constant = std::variant<bool, Integer, double, std::string>;
 
-// The result of an operator on constants of one kind. None with `why` if it has no value (5 / 0); none without if the
-// operands are of other kinds.
+// Returns the result of an operator on constants of one kind. Returns none and sets `why` if it has no value (5 / 0);
+// returns none and leaves `why` empty if the operands are of different kinds.
 [[nodiscard]] std::optional<Constant> apply(ast::Operator op, const Constant& a, std::string& why);
 [[nodiscard]] std::optional<Constant> apply(ast::Operator op, const Constant& a, const Constant& b, std::string& why);
 
-// Whether the type can hold the value as it is; a whole number is fine for a real.
+// Returns whether the type can hold the value unchanged; a whole number fits a real.
 [[nodiscard]] bool fits(const Constant& value, const Type& type) noexcept;
-// Whether a number without a type may become one of the type: as fits(), but a bare number says no unit of time.
+// Returns whether a number without a type can take this type: as fits(), but a bare number has no unit of time.
 [[nodiscard]] bool adapts(const Constant& value, const Type& type) noexcept;
-// What a number without a type is where nothing wants another: INT, DINT, LINT or ULINT, the first that holds the
-// number; LREAL; BOOL.
+// Returns the type of a number without a type where the context requires none: INT, DINT, LINT or ULINT, the first that
+// holds the number; LREAL; BOOL.
 [[nodiscard]] Elementary default_type(const Constant& constant) noexcept;
-// What to write instead where adapts() says no because of the unit: "; a number has no unit, write T#500ms". Else "".
+// Returns a hint where adapts() is false because of the unit: "; a number has no unit, write T#500ms". Otherwise "".
 [[nodiscard]] std::string unit_hint(const Type& type);
-// The value as the type stores it: integers wrap, as they do at run time. Requires the same kind, or a number for a
+// Returns the value as the type stores it: integers wrap, as at run time. Requires the same kind, or a number for a
 // real.
 [[nodiscard]] Constant stored(const Constant& value, const Type& type);
 // "5", "TRUE", "1.5", "'text'"
 [[nodiscard]] std::string to_string(const Constant& value);
-// An integer, if it is one that fits.
+// Returns the value if it is an integer that fits into 64 bits.
 [[nodiscard]] std::optional<std::int64_t> as_int64(const Constant& value) noexcept;
 
 }  // namespace indurop::plc

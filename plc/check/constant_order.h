@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constants may stand before those they are computed from.
+// Constants may be declared before those they are computed from.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace indurop::plc {
 
-// Those that others need come first; everything else keeps its order. Circles are errors.
+// Moves constants that others need to the front; all else keeps its order. Circles are errors.
 void order_constants(Project& project, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of the checker share while they go through a project.
+// The data that the parts of the checker share while they process a project.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace indurop::plc {
 
-// Of a variable of `pou`, null: a global.
+// An initial value of a variable of `pou`; null: of a global.
 struct OpenInitial {
   ast::Initial* initial = nullptr;
   const Type* type = nullptr;
@@ -25,16 +25,16 @@ struct OpenInitial {
 struct Context {
   Program& program;
   Diagnostics& diagnostics;
-  Pou* pou = nullptr;  // the one being checked
-  // The variables of the FOR statements around: a Variable or a Global, and where the loop stands.
+  Pou* pou = nullptr;  // the POU being checked
+  // The variables of the surrounding FOR statements (each a Variable or a Global) and the places of the loops.
   std::vector<std::pair<const void*, Place>> loop_variables{};
-  // Names whose declaration has an error, or that a POU uses and nobody declares: said once. Globals: of no POU.
+  // Names whose declaration has an error, or that a POU uses without a declaration: reported once. POU null: a global.
   std::set<std::pair<const Pou*, std::string>> known_errors{};
-  // Initial values of instances, wherever their function blocks stand: looked at when all variables are known.
+  // Initial values of instances, wherever their function blocks are declared: checked when all variables are known.
   std::vector<OpenInitial> open_initials{};
-  // In capitals, those that begin with errors too.
+  // Names of declared types in capitals, including those whose declaration has errors.
   std::set<std::string> declared_types{};
-  // The last number that a name for types without one ended in.
+  // The last number used to make a name for a type without one, by the first part of the name.
   std::map<std::string, std::size_t> type_numbers{};
 
   void error(const Place& at, std::string text) { diagnostics.error(at, located(std::move(text))); }
@@ -51,17 +51,17 @@ struct Context {
   }
 
  private:
-  // Errors of texts name the POU too.
+  // Errors in generated texts name the POU too.
   [[nodiscard]] std::string located(std::string text) const {
     return pou != nullptr ? pou->title() + ": " + text : std::move(text);
   }
 };
 
-// Nobody declares the name; said once in a POU, and never of a global whose declaration has an error.
+// Reports that the name is not declared: once per POU, and never for a global whose declaration has an error.
 void complain_undeclared(Context& context, const Place& at, const std::string& name);
 
-// ", did you mean 'x'?" for the nearest of `known`, or "". Not looked for any more when no error is kept: in thousands
-// of names thousands of times it takes longer than all the rest.
+// Returns ", did you mean 'x'?" with the name in `known` closest to it, or "". It does not search when further errors
+// are not kept: thousands of searches in thousands of names would take longer than the rest of the check.
 [[nodiscard]] std::string did_you_mean(const Context& context, std::string_view name,
                                        const std::vector<std::string>& known);
 

@@ -7,7 +7,7 @@
 
 namespace indurop::plc {
 
-// A body that names ENO gets it as an output that is TRUE when the body begins; EN is TRUE there.
+// Declares ENO as an output, TRUE when the body begins, in each body that names it; EN is TRUE there.
 void declare_enable_outputs(Project& project);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds what the names in an expression mean and which type it has, and computes what is known already.
+// Resolves the names in an expression, determines its type, and computes values that are known at compile time.
 
 #pragma once
 
@@ -16,41 +16,41 @@ class ExpressionChecker {
  public:
   explicit ExpressionChecker(Context& context) : context_(context) {}
 
-  // The type of the value; null after an error. `wanted` helps only where the expression itself leaves it open: in
-  // SQRT(2.0) a REAL or an LREAL.
+  // Returns the type of the value; null after an error. `wanted`, the required type, only decides where the expression
+  // itself is ambiguous: in SQRT(2.0) a REAL or an LREAL.
   const Type* value(ast::Expression& expression, const Type* wanted = nullptr);
-  // The same of what may be an instance of a function block.
+  // As value(), but also accepts an instance of a function block.
   const Type* value_or_instance(ast::Expression& expression, const Type* wanted = nullptr);
-  // A value that is assigned to a `to`; false after an error. `what` begins the message: "x is a BOOL".
+  // Checks a value that is assigned to a `to`; returns false after an error. `what` begins the message: "x is a BOOL".
   bool assigned(ast::Expression& expression, const Type& to);
-  // A variable that is written; its type, null after an error.
+  // Checks a variable that is written; returns its type, null after an error.
   const Type* target(ast::Expression& expression, bool instances = false);
-  // Whether it is a number of another module that a contact or coil takes as a BOOL. `type`: its own.
+  // Returns whether it is a number of another module that a contact or coil uses as a BOOL. `type`: its own type.
   [[nodiscard]] static bool counts_as_truth(const ast::Expression& expression, const Type& type) noexcept;
-  // A variable that is passed by reference, read and written.
+  // Checks a variable that is passed by reference, read and written.
   const Type* reference(ast::Expression& expression);
-  // A call as a statement: functions and instances of function blocks.
+  // Checks a call as a statement: of functions and of instances of function blocks.
   void call_statement(ast::Expression& expression);
-  // Whether the call is one of an action of another instance.
+  // Returns whether the call is one of an action of another instance.
   [[nodiscard]] bool is_action(ast::Expression& callee);
   [[nodiscard]] bool is_whole(const Type& type) const noexcept;
-  // The variable of x.a[3].b
+  // Returns the variable at the root of x.a[3].b: x.
   static const ast::Expression& root_of(const ast::Expression& expression) noexcept;
-  // p of p^.x and p[3].x; null if the value is not behind a pointer.
+  // Returns p of p^.x and p[3].x; null if the value is not reached through a pointer.
   static const ast::Expression* through_pointer(const ast::Expression& expression) noexcept;
-  // A REFERENCE TO, which is not followed: what REF= sets.
+  // Checks a REFERENCE TO without following it: the target of REF=.
   const Type* reference_itself(ast::Expression& expression);
-  // Whether it lies in an ARRAY[*], with an error.
+  // Returns whether the expression is in an ARRAY[*], and reports that as an error.
   bool is_open(const ast::Expression& expression);
-  // Makes the address of the variable of it.
+  // Turns the expression into the address of its variable.
   bool bind(ast::Expression& expression, const Type& to);
-  // Assigns the result of a call that may have EN and ENO.
+  // Checks the assignment of the result of a call that may have EN and ENO.
   const Type* top_call(ast::Expression& expression, const Type* wanted);
-  // x.Speed := value, where Speed is a PROPERTY, becomes a call. False: it is none, and nothing was done.
+  // Turns x.Speed := value, where Speed is a PROPERTY, into a call. Returns false and changes nothing if it is not one.
   bool write_property(ast::Statement& statement);
-  // A whole number known now.
+  // Returns the value of a whole number that is known at compile time.
   std::optional<std::int64_t> constant(ast::Expression& expression, std::string_view what);
-  // An initial value; false after an error.
+  // Checks an initial value; returns false after an error.
   bool initial(ast::Initial& initial, const Type& type);
 
  private:
@@ -64,10 +64,10 @@ class ExpressionChecker {
   const Type* direct(ast::Expression& expression);
   const Type* global(ast::Expression& expression, Global& global);
   const Type* member(ast::Expression& expression);
-  // Null: it has none of that name.
+  // Returns the type of the pin; null if the block has none of that name.
   const Type* library_pin(ast::Expression& expression, const LibraryBlock& block);
   const Type* block_member(ast::Expression& expression, const Type& block);
-  // Says what a name behind the dot of an instance should have been.
+  // Reports that the instance has no such member and suggests one.
   void no_member(const ast::Expression& expression, const Type& block);
   const Type* namespace_member(ast::Expression& expression, const std::string& path);
   const Type* index(ast::Expression& expression);
@@ -106,11 +106,11 @@ class ExpressionChecker {
   const Type* bare_enum_value(ast::Expression& expression, const Type* wanted,
                               std::pair<std::string, std::string>& both);
   const Type* unknown(ast::Expression& expression, const Type* wanted);
-  // The instance that a program is for others, which use it by its name; null: there is no such program, or the dialect
-  // does not have that.
+  // Returns the instance through which other POUs use a program by its name; null if there is no such program, or the
+  // dialect does not support that.
   Global* program_named(std::string_view name);
   void note_write(const ast::Expression& expression);
-  // An instance that is called, or passed by reference.
+  // Records that an instance is called, or passed by reference.
   void note_call(const ast::Expression& expression);
   void note_address(const ast::Expression& expression);
   void warn_about_exactness(const Place& at, const Type& type, const ast::Expression& a, const ast::Expression& b);
@@ -120,15 +120,15 @@ class ExpressionChecker {
   bool struct_initial(ast::Initial& initial, const Type& type);
 
   Context& context_;
-  bool reading_ = true;    // whether names count as read
-  bool following_ = true;  // whether a REFERENCE TO stands for what it refers to
+  bool reading_ = true;    // names count as read
+  bool following_ = true;  // a REFERENCE TO is replaced by the variable it refers to
 };
 
-// Gives an untyped constant the type if it fits. True if the value can be used as a `to` afterwards.
+// Gives an untyped constant the type if it fits. Returns true if the value can be used as a `to` afterwards.
 bool adapt(ast::Expression& expression, const Type& to);
-// Whether a text of one character, as it is written, became the CHAR or WCHAR that is wanted.
+// Converts a literal of one character to the CHAR or WCHAR that is required; returns whether it did.
 bool adapt_character(ast::Expression& expression, const Type& to);
-// Known value of a checked expression, or null.
+// Returns the known value of a checked expression, or null.
 [[nodiscard]] const Constant* constant_of(const ast::Expression& expression) noexcept;
 
 }  // namespace indurop::plc

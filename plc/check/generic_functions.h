@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of the user with inputs of types such as ANY_NUM: each combination of types they are called with is a
-// function of its own.
+// Functions of the user with inputs of types such as ANY_NUM: for each combination of argument types a separate
+// function is made.
 
 #pragma once
 
@@ -11,16 +11,17 @@
 
 namespace indurop::plc {
 
-// Whether one of its inputs has such a type.
+// Returns whether one of its inputs has such a type.
 [[nodiscard]] bool is_generic(const ast::Pou& tree) noexcept;
-// "ANY_NUM" of a declaration; "" of other types.
+// Returns "ANY_NUM" for a declaration with that type; "" for other types.
 [[nodiscard]] std::string generic_name(const ast::TypeSpec& type);
-// Whether the generic type has values of this one.
+// Returns whether the generic type includes this one.
 [[nodiscard]] bool generic_takes(const std::string& generic, const Type& type) noexcept;
-// The function for these types, by the names of the generic ones; declared where it is new. Null with an error.
+// Returns the function for these types, by the names of the generic ones; declares it if it is new. Null after an
+// error.
 [[nodiscard]] Pou* function_for(Context& context, const ast::Pou& tree, const std::map<std::string, const Type*>& types,
                                 const Place& at);
-// Those that nobody calls were not looked at.
+// Warns about generic functions that are never called, because these were not checked.
 void warn_about_uncalled(Context& context);
 
 }  // namespace indurop::plc

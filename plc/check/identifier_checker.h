@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that gets a name: what a parser lets through is one, but an attribute of an XML file may hold anything,
-// and names go into C++, .glb and the names of files.
+// Checks all names: those from a parser are valid, but an attribute of an XML file may contain anything, and names go
+// into C++, .glb and the names of files.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace indurop::plc {
 
-// Errors for names that are none. Where there are, nothing may be emitted.
+// Reports names that are not valid. If there are any, nothing may be emitted.
 void check_identifiers(Context& context);
 
 }  // namespace indurop::plc

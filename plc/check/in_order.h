@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goes through declarations, each after those it needs. No recursion: thousands of them may need each other.
+// Visits declarations, each after those it needs. Not recursive: thousands of them may depend on each other.
 
 #pragma once
 
@@ -13,15 +13,15 @@ namespace indurop::plc {
 template <class T>
 class InOrder {
  public:
-  // One that waits for those it needs.
+  // A declaration that waits for those it needs.
   struct Open {
     T* one = nullptr;
     std::vector<T*> needed;
     std::size_t next = 0;
   };
 
-  // `needs(one)` are those before `one`, `circle(one)` is called for one that is needed by itself, which goes on
-  // without it, and `done(one, needed)` when all before it are done.
+  // `needs(one)` returns those that come before `one`; `circle(one)` is called for one that needs itself, and `one`
+  // continues without that dependency; `done(one, needed)` is called when all before it are done.
   template <class All, class Needs, class Circle, class Done>
   void run(All& all, const Needs& needs, const Circle& circle, const Done& done) {
     for (T& first : all) {
@@ -39,9 +39,9 @@ class InOrder {
     }
   }
 
-  // Each is needed by the one before it.
+  // The chain of waiting declarations: each is needed by the previous one.
   [[nodiscard]] const std::vector<Open>& open() const noexcept { return open_; }
-  // For `circle`: the innermost is done, or is begun again when it is needed.
+  // For `circle`: ends the innermost; it is started again when it is needed.
   void end() {
     waiting_.erase(open_.back().one);
     open_.pop_back();
@@ -61,8 +61,8 @@ class InOrder {
   }
 
   std::vector<Open> open_;
-  std::set<const T*> waiting_;  // those in `open_`
-  std::set<const T*> known_;    // done, or open
+  std::set<const T*> waiting_;  // the elements of `open_`
+  std::set<const T*> known_;    // done or open
 };
 
 }  // namespace indurop::plc

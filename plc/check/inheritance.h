@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who inherits from whom, without circles and not too deep.
+// The inheritance between POUs, without circles and with limited depth.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace indurop::plc {
 
-// Fills `ancestors` of all function blocks, classes and interfaces. One that extends itself at any distance, or has
-// more ancestors than the passes behind this one bear, extends nothing afterwards, with an error.
+// Fills `ancestors` of all function blocks, classes and interfaces. One that extends itself, directly or not, or has
+// more ancestors than later passes can handle, is reported and extends nothing afterwards.
 void resolve_inheritance(Context& context);
 
 }  // namespace indurop::plc

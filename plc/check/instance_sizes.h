@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies in the instances of each program and function block, and that it is not more than later passes bear.
+// The contents of the instances of each program and function block, limited to what later passes can handle.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace indurop::plc {
 
-// When all variables are declared: fills what a Pou knows of its instances. False, with errors, if instances lie too
-// deep inside each other or have too many variables; then nothing may go through the instances.
+// Call it after all variables are declared: fills the fields of Pou that describe its instances. Returns false, with
+// errors, if instances are nested too deep or have too many variables; then no pass may walk through the instances.
 bool measure_instances(Context& context);
 
 }  // namespace indurop::plc

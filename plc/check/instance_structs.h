@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// STRUCTs that contain function blocks, as CODESYS and TwinCAT have them.
+// STRUCTs that contain function blocks, as in CODESYS and TwinCAT.
 
 #pragma once
 
@@ -8,7 +8,8 @@
 
 namespace indurop::plc {
 
-// Makes a class without methods of each: what holds instances is one itself, has no value and is not shared.
+// Turns each into a class without methods: a type that holds instances is an instance itself, has no value and is not
+// shared.
 void make_instance_structs(Project& project, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Initial values that are known late: p : POINTER TO INT := ADR(x) when the program runs, those of instances when all
+// Initial values that are known late: p : POINTER TO INT := ADR(x) only at run time, those of instances only after all
 // variables of function blocks are known.
 
 #pragma once
@@ -8,10 +8,10 @@
 
 namespace indurop::plc {
 
-// Takes such a value out of the declaration, into ast::Variable::late.
+// Moves such a value from the declaration to ast::Variable::late.
 void set_late_value(const Context& context, ast::Variable& declared, const Type& type, const Pou& pou);
 
-// Looks at those of Context::open_initials.
+// Checks the values of Context::open_initials.
 void check_open_initials(Context& context);
 
 }  // namespace indurop::plc

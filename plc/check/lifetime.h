@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which variables are gone when the call is over: those of functions and methods, and VAR_TEMP.
+// Variables that end with the call: those of functions and methods, and VAR_TEMP.
 
 #pragma once
 
@@ -7,14 +7,14 @@
 
 namespace indurop::plc {
 
-// Whether the variable is still there when the body that names it has run. What references and VAR_IN_OUT stand for is
-// the caller's: not known, so no.
+// Returns whether the variable still exists after the body that names it has run. False for references and VAR_IN_OUT:
+// they refer to variables of the caller, whose lifetime is not known.
 [[nodiscard]] bool outlasts_call(const ast::Expression& expression);
-// Whether it is a variable of this call itself, or lies in one.
+// Returns whether it is a variable of this call, or a part of one.
 [[nodiscard]] bool ends_with_call(const ast::Expression& expression);
 
-// p := ADR(x), where p is still there when x is gone: a warning. Pointers know it when they are used, interfaces do
-// not: an error.
+// Checks p := ADR(x), where p outlives x: a warning. For interfaces it is an error, because unlike pointers they do not
+// notice it when they are used.
 void look_at_lifetime(Context& context, const ast::Statement& one);
 
 }  // namespace indurop::plc

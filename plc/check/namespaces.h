@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NAMESPACE and USING: behind this, all names of a project are its own again.
+// NAMESPACE and USING: after this pass, all names of a project are unique again.
 
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace indurop::plc {
 
-// Gives everything that stands in a namespace a name of its own, and this name to all that mean it. Nothing is done
-// where there are no namespaces.
+// Gives each declaration in a namespace a unique name and replaces it in all references. Does nothing in projects
+// without namespaces.
 void resolve_namespaces(Project& project, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Object orientation of the third edition: what extends and implements what, and whether it may.
+// Object orientation of the third edition: checks EXTENDS and IMPLEMENTS.
 
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace indurop::plc {
 
-// Finds what EXTENDS and IMPLEMENTS name. Requires that all POUs are declared.
+// Resolves the names after EXTENDS and IMPLEMENTS. Requires that all POUs are declared.
 void declare_objects(Context& context);
-// Methods: doubles, those that are replaced or missing. Requires the variables of all POUs.
+// Checks methods: duplicates, overrides, and missing ones. Requires the variables of all POUs.
 void check_objects(Context& context);
-// What to say to an instance of something ABSTRACT.
+// Returns the message for an instance of an ABSTRACT type.
 [[nodiscard]] std::string abstract_instance(const Pou& pou);
 
 }  // namespace indurop::plc

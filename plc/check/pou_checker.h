@@ -7,17 +7,17 @@
 
 namespace indurop::plc {
 
-// Names of all POUs, before anything that refers to them.
+// Declares the names of all POUs. Call it before anything that refers to them.
 void declare_pous(Context& context);
-// Variables of all POUs.
+// Declares the variables of all POUs.
 void declare_variables(Context& context);
 void check_bodies(Context& context);
-// Fills Program::order; a POU that needs itself is an error.
+// Fills Program::order; reports a POU that needs itself as an error.
 void order_pous(Context& context);
 
-// One more function, which a call asks for: its body is checked after those before it.
+// Declares an additional function that a call requires: its body is checked after those before it.
 Pou& declare_further(Context& context, ast::Pou& tree);
-// One more method.
+// Declares an additional method.
 void declare_method(Context& context, Pou& owner, ast::Pou& tree);
 
 }  // namespace indurop::plc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checked meaning of a PLC project: what every name stands for, what is shared, which task runs what. Input of the
-// emitters.
+// The checked meaning of a PLC project: what each name refers to, which variables are shared, and which task runs which
+// programs. It is the input of the emitters.
 
 #pragma once
 
@@ -25,7 +25,7 @@ struct LibraryBlock;
 struct LibraryFunction;
 struct LibraryParameter;
 
-// A variable that outlives its POU's call and is not the POU's own: VAR_GLOBAL, located, or declared in a .glb file.
+// A variable that outlives the calls of POUs and belongs to none: VAR_GLOBAL, located, or declared in a .glb file.
 struct Global {
   enum class Kind : std::uint8_t {
     Fixed,    // CONSTANT
@@ -48,7 +48,7 @@ struct Global {
 
 struct Pou;
 
-// A variable of a POU. Externals stand for their global.
+// A variable of a POU. Externals refer to their global.
 struct Variable {
   const ast::Variable* declared = nullptr;
   ast::Section section = ast::Section::Local;
@@ -60,14 +60,13 @@ struct Variable {
   bool retain = false;
   bool used = false;
   bool written = false;
-  bool called = false;      // an instance, or passed as VAR_IN_OUT
+  bool called = false;      // an instance that is called, or passed as VAR_IN_OUT
   bool in_methods = false;  // a VAR_IN_OUT of a function block that its methods use
-  bool aliased =
-      false;  // also reached otherwise than by its name in its own POU: by address, from methods, from outside
+  bool aliased = false;  // also reached other than by its name in its own POU: by address, from methods, from outside
   const Pou* owner = nullptr;
 };
 
-// Which parts of a global a POU touches: "" is the whole, ".eOpCode" a field.
+// The parts of a global that a POU accesses: "" is the whole, ".eOpCode" a field.
 struct GlobalUse {
   bool read = false;
   std::set<std::string> writes;
@@ -76,47 +75,47 @@ struct GlobalUse {
 struct Pou {
   ast::Pou* tree = nullptr;
   std::string name;
-  const Type* result = nullptr;  // of a function that has one
-  const Type* type = nullptr;    // of a function block, class or interface, the type of its instances
+  const Type* result = nullptr;  // of a function that returns a value
+  const Type* type = nullptr;    // of a function block, class or interface: the type of its instances
   std::deque<Variable> variables;
   std::map<std::string, Variable*> names;  // in capitals
-  std::set<const Pou*> uses;               // all that has to be written with it
-  std::set<const Pou*> holds;              // of them those whose variables lie in it
-  std::set<const Pou*> calls;              // of them those it runs
+  std::set<const Pou*> uses;               // all that must be emitted with it
+  std::set<const Pou*> holds;              // those of them whose variables are inside it
+  std::set<const Pou*> calls;              // those of them that it runs
   std::map<const Global*, GlobalUse> globals;
   std::set<std::string> labels;
   bool result_assigned = false;
-  bool calls_blocks = false;                     // which need to know the scan
-  bool points_to_own = false;                    // there are addresses of variables that end with the call
+  bool calls_blocks = false;                     // calls function blocks that need the scan
+  bool points_to_own = false;                    // it takes addresses of variables that end with the call
   std::map<std::string, ast::Expression> given;  // "INSTANCE.PARAMETER", a VAR_IN_OUT, in the last call checked
 
-  Global* instance = nullptr;  // of a program that others use by its name: that one
+  Global* instance = nullptr;  // of a program that others use by its name: its instance
   std::size_t index = 0;       // in `pous` of the program
 
-  // Of an instance, when all variables are known; see instance_sizes.h
-  std::uint64_t variables_inside = 0;     // with those of inner instances, each of an array; saturates
+  // Data of an instance, known when all variables are declared; see instance_sizes.h
+  std::uint64_t variables_inside = 0;     // including those of inner instances, times array elements; saturates
   bool holds_places = false;              // AT %I*
-  const LibraryBlock* forgets = nullptr;  // one of which only inputs and outputs are kept over a restart
+  const LibraryBlock* forgets = nullptr;  // a block of which a restart keeps inputs and outputs only
 
   // Object orientation
-  Pou* owner = nullptr;                                                 // of a method: whose instances it works on
+  Pou* owner = nullptr;                                                 // of a method: the POU of its instances
   const Pou* base = nullptr;                                            // EXTENDS of a function block or class
   std::vector<const Pou*> interfaces;                                   // IMPLEMENTS; of an interface: EXTENDS
-  std::vector<Pou*> methods;                                            // and accessors of properties, its own
-  std::map<std::pair<ast::Accessor, std::string>, Pou*> method_names;   // the first of each name, in capitals
+  std::vector<Pou*> methods;                                            // its own ones, and accessors of properties
+  std::map<std::pair<ast::Accessor, std::string>, Pou*> method_names;   // first one of each name, in capitals
   mutable std::optional<std::vector<const Variable*>> parameters = {};  // see parameters_of()
-  std::vector<const Pou*> ancestors;  // all that it extends and implements, each once, behind its own ancestors
-  bool is_object = false;             // has methods, or something to do with such ones
-  const Pou* replaces = nullptr;      // of a method: the inherited one it overrides
-  bool called_unseen = false;         // of a method: a call may not say that it is this one
+  std::vector<const Pou*> ancestors;  // all POUs it extends and implements, each once, after its own ancestors
+  bool is_object = false;             // has methods, or is related to POUs that have
+  const Pou* replaces = nullptr;      // of a method: the inherited one that it overrides
+  bool called_unseen = false;         // of a method: a call may reach it without naming it
 
-  // A variable of it, else of the instance it works on, else an inherited one.
+  // Returns a variable of the POU, else of the instance it works on, else an inherited one.
   [[nodiscard]] Variable* find(const std::string& capitals) const;
-  // Whose methods are its own: itself, or of a method its owner; null: there are no instances.
+  // Returns the POU whose methods it calls as its own: itself, or for a method its owner; null: there are no instances.
   [[nodiscard]] const Pou* self() const noexcept;
-  // "Motor.Start"
+  // Returns "Motor.Start".
   [[nodiscard]] std::string title() const;
-  [[nodiscard]] bool is_callable() const noexcept {  // with values that are gone when it returns
+  [[nodiscard]] bool is_callable() const noexcept {  // its variables end with the call
     return tree->kind == ast::Pou::Kind::Function || tree->kind == ast::Pou::Kind::Method;
   }
   [[nodiscard]] bool is_block() const noexcept {
@@ -124,51 +123,51 @@ struct Pou {
   }
 };
 
-// Inputs, outputs and VAR_IN_OUT, inherited ones first. Requires that all are declared.
+// Returns inputs, outputs and VAR_IN_OUT, inherited ones first. Requires that all are declared.
 [[nodiscard]] const std::vector<const Variable*>& parameters_of(const Pou& pou);
-// Inherited ones first.
+// Returns all variables, inherited ones first.
 [[nodiscard]] std::vector<const Variable*> all_variables(const Pou& pou);
-// What a call of an instance means: its own method, else the inherited one; of interfaces and abstract function blocks
-// also one that has no body. Null: there is none.
+// Returns the method that a call of an instance runs: its own, else the inherited one; of interfaces and abstract
+// function blocks also one without a body. Null if there is none.
 [[nodiscard]] const Pou* find_method(const Pou& pou, std::string_view name,
                                      ast::Accessor accessor = ast::Accessor::None);
-// Whether it is the other one, extends it, or implements it.
+// Returns whether `pou` is `other`, extends it, or implements it.
 [[nodiscard]] bool is_a(const Pou& pou, const Pou& other) noexcept;
 
-// What the checker found out about an expression.
+// The result of checking an expression.
 struct Resolved {
   enum class Meaning : std::uint8_t { Value, Variable, Global, FunctionResult, Type, Namespace, This, Super };
   Meaning meaning = Meaning::Value;
   Variable* variable = nullptr;
   const Global* global = nullptr;
   std::string path;                  // Namespace: "knu::Robot"
-  std::optional<Constant> constant;  // the value is known
-  bool untyped = false;              // a number without a type takes the one its context wants
-  const Type* operand = nullptr;     // Binary: what both sides become
+  std::optional<Constant> constant;  // set if the value is known
+  bool untyped = false;              // a number without a type takes the one that its context requires
+  const Type* operand = nullptr;     // Binary: the common type of both sides
   bool is_output = false;            // Member of an instance: one of its outputs
 
-  // Call
+  // Fields of a Call
   enum class Intrinsic : std::uint8_t { None, Address, Size, IsValid, LowerBound, UpperBound };
   Intrinsic intrinsic = Intrinsic::None;      // ADR() and REF(), SIZEOF(), __ISVALIDREF()
-  bool by_super = false;                      // of a method: exactly that one, whatever extends it
-  bool settled = false;                       // a call that is not looked at again, because what is around it was
-  bool cast = false;                          // of its only argument, to the type of the call; made by the checker
-  const LibraryFunction* function = nullptr;  // of the library; also what an operator stands for
+  bool by_super = false;                      // of a method: exactly this one, without dynamic dispatch
+  bool settled = false;                       // a call that is not checked again when the expression around it is
+  bool cast = false;                          // converts its only argument to the type of the call; made by the checker
+  const LibraryFunction* function = nullptr;  // library function called, or implementing an operator
   const Pou* pou = nullptr;
   struct Actual {
-    const ast::Argument* argument = nullptr;  // null: not given
+    const ast::Argument* argument = nullptr;  // null: omitted
     const Type* type = nullptr;               // of the parameter
     const Variable* parameter = nullptr;      // of a POU
-    std::string member;                       // of a function block's struct
+    std::string member;                       // member of the struct of a function block
   };
-  std::vector<Actual> actuals;            // library functions: inputs by position; others: those of the declaration
+  std::vector<Actual> actuals;            // library functions: inputs by position; others: as declared
   const ast::Argument* enable = nullptr;  // EN
   const ast::Argument* enable_out = nullptr;
 };
 
-// What a path leads to that is written outside of POUs: resource.program.instance.list[3]
+// The variable that a path outside of POUs leads to: resource.program.instance.list[3]
 struct Reached {
-  struct Step {  // one of them
+  struct Step {  // one part of the path; one of these is set
     const Variable* variable = nullptr;
     const Field* field = nullptr;
     const LibraryParameter* pin = nullptr;
@@ -176,14 +175,14 @@ struct Reached {
   };
   const Global* global = nullptr;  // null: a variable of a program
   const Pou* program = nullptr;
-  const ProgramInstance* instance = nullptr;  // null: the program stands in no configuration, or all its instances
+  const ProgramInstance* instance = nullptr;  // null: of a program without configuration, or of all instances
   std::vector<Step> steps;
   const Type* type = nullptr;
   bool constant = false;
   bool input = false;  // %I
 };
 
-// VAR_ACCESS: a shared variable that follows another one.
+// VAR_ACCESS: a shared variable that follows another variable.
 struct AccessPath {
   Place at;
   std::string name;
@@ -193,15 +192,15 @@ struct AccessPath {
   Reached to;
 };
 
-// An input or output that a configuration connects: with a global variable, or an input with a value.
+// An input or output that a configuration connects with a global variable, or an input to which it gives a value.
 struct ConnectedPin {
   const Variable* parameter = nullptr;
   Reached other;
   const ast::Initial* value = nullptr;
 };
 
-// Types of .glb files and values of their enumerations by their names, in capitals: "PRESS.MODE" and "MODE". Null:
-// several have the name.
+// Types of .glb files and values of their enumerations by their names in capitals: "PRESS.MODE" and "MODE". Null: the
+// name is ambiguous.
 struct ForeignNames {
   std::map<std::string, const schema::Variable*> variables;  // "PRESS::MODE"
   std::map<std::string, std::vector<const schema::Variable*>> last_names;
@@ -213,11 +212,11 @@ struct ForeignNames {
 struct TaskProgram {
   std::string instance;
   const Pou* pou = nullptr;
-  const ProgramInstance* declared = nullptr;  // null: no configuration does
-  std::uint64_t text = 0;                     // of the files, another one for another text
+  const ProgramInstance* declared = nullptr;  // null: declared by no configuration
+  std::uint64_t text = 0;                     // hash of the files: changes with their text
 };
 
-// One module.
+// The plan of one module.
 struct TaskPlan {
   Place at;
   std::string name;
@@ -232,35 +231,35 @@ struct Program {
   Project project;  // the trees that everything below refers to
   TypeTable types;
   std::vector<schema::Variable> foreign;
-  ForeignNames foreign_names;                                  // of them
-  std::map<const schema::Variable*, Global*> foreign_globals;  // of those that are used
-  std::map<std::string, const Type*> foreign_types;            // that are used, by their whole names
+  ForeignNames foreign_names;                                  // names of `foreign`
+  std::map<const schema::Variable*, Global*> foreign_globals;  // those in use
+  std::map<std::string, const Type*> foreign_types;            // those in use, by full name
   std::map<std::pair<std::string, std::string>, std::pair<const Type*, std::int64_t>> enum_values;  // by type and name
-  std::map<std::string, std::vector<const Type*>> enums_of_value;  // the first two that have it
-  std::size_t indexed_types = 0;                                   // of `named_types`, in these two
-  std::deque<Type*> named_types;                                   // of the project, each behind those it contains
+  std::map<std::string, std::vector<const Type*>> enums_of_value;  // the first two types that have the value
+  std::size_t indexed_types = 0;                                   // of `named_types`, in these two maps
+  std::deque<Type*> named_types;                                   // types of the project, each after those it contains
   std::uint64_t fields = 0;                                        // of all types and variables, see kMaxFields
-  std::uint64_t values = 0;                                        // that variables begin with, see count_values()
+  std::uint64_t values = 0;                                        // initial values of variables, see count_values()
   std::map<std::string, const Type*> type_names;
   std::deque<Global> globals;
   std::map<std::string, Global*> global_names;
-  std::set<std::string> shared_names;                   // of those that are no Foreign, without namespace, in capitals
+  std::set<std::string> shared_names;                   // of globals other than Foreign, no namespace, in capitals
   std::map<std::string, Global*> addresses;             // "%IX0.0"
-  std::map<std::string, std::map<int, Global*>> areas;  // "%IX0." and the last number: those at addresses
+  std::map<std::string, std::map<int, Global*>> areas;  // "%IX0." and the last number: globals at addresses
   std::deque<Pou> pous;
   std::map<std::string, Pou*> pou_names;
   std::map<std::string, const ast::Pou*> generic_functions;  // with inputs such as ANY_NUM, in capitals
-  std::deque<ast::Pou> made_functions;                       // of them, for the types they are called with
+  std::deque<ast::Pou> made_functions;                       // made from generic ones for the types of the calls
   std::map<std::string, const Global*> placed;  // where VAR_CONFIG puts AT %I* of instances: "MAIN_MOTOR_RUNNING"
-  std::map<const Global*, const Pou*> starts;   // functions that run what their instances begin with
+  std::map<const Global*, const Pou*> starts;   // functions that run the starts of instances in globals
   std::vector<AccessPath> accesses;
   std::map<const ProgramInstance*, std::vector<ConnectedPin>> connections;
   bool types_known = false;
   bool has_objects = false;                                     // classes, interfaces, methods
-  std::vector<std::pair<Type*, ast::TypeSpec*>> open_pointers;  // to types that come later
-  std::vector<const Pou*> order;                                // each behind those it uses
+  std::vector<std::pair<Type*, ast::TypeSpec*>> open_pointers;  // pointers to types declared later
+  std::vector<const Pou*> order;                                // each after those it uses
   std::vector<TaskPlan> tasks;
-  bool library = false;            // there may be no PROGRAM
+  bool library = false;            // a PROGRAM is not required
   bool infinite_division = false;  // a REAL divided by zero is infinite or NaN
   std::string space;               // namespace of the shared variables
 };

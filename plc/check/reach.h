@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which POUs a task runs, directly or through calls.
+// The POUs that a task runs, directly or through calls.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums and products of sizes that a program declares: what is beyond 64 bits counts as the largest number.
+// Sums and products of sizes that a program declares: results beyond 64 bits become the largest number.
 
 #pragma once
 

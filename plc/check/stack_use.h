@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What belongs to a call lies on the stack of the thread that runs the module, which has 512 KiB.
+// The data of a call is on the stack of the thread that runs the module, which has 512 KiB.
 
 #pragma once
 
@@ -7,7 +7,8 @@
 
 namespace indurop::plc {
 
-// Complains of POUs whose call needs too much of it, alone or with what they call. For a program without errors.
+// Reports POUs whose call needs too much of the stack, alone or with the POUs they call. Requires a program without
+// errors.
 void check_stack(Context& context);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements that start an instance, or all of an array: what is in it, then its FB_Init.
+// Statements that start an instance, or all of an array: first the instances inside it, then its FB_Init.
 
 #pragma once
 
@@ -23,14 +23,15 @@ class StartStatements {
  public:
   explicit StartStatements(Context& context) : context_(context) {}
 
-  // The function block whose instances have to be started in variables of the type. Null: nothing.
+  // Returns the function block whose instances must be started in variables of the type. Null if there is none.
   const Pou* started(const Type* type);
-  // Whether something in its variables has to be, those it inherits included.
+  // Returns whether its variables, including inherited ones, contain something that must be started.
   bool needs_start(const Pou& pou);
-  // As long as what it is a variable of.
+  // Returns whether the variable lives as long as the instance that contains it.
   [[nodiscard]] static bool lasts(const Variable& one);
 
-  // Of an array: loops, whose variables `method` gets; null: it can have no more, so one instance after the other.
+  // Adds the statements for an array: loops whose variables `method` gets; `method` null: it can have no further
+  // variables, so one statement per instance.
   void instances(ast::Pou* method, const Variable& one, ast::Body& to);
   void elements(ast::Pou* method, const std::vector<ast::StartArguments>& starts, const Type& type,
                 ast::Expression object, ast::Body& to);

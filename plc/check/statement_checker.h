@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements of a POU's body.
+// Checks the statements of the body of a POU.
 
 #pragma once
 
@@ -14,7 +14,7 @@ class StatementChecker {
  public:
   explicit StatementChecker(Context& context) : context_(context), expressions_(context) {}
 
-  // The whole body: labels and jumps too.
+  // Checks the whole body, including labels and jumps.
   void body(ast::Body& body);
 
  private:
@@ -41,7 +41,7 @@ class StatementChecker {
   };
   Context& context_;
   ExpressionChecker expressions_;
-  std::map<Integer, Used> used_;  // values of the CASE being checked, by the first of each range
+  std::map<Integer, Used> used_;  // values of the CASE being checked, by the first value of each range
   int loops_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which program runs in which task.
+// The assignment of programs to tasks.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types from their declarations.
+// Builds types from their declarations.
 
 #pragma once
 
@@ -14,12 +14,12 @@ inline constexpr const char* kOpenArray =
 
 // Declares all types of the project, in any order of the text, and the function blocks as types.
 void declare_types(Context& context);
-// The type of a declaration, with the name it gets; null after an error.
+// Returns the type of a declaration, named `name`; null after an error.
 const Type* build_type(Context& context, ast::TypeSpec& spec, const std::string& name = "");
-// Counts the fields of a type, or of a variable of it, for the whole program; false beyond the limit, with an error the
-// first time.
+// Adds the fields of a type, or of a variable of it, to the count of the whole program; returns false beyond the limit,
+// and reports an error the first time.
 bool count_fields(Context& context, const Place& at, const Type& type);
-// The same of the values that a variable begins with.
+// As count_fields(), for the initial values of a variable.
 bool count_values(Context& context, const Place& at, const Type& type, const ast::Initial* initial);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Warnings about what a POU declares and does not use: variables, outputs, instances, its body.
+// Warnings about declared but unused items of a POU: variables, outputs, instances, its body.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::plc {
 
-// Requires that the body was checked.
+// Requires a checked body.
 void warn_about_usage(Context& context, const Pou& pou);
 
 }  // namespace indurop::plc
