@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions that others call, x.Restart(), as CODESYS has it.
+// Actions that other POUs call, x.Restart(), as in CODESYS.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::plc {
 
-// Makes methods of those actions that a call behind a dot may mean.
+// Turns those actions into methods that a call after a dot can refer to.
 void make_methods_of_actions(Project& project);
 
 }  // namespace indurop::plc

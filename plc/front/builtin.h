@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types and function blocks that editors bring along without writing them into their files: LOGGER of Beremiz, the
+// Types and function blocks that are built into editors and therefore missing in their files: LOGGER of Beremiz, the
 // types of its SVGHMI.
 
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace indurop::plc {
 
-// Declares those that the project uses and does not declare itself.
+// Declares those that the project uses and does not declare.
 void add_builtin(Project& project);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the files of a PLC program to its checked meaning.
+// Reads and checks the files of a PLC program.
 
 #pragma once
 
@@ -15,10 +15,10 @@
 namespace indurop::plc {
 
 [[nodiscard]] bool is_module_name(std::string_view name) noexcept;
-// The one given, else that of the first file; what C++ cannot have in a name is '_'.
+// Returns the given name, else that of the first file; characters that C++ does not allow in a name become '_'.
 [[nodiscard]] std::string module_name(const CompileOptions& options);
 
-// After errors null, or a program that is of no use. `of_glb`: the errors of .glb files.
+// Returns null after errors, or a program that must not be used. `of_glb`: receives the errors of .glb files.
 [[nodiscard]] std::unique_ptr<Program> check_files(const CompileOptions& options, const std::string& name,
                                                    const glb2idl::FileReader& read, Diagnostics& diagnostics,
                                                    std::vector<base::Diagnostic>& of_glb);

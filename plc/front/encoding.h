@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts of editors that do not write UTF-8.
+// Converts texts of editors that do not write UTF-8.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::plc {
 
-// UTF-8 of a text in UTF-16, with a mark at its beginning or without, in UTF-8, or, where it is neither, in Latin-1.
+// Converts to UTF-8: from UTF-16 with or without a byte order mark, UTF-8, or otherwise Latin-1.
 [[nodiscard]] std::string as_utf8(std::string text);
 
 }  // namespace indurop::plc

@@ -25,15 +25,16 @@ struct LibraryFile {
 };
 
 [[nodiscard]] std::string to_text(const LibraryFile& library);
-// None, and `why`, if it is no such file.
+// Returns none and sets `why` if it is not such a file.
 [[nodiscard]] std::optional<LibraryFile> read_library(std::string_view text, std::string& why);
 
-// "1", "1.2", "1.2.0"
+// Returns true for "1", "1.2", "1.2.0".
 [[nodiscard]] bool is_version(std::string_view text) noexcept;
-// Whether `version` does for who wants `wanted`: the same first number, and not older. Requires two versions.
+// Returns whether `version` satisfies the request for `wanted`: the same first number, and not older. Requires two
+// valid versions.
 [[nodiscard]] bool does_for(std::string_view version, std::string_view wanted);
 
-// "motors.plclib@1.2": the file and the version that is wanted, "" where none is.
+// "motors.plclib@1.2": the file and the requested version, "" if none is given.
 struct LibraryChoice {
   std::string file;
   std::string version;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The door for all forms of PLC programs: one reader per file type, and all files together are one project.
+// The entry point for all forms of PLC programs: one reader per file type; all files together are one project.
 
 #pragma once
 
@@ -18,8 +18,8 @@
 
 namespace indurop::plc {
 
-// Reads the text of one file; `at` is the place of its first character. What has errors is left out. `bodies`: code
-// that is no Structured Text; its POUs are without code in the result.
+// Reads the text of one file; `at` is the place of its first character. Parts with errors are left out. `bodies`:
+// receives code that is not Structured Text; its POUs have no code in the result.
 using Reader = Project (*)(std::string_view text, const Place& at, const ReadOptions& options,
                            std::vector<st::WrittenBody>& bodies, Diagnostics& diagnostics);
 
@@ -33,12 +33,12 @@ struct FileType {
 };
 [[nodiscard]] std::span<const FileType> file_types();
 
-// Everything the files and libraries ("motors.plclib@1.2") contain. Files that cannot be read are errors.
+// Returns the contents of all files and libraries ("motors.plclib@1.2"). Files that cannot be read are errors.
 [[nodiscard]] Project read_project(const std::vector<std::string>& files, const std::vector<std::string>& libraries,
                                    const ReadOptions& options, const glb2idl::FileReader& read,
                                    Diagnostics& diagnostics);
 
-// The same with the code of all POUs as it is written or drawn, for those who show it or write it again.
+// As read_project(), with the code of all POUs as it is written or drawn, for callers that show it or write it again.
 [[nodiscard]] plcopen::Document read_document(const std::vector<std::string>& files, const ReadOptions& options,
                                               const glb2idl::FileReader& read, Diagnostics& diagnostics);
 

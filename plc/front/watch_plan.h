@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a view of a running program needs to know: its code, and where its values are.
+// The data that a view of a running program needs: its code, and the positions of its values.
 
 #pragma once
 
@@ -15,14 +15,14 @@ namespace indurop::plc {
 struct WatchPlan {
   bool ok = false;
   std::vector<base::Diagnostic> diagnostics;
-  std::string space;                 // of the shared variables
-  std::unique_ptr<Program> program;  // what `layouts` refer to
+  std::string space;                 // namespace of the shared variables
+  std::unique_ptr<Program> program;  // the program that `layouts` refer to
   std::vector<const TaskProgram*> instances;
-  std::vector<WatchLayout> layouts;  // of each of them
+  std::vector<WatchLayout> layouts;  // one for each of them
   plcopen::Document document;
 };
 
-// For the options a module was built with.
+// Makes the plan for the options with which a module was built.
 [[nodiscard]] WatchPlan watch_plan(CompileOptions options, const glb2idl::FileReader& read = glb2idl::read_source_file);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The syntax tree that all languages of IEC 61131-3 become: expressions, statements, types, declarations. Names are as
+// The common syntax tree of all languages of IEC 61131-3: expressions, statements, types, declarations. Names are as
 // written and not yet resolved. Fields marked "checker" are empty until the program was checked.
 
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace indurop::plc {
 struct Type;      // resolved type, see plc/check/type.h
-struct Resolved;  // what a name means, see plc/check/program.h
+struct Resolved;  // meaning of a name, see plc/check/program.h
 }  // namespace indurop::plc
 
 namespace indurop::plc::ast {
@@ -24,7 +24,7 @@ namespace indurop::plc::ast {
 // Trees are walked recursively: readers build none deeper than this. (A chain a + b + c... has one level per operator.)
 inline constexpr int kMaxDepth = 400;
 
-// %IX0.3, %QW2, %MD4. The size is X where no letter is written.
+// %IX0.3, %QW2, %MD4. The size is X if no letter is written.
 struct DirectAddress {
   char area = 'I';           // I Q M
   char size = 'X';           // X B W D L
@@ -67,7 +67,7 @@ struct Expression {
     Name,    // name
     Direct,  // address
     Member,  // operands[0].name; also Enum#Value, namespace.variable, instance.output, step.X
-    Bit,     // operands[0].bit, w.3; also w.%B1, the `width` bits from `bit` on
+    Bit,     // operands[0].bit, w.3; also w.%B1, the `width` bits starting at `bit`
     Index,   // operands[0][operands[1], operands[2], ...]
     Deref,   // operands[0]^, THIS^ and SUPER^ too
     Call,    // operands[0](arguments): a function, or in a statement an instance of a function block
@@ -81,27 +81,27 @@ struct Expression {
   LiteralValue value;                    // Literal
   std::optional<Elementary> value_type;  // Literal: T#, D#, 'text' and INT#5 have one, 5 and 1.5 have none
   std::string value_enum;                // Name: the type in Color#Red
-  bool guards = false;                   // Binary: what is right of AND is the condition of a transition
-  bool of_this = false;                  // Name: THIS^.x was written, a variable of the instance
-  bool as_truth = false;                 // at a contact or coil: a number of a .glb is a BOOL, 0 is FALSE
+  bool guards = false;                   // Binary: the right side of AND is the condition of a transition
+  bool of_this = false;                  // Name: written as THIS^.x, a variable of the instance
+  bool as_truth = false;                 // at a contact or coil: a number of a .glb is used as a BOOL, 0 is FALSE
   unsigned bit = 0;
   unsigned width = 1;
   DirectAddress address;
   std::vector<Expression> operands;
   std::vector<Argument> arguments;  // Call
 
-  // checker
+  // Set by the checker
   const Type* type = nullptr;
   std::shared_ptr<Resolved> resolved;
 };
 
-// name := value, name => variable, NOT name => variable, or a value alone. EN and ENO are arguments like others.
+// name := value, name => variable, NOT name => variable, or only a value. EN and ENO are ordinary arguments here.
 struct Argument {
   Place at;
   std::string name;  // empty: by position
   bool output = false;
   bool negated = false;             // NOT name => variable
-  std::optional<Expression> value;  // none: IN := , (as some editors write it)
+  std::optional<Expression> value;  // none: IN := , (written by some editors)
 };
 
 struct Statement;
@@ -132,13 +132,13 @@ struct Statement {
     Repeat,  // body, UNTIL value
     Exit,
     Continue,
-    Return,  // only if value is true, where there is one
+    Return,  // only if value is true, where it is set
     Label,   // label; only in the outermost list of a body
-    Jump,    // to label; only if value is true, where there is one
+    Jump,    // to label; only if value is true, where it is set
   };
   Kind kind = Kind::Empty;
   Place at;
-  std::string comment;  // goes into the generated code
+  std::string comment;  // written to the generated code
   std::optional<Expression> target;
   std::optional<Expression> value;
   std::optional<Expression> to;
@@ -169,7 +169,7 @@ struct InitialElement {
   Initial value;
 };
 
-// What FB_Init of an instance is given where that is declared: fb : Motor(5, speed := 3).
+// The arguments of FB_Init in the declaration of an instance: fb : Motor(5, speed := 3).
 using StartArguments = std::vector<Argument>;
 
 struct Dimension {
@@ -185,20 +185,20 @@ struct EnumValue {
   std::optional<Expression> value;
 };
 
-// POINTER TO (of CODESYS) goes into each other, REF_TO (of the standard) does not; a REFERENCE TO is followed by
-// itself.
+// POINTER TO (of CODESYS) types convert to each other, REF_TO (of the standard) do not; a REFERENCE TO is dereferenced
+// automatically.
 enum class PointerKind : std::uint8_t { PointerTo, RefTo, ReferenceTo };
 
 struct TypeSpec {
   enum class Kind : std::uint8_t {
     Elementary,
     String,    // length; none: 80
-    Named,     // name: a type of the user, a function block
+    Named,     // name: a user-defined type, a function block
     Array,     // dimensions, element
     Subrange,  // elementary (range.low..range.high)
     Struct,    // fields
     Pointer,   // POINTER TO element, or as `pointer` says
-    Enum,      // values; of type `elementary` where one is given, else INT
+    Enum,      // values; of type `elementary` if it is set, else INT
     Inferred,  // VAR_TEMP of translated networks: that of the first value assigned in the text of the body; also what
                // a declaration with an error declares
   };
@@ -206,15 +206,15 @@ struct TypeSpec {
   Place at;
   Elementary elementary = Elementary::Int;
   std::string name;
-  std::vector<StartArguments> starts;  // Named: for all instances, or one for each element of the array around it
+  std::vector<StartArguments> starts;  // Named: for all instances, or one for each element of the surrounding array
   std::optional<Expression> length;
   std::vector<Dimension> dimensions;
-  std::shared_ptr<TypeSpec> element;  // Array, Pointer; of a Struct what it extends
+  std::shared_ptr<TypeSpec> element;  // Array, Pointer; the base of a Struct
   PointerKind pointer = PointerKind::PointerTo;
   std::optional<Dimension> range;
   std::vector<Variable> fields;
-  bool overlaps = false;  // Struct: a UNION, whose fields lie at one place
-  bool open = false;      // Array: [*], as many dimensions as there are, which have no bounds
+  bool overlaps = false;  // Struct: a UNION, whose fields share their memory
+  bool open = false;      // Array: [*], the dimensions have no bounds
   std::vector<EnumValue> values;
 };
 
@@ -231,23 +231,23 @@ struct Variable {
   std::optional<DirectAddress> address;  // AT %IX0.0; then the name may be empty
   bool constant = false;
   bool retain = false;
-  bool non_retain = false;       // also where the instance around it is RETAIN
-  bool is_static = false;        // VAR_STAT: one for all instances, or of a function: kept from call to call
+  bool non_retain = false;       // also where the surrounding instance is RETAIN
+  bool is_static = false;        // VAR_STAT: one for all instances, or of a function: kept between calls
   bool of_instance = false;      // VAR_INST of a method: kept in the instance
-  bool made = false;             // what a drawing or a list needs, not the text
+  bool made = false;             // made for a drawing or a list, not in the text
   std::optional<Access> access;  // VAR PUBLIC
   Edge edge = Edge::None;
   std::string comment;
-  std::optional<Expression> late;  // checker: the initial value, where only the running program knows it
+  std::optional<Expression> late;  // checker: the initial value, if it is known at run time only
 };
 
-// The name of another declaration, where it is needed.
+// The name of another declaration, and the place that refers to it.
 struct NameAt {
   Place at;
   std::string name;
 };
 
-// NAMESPACE A.B, and what USING names there.
+// NAMESPACE A.B, and the names in its USING.
 struct Scope {
   std::string space;
   std::vector<NameAt> uses;
@@ -263,7 +263,7 @@ struct TypeDeclaration {
   Scope scope;
 };
 
-// What a PROPERTY is read and written by; both are methods with its name.
+// The accessors of a PROPERTY; both are methods with its name.
 enum class Accessor : std::uint8_t { None, Get, Set };
 
 struct Pou {
@@ -277,20 +277,20 @@ struct Pou {
   Body body;
   Scope scope;
 
-  // FunctionBlock, Class, Interface, Method
+  // Fields of FunctionBlock, Class, Interface, Method
   bool is_abstract = false;
   bool is_final = false;
   bool overrides = false;  // METHOD OVERRIDE
   bool is_struct = false;  // Class: a STRUCT that contains function blocks
-  bool is_action = false;  // Method: an ACTION that others call
+  bool is_action = false;  // Method: an ACTION that other POUs call
   Access access = Access::Public;
   Accessor accessor = Accessor::None;
-  std::vector<NameAt> bases;       // EXTENDS; several of an interface
+  std::vector<NameAt> bases;       // EXTENDS; an interface can have several
   std::vector<NameAt> interfaces;  // IMPLEMENTS
   std::vector<Pou> methods;
 
-  std::vector<Pou> actions;     // as methods, for those that others call: x.Restart();
-  std::optional<Place> c_code;  // it has C code that means nothing here, so it is left out
+  std::vector<Pou> actions;     // as methods, for those that other POUs call: x.Restart();
+  std::optional<Place> c_code;  // it has C code that is not supported, so it is left out
 };
 
 }  // namespace indurop::plc::ast

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The characters of STRING and WSTRING. While a program is compiled both are UTF-8; a STRING counts its bytes, a
-// WSTRING what becomes of them in UTF-16.
+// The characters of STRING and WSTRING. During compilation both are UTF-8; a STRING counts its bytes, a WSTRING its
+// UTF-16 units.
 
 #pragma once
 
@@ -15,9 +15,9 @@ namespace indurop::plc {
 
 [[nodiscard]] std::u16string to_wide(std::string_view utf8);
 [[nodiscard]] std::string to_utf8(std::u16string_view wide);
-// How many characters a STRING, or a WSTRING, has that holds the text.
+// Returns the number of characters that a STRING, or a WSTRING, needs to hold the text.
 [[nodiscard]] std::size_t characters_of(std::string_view utf8, Elementary of);
-// The number of the only character of a text, as a CHAR or WCHAR; none: it has not exactly one.
+// Returns the code of the only character of a text, as a CHAR or WCHAR; none if it does not have exactly one.
 [[nodiscard]] std::optional<char16_t> code_of_character(std::string_view utf8, Elementary of);
 
 }  // namespace indurop::plc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collects what readers and checker find wrong with a PLC program. Only what these languages have of their own: places
-// share the names of their files, may be elements of a drawing, and texts of files are known only for a while.
+// Collects the errors and warnings of readers and checker about a PLC program. It adds what these languages need:
+// places share the names of their files and may be elements of a drawing, and texts of files are known only for a
+// while.
 
 #pragma once
 
@@ -19,19 +20,20 @@ class Diagnostics {
   Diagnostics(const Diagnostics&) = delete;
   Diagnostics& operator=(const Diagnostics&) = delete;
 
-  // Text: what is wrong, then what to do. The same text at the same place is kept once; at most 100 errors are.
+  // Adds an error. Text: what is wrong, then what to do. The same text at the same place is kept once; at most 100
+  // errors are kept.
   void error(const Place& at, std::string text) { add(base::Diagnostic::Severity::Error, at, std::move(text)); }
   void warning(const Place& at, std::string text) { add(base::Diagnostic::Severity::Warning, at, std::move(text)); }
 
-  // The text of a file whose lines are shown below messages about it from now on. Drawn programs have none.
+  // Sets the text of a file whose lines are shown below messages about it from now on. Drawn programs have none.
   void show_lines_of(const std::string& file, std::string text) { texts_[file] = std::move(text); }
 
   [[nodiscard]] bool failed() const noexcept { return all_.failed(); }
-  // Further errors only count.
+  // Returns whether further errors are only counted.
   [[nodiscard]] bool full() const noexcept { return all_.full(); }
   [[nodiscard]] std::size_t errors() const noexcept { return all_.errors(); }
 
-  // Files in the order in which they were first complained about, lines ascending.
+  // Returns all messages, files in the order of their first message, lines ascending.
   [[nodiscard]] std::vector<base::Diagnostic> list() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose rules decide where the standard and an editor differ.
+// The dialect whose rules apply where the standard and an editor differ.
 
 #pragma once
 
@@ -9,7 +9,7 @@ namespace indurop::plc {
 
 enum class Dialect : std::uint8_t {
   Iec,
-  Codesys,  // and TwinCAT: bit strings are numbers, values are converted where no digit can be lost
+  Codesys,  // and TwinCAT: bit strings are numbers, values are converted if no digit can be lost
 };
 
 }  // namespace indurop::plc

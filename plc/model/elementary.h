@@ -26,7 +26,7 @@ enum class Elementary : std::uint8_t {
   Ulint,
   Real,
   Lreal,
-  Time,  // LTIME is the same type: both count nanoseconds in 64 bits; and so LDATE, LTOD, LDT
+  Time,  // LTIME is the same type: both count nanoseconds in 64 bits; likewise LDATE, LTOD, LDT
   Date,
   TimeOfDay,
   DateAndTime,
@@ -39,10 +39,10 @@ inline constexpr std::size_t kElementaryCount = static_cast<std::size_t>(Element
 
 // "DINT", "TIME_OF_DAY".
 [[nodiscard]] std::string_view name_of(Elementary type) noexcept;
-// By any of its names, in any case: "dint", "TOD", "TIME_OF_DAY", "LTIME".
+// Finds a type by any of its names, in any case: "dint", "TOD", "TIME_OF_DAY", "LTIME".
 [[nodiscard]] std::optional<Elementary> elementary_named(std::string_view name) noexcept;
 
-// Width of one value in bits; BOOL 1, times 64, STRING and WSTRING 0.
+// Returns the width of one value in bits; BOOL 1, times 64, STRING and WSTRING 0.
 [[nodiscard]] unsigned bits_of(Elementary type) noexcept;
 
 [[nodiscard]] bool is_signed_int(Elementary type) noexcept;    // SINT INT DINT LINT
@@ -50,18 +50,18 @@ inline constexpr std::size_t kElementaryCount = static_cast<std::size_t>(Element
 [[nodiscard]] bool is_int(Elementary type) noexcept;           // ANY_INT
 [[nodiscard]] bool is_real(Elementary type) noexcept;          // ANY_REAL
 [[nodiscard]] bool is_num(Elementary type) noexcept;           // ANY_NUM
-[[nodiscard]] bool is_bit(Elementary type) noexcept;           // ANY_BIT, BOOL too
+[[nodiscard]] bool is_bit(Elementary type) noexcept;           // ANY_BIT, including BOOL
 [[nodiscard]] bool is_date(Elementary type) noexcept;          // ANY_DATE: DATE TIME_OF_DAY DATE_AND_TIME
 [[nodiscard]] bool is_text(Elementary type) noexcept;          // ANY_STRING: STRING WSTRING
 [[nodiscard]] bool is_character(Elementary type) noexcept;     // ANY_CHAR: CHAR WCHAR
 
-// Whether every value of `from` is used as a `to` without a conversion function: equal types, integers and reals into
-// wider ones (SINT -> INT -> DINT -> LINT, USINT -> UINT -> ..., unsigned into wider signed, integers of up to 16 bits
-// into REAL, of up to 32 into LREAL, REAL -> LREAL), BYTE -> WORD -> DWORD -> LWORD. BOOL goes nowhere.
+// Returns whether every value of `from` can be used as a `to` without a conversion function: equal types, integers and
+// reals into wider ones (SINT -> INT -> DINT -> LINT, USINT -> UINT -> ..., unsigned into wider signed, integers of up
+// to 16 bits into REAL, of up to 32 into LREAL, REAL -> LREAL), BYTE -> WORD -> DWORD -> LWORD. BOOL never converts.
 [[nodiscard]] bool widens(Elementary from, Elementary to) noexcept;
 
-// The same for CODESYS: integers and bit strings into each other where no bit is lost, both into reals, reals into each
-// other.
+// As widens(), with the rules of CODESYS: integers and bit strings into each other if no bit is lost, both into reals,
+// reals into each other.
 [[nodiscard]] bool converts_in_codesys(Elementary from, Elementary to) noexcept;
 
 // Names are compared without case, in ASCII. "MotorOn" -> "MOTORON"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole PLC project as the readers find it: types, program organisation units, and which program runs when.
+// A whole PLC project as returned by the readers: types, program organisation units, and the assignment of programs to
+// tasks.
 
 #pragma once
 
@@ -13,7 +14,7 @@
 
 namespace indurop::plc {
 
-// More of them in one line are an error: what is inherited is copied.
+// The maximum length of a chain of EXTENDS; more is an error, because inherited items are copied.
 inline constexpr std::size_t kMaxExtends = 64;
 
 // TASK fast (INTERVAL := T#10ms, PRIORITY := 1)
@@ -27,13 +28,13 @@ struct Task {
   std::string single;  // SINGLE := variable or "%IX0.0": runs at its rising edge
 };
 
-// input := variable, output => variable, of a program's instance.
+// input := variable, output => variable, of a program instance.
 struct Connection {
   Place at;
   std::string parameter;
   bool output = false;
   ast::Expression value;
-  std::optional<ast::Initial> initial;  // checker: the value, where it is no variable
+  std::optional<ast::Initial> initial;  // checker: the value, if it is not a variable
 };
 
 // PROGRAM instance WITH task : type (input := variable)
@@ -45,17 +46,17 @@ struct ProgramInstance {
   std::vector<Connection> connections = {};
 };
 
-// Of VAR_ACCESS: pressure : plc.main.tank.pressure : REAL READ_WRITE; of an address the resource is left out.
+// An entry of VAR_ACCESS: pressure : plc.main.tank.pressure : REAL READ_WRITE; for an address the resource is left out.
 struct Access {
   Place at;
   std::string name;
-  std::string program;  // the PROGRAM in which it is declared; empty: a configuration
+  std::string program;  // PROGRAM that declares it; empty: a configuration
   ast::Expression to;
   ast::TypeSpec type;
   bool writable = false;
 };
 
-// Of VAR_CONFIG: plc.main.motor.running AT %QX1.0 : BOOL := TRUE;
+// An entry of VAR_CONFIG: plc.main.motor.running AT %QX1.0 : BOOL := TRUE;
 struct Configured {
   Place at;
   std::vector<std::string> path;
@@ -86,17 +87,17 @@ struct Project {
   std::vector<Configuration> configurations;
   std::vector<Configured> configured;
   std::vector<Access> accesses;
-  std::vector<ast::NameAt> left_out;      // POUs with C code, and where that stands
-  bool incomplete = false;                // something that is not supported was left out, so that names may miss
-  Dialect dialect = Dialect::Iec;         // of the editor that wrote it, as far as the files say
-  std::size_t copied_actions = 0;         // bytes of actions that were copied to where they are called, about
-  std::vector<std::string> global_lists;  // names through which globals may be reached: Io.Blocked, as CODESYS has it
+  std::vector<ast::NameAt> left_out;      // POUs with C code, and its places
+  bool incomplete = false;                // unsupported parts were left out, so names may be missing
+  Dialect dialect = Dialect::Iec;         // of the editor that wrote it, if the files identify it
+  std::size_t copied_actions = 0;         // approximate bytes of actions copied to their callers
+  std::vector<std::string> global_lists;  // names that qualify globals: Io.Blocked, in CODESYS
 };
 
-// "; it was left out, ..." of a POU that C code kept out, "" of others.
+// Returns "; it was left out, ..." for a POU left out because of C code, "" for others.
 [[nodiscard]] std::string why_left_out(const Project& project, const std::string& name);
 
-// Appends everything in `from`, in its order. Doubles are for the checker to find.
+// Appends everything in `from`, in its order. The checker finds duplicates.
 void append(Project& into, Project from);
 
 }  // namespace indurop::plc

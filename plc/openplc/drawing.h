@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drawing of the OpenPLC Editor: nodes and the lines between them, in JSON.
+// Reads a drawing of the OpenPLC Editor: nodes and the lines between them, in JSON.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace indurop::plc::openplc {
 
-// {"name": ..., "rungs": [...]} of a ladder, {"name": ..., "rung": {...}} of a function block diagram.
+// Reads {"name": ..., "rungs": [...]} of a ladder, {"name": ..., "rung": {...}} of a function block diagram.
 [[nodiscard]] network::Body read_drawing(const base::Json& flow, network::Body::Language language, const Place& at,
                                          const std::string& pou);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of the OpenPLC Editor, from version 4 on: project.json with types, globals and tasks, and one file for each
-// POU. Texts (.st, .il, .dt) are those of the standard; drawn POUs (.ld, .fbd) are a text with a drawing in JSON
-// inside.
+// Reads the files of the OpenPLC Editor, from version 4 on: project.json with types, globals and tasks, and one file
+// for each POU. Texts (.st, .il, .dt) are those of the standard; drawn POUs (.ld, .fbd) are a text that contains a
+// drawing in JSON.
 
 #pragma once
 
@@ -17,7 +17,7 @@ namespace indurop::plc::openplc {
 // Reads the text of one POU or declaration: st::parse_project() or st::parse_declarations().
 using TextReader = Project (*)(const st::Text& text, std::vector<st::WrittenBody>& others, Diagnostics& diagnostics);
 
-// What has errors is left out. `others`: bodies that are no Structured Text.
+// Parts with errors are left out. `others`: receives bodies that are not Structured Text.
 [[nodiscard]] Project read_project(std::string_view json, const Place& at, TextReader read,
                                    std::vector<st::WrittenBody>& others, Diagnostics& diagnostics);
 [[nodiscard]] Project read_drawn(std::string_view text, const Place& at, network::Body::Language language,

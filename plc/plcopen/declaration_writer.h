@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types, variables and initial values as a PLCopen file has them. What the format does not have is an error.
+// Writes types, variables and initial values as elements of a PLCopen file. What the format does not support is an
+// error.
 
 #pragma once
 
@@ -18,11 +19,11 @@ class DeclarationWriter {
 
   // <dataType>
   void type(const ast::TypeDeclaration& declared);
-  // <interface>, with the type of the result
+  // Writes <interface>, with the type of the result.
   void interface(const ast::Pou& pou);
-  // <globalVars> for each stretch of variables that have the same attributes
+  // Writes one <globalVars> for each run of consecutive variables with the same attributes.
   void globals(const std::vector<ast::Variable>& variables);
-  // <type> and, unless it is null, <initialValue>
+  // Writes <type> and, unless it is null, <initialValue>.
   void typed(const ast::TypeSpec& type, const ast::Initial* value);
 
  private:
@@ -38,7 +39,7 @@ class DeclarationWriter {
   void initial(const ast::Initial& of);
   void value(const ast::Initial& of);
   void elementary(Elementary type);
-  // "<what> is not part of PLCopen XML"
+  // Reports "<what> is not part of PLCopen XML".
   void refuse(const Place& at, std::string_view what);
 
   XmlWriter& out_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Code of a POU, an action or a transition as a PLCopen file has it: texts as they are, drawings with their places.
+// Writes the code of a POU, an action or a transition to a PLCopen file: texts unchanged, drawings with their places.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace indurop::plc::plcopen {
 
-// Below an element that is open: <ST>, <LD>...
+// Writes below an open element: <ST>, <LD>...
 void write_body(const network::Body& body, XmlWriter& out);
 
 }  // namespace indurop::plc::plcopen

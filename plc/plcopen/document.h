@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A PLCopen TC6 file (2.0, 2.01) as data: declarations as every language has them, code as it is written or drawn.
+// A PLCopen TC6 file (2.0, 2.01) as data: declarations as in all languages, code as it is written or drawn.
 
 #pragma once
 
@@ -24,7 +24,7 @@ struct Document {
   std::vector<PouDocument> pous;
 };
 
-// `name`: of the file, for messages. What has errors is left out.
+// `name`: of the file, for messages. Parts with errors are left out.
 [[nodiscard]] Document read_document(std::string_view bytes, const std::string& name, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::plcopen

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The elements of <LD>, <FBD> and <SFC> as data.
+// Reads the elements of <LD>, <FBD> and <SFC> as data.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What CODESYS, TwinCAT and we keep in extensions of the format, whose names are numbers or addresses.
+// The data that CODESYS, TwinCAT and InduRoP store in extensions of the format, whose names are numbers or addresses.
 
 #pragma once
 
@@ -14,10 +14,10 @@ namespace indurop::plc::plcopen {
 
 inline constexpr std::string_view kExtensionsOfCodesys = "http://www.3s-software.com/plcopenxml/";
 
-// Of a variable: BOOL R_EDGE is "rising", BOOL F_EDGE is "falling". The format has no place for it.
+// Extension of a variable: BOOL R_EDGE is "rising", BOOL F_EDGE is "falling". The format itself cannot express it.
 inline constexpr std::string_view kEdgeExtension = "https://indurop.org/plcopenxml/edge";
 
-// Of a variable: what FB_Init of the instance is given.
+// Extension of a variable: the arguments of FB_Init of the instance.
 inline constexpr std::string_view kStartExtension = "http://www.3s-software.com/plcopenxml/inputassignments";
 
 // Entry, main and exit action of a step.

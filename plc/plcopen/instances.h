@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <instances> of a PLCopen file: configurations, resources, tasks, programs.
+// Reads <instances> of a PLCopen file: configurations, resources, tasks, programs.
 
 #pragma once
 
@@ -13,10 +13,11 @@ namespace indurop::plc::plcopen {
 
 void read_instances(const Node& instances, Project& into, Diagnostics& diagnostics);
 
-// A <resource> that stands for itself, as a configuration of its name.
+// Reads a <resource> outside of a configuration as a configuration of its name.
 void read_application(const Node& resource, Project& into, Diagnostics& diagnostics);
 
-// "T#10ms", "TIME#1s", ISO 8601 as in "PT0.01S", "P1DT2H", or "00:00:00.010000": nanoseconds; empty if it is neither.
+// Returns nanoseconds for "T#10ms", "TIME#1s", ISO 8601 as in "PT0.01S", "P1DT2H", or "00:00:00.010000"; empty if it is
+// none of these.
 [[nodiscard]] std::optional<std::int64_t> interval_ns(std::string_view text);
 
 }  // namespace indurop::plc::plcopen

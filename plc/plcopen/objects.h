@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Object orientation in the extensions that CODESYS and TwinCAT add to the format: inheritance, methods, properties,
-// interfaces.
+// Reads object orientation from the extensions that CODESYS and TwinCAT add to the format: inheritance, methods,
+// properties, interfaces.
 
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace indurop::plc::plcopen {
 
-// What the extensions of a <pou> or <Interface> say of it.
+// Reads the extensions of a <pou> or <Interface>.
 void read_object(const Node& node, const std::string& what, PouDocument& into, Diagnostics& diagnostics);
-// <Interface>, a POU of its own.
+// Reads <Interface>, which is a POU.
 [[nodiscard]] PouDocument read_interface_object(const Node& node, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::plcopen

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <accessVars> and <configVars> of a PLCopen file: what is named from outside of POUs.
+// <accessVars> and <configVars> of a PLCopen file: variables that are named from outside of POUs.
 
 #pragma once
 
@@ -12,14 +12,14 @@
 
 namespace indurop::plc::plcopen {
 
-// <accessVars>; of the PROGRAM of this name, unless it is empty.
+// Reads <accessVars>; of the PROGRAM of this name, unless it is empty.
 void read_accesses(const Node& list, const std::string& program, const std::string& what, std::vector<Access>& into,
                    Diagnostics& diagnostics);
-// <configVars>
+// Reads <configVars>.
 void read_configured(const Node& list, const std::string& what, std::vector<Configured>& into,
                      Diagnostics& diagnostics);
 
-// Both, as a <configuration> has them behind its global variables.
+// Writes both, in the order of <configuration>: after its global variables.
 void write_outside(const Project& project, XmlWriter& out, DeclarationWriter& declarations, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::plcopen

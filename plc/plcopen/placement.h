@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the elements of a drawing stand on its sheet, for what is written to a file: sizes, pins and corners of lines
-// that nobody said, and all places of a drawing that has none.
+// Places the elements of a drawing on its sheet before it is written to a file: missing sizes, pins and corners of
+// lines, and all places of a drawing that has none.
 
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace indurop::plc::plcopen {
 
-// Completes the drawing; what it means stays the same. A drawing without places whose order would change by ours keeps
-// having none.
+// Completes the drawing without changing its meaning. A drawing without places stays as it is if places would change
+// its order of execution.
 void place(network::Body& body);
 
 }  // namespace indurop::plc::plcopen

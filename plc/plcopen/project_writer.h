@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A project as a file of PLCopen TC6 XML 2.01, which editors open and read_document() reads as the same project.
+// Writes a project as a file of PLCopen TC6 XML 2.01, which editors open and read_document() reads as the same project.
 
 #pragma once
 
@@ -15,8 +15,8 @@ struct WriteOptions {
   std::string created;  // "2024-01-31T12:30:00"
 };
 
-// What the format does not have (methods, namespaces, references, R_EDGE) is an error; then the text is of no use.
-// Without a configuration, one says what runs without one: all programs every 10 ms.
+// Constructs that the format does not support (methods, namespaces, references, R_EDGE) are errors; then the text must
+// not be used. A project without a configuration gets one that runs the same as without: all programs every 10 ms.
 [[nodiscard]] std::string write_project(const Document& document, const WriteOptions& options,
                                         Diagnostics& diagnostics);
 

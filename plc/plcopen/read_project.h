@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PLCopen XML to the syntax tree: the front door of everything that is drawn.
+// Reads PLCopen XML into the syntax tree: the entry point for drawn programs.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace indurop::plc::plcopen {
 
-// `name`: of the file, for messages. `bodies`: the code of its POUs and methods. Check `diagnostics` before the project
-// is used.
+// `name`: of the file, for messages. `bodies`: receives the code of its POUs and methods. Check `diagnostics` before
+// using the project.
 [[nodiscard]] Project read_project(std::string_view bytes, const std::string& name,
                                    std::vector<st::WrittenBody>& bodies, Diagnostics& diagnostics);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data types and initial values of a PLCopen file. The format says them in elements; what it leaves as Structured Text
-// are single expressions: bounds, lengths, values of enumerations, and each <simpleValue>.
+// Reads data types and initial values of a PLCopen file. The format expresses them in elements; only single expressions
+// are Structured Text: bounds, lengths, values of enumerations, and each <simpleValue>.
 
 #pragma once
 
@@ -12,13 +12,14 @@
 
 namespace indurop::plc::plcopen {
 
-// What is below <type>, <baseType>, <returnType>; none after errors. `what` is for messages: "POU main, variable a".
+// Reads the type below <type>, <baseType>, <returnType>; none after errors. `what` is for messages: "POU main, variable
+// a".
 [[nodiscard]] std::optional<ast::TypeSpec> read_type(const Node& holder, const std::string& what,
                                                      Diagnostics& diagnostics);
-// What <initialValue> below `holder` says; none where there is none, and after errors.
+// Reads <initialValue> below `holder`; none if it is missing, and after errors.
 [[nodiscard]] std::optional<ast::Initial> read_initial(const Node& holder, const std::string& what,
                                                        Diagnostics& diagnostics);
-// <documentation> as one line; "" for none.
+// Returns <documentation> as one line; "" if it is missing.
 [[nodiscard]] std::string comment_of(const Node& node);
 
 }  // namespace indurop::plc::plcopen

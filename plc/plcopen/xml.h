@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An XML document as nodes with places that name the file. Knows nothing of what the elements mean.
+// An XML document as nodes with places that name the file. It does not interpret the elements.
 
 #pragma once
 
@@ -21,30 +21,30 @@ inline constexpr std::size_t kMaxXmlAttributes = 1000;  // of one element
 struct Attribute {
   std::string name;  // without a namespace prefix, as all names here
   std::string value;
-  base::SourcePlace value_at;  // of its first character
+  base::SourcePlace value_at;  // place of its first character
 };
 
 struct Node {
   std::string name;
   Place at;          // of '<'
-  std::string text;  // own text with its white space, without that of children
-  Place text_at;     // where the text begins; that of the element if it has none
+  std::string text;  // text of the node with its white space, without that of children
+  Place text_at;     // place where the text begins; of the element if it has none
   std::vector<Attribute> attributes;
   std::vector<Node> children;
 
-  // "" where there is none.
+  // Returns the value of an attribute, "" if it is missing.
   [[nodiscard]] std::string_view attribute(std::string_view wanted) const noexcept;
   [[nodiscard]] bool has(std::string_view wanted) const noexcept;
-  // Where its value begins; the place of the element where there is none.
+  // Returns the place where the value begins; that of the element if the attribute is missing.
   [[nodiscard]] Place value_at(std::string_view wanted) const;
-  // The first child of that name, or null.
+  // Returns the first child of that name, or null.
   [[nodiscard]] const Node* child(std::string_view wanted) const noexcept;
 };
 
-// Nothing below null.
+// Returns the children of the node; empty if it is null.
 [[nodiscard]] const std::vector<Node>& children_of(const Node* node) noexcept;
 
-// The root element, or empty after errors: too large, not UTF-8 or UTF-16, too deep, not well-formed.
+// Returns the root element, or empty after errors: too large, not UTF-8 or UTF-16, too deep, not well-formed.
 [[nodiscard]] std::optional<Node> read_xml(std::string_view bytes, const std::shared_ptr<const std::string>& file,
                                            Diagnostics& diagnostics);
 

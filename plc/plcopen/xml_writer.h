@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes XML: elements inside each other, indented, with everything escaped that has to be.
+// Writes XML: nested elements, indented, with all special characters escaped.
 
 #pragma once
 
@@ -23,7 +23,7 @@ class XmlWriter {
   void text(std::string_view name, std::string_view text);
   // <name attribute="value">text</name>
   void attribute_text(std::string_view name, std::string_view attribute, std::string_view value, std::string_view text);
-  // <name><xhtml:p>text</xhtml:p></name>, as the format has texts for people and programs
+  // <name><xhtml:p>text</xhtml:p></name>, the form of the format for comments and code
   void formatted(std::string_view name, std::string_view text);
 
   [[nodiscard]] std::string take();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bodies in a text that are no Structured Text: sequential function charts as the standard writes them (INITIAL_STEP,
-// TRANSITION FROM a TO b) and instruction lists. They become the same data as those of a drawn file.
+// Parses bodies of a text that are not Structured Text: sequential function charts in the standard's textual form
+// (INITIAL_STEP, TRANSITION FROM a TO b) and instruction lists. They become the same data as those of a drawn file.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace indurop::plc::st {
 
-// The code of the `pou`-th POU of the project, to be translated when all are known.
+// The code of the `pou`-th POU of the project, to be translated when all POUs are known.
 struct WrittenBody {
   std::size_t pou = 0;
   std::optional<std::size_t> method = std::nullopt;  // of that POU
@@ -28,16 +28,16 @@ class ChartParser {
   [[nodiscard]] bool at_chart() const;
   [[nodiscard]] bool at_instruction_list() const;
 
-  // Up to `end`, which is not taken. After errors what was understood.
+  // Parses up to `end`, which is not consumed. After errors returns the parts that were understood.
   [[nodiscard]] WrittenBody chart(std::string_view end);
   [[nodiscard]] WrittenBody instruction_list(std::string_view end);
   [[nodiscard]] WrittenBody statements(std::string_view end);
-  // ACTIONs that stand here, for this body.
+  // Parses the ACTIONs at this place, for this body.
   void actions(WrittenBody& to);
 
  private:
   using Element = network::Element;
-  // TRANSITION FROM a, b TO c, kept until all steps are known.
+  // TRANSITION FROM a, b TO c, stored until all steps are known.
   struct Transition {
     Place at;
     std::vector<const Token*> from;
@@ -61,7 +61,7 @@ class ChartParser {
 
   TokenReader& in_;
   WrittenBody out_;
-  std::map<std::string, std::size_t> steps_;  // in capitals, to its element
+  std::map<std::string, std::size_t> steps_;  // index of the element by name in capitals
   std::vector<Transition> transitions_;
 };
 

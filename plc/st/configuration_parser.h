@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CONFIGURATION with its resources, tasks and programs, VAR_CONFIG and VAR_ACCESS of Structured Text.
+// Parses CONFIGURATION with its resources, tasks and programs, VAR_CONFIG and VAR_ACCESS of Structured Text.
 
 #pragma once
 
@@ -16,9 +16,9 @@ class ConfigurationParser {
  public:
   explicit ConfigurationParser(TokenReader& in) : in_(in), expressions_(in), declarations_(in) {}
 
-  // CONFIGURATION, VAR_CONFIG or VAR_ACCESS, one of which comes next.
+  // Parses CONFIGURATION, VAR_CONFIG or VAR_ACCESS; requires that one of them is next.
   void element(Project& to);
-  // VAR_ACCESS, which comes next; of the PROGRAM of this name, unless it is empty.
+  // Parses VAR_ACCESS, which must be next; of the PROGRAM of this name, unless it is empty.
   void accesses(const std::string& program, std::vector<Access>& to);
 
  private:
@@ -32,14 +32,15 @@ class ConfigurationParser {
   void configured(std::vector<Configured>& to);
   [[nodiscard]] bool configured(Configured& out);
   [[nodiscard]] bool access(Access& out);
-  // What is named from outside, resource.program.instance.variable: what leads to an address is left out.
+  // Parses the path of an item named from outside, resource.program.instance.variable; the part before an address is
+  // left out.
   [[nodiscard]] std::optional<ast::Expression> path();
   [[nodiscard]] bool name(std::string& to, std::string_view what);
   template <class Item>
   [[nodiscard]] bool in_brackets(Item item, std::string_view behind);
   template <class Item>
   void up_to_end_var(std::string_view section, Item item);
-  // Behind the next ';', or before a word that begins with END_.
+  // Skips to the position after the next ';', or before a word that begins with END_.
   void recover();
 
   TokenReader& in_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declarations of variables and types. A declaration with an error is left out and reading goes on behind it.
+// Parses declarations of variables and types. A declaration with an error is left out and reading continues after it.
 
 #pragma once
 
@@ -12,22 +12,22 @@
 
 namespace indurop::plc::st {
 
-// What PUBLIC, PRIVATE, PROTECTED and INTERNAL say; nothing of other words.
+// Returns the access of PUBLIC, PRIVATE, PROTECTED and INTERNAL; none for other words.
 std::optional<ast::Access> access_word(const Token& word) noexcept;
 
 class DeclarationParser {
  public:
   explicit DeclarationParser(TokenReader& in) : in_(in), expressions_(in) {}
 
-  // Whether VAR, VAR_INPUT, ... stands here.
+  // Returns whether VAR, VAR_INPUT, ... is next.
   [[nodiscard]] bool at_variables() const;
-  // VAR ... END_VAR
+  // Parses VAR ... END_VAR.
   void variables(std::vector<ast::Variable>& to);
-  // %IX0.3, behind AT.
+  // Parses %IX0.3, after AT.
   [[nodiscard]] bool address(ast::Variable& out);
-  // As it stands behind the name of a variable.
+  // Parses a type as it follows the name of a variable.
   [[nodiscard]] std::optional<ast::TypeSpec> type();
-  // Behind TYPE, up to and with END_TYPE.
+  // Parses the part after TYPE, up to and including END_TYPE.
   void types(std::vector<ast::TypeDeclaration>& to);
 
  private:
@@ -53,10 +53,10 @@ class DeclarationParser {
   [[nodiscard]] bool starts(ast::TypeSpec& out);
   [[nodiscard]] bool string_length(ast::TypeSpec& out);
   [[nodiscard]] bool named(ast::TypeSpec& out);
-  // The comment behind the ';' on its line, else the one on lines of its own before the declaration, which begins with
-  // `first` and stands behind line `before`.
+  // Returns the comment after the ';' on its line, else the one on separate lines before the declaration, which begins
+  // with `first` and comes after line `before`.
   [[nodiscard]] std::string comment(const Token& first, int before) const;
-  // Behind the next ';', or before `end`.
+  // Skips to the position after the next ';', or before `end`.
   void recover(std::string_view end);
 
   TokenReader& in_;

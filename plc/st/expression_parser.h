@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expressions of Structured Text with the precedence of IEC 61131-3: ( ) and calls, unary - and NOT, **, * / MOD, + -,
-// < > <= >=, = <>, AND &, XOR, OR.
+// Parses expressions of Structured Text with the precedence of IEC 61131-3: ( ) and calls, unary - and NOT, **, * /
+// MOD, + -, < > <= >=, = <>, AND &, XOR, OR.
 
 #pragma once
 
@@ -16,12 +16,11 @@ class ExpressionParser {
   explicit ExpressionParser(TokenReader& in) : in_(in) {}
 
   [[nodiscard]] std::optional<ast::Expression> expression();
-  // What can stand left of := or be called: a name with members, indices, calls.
+  // Parses a target of := or of a call: a name with members, indices, calls.
   [[nodiscard]] std::optional<ast::Expression> designator();
-  // A value, [1, 2, 3(0)] or (x := 1).
-  // `is_list`: for an array, whose values may stand without brackets.
+  // Parses a value, [1, 2, 3(0)] or (x := 1). `is_list`: for an array, whose values may be written without brackets.
   [[nodiscard]] std::optional<ast::Initial> initial(bool is_list = false);
-  // (5, speed := 3)
+  // Parses (5, speed := 3).
   [[nodiscard]] std::optional<std::vector<ast::Argument>> arguments();
 
  private:
@@ -39,7 +38,7 @@ class ExpressionParser {
   [[nodiscard]] std::optional<ast::Initial> array_initial();
   [[nodiscard]] std::optional<ast::InitialElement> array_element();
   [[nodiscard]] std::optional<ast::Initial> struct_initial();
-  // False with a message beyond the limit. A bracket costs more of the stack than an operator.
+  // Returns false with a message beyond the limit. A bracket uses more of the stack than an operator.
   [[nodiscard]] bool deeper(const Token& at, int by = 1);
 
   TokenReader& in_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Splits Structured Text into tokens. Knows characters and the forms of literals, not grammar.
+// Splits Structured Text into tokens. It knows characters and the forms of literals, not grammar.
 
 #pragma once
 
@@ -25,21 +25,21 @@ enum class TokenKind : std::uint8_t {
 struct Token {
   TokenKind kind = TokenKind::End;
   std::string_view text;     // spelling
-  std::string_view written;  // the place of it in the file; of what stands for something else, the place of that
+  std::string_view written;  // position in the file; for a generated token, of the text that it replaces
   int line = 1;
   int column = 1;
-  std::string_view comment;    // the last one between this token and the one before; without its marks
-  int comment_line = 0;        // where it begins; 0: none
-  bool follows_error = false;  // stands for what could not be read: what misses here was said
+  std::string_view comment;    // the last one between the previous token and this one; without its delimiters
+  int comment_line = 0;        // line where it begins; 0: none
+  bool follows_error = false;  // replaces unreadable text: errors caused by that were reported
 
-  // Keywords in any case.
+  // Compares with a keyword in any case.
   [[nodiscard]] bool is(std::string_view word) const noexcept {
     return (kind == TokenKind::Word || kind == TokenKind::Symbol) && same_name(text, word);
   }
 };
 
-// The list ends with TokenKind::End. Reports what cannot be a token and goes on behind it. The views refer to `text`.
-// `at` is the place of the first character.
+// Returns a list that ends with TokenKind::End. Reports text that cannot be a token and continues after it. The views
+// refer to `text`. `at` is the place of the first character.
 [[nodiscard]] std::vector<Token> tokenize(std::string_view text, const Place& at, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::st

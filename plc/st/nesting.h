@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// How deep the expression around a place is, so that none becomes deeper than the stack bears.
+// Limits the depth of expressions, so that none overflows the stack.
 
 #pragma once
 
 namespace indurop::plc::st {
 
-// A bracket costs as much of the stack as so many operators.
+// A bracket uses as much of the stack as this number of operators.
 inline constexpr int kBracket = 8;
 
-// Keeps the depth of the expression around it; what is inside counts from there.
+// Saves the depth of the surrounding expression; inner expressions count from there.
 class Nesting {
  public:
   explicit Nesting(int& depth) noexcept : depth_(depth), before_(depth) {}

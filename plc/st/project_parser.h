@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Program organisation units of Structured Text.
+// Parses program organisation units of Structured Text.
 
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace indurop::plc::st {
 
-// AsWritten: all bodies are kept as texts, Structured Text too.
+// AsWritten: all bodies are kept as text, including Structured Text.
 enum class Bodies { Parsed, AsWritten };
 
 class ProjectParser {
  public:
-  // `in_editor`: END_PROGRAM and so on may miss at the end of the text.
+  // `in_editor`: END_PROGRAM and so on may be missing at the end of the text.
   explicit ProjectParser(TokenReader& in, bool in_editor = false, Bodies wanted = Bodies::Parsed)
       : in_(in),
         as_written_(wanted == Bodies::AsWritten),
@@ -30,11 +30,11 @@ class ProjectParser {
         in_editor_(in_editor) {}
 
   [[nodiscard]] Project project();
-  // Bodies in other languages, of its POUs.
+  // Returns bodies in other languages, of the POUs of the project.
   [[nodiscard]] std::vector<WrittenBody> take_written() { return std::move(written_); }
-  // Statements up to the end of the text. `c_code`: where C code stands that means nothing here.
+  // Parses statements up to the end of the text. `c_code`: set to the place of unsupported C code.
   [[nodiscard]] ast::Body whole_body(std::optional<Place>& c_code);
-  // The same up to `end`, which is not taken.
+  // Parses statements up to `end`, which is not consumed.
   [[nodiscard]] ast::Body body(std::string_view end);
 
  private:
@@ -45,7 +45,7 @@ class ProjectParser {
   void space(Project& out);
   void uses(ast::Pou& out);
   void using_directive(std::vector<ast::NameAt>& to);
-  // object_parser.cpp
+  // Defined in object_parser.cpp
   void modifiers(ast::Pou& out);
   void inheritance(ast::Pou& out);
   [[nodiscard]] bool names(std::vector<ast::NameAt>& to, std::string_view what);
@@ -70,8 +70,8 @@ class ProjectParser {
   std::vector<WrittenBody> written_;
   std::vector<Access> accesses_;  // of its programs
   bool in_editor_;
-  ast::Scope scope_;                             // the namespace around what is read
-  std::map<std::string, std::size_t> next_end_;  // of END_PROGRAM and so on: that word or ACTION, whichever comes next
+  ast::Scope scope_;                             // the current namespace
+  std::map<std::string, std::size_t> next_end_;  // next END_PROGRAM and so on, or ACTION if that comes first
 };
 
 }  // namespace indurop::plc::st

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements of Structured Text. A statement with an error is left out and reading goes on behind it.
+// Parses statements of Structured Text. A statement with an error is left out and reading continues after it.
 
 #pragma once
 
@@ -16,9 +16,9 @@ class StatementParser {
  public:
   explicit StatementParser(TokenReader& in) : in_(in), expressions_(in) {}
 
-  // Statements up to one of the words, which is not taken, or the end of the text.
+  // Parses statements up to one of the words, which is not consumed, or the end of the text.
   [[nodiscard]] ast::Body list(std::initializer_list<std::string_view> ends);
-  // Where C code stood since the last question.
+  // Returns the place of C code found since the last call.
   [[nodiscard]] std::optional<Place> take_c_code() { return std::exchange(c_code_, std::nullopt); }
 
  private:
@@ -47,7 +47,7 @@ class StatementParser {
   ExpressionParser expressions_;
   int depth_ = 0;
   std::optional<Place> c_code_;
-  ast::Body before_;  // statements that the one being read begins with
+  ast::Body before_;  // statements to insert before the one being parsed
 };
 
 }  // namespace indurop::plc::st

@@ -17,9 +17,10 @@ struct TimeValue {
   std::string why;  // no value: what is wrong and what to do
 };
 
-// "1h2m3s4ms", "-1.5s", "25h_15m": units d h m s ms us ns, descending, a fraction only in the last one.
+// Evaluates "1h2m3s4ms", "-1.5s", "25h_15m": units d h m s ms us ns, descending, a fraction only in the last one.
 [[nodiscard]] TimeValue duration(std::string_view text);
-// DATE "2024-01-31", TIME_OF_DAY "12:30:15.5", DATE_AND_TIME "2024-01-31-12:30:15": since 1970, or since midnight.
+// Evaluates DATE "2024-01-31", TIME_OF_DAY "12:30:15.5", DATE_AND_TIME "2024-01-31-12:30:15": since 1970, or since
+// midnight.
 [[nodiscard]] TimeValue date_or_time(Elementary type, std::string_view text);
 
 }  // namespace indurop::plc::st

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks over tokens: looking ahead, accepting, expecting with a message. Shared by the parts of the parser.
+// Reads tokens one by one: look ahead, accept, or expect with a message. Shared by the parts of the parser.
 
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace indurop::plc::st {
 
-// Parse functions built on it report what they miss and then return nullopt or false.
+// Parse functions that use it report missing tokens and then return nullopt or false.
 class TokenReader {
  public:
   TokenReader(const std::vector<Token>& tokens, const Place& origin, Diagnostics& diagnostics)
@@ -51,7 +51,7 @@ class TokenReader {
     at_ += found ? 1U : 0U;
     return found;
   }
-  // Reports "expected '<word>' <where>" if it is not next.
+  // Reports "expected '<word>' <where>" if the word is not next.
   bool expect(std::string_view word, std::string_view where) {
     if (accept(word)) {
       return true;
@@ -63,9 +63,10 @@ class TokenReader {
     }
     return false;
   }
-  // The ';' behind a statement or declaration. Where it misses at the end of a line, that is said and reading goes on.
+  // Expects the ';' after a statement or declaration. If it is missing at the end of a line, that is reported and
+  // reading continues.
   bool expect_end(std::string_view where) { return expect(";", where) || (at_ > 0 && peek().line > previous().line); }
-  // A name that is no keyword; reports "expected the name of <what>".
+  // Expects a name that is not a keyword; reports "expected the name of <what>".
   [[nodiscard]] bool expect_name(std::string_view what) {
     if (peek().kind == TokenKind::Word && !is_keyword(peek().text)) {
       return true;
@@ -76,7 +77,7 @@ class TokenReader {
     return false;
   }
 
-  // What is not there: behind the last token if the line ended, else at the token found instead.
+  // Reports a missing token: after the last token if the line ended, else at the token found instead.
   void missing(const std::string& text) {
     const Token& last = previous();
     if (at_ == 0 || peek().line == last.line || peek().follows_error) {
@@ -94,19 +95,19 @@ class TokenReader {
   }
   void error(const Place& at, std::string text) { diagnostics_.error(at, std::move(text)); }
 
-  // For what the language has and we have not: said once, and the project is not looked at any further.
+  // Reports a feature of the language that is not supported: once, and the project is not checked any further.
   void unsupported(const Token& at, std::string text) {
     left_out_ = true;
     error(at, std::move(text));
   }
   [[nodiscard]] bool left_out() const noexcept { return left_out_; }
-  // Behind the word, or at the end of the text.
+  // Skips to the position after the word, or to the end of the text.
   void skip_behind(std::string_view word) noexcept {
     while (!at_end() && !take().is(word)) {
     }
   }
 
-  // List<INT>, of function blocks with VAR_GENERIC.
+  // Reports List<INT>, of function blocks with VAR_GENERIC.
   void refuse_generic() {
     if (!peek().is("<")) {
       return;
@@ -123,7 +124,7 @@ class TokenReader {
     }
   }
 
-  // END_IF and the like: the end of something around a list of statements or declarations.
+  // Returns true for END_IF and the like: the end of a construct around a list of statements or declarations.
   [[nodiscard]] static bool is_end_word(const Token& token) noexcept {
     return token.kind == TokenKind::Word && token.text.size() > 4 && same_name(token.text.substr(0, 4), "END_") &&
            is_keyword(token.text);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files a TwinCAT 3 project consists of: .TcPOU, .TcDUT, .TcGVL, .TcIO, .TcTTO, and the .plcproj that names them.
-// Each is XML around declarations and statements of Structured Text.
+// Reads the files of a TwinCAT 3 project: .TcPOU, .TcDUT, .TcGVL, .TcIO, .TcTTO, and the .plcproj that names them. Each
+// is XML around declarations and statements of Structured Text.
 
 #pragma once
 
@@ -14,15 +14,15 @@
 
 namespace indurop::plc::twincat {
 
-// What the file declares. `at`: of its first character. `others`: as st::parse_project() has it.
+// Returns the declarations of the file. `at`: place of its first character. `others`: as in st::parse_project().
 [[nodiscard]] Project read_object(std::string_view bytes, const Place& at, std::vector<st::WrittenBody>& others,
                                   Diagnostics& diagnostics);
 
-// The same for those who show it: no POU has statements, `bodies` has the text of each.
+// As read_object(), for callers that show the text: no POU has statements, `bodies` has the text of each.
 [[nodiscard]] Project read_declarations(std::string_view bytes, const Place& at, std::vector<st::WrittenBody>& bodies,
                                         Diagnostics& diagnostics);
 
-// The files of a project that hold its program, with the folder of the project before them.
+// Returns the files of a project that contain its program, prefixed with the folder of the project.
 [[nodiscard]] std::vector<std::string> files_of_project(std::string_view bytes, const Place& at,
                                                         Diagnostics& diagnostics);
 
