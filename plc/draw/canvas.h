@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Characters in rows: lines that join to the right box-drawing characters, and text. Says which characters are part of
-// something that power flows through; how that looks is the caller's.
+// Characters in rows: lines that become box-drawing characters, and text. It records which characters carry power; the
+// caller decides how that looks.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop::plc::draw {
 
-// Characters of a row that look the same.
+// Consecutive characters of a row with the same look.
 struct Run {
   enum class Look : std::uint8_t { Plain, Powered, Name, Value };
   std::string text;
@@ -19,22 +19,22 @@ struct Run {
 };
 using Row = std::vector<Run>;
 
-// Without its looks.
+// Returns the text of a row without looks.
 [[nodiscard]] std::string plain(const Row& row);
 
 class Canvas {
  public:
   Canvas(int width, int height, bool unicode);
 
-  // In halves of characters, as in Picture. Lines of one net join where they meet; net -1 joins with everything.
-  // Powered ones are heavy.
+  // Draws a line, in halves of characters, as in Picture. Lines of one net join where they meet; net -1 joins with all.
+  // Powered lines are heavy.
   void horizontal(int x1, int x2, int y, int net, bool powered);
   void vertical(int x, int y1, int y2, int net, bool powered);
   void text(int x, int y, std::string_view text, Run::Look look = Run::Look::Plain);
-  // One character, instead of a line.
+  // Sets one character in place of a line.
   void mark(int x, int y, std::string_view unicode, std::string_view ascii, Run::Look look = Run::Look::Plain);
 
-  // White space at the ends is left out.
+  // Returns the rows without white space at their ends.
   [[nodiscard]] std::vector<Row> rows() const;
 
  private:

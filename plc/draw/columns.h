@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Columns of the items of a layout.
+// Assigns columns to the items of a layout.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace indurop::plc::draw {
 
-// Puts every item behind what feeds it, values beside what takes them, coils into the last column; then makes nets that
-// skip columns pass through pieces of wire.
+// Puts every item after its sources, values next to the items that use them, and coils into the last column; then makes
+// nets that skip columns pass through pieces of wire.
 void assign_columns(Graph& graph, bool rails);
 
 }  // namespace indurop::plc::draw

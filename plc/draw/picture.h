@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A network laid out: where its symbols stand and where lines run, in characters and lines. Text, SVG and the running
-// view are drawn from it. The layout is the compiler's own: files of some editors have no places.
+// The layout of a network: positions of its symbols and lines, in characters and lines. Text, SVG and the running view
+// are drawn from it. The layout is the compiler's own, because files of some editors have no places.
 
 #pragma once
 
@@ -20,21 +20,21 @@ using network::Sheet;
 using network::Source;
 
 struct Symbol {
-  const Element* element = nullptr;  // null: `text`, the value of the last scan that comes back to an input
+  const Element* element = nullptr;  // null: `text`, the value of the last scan fed back to an input
   std::string text;
   Shape shape;
   int x = 0;
   int y = 0;
 };
 
-// A straight piece of a line, in halves of characters and lines: the middle of character x is 2 * x + 1. Power flows in
-// it if it flows out of one of the sources.
+// A straight piece of a line, in halves of characters and lines: the middle of character x is 2 * x + 1. It has power
+// if one of the sources has.
 struct Line {
   int x1 = 0;
   int y1 = 0;
   int x2 = 0;
   int y2 = 0;
-  int net = 0;  // pieces of one net are joined where they meet, those of different ones cross
+  int net = 0;  // pieces of one net join where they meet, those of different nets cross
   std::vector<Source> sources;
 };
 
@@ -46,10 +46,11 @@ struct Picture {
   std::vector<Line> lines;
 };
 
-// `rails`: a ladder; coils end at the right rail, which is at least `width` away. The network must be without errors.
+// Lays out one network. `rails`: a ladder; coils end at the right rail, which is at least `width` away. Requires a
+// network without errors.
 [[nodiscard]] Picture lay_out(const Network& network, const Index& index, const Order& order, bool rails,
                               int width = 0);
-// The pictures of all networks, ladders all as wide as the widest.
+// Lays out all networks; all ladders are as wide as the widest.
 [[nodiscard]] std::vector<Picture> lay_out(const Sheet& sheet, Body::Language language);
 
 }  // namespace indurop::plc::draw

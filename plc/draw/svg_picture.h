@@ -13,24 +13,24 @@ namespace indurop::plc::draw {
 
 struct SvgNetwork {
   int number = 0;
-  std::vector<std::string> remarks;  // title and comments, a line each
+  std::vector<std::string> remarks;  // title and comments, one per line
   std::vector<std::string> labels;
   Picture picture;
 };
-// Something drawn already, from 0, 0.
+// A finished drawing with its origin at 0, 0.
 struct SvgPart {
   base::SvgPart elements;
   int width = 0;
   int height = 0;
 };
-// What is drawn under one heading.
+// The drawings under one heading.
 struct SvgSheet {
   std::string heading;
   SvgPart chart;  // above the networks
   std::vector<SvgNetwork> networks;
 };
 
-// One network at rest, in the places of half_x() and half_y() of plc/draw/svg_symbols.h.
+// Draws one network without power, in the coordinates of half_x() and half_y() of plc/draw/svg_symbols.h.
 [[nodiscard]] SvgPart draw_network(const Picture& picture);
 
 [[nodiscard]] std::string draw_svg(const std::vector<SvgSheet>& sheets);

@@ -11,7 +11,7 @@ namespace indurop::plc::draw {
 inline constexpr int kCellWidth = 9;
 inline constexpr int kCellHeight = 20;
 
-// Halves of characters and lines in pixels.
+// Convert halves of characters and lines to pixels.
 [[nodiscard]] constexpr double half_x(int x) noexcept {
   return x * kCellWidth / 2.0;
 }

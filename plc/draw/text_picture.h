@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A network in characters, as a terminal shows it: at rest, or with the power that flows.
+// A network as text for a terminal: without power, or with the power flow of a running program.
 
 #pragma once
 
@@ -11,12 +11,12 @@
 
 namespace indurop::plc::draw {
 
-// What is known of a running program; null functions: nothing.
+// Data of a running program; null functions: no data.
 struct Live {
   std::function<bool(const Source&)> powered;
-  // Whether the variable of a contact or coil lets power through.
+  // Returns whether the variable of a contact or coil lets power through.
   std::function<bool(const Element&)> closed;
-  // Shown at an output of a block, "" for none.
+  // Returns the text at an output of a block, "" for none.
   std::function<std::string(const Source&)> value;
 };
 

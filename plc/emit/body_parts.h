@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A long body in parts that become functions of their own: what g++ needs for a function grows faster than its length.
+// Splits a long body into parts that become separate functions: the cost of a function in g++ grows faster than its
+// length.
 
 #pragma once
 
@@ -18,8 +19,8 @@ class BodyParts {
   struct Part {
     std::size_t begin = 0;  // statements of the outermost list
     std::size_t end = 0;
-    bool alone = false;                   // a function of its own: nothing jumps out of it or leaves the body
-    std::vector<const Variable*> locals;  // temporaries that nothing else uses
+    bool alone = false;                   // can be a function: no jump leaves it, nor does it leave the body
+    std::vector<const Variable*> locals;  // temporaries used in this part only
   };
   [[nodiscard]] const std::vector<Part>& parts() const noexcept { return parts_; }
   [[nodiscard]] bool is_local(const Variable& variable) const { return homes_.contains(&variable); }
@@ -29,7 +30,7 @@ class BodyParts {
   void find_locals(const Pou& pou);
 
   std::vector<Part> parts_;
-  std::map<const Variable*, std::size_t> homes_;  // of temporaries: the one part that uses them
+  std::map<const Variable*, std::size_t> homes_;  // temporaries used in one part only, with that part
 };
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the counters mean that a module built with --coverage keeps.
+// The meaning of the counters of a module built with --coverage.
 
 #pragma once
 
@@ -15,7 +15,7 @@ struct CoverageTable {
   enum class Kind : std::uint8_t {
     Statement,  // one counter: how often it ran
     Branch,     // two: how often the condition was true, how often false
-    Coil,       // two: how often it had power, how often not
+    Coil,       // two: how often it had power, and how often not
   };
   struct Point {
     Kind kind{};
@@ -26,7 +26,7 @@ struct CoverageTable {
   std::vector<Point> points;
   std::uint32_t counters = 0;
 
-  // The number of its first counter.
+  // Adds a point; returns the number of its first counter.
   std::uint32_t add(Kind kind, const Place& at, std::string pou) {
     points.push_back({kind, counters, at, std::move(pou)});
     counters += kind == Kind::Statement ? 1U : 2U;
@@ -34,8 +34,8 @@ struct CoverageTable {
   }
 };
 
-// A line for each point: kind ("statement", "branch", "coil"), first counter, file, line, what is drawn there, POU,
-// with tabs between them.
+// Returns a line for each point: kind ("statement", "branch", "coil"), first counter, file, line, drawn element, POU,
+// separated by tabs.
 [[nodiscard]] std::string to_text(const CoverageTable& table);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the numbers mean that a module built with --debug tells a debugger.
+// The meaning of the numbers that a module built with --debug sends to a debugger.
 
 #pragma once
 
@@ -19,10 +19,10 @@ struct DebugTable {
     const Pou* pou = nullptr;
     FrameLayout layout;
   };
-  std::uint64_t mark = 0;     // of another program it is another number
+  std::uint64_t mark = 0;     // differs from that of other programs
   std::vector<Line> lines;    // statements
   std::vector<Frame> frames;  // bodies
-  FrameLayout globals;        // what a scan sees of shared variables, and instances that are global
+  FrameLayout globals;        // shared variables as the scan sees them, and global instances
 };
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of a module that copies shared variables: in at the beginning of a scan, out at its end.
+// Emits the part of a module that copies shared variables: in at the beginning of a scan, out at its end.
 
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace indurop::plc {
 
-// Whether shared variables of the type are copied without a variable that keeps their value of before.
+// Returns whether shared variables of the type are copied without keeping their previous value.
 [[nodiscard]] bool is_copied_by_table(const Type& type) noexcept;
-// "read_shared()", "write_shared()" and, if there is something to restore, "restore(scan)".
+// Emits "read_shared()", "write_shared()" and, if there is something to restore, "restore(scan)".
 void emit_exchange(const TaskUse& use, const std::vector<const Global*>& globals, TextWriter& out);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checked expressions in C++.
+// Emits checked expressions as C++.
 
 #pragma once
 
@@ -14,25 +14,25 @@ class ExpressionEmitter {
  public:
   explicit ExpressionEmitter(const Pou& pou) : pou_(pou) {}
 
-  // The value as a `to`. `exact`: of exactly that C++ type, for arguments of templates.
+  // Returns the value as a `to`. `exact`: of exactly that C++ type, for arguments of templates.
   [[nodiscard]] std::string value(const ast::Expression& expression, const Type& to, bool exact = false) const;
-  // The value of its own type.
+  // Returns the value as its own type.
   [[nodiscard]] std::string value(const ast::Expression& expression) const {
     return value(expression, *expression.type);
   }
-  // A variable that can be assigned or referred to.
+  // Returns a variable that can be assigned or referred to.
   [[nodiscard]] std::string variable(const ast::Expression& expression) const { return raw(expression); }
-  // The body of an instance, whose text is `instance`: that of SUPER^ is exactly that.
+  // Returns the call of the body of the instance in `instance`; for SUPER^ exactly the inherited body.
   [[nodiscard]] std::string run(const ast::Expression& callee, const std::string& instance) const;
-  // A variable as an ARRAY[*] of a call, whose type is `to`.
+  // Returns a variable as an argument for an ARRAY[*] of type `to`.
   [[nodiscard]] std::string slice(const ast::Expression& expression, const Type& to) const;
-  // "x = value" for an output of a call, converted; `text` is the output.
+  // Returns "x = value" for an output of a call, converted; `text` is the output.
   [[nodiscard]] std::string assign_output(const ast::Argument& argument, const std::string& text,
                                           const Type& from) const;
-  // target = text, for bits too. Without ';'.
+  // Returns target = text, for bits too. Without ';'.
   [[nodiscard]] std::string assign(const ast::Expression& target, const std::string& text) const;
 
-  // While a loop runs, its variable stays within these values.
+  // The variable of a loop stays within these values while the loop runs.
   void enter_loop(const Variable& variable, Bounds values) { loops_[&variable] = values; }
   void leave_loop(const Variable& variable) { loops_.erase(&variable); }
 
@@ -40,7 +40,7 @@ class ExpressionEmitter {
   [[nodiscard]] std::string place(const Place& at) const { return cpp_place(at, pou_.title()); }
 
  private:
-  // Faults at the place of `at` if the value is none of the subrange.
+  // Returns code that faults at the place of `at` if the value is outside of the subrange.
   [[nodiscard]] std::string in_range(const ast::Expression& at, const std::string& text, const Type& to) const;
   [[nodiscard]] std::string raw(const ast::Expression& expression) const;
   [[nodiscard]] std::string name(const ast::Expression& expression) const;

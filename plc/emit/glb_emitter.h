@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The .glb file of a PLC program: its globals, located variables and shared locals, with the types they need.
+// Emits the .glb file of a PLC program: its globals, located variables and shared locals, with the types they need.
 
 #pragma once
 
@@ -12,10 +12,10 @@ namespace indurop::plc {
 
 struct GlbFile {
   std::string text;
-  std::vector<Place> places;  // of each line, from line 1; not known for lines of its own
+  std::vector<Place> places;  // of each line, from line 1; unknown for generated lines
 };
 
-// `watch`: what modules tell a running view, too.
+// `watch`: include the variables that modules report to a running view.
 [[nodiscard]] GlbFile emit_glb(const Program& program, const std::string& sources, bool show_locals,
                                bool watch = false);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VAR_IN_OUT of function blocks that methods use: they may run when what the last call gave is gone.
+// VAR_IN_OUT of function blocks used by methods: these may run after the variables passed to the last call are gone.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace indurop::plc {
 
-// Of an instance that took over the variables of another one: what was given to that one is not its own.
+// Emits code for an instance that was copied from another one: clears the VAR_IN_OUT passed to the other one.
 void forget_in_outs(const Type& block, const std::string& instance, TextWriter& out);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the body of a FOR does with the loop's variable.
+// Checks how the body of a FOR uses the loop variable.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace indurop::plc {
 
-// Whether the body only reads the variable, as far as it names it, and ends the loop, if at all, with EXIT: then it can
-// be a constant inside, unless it is Variable::aliased.
+// Returns whether the body, wherever it names the variable, only reads it, and leaves the loop only by EXIT: then it
+// can be a constant inside, unless it is Variable::aliased.
 [[nodiscard]] bool only_reads(const ast::Body& body, const Variable& variable);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++ module of one task.
+// Emits the C++ module of one task.
 
 #pragma once
 
@@ -14,8 +14,8 @@ struct ModuleOptions {
   std::string name;          // of the module
   std::string sources;       // "prog.st, more.st", for the comment
   bool show_locals = false;  // variables of programs are shared variables too
-  bool watch = false;        // tells a running view about all variables
-  Probes probes;             // what its bodies tell a debugger, or count
+  bool watch = false;        // reports all variables to a running view
+  Probes probes;             // instrumentation of its bodies for a debugger or coverage
 };
 
 [[nodiscard]] std::string emit_module(const Program& program, const TaskPlan& task, const ModuleOptions& options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Function blocks with methods, classes and interfaces in C++: structs that extend each other, with virtual functions.
+// Emits function blocks with methods, classes and interfaces: structs that extend each other, with virtual functions.
 
 #pragma once
 
@@ -10,17 +10,17 @@
 
 namespace indurop::plc {
 
-// "method_START", "getter_SPEED": the same for all that replace each other, however they are spelled.
+// Returns "method_START", "getter_SPEED": the same for all that override each other, whatever their spelling.
 [[nodiscard]] std::string method_name(const Pou& method);
-// Of a variable of VAR_INST in the struct of the instance.
+// Returns the name of a variable of VAR_INST in the struct of the instance.
 [[nodiscard]] std::string kept_name(const Variable& variable);
-// "std::int16_t a, plc::Motor& b" of a function or method.
+// Returns "std::int16_t a, plc::Motor& b" for a function or method.
 [[nodiscard]] std::string parameters(const Pou& pou);
-// " : iec::Instance, virtual plc::Drive", or "".
+// Returns " : iec::Instance, virtual plc::Drive", or "".
 [[nodiscard]] std::string extends(const Pou& pou);
-// An interface, whole.
+// Emits a whole interface.
 void emit_interface(const Pou& pou, TextWriter& out);
-// Inside of the struct: its methods, and what they keep.
+// Emits the methods inside of the struct, and the variables they keep.
 void declare_methods(const Pou& pou, TextWriter& out);
 
 }  // namespace indurop::plc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// C++ computes operands and arguments in any order, the standard from left to right. Where a call may change what
-// another operand sees, their values are taken one after the other.
+// C++ evaluates operands and arguments in any order, the standard from left to right. Where a call may change the value
+// of another operand, the values are stored one after the other.
 
 #pragma once
 
@@ -13,12 +13,12 @@ namespace indurop::plc {
 
 class OperandOrder {
  public:
-  // All that is computed for one operation or call.
+  // Takes all operands of one operation or call.
   explicit OperandOrder(const std::vector<const ast::Expression*>& operands);
 
-  // `text` is the value of the operand; what stands for it. Call it from left to right.
+  // `text` is the value of the operand; returns the text to use instead. Call it from left to right.
   [[nodiscard]] std::string take(const ast::Expression& operand, const std::string& text);
-  // `text` is the operation, made of what take() returned.
+  // `text` is the operation, built from the results of take().
   [[nodiscard]] std::string close(const std::string& text) const;
 
  private:

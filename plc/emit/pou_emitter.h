@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A POU in C++: a struct with a call operator for programs and function blocks, a function for functions, a member
-// function for methods. All are declared before the first one has a body.
+// Emits a POU: a struct with a call operator for programs and function blocks, a function for functions, a member
+// function for methods. All are declared before the first body.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the code of bodies tells beside what it does; null: nothing.
+// Instrumentation in the code of bodies; null: none.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 namespace indurop::plc {
 
 struct Probes {
-  DebugTable* debug = nullptr;        // statements tell a debugger where they are; the table gets their numbers
-  CoverageTable* coverage = nullptr;  // statements are counted; the table gets what is counted
+  DebugTable* debug = nullptr;        // statements report their position to a debugger; receives their numbers
+  CoverageTable* coverage = nullptr;  // statements are counted; receives the meaning of the counters
 };
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the local variables that are shared, also those inside instances of function blocks.
+// Finds the local variables that are shared, including those inside instances of function blocks.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::plc {
 
-// Appends them to `use`, whose globals are known.
+// Appends them to `use`, whose globals must be set.
 void find_shared_locals(const Program& program, const TaskPlan& task, bool show_locals, TaskUse& use);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checked statements in C++.
+// Emits checked statements as C++.
 
 #pragma once
 
@@ -19,13 +19,13 @@ class StatementEmitter {
 
   void list(std::span<const ast::Statement> body);
 
-  // Whether a debugger can stand there.
+  // Returns whether a debugger can stop at the statement.
   static bool is_line(const ast::Statement& one) noexcept;
 
  private:
   std::size_t flow(std::span<const ast::Statement> body);
   void tell_line(const ast::Statement& one);
-  // `condition`, whose outcome is counted.
+  // Returns `condition` with counters for its outcome.
   [[nodiscard]] std::string counted(CoverageTable::Kind kind, const Place& at, std::string condition) const;
   void statement(const ast::Statement& one);
   void assign(const ast::Statement& one);
@@ -39,7 +39,7 @@ class StatementEmitter {
   void leave(const ast::Statement& one, const std::string& how);
   void comment(const std::string& text);
   [[nodiscard]] std::string condition(const ast::Expression& expression) const;
-  // Runs `body` only if the call's EN is true, and gives ENO.
+  // Emits `body` so that it runs only if EN of the call is true, and sets ENO.
   template <class Body>
   void enabled(const ast::Expression& call, Body body);
 
@@ -47,7 +47,7 @@ class StatementEmitter {
   TextWriter& out_;
   Probes probes_;
   ExpressionEmitter expressions_;
-  int loops_ = 0;  // numbers their helpers
+  int loops_ = 0;  // numbers the helper variables of loops
 };
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a task needs of the whole program, and which local variables of its programs and instances are shared too.
+// The parts of the program that a task needs, and the shared local variables of its programs and instances.
 
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace indurop::plc {
 
-// A variable of a program or instance that everybody can see: RETAIN, AT %I* in a function block, or all those of
-// programs on request.
+// A shared variable of a program or instance: RETAIN, AT %I* in a function block, or on request all variables of
+// programs.
 struct SharedLocal {
   std::string cpp;          // "instance_main.c.n"
   std::string name;         // "main_c_n"
@@ -21,32 +21,32 @@ struct SharedLocal {
   const ast::Initial* initial = nullptr;
   bool retain = false;
   bool input = false;   // AT %I*: the program does not write it
-  std::string comment;  // with its address
+  std::string comment;  // including its address
   Place at;
 };
 
-// A shared variable that follows another one: VAR_ACCESS.
+// A shared variable that follows another variable: VAR_ACCESS.
 struct SharedAccess {
-  std::string cpp;          // what it follows: "instance_main.c.n"
+  std::string cpp;          // the followed variable: "instance_main.c.n"
   std::string name;         // "pressure"
   std::string shared_name;  // "main::pressure"
   const AccessPath* path = nullptr;
 };
 
 struct TaskUse {
-  std::vector<const Pou*> pous;  // each behind those it uses
+  std::vector<const Pou*> pous;  // each after those it uses
   std::map<const Global*, GlobalUse> globals;
   std::vector<SharedLocal> locals;
   std::vector<SharedAccess> accesses;
-  std::vector<std::string> restored;  // statements of C++ for when what is RETAIN has come
+  std::vector<std::string> restored;  // C++ statements that run after RETAIN values are restored
 };
 
-// Whether it is copied at the begin of a scan: a shared variable.
+// Returns whether it is copied at the begin of a scan, as shared variables are.
 [[nodiscard]] bool in_image(const Global& global) noexcept;
 
 [[nodiscard]] TaskUse use_of(const Program& program, const TaskPlan& task, bool show_locals);
 
-// In C++: the task's own variable, or the global that the program is where others use it by its name.
+// Returns the C++ name: the task's own variable, or the global instance if other POUs use the program by its name.
 [[nodiscard]] std::string instance_of(const TaskProgram& program);
 
 }  // namespace indurop::plc

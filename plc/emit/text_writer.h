@@ -17,7 +17,7 @@ class TextWriter {
     }
     text_ += '\n';
   }
-  // A line that opens braces; what follows is indented until close().
+  // Writes a line that opens braces; the following lines are indented until close().
   void open(std::string_view text) {
     line(std::string(text) + " {");
     ++depth_;
@@ -32,7 +32,7 @@ class TextWriter {
     line("} " + std::string(text) + " {");
     ++depth_;
   }
-  // As it is, not indented.
+  // Writes text unchanged, not indented.
   void raw(std::string_view text) { text_ += text; }
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 

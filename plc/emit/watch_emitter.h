@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of a module built with --watch that tells the values of its programs.
+// Emits the part of a module built with --watch that reports the values of its programs.
 
 #pragma once
 
@@ -12,13 +12,14 @@
 
 namespace indurop::plc {
 
-// "show(out, instance)" for each of the POUs that has instances; in namespace plc.
+// Emits "show(out, instance)" for each of the POUs that has instances; in namespace plc.
 void emit_watched(const std::vector<const Pou*>& pous, TextWriter& out);
-// The frame of a body that a debugger sees; where the variables of the call are known. Takes its number from `table`.
+// Emits the frame of a body for a debugger, at a point where the variables of the call are known. Takes its number from
+// `table`.
 void emit_frame(const Pou& pou, DebugTable& table, TextWriter& out);
-// "debug_globals(out)" of these.
+// Emits "debug_globals(out)" for these globals.
 void emit_globals(const std::vector<const Global*>& globals, DebugTable& table, TextWriter& out);
-// "watch()" for the instances of the task, named as in the module; `space`: of the shared variables.
+// Emits "watch()" for the instances of the task, named as in the module; `space`: namespace of the shared variables.
 void emit_watch(const TaskPlan& task, const std::string& space, TextWriter& out);
 
 }  // namespace indurop::plc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the values of a program's variables lie in what a module built with --watch tells about it. The module that
-// writes them and the view that reads them both follow it.
+// The layout of the values of a program's variables in the data that a module built with --watch reports. The module
+// that writes them and the view that reads them both follow it.
 
 #pragma once
 
@@ -20,7 +20,7 @@ struct WatchedVariable {
   std::string name;  // as it is written: "Motor.delay.ET"
 };
 
-// An instance of a function block in it, or ("") the program itself.
+// An instance of a function block in a program, or ("") the program itself.
 struct WatchedInstance {
   std::string path;  // "MOTOR.DELAY"
   std::string name;  // as it is written: "Motor.delay"
@@ -29,34 +29,34 @@ struct WatchedInstance {
 
 struct WatchLayout {
   std::string variable;    // its name in the .glb: bytes
-  std::size_t bytes = 0;   // of all of them
-  std::uint64_t mark = 0;  // the first 8 bytes: of another program it is another number
+  std::size_t bytes = 0;   // total size
+  std::uint64_t mark = 0;  // the first 8 bytes: differs from that of other programs
   std::vector<WatchedVariable> variables;
   std::vector<WatchedInstance> instances;
 
-  // Null if there is none.
+  // Returns the variable of this path, null if there is none.
   [[nodiscard]] const WatchedVariable* find(std::string_view path) const;
 };
 
-// What is told of a variable of a POU: neither temporary ones, nor constants, nor what leads elsewhere.
+// Returns whether a variable of a POU is reported: not temporary ones, constants, or references to other variables.
 [[nodiscard]] bool is_watched(const Variable& variable);
-// Bytes of a value without gaps.
+// Returns the size of a value in bytes, without gaps.
 [[nodiscard]] std::size_t packed_size(const Type& type);
 [[nodiscard]] WatchLayout watch_layout(const TaskProgram& program);
 
-// The values a debugger sees while a body runs: those of its instance, and those of the call.
+// The values that a debugger sees while a body runs: those of its instance, and those of the call.
 struct FrameLayout {
   std::size_t bytes = 0;
   std::vector<WatchedVariable> variables;
 };
 [[nodiscard]] FrameLayout frame_layout(const Pou& pou);
 [[nodiscard]] FrameLayout globals_layout(const std::vector<const Global*>& globals);
-// Whose variables a body sees as its own: itself, of a method its owner; null: a function.
+// Returns the POU whose variables a body uses as its own: itself, for a method its owner; null: a function.
 [[nodiscard]] const Pou* holder_of(const Pou& pou);
-// Of the call: parameters, VAR_TEMP, VAR_IN_OUT.
+// Returns the variables of a call: parameters, VAR_TEMP, VAR_IN_OUT.
 [[nodiscard]] std::vector<const Variable*> variables_of_call(const Pou& pou);
 [[nodiscard]] bool is_result_told(const Pou& pou);
-// Shared ones and instances.
+// Returns whether a debugger sees the global: shared ones and instances.
 [[nodiscard]] bool is_global_told(const Global& global);
 
 }  // namespace indurop::plc

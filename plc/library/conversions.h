@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The families of functions whose names are made of types: X_TO_Y, TO_Y, X_TRUNC_Y, BCD.
+// The families of functions whose names contain types: X_TO_Y, TO_Y, X_TRUNC_Y, BCD.
 
 #pragma once
 
@@ -13,8 +13,8 @@ namespace indurop::plc {
 
 void append_conversions(std::vector<LibraryFunction>& all);
 
-// The name of a function in capitals and with the names that types have in the table: "tod_to_string" is
-// "TIME_OF_DAY_TO_STRING", "LTIME_TO_DINT" is "TIME_TO_DINT". Other names are only made capitals.
+// Returns the name of a function in capitals and with the type names of the table: "tod_to_string" becomes
+// "TIME_OF_DAY_TO_STRING", "LTIME_TO_DINT" becomes "TIME_TO_DINT". Other names only become capitals.
 [[nodiscard]] std::string with_long_type_names(std::string_view name);
 
 }  // namespace indurop::plc

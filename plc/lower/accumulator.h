@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an instruction list has loaded: an expression until it is stored, then a variable of the scan (_il1, ...).
+// The accumulator of an instruction list: an expression until it is stored, then a variable of the scan (_il1, ...).
 
 #pragma once
 
@@ -13,27 +13,27 @@ namespace indurop::plc::lower {
 
 class Accumulator {
  public:
-  // Statements and variables go to `lowered`, which is borrowed. `prefix`: of the names of variables.
+  // Statements and variables go to `lowered`, which is borrowed. `prefix` begins the names of variables.
   Accumulator(std::string prefix, Lowered& lowered) : prefix_(std::move(prefix)), lowered_(lowered) {}
 
   [[nodiscard]] bool loaded() const noexcept { return value_.has_value(); }
   void load(ast::Expression value);
-  // What was computed from what was loaded. What becomes too deep for the passes behind is held in a variable.
+  // Sets a value computed from the loaded one. A value that becomes too deep for later passes is stored in a variable.
   void combine(ast::Expression value);
-  // What the variable holds, which is used already.
+  // Loads the value of the variable, which counts as used.
   void load_joint(const Place& at, const std::string& variable);
-  // Empty afterwards.
+  // Returns the value; the accumulator is empty afterwards.
   [[nodiscard]] std::optional<ast::Expression> take();
   void clear() noexcept { value_.reset(); }
 
   // These require that something is loaded.
-  // For a statement. Unless nothing `follows` that could use it too, the value stays what it was when the statement
-  // changes variables.
+  // Returns the value for a statement. Unless nothing that `follows` could use it too, the value stays the same when
+  // the statement changes variables.
   [[nodiscard]] const ast::Expression& use(bool follows);
   void bring_to(const std::string& variable);
 
-  // Before something else is loaded. What was computed and is used by nothing is computed nevertheless: it may call,
-  // and it may be wrong.
+  // Call it before another value is loaded. A computed value that nothing uses is computed nevertheless: it may contain
+  // calls, and it may be wrong.
   void drop();
 
  private:

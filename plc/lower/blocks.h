@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes: calls of functions and instances of function blocks, EN and ENO.
+// Translates boxes: calls of functions and instances of function blocks, EN and ENO.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace indurop::plc::lower {
 
-// With EN a box is evaluated only while EN is true, and ENO is EN. Outputs of an instance keep their values meanwhile,
-// results of functions are FALSE or 0, and variables connected with them are not written.
+// With EN a box is evaluated only while EN is true, and ENO is EN. Meanwhile outputs of an instance keep their values,
+// results of functions are FALSE or 0, and variables connected to them are not written.
 class BlockLowering {
  public:
   BlockLowering(NetworkCode& code, const NetworkOptions& options) : code_(code), options_(options) {}
@@ -23,7 +23,7 @@ class BlockLowering {
   [[nodiscard]] std::vector<ast::Argument> arguments(const Element& element, bool named);
   void further_outputs(const Element& element, const Pin* result, std::vector<ast::Argument>& arguments);
   [[nodiscard]] ast::TypeSpec output_type(const Element& element, const Pin& pin) const;
-  // Where the name of a variable stands at an output.
+  // Stores outputs with the name of a variable at them.
   void store_outputs(const Element& element, const std::string& enable);
   void add(ast::Statement statement, const std::string& enable);
 

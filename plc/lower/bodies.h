@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The code of all POUs of a project to statements.
+// Translates the code of all POUs of a project to statements.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace indurop::plc::lower {
 
-// `bodies`: of POUs and methods of `project`, whose places name the rungs from then on. All POUs are known before the
+// `bodies`: of POUs and methods of `project`; afterwards their places name the rungs. All POUs are known before the
 // first body is translated, whatever file they are in.
 void lower_bodies(std::vector<st::WrittenBody>& bodies, Project& project, const ReadOptions& options,
                   Diagnostics& diagnostics);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Behind which contacts and coils of a drawing a running view can tell the power by itself: that before them, and
-// whether they are closed. What it can tell, the module does not.
+// Finds the contacts and coils of a drawing after which a running view can derive the power from the power before them
+// and from whether they are closed. The module does not report power that can be derived.
 
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace indurop::plc::lower {
 
-// All behind which power is that of any source, and of a contact that it is closed at the end of its network as when it
-// was looked at: nothing in the network writes what it names.
+// Returns all elements after which the power equals that of any source, and contacts that are closed at the end of
+// their network exactly if they were when they were evaluated: nothing in the network writes their variable.
 [[nodiscard]] std::unordered_set<const network::Element*> derived_power(const network::Sheet& sheet);
 
 }  // namespace indurop::plc::lower

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions of instances in charts: Valve.Open beside a step.
+// Actions of instances in charts: Valve.Open next to a step.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace indurop::plc::lower {
 
-// Whether a name with dots, as `pou` has it, is none of a variable but ends behind an instance of a function block of
-// the project, which has no variable of that name.
+// Returns whether a name with dots in `pou` is not a variable but an action: the last name follows an instance of a
+// function block of the project that has no variable of that name.
 [[nodiscard]] bool names_foreign_action(const Project& project, const ast::Pou& pou, std::string_view name);
 
 }  // namespace indurop::plc::lower

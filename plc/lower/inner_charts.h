@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Charts that are actions: each has its own steps, which are the same wherever the action is run from.
+// Charts that are actions: each has its own steps, shared by all places that run the action.
 
 #pragma once
 
@@ -16,8 +16,8 @@ class InnerCharts {
  public:
   InnerCharts(const network::PouCode& code, ast::Pou& pou) : code_(&code), pou_(&pou) {}
 
-  // Statements of the action at one more place that runs it. The first time `lower` makes them, and the POU gets the
-  // variables that are kept.
+  // Returns the statements of the action for one more place that runs it. The first time `lower` makes them, and its
+  // retained variables are added to the POU.
   [[nodiscard]] Lowered use(const network::Body& body, const std::function<Lowered()>& lower);
 
  private:

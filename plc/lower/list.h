@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instruction List to the syntax tree. The accumulator is no variable: what was loaded and computed is an expression
-// until it is stored, and kept in a variable of the scan (_il1, ...) where it is used afterwards.
+// Translates Instruction List to the syntax tree. The accumulator is not a variable: the loaded and computed value is
+// an expression until it is stored, and is stored in a variable of the scan (_il1, ...) where it is used afterwards.
 
 #pragma once
 
@@ -15,13 +15,13 @@
 
 namespace indurop::plc::lower {
 
-// Whether the POU has a variable of this name that is a function block with this input.
+// Returns whether the POU has a variable of this name that is a function block with this input.
 using HasInput = std::function<bool(std::string_view instance, std::string_view input)>;
 
 enum class ListUse : std::uint8_t { Statements, Condition };
 
-// The value of a condition is what is in the accumulator at the end. `prefix`: of the names of variables, different for
-// each body of a POU.
+// The value of a condition is the content of the accumulator at the end. `prefix` begins the names of variables,
+// different for each body of a POU.
 [[nodiscard]] Lowered lower_list(const st::Text& text, const std::string& prefix, const HasInput& has_input,
                                  ListUse use, Diagnostics& diagnostics);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of Instruction List: operators, their modifiers, and where values meet at labels.
+// The words of Instruction List: operators, their modifiers, and labels where values meet.
 
 #pragma once
 
@@ -15,19 +15,19 @@
 
 namespace indurop::plc::lower {
 
-// AND, ANDN, ADD...: what is loaded, op, the operand.
+// AND, ANDN, ADD...: combines the loaded value with the operand.
 struct BinaryWord {
   ast::Operator op = ast::Operator::None;
   bool negated = false;  // the operand
 };
 [[nodiscard]] std::optional<BinaryWord> binary_word(const st::Token& word);
 
-// JMP, JMPC, JMPCN: always, if what is loaded is true, if it is false. Empty: another word than `base`.
+// JMP, JMPC, JMPCN: always, if the loaded value is true, if it is false. Empty: the word is not `base`.
 enum class When : std::uint8_t { Always, True, False };
 [[nodiscard]] std::optional<When> conditional(std::string_view word, std::string_view base);
 
-// Labels, in capitals, in front of something else than a load or a way out: all ways to them bring a value. With the
-// names of the variables for it.
+// Returns the labels, in capitals, before an operator other than a load or a jump, where every path to the label brings
+// a value. Each has the name of the variable for that value.
 [[nodiscard]] std::map<std::string, std::string> find_joints(const std::vector<st::Token>& tokens,
                                                              const std::string& prefix);
 

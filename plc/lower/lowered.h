@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Code of any language as the one syntax tree has it.
+// The translation of code of any language to the common syntax tree.
 
 #pragma once
 
@@ -13,7 +13,7 @@ namespace indurop::plc {
 struct Lowered {
   ast::Body body;
   std::vector<ast::Variable> variables;  // to add to the POU
-  std::optional<ast::Expression> value;  // of a condition: what it is, or what is in the accumulator at the end
+  std::optional<ast::Expression> value;  // of a condition, or the accumulator at the end
 };
 
 }  // namespace indurop::plc

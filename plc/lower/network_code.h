@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the translation of networks has at hand: the statements so far, values at outputs of elements, hidden variables.
+// The state of the translation of networks: the statements so far, values at outputs of elements, hidden variables.
 
 #pragma once
 
@@ -15,13 +15,13 @@
 
 namespace indurop::plc::lower {
 
-// A value, and the BOOL without which it is not taken: behind a function with EN. Empty: always.
+// A value, and the BOOL that guards it: after a function with EN it is used only if that is TRUE. Empty: always.
 struct Value {
   ast::Expression expression;
   std::string guard;
 };
 
-// What the variables of an element are called after it: its number and what is written in it, "5_start".
+// Returns the key in the names of an element's variables: its number and its text, "5_start".
 [[nodiscard]] std::string key_of(const Element& element);
 
 class NetworkCode {
@@ -34,35 +34,36 @@ class NetworkCode {
   }
 
   void add(ast::Statement statement) { lowered_.body.push_back(std::move(statement)); }
-  // Structured Text written at an element.
+  // Parses Structured Text written at an element.
   [[nodiscard]] std::optional<ast::Expression> parse(std::string_view text, const Place& at);
 
-  // What comes into a pin: the value of its source, or of any of them where branches meet; negated, or its edge, as
-  // the pin says.
+  // Returns the value at a pin: that of its source, or of any of them where branches meet; negated, or its edge, as the
+  // pin requires.
   [[nodiscard]] ast::Expression input(const Element& element, const Pin& pin);
-  // With the guard of a function's result, to be stored.
+  // Returns the value with the guard of a function's result, to be stored.
   [[nodiscard]] Value input_value(const Element& element, const Pin& pin, bool guarded = true);
 
-  // What is at an output of an element that was evaluated.
+  // Returns the value at an output of an element that was evaluated.
   [[nodiscard]] Value output_value(const Element& element, const Pin& pin);
 
-  // Remembers what is at an output.
+  // Stores the value at an output.
   void define(const Element& element, const Pin* pin, ast::Expression value, std::string guard = {});
-  // A function's result: written where it is used once, else kept in a variable of the scan.
+  // Stores the result of a function: as an expression if it is used once, else in a variable of the scan.
   void defer(const Element& element, const Pin& pin, ast::Expression value, std::string guard);
 
-  // Keeps `value` in the variable of the power behind the element, which is told unless a view can derive it.
+  // Stores `value` in the variable of the power after the element, which is reported unless a view can derive it.
   [[nodiscard]] ast::Expression power(const Element& element, ast::Expression value);
-  // True in the scan in which `value` changes so. `key` distinguishes the places of a body.
+  // Returns an expression that is true in the scan in which `value` has this edge. `key` distinguishes the places of a
+  // body.
   [[nodiscard]] ast::Expression edge(ast::Expression value, ast::Edge edge, const std::string& key);
   void store(ast::Expression target, Value value, Storage storage, bool negated);
 
-  // A variable that lives for one scan. The same name is declared once.
+  // Declares a variable that lives for one scan. The same name is declared once.
   std::string temporary(std::string_view letter, const std::string& key, ast::TypeSpec type);
 
-  // Between two networks.
+  // Ends a network before the next one begins.
   void end_network();
-  // What a running view shows.
+  // Adds a point for a running view.
   void show(FlowPoint::Kind kind, const Source& source, ast::Expression value, Elementary type = Elementary::Bool);
 
   [[nodiscard]] const Sheet& sheet() const noexcept { return sheet_; }
@@ -74,7 +75,7 @@ class NetworkCode {
   struct Output {
     Value value;
     bool deferred = false;
-    std::size_t written = 0;  // how many statements there were
+    std::size_t written = 0;  // number of statements so far
   };
 
   [[nodiscard]] Value value_of(const Connection& connection, bool guarded);
@@ -90,8 +91,8 @@ class NetworkCode {
   LoweredNetworks lowered_;
   std::map<Key, Output> outputs_;
   std::map<Key, int> uses_;
-  std::unordered_set<std::string> names_;       // of variables declared
-  std::unordered_set<const Element*> derived_;  // behind which a view knows the power
+  std::unordered_set<std::string> names_;       // names of declared variables
+  std::unordered_set<const Element*> derived_;  // a view can derive the power after these
 };
 
 }  // namespace indurop::plc::lower

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the networks of a ladder or function block diagram to statements. The power behind each contact, coil and
-// enabled block becomes a BOOL of the scan (_p12 for element 12), what detects an edge a kept one (_e12).
+// Translates the networks of a ladder or function block diagram to statements. The power after each contact, coil and
+// enabled block becomes a BOOL of the scan (_p12 for element 12); each edge detection has a retained one (_e12).
 
 #pragma once
 
@@ -21,10 +21,10 @@ using network::Sheet;
 using network::Source;
 using network::Storage;
 
-// Something a running view shows of a scan, valid at the end of its network and of the body.
+// A point of a scan that a running view shows, valid at the end of its network and of the body.
 struct FlowPoint {
   enum class Kind : std::uint8_t {
-    Power,   // BOOL: flows out of the source; left out where it is derived_power()
+    Power,   // BOOL: flows out of the source; omitted if derived_power() has it
     Closed,  // BOOL: the variable of a contact lets power through
     Value,   // of `type`: at an output of an instance
   };
@@ -32,25 +32,25 @@ struct FlowPoint {
   Source source;
   ast::Expression value;
   Elementary type = Elementary::Bool;
-  std::size_t behind = 0;  // its network ends behind so many statements of the body
-  std::size_t number = 0;  // no Value: where it is told; those with the same value share a place
+  std::size_t behind = 0;  // number of statements of the body at the end of its network
+  std::size_t number = 0;  // not for Value: its index in the report; equal values share one
 };
 
 struct LoweredNetworks : Lowered {
-  std::vector<FlowPoint> flow;          // in the order of execution
-  std::vector<ast::Expression> wanted;  // values at the pins that were wanted
+  std::vector<FlowPoint> flow;          // in execution order
+  std::vector<ast::Expression> wanted;  // values at the requested pins
 };
 
-// A pin of something else that a value is drawn to.
+// A pin of another element to which a value is drawn.
 struct WantedPin {
   const Element* element = nullptr;
   const Pin* pin = nullptr;
 };
 
 struct NetworkOptions {
-  std::string prefix;                // of the names of variables; differs for each drawn body of a POU
-  bool flow = false;                 // report it
-  const Project* project = nullptr;  // whose functions and types the blocks may be
+  std::string prefix;                // prefix of variable names; differs for each drawn body of a POU
+  bool flow = false;                 // report the power flow
+  const Project* project = nullptr;  // functions and types for the blocks
   std::vector<WantedPin> wanted;
 };
 

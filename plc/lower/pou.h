@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The code of one POU to statements, in whichever languages it is.
+// Translates the code of one POU to statements, in any language.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sequential function chart as steps, transitions between them and actions: what the drawn divergences,
-// convergences and jumps mean.
+// A sequential function chart as steps, transitions between them and actions, derived from the drawn divergences,
+// convergences and jumps.
 
 #pragma once
 
@@ -33,11 +33,11 @@ struct Association {
 
 struct Chart {
   std::vector<Step> steps;
-  std::vector<Transition> transitions;  // of those that leave one step the first that is true counts
-  std::vector<Association> actions;     // in the order of the drawing
+  std::vector<Transition> transitions;  // of those that leave one step the first true one is taken
+  std::vector<Association> actions;     // in drawing order
 };
 
-// Refers to the diagram. What is wrong is reported at the places of its elements.
+// The result refers to the diagram. Errors are reported at the places of its elements.
 [[nodiscard]] Chart read_chart(const Diagram& diagram, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::network

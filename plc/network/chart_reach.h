@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which steps of a chart can become active, and whether one can become active while it is: then its sequence runs twice
-// at once, because a branch of simultaneous sequences was left by another way than their common end.
+// Finds the steps of a chart that can become active, and those that can become active while they are active: then their
+// sequence runs twice at the same time, because a branch of simultaneous sequences was left other than by their common
+// end.
 
 #pragma once
 
@@ -9,7 +10,7 @@
 
 namespace indurop::plc::network {
 
-// Warnings at the steps. Requires a chart without errors.
+// Reports warnings at the steps. Requires a chart without errors.
 void warn_about_reach(const Chart& chart, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::network

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be wrong with the drawing of a ladder or function block diagram, whatever the names in it mean.
+// Checks the drawing of a ladder or function block diagram, independent of the meaning of its names.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace indurop::plc::network {
 
-// Pins and contacts without a connection, connections to nothing, several sources of one value, circles, jumps without
-// a label. The places of the elements must be named (split_networks).
+// Reports pins and contacts without a connection, connections to nothing, several sources of one value, circles, and
+// jumps without a label. The places of the elements must be named (split_networks).
 void check_networks(const Diagram& diagram, const std::vector<Network>& networks, const Index& index,
                     const Order& order, Body::Language language, Diagnostics& diagnostics);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drawn body as data: elements with ids, places on the sheet and connections, as the file says them and not yet
-// checked. Ladder, function block diagram and sequential function chart have one form, because charts hold pieces of
-// the others.
+// A drawn body as data: elements with ids, places on the sheet and connections, as in the file and not yet checked.
+// Ladder, function block diagram and sequential function chart have one form, because charts contain pieces of the
+// others.
 
 #pragma once
 
@@ -18,18 +18,18 @@ namespace indurop::plc::network {
 
 enum class Storage : std::uint8_t { None, Set, Reset };
 
-// On the sheet, or from the corner of an element.
+// A point on the sheet, or relative to the corner of an element.
 struct Point {
   int x = 0;
   int y = 0;
 };
 
-// From the output `pin` of element `from`; "" is its only one.
+// A connection from the output `pin` of element `from`; "" is its only output.
 struct Connection {
   Place at;
   std::uint64_t from = 0;
   std::string pin;
-  std::vector<Point> corners;  // of its line, from here to there; none: the file has none
+  std::vector<Point> corners;  // corners of its line, starting at this end; empty: not in the file
 };
 
 struct Pin {
@@ -39,13 +39,13 @@ struct Pin {
   ast::Edge edge = ast::Edge::None;
   Storage storage = Storage::None;
   std::vector<Connection> connections;  // of inputs
-  std::optional<Point> spot;            // where it is at its element
-  std::string expression;               // written at the pin instead of a connection: an operand, or the target
+  std::optional<Point> spot;            // position at its element
+  std::string expression;               // instead of a connection: an operand, or the target
 };
 
 struct Body;
 
-// The qualifier of what CODESYS runs in each scan in which a step is active; unlike N not once more after it.
+// The qualifier of what CODESYS runs in each scan in which a step is active; unlike N not again after it.
 inline constexpr const char* kWhileActive = "active";
 
 // One line of an action block.
@@ -53,7 +53,7 @@ struct ActionLine {
   Place at;
   std::string qualifier = "N";
   std::string duration;
-  std::string indicator;     // says nothing about the run
+  std::string indicator;     // has no effect on execution
   std::string name;          // an action or a variable; empty: the body below
   bool only_action = false;  // never a variable
   std::shared_ptr<Body> inlined;
@@ -75,7 +75,7 @@ struct Element {
     Connector,
     Continuation,
     Comment,
-    Title,  // of a network, as some editors write it
+    Title,  // of a network, in some editors
     Step,
     Transition,
     JumpStep,
@@ -95,34 +95,34 @@ struct Element {
   std::string text;      // variable, expression, label, name of step or connector, comment, name of a condition
   std::string type;      // Block
   std::string instance;  // Block; empty: a function
-  int order = 0;         // of execution; 0: not given
+  int order = 0;         // execution order; 0: not given
   bool negated = false;
   ast::Edge edge = ast::Edge::None;
   Storage storage = Storage::None;
   bool initial = false;             // Step
   int priority = 0;                 // Transition
-  std::shared_ptr<Body> inlined;    // Transition: its condition as code; Block: what the box does, as code
+  std::shared_ptr<Body> inlined;    // Transition: its condition as code; Block: the code in the box
   std::optional<Pin> condition;     // Transition: its condition as a connection
-  std::vector<Pin> inputs;          // of others than blocks at most one
-  std::vector<Point> ends;          // of others than blocks: where lines leave it
+  std::vector<Pin> inputs;          // of elements other than blocks at most one
+  std::vector<Point> ends;          // other elements than blocks: where lines leave them
   std::vector<Pin> in_outs;         // Block
   std::vector<Pin> outputs;         // Block
   std::vector<ActionLine> actions;  // ActionBlock, Step
 };
 
-// "contact", "step": how messages call it.
+// Returns the word for the element in messages: "contact", "step".
 [[nodiscard]] const char* word_of(Element::Kind kind) noexcept;
-// "contact Start", "block TON0", "connector 3".
+// Returns "contact Start", "block TON0", "connector 3".
 [[nodiscard]] std::string title_of(const Element& element);
 
 struct Diagram {
-  std::vector<Element> elements;  // in the order of the file
+  std::vector<Element> elements;  // in file order
 
-  // Null if there is none.
+  // Returns the element with this id, null if there is none.
   [[nodiscard]] const Element* find(std::uint64_t id) const noexcept;
 };
 
-// The code of a POU, an action, a transition, in whichever language.
+// The code of a POU, an action or a transition, in any language.
 struct Body {
   enum class Language : std::uint8_t { None, St, Il, Ld, Fbd, Sfc };
   Language language = Language::None;

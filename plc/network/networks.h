@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The networks (rungs) of a ladder or function block diagram: what is connected, from top to bottom, numbered from 1.
+// Splits a ladder or function block diagram into networks (rungs): groups of connected elements, from top to bottom,
+// numbered from 1.
 
 #pragma once
 
@@ -18,16 +19,16 @@ struct Source {
 };
 [[nodiscard]] bool operator==(const Source& a, const Source& b) noexcept;
 
-// Elements by their ids, and what connections mean.
+// Finds elements by their ids, and the sources of connections.
 class Index {
  public:
   explicit Index(const Diagram& diagram);
 
   [[nodiscard]] const Element* find(std::uint64_t id) const noexcept;
-  // Where a connection comes from. Of a block without the name of an output: its first one that is not ENO.
+  // Returns the source of a connection. For a block without the name of an output: its first one other than ENO.
   // element is null if there is no such element, pin is null if the block has no such output.
   [[nodiscard]] Source source(const Connection& connection) const noexcept;
-  // The connector a continuation goes on from, or null.
+  // Returns the connector that a continuation continues, or null.
   [[nodiscard]] const Element* connector(const std::string& name) const noexcept;
   [[nodiscard]] const std::vector<const Element*>& right_rails() const noexcept { return right_rails_; }
 
@@ -41,12 +42,12 @@ struct Network {
   int number = 0;
   std::string title;
   std::vector<std::string> labels;       // before it
-  std::vector<std::string> comments;     // above it and beside it
-  std::vector<const Element*> elements;  // in the order of the file, power rails left out
+  std::vector<std::string> comments;     // above it and next to it
+  std::vector<const Element*> elements;  // in file order, without power rails
 };
 
-// Elements of charts are left out. The places of all elements name their network from then on: "POU main, rung 3,
-// contact Start" (`word` is rung or network).
+// Splits the diagram; elements of charts are left out. Afterwards the places of all elements name their network: "POU
+// main, rung 3, contact Start" (`word` is rung or network).
 [[nodiscard]] std::vector<Network> split_networks(Diagram& diagram, const std::string& what, const char* word);
 
 }  // namespace indurop::plc::network

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ladder or function block diagram read to the end: networks, order of execution, and what is wrong with it.
+// A ladder or function block diagram after all steps of reading: networks, execution order, and errors.
 
 #pragma once
 
@@ -18,10 +18,10 @@ struct Sheet {
   Order order;
 };
 
-// Refers to `body`, which must stay where it is. `what`: "POU main".
+// The result refers to `body`, which must not move. `what`: "POU main".
 [[nodiscard]] Sheet make_sheet(Body& body, const std::string& what, Diagnostics& diagnostics);
 
-// "rung" of a ladder, else "network".
+// Returns "rung" for a ladder, else "network".
 [[nodiscard]] const char* word_of(Body::Language language) noexcept;
 
 }  // namespace indurop::plc::network

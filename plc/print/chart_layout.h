@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the steps and transitions of a chart stand on a sheet: rows from top to bottom, a column for each branch. Knows
-// nothing of how they look.
+// Positions of the steps and transitions of a chart on a sheet: rows from top to bottom, a column for each branch.
+// Independent of how they look.
 
 #pragma once
 
@@ -17,14 +17,14 @@ struct ChartSpot {
 };
 
 struct ChartLayout {
-  std::vector<ChartSpot> steps;          // as in the chart
-  std::vector<ChartSpot> transitions;    // as in the chart
-  std::vector<std::vector<bool>> jumps;  // of transition i to its k-th step: upwards, or to where a line cannot lead
+  std::vector<ChartSpot> steps;          // same order as in the chart
+  std::vector<ChartSpot> transitions;    // same order as in the chart
+  std::vector<std::vector<bool>> jumps;  // per transition and step: upwards, or not reachable by a line
   std::size_t rows = 0;
   std::size_t columns = 0;
 };
 
-// A line may lead from each transition to each step that is no jump without crossing another node.
+// Lines that are not jumps lead from each transition to each of its steps without crossing another node.
 [[nodiscard]] ChartLayout lay_out_chart(const network::Chart& chart);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sequential function chart as a part of an SVG picture: steps with their actions, transitions, divergences.
+// Draws a sequential function chart as a part of an SVG picture: steps with their actions, transitions, divergences.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace indurop::plc {
 
-// Where steps are drawn, in their order.
+// The position of a step; boxes are in the order of the steps.
 struct StepBox {
   int x = 0;
   int y = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sequential function chart as a list: steps with their actions, and the transitions that leave them.
+// Prints a sequential function chart as a list: steps with their actions, and the transitions that leave them.
 
 #pragma once
 
@@ -10,17 +10,17 @@
 
 namespace indurop::plc {
 
-// What stands behind a step and a condition: of a running program whether it is active, and values.
+// Texts after a step and a condition: for a running program whether the step is active, and values.
 struct ChartMarks {
   std::function<std::string(const network::Step& step)> step;
   std::function<std::string(const std::string& text)> condition;
 };
 [[nodiscard]] std::string chart_text(const network::Chart& chart, bool unicode, const ChartMarks& marks = {});
 
-// The name of an action, or its code in one line.
+// Returns the name of an action, or its code in one line.
 [[nodiscard]] std::string action_text(const network::ActionLine& line);
 
-// What is written at a transition: its condition, or its name.
+// Returns the text at a transition: its condition, or its name.
 [[nodiscard]] std::string condition_text(const network::Element& transition);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An expression as Structured Text that is read as the same expression again.
+// Prints an expression as Structured Text that parses to the same expression.
 
 #pragma once
 
@@ -12,12 +12,12 @@
 namespace indurop::plc {
 
 [[nodiscard]] std::string expression_text(const ast::Expression& expression);
-// T#1m30s, D#2024-01-31 ...: of the types that count nanoseconds.
+// Returns T#1m30s, D#2024-01-31 ...: for the types that count nanoseconds.
 [[nodiscard]] std::string time_text(std::int64_t ns, Elementary type);
 [[nodiscard]] std::string duration_text(std::int64_t ns);
-// 'it$'s', with every character that has no sign as $0A.
+// Returns 'it$'s', with every non-printable character as $0A.
 [[nodiscard]] std::string quoted_text(std::string_view value);
-// The same for a WSTRING: "it$"s".
+// As quoted_text(), for a WSTRING: "it$"s".
 [[nodiscard]] std::string wide_quoted_text(std::string_view utf8);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The code of a program with what a running one of them tells: which value is whose power.
+// The code of a program combined with the data of a running one: which reported value is the power of which element.
 
 #pragma once
 
@@ -27,9 +27,9 @@ struct LiveBody {
   // LD, FBD
   std::optional<network::Sheet> sheet;
   std::vector<draw::Picture> pictures;  // of the networks
-  std::string flow_variable;            // of the POU, an array of BOOL; empty: nothing flows
+  std::string flow_variable;            // of the POU, an array of BOOL; empty: no power flow
   using Key = std::pair<const network::Element*, const network::Pin*>;
-  std::map<Key, std::size_t> power;  // elements of that array; not of derived_power()
+  std::map<Key, std::size_t> power;  // index in that array; not for elements of derived_power()
   std::map<const network::Element*, std::size_t> closed;
 
   // SFC
@@ -38,24 +38,24 @@ struct LiveBody {
   [[nodiscard]] bool drawn() const noexcept { return sheet.has_value() && !chart.has_value(); }
 };
 
-// Where power is in a drawn body: what its module tells, and what follows from that.
+// The power in a drawn body: values reported by its module, and power derived from them.
 class LivePower {
  public:
   using Told = std::function<bool(std::size_t)>;
   using Value = std::function<std::string(const std::string&)>;
-  // `told`: an element of the array of `body`, which must stay as long as this. `value`: of a variable, by its name in
-  // capitals, as ST writes it; "" if it is not known. Of function blocks' drawings wires from variables and logic
-  // functions have the power that follows from the values at the end of the scan.
+  // `told`: returns an element of the array of `body`, which must outlive this object. `value`: returns the value of a
+  // variable, by its name in capitals, as ST writes it; "" if it is not known. In function block diagrams wires from
+  // variables and logic functions have the power that follows from the values at the end of the scan.
   LivePower(const LiveBody& body, Told told, Value value)
       : body_(body), told_(std::move(told)), value_(std::move(value)) {}
 
-  // Behind it.
+  // Returns whether there is power after the source.
   [[nodiscard]] bool powered(const network::Source& source);
-  // Of a contact: it lets power through. Of others: they have power.
+  // Returns for a contact whether it lets power through, for other elements whether they have power.
   [[nodiscard]] bool closed(const network::Element& element);
 
  private:
-  // Nothing: it is no BOOL, or not known.
+  // Returns none if the value is not a BOOL, or not known.
   [[nodiscard]] std::optional<bool> known(const network::Source& source);
   [[nodiscard]] std::optional<bool> derived(const network::Source& source);
   [[nodiscard]] std::optional<bool> before(const network::Pin& pin);
@@ -68,8 +68,8 @@ class LivePower {
   std::unordered_map<const network::Element*, std::optional<bool>> derived_;
 };
 
-// Of all programs and function blocks, or the one named so, in the order of the document, to which they refer. A module
-// that was built with ReadOptions::watch has the variables named here.
+// Returns the bodies of all programs and function blocks, or of the named one, in the order of the document, to which
+// they refer. A module built with ReadOptions::watch has the variables named here.
 [[nodiscard]] std::vector<LiveBody> live_bodies(plcopen::Document& document, const std::string& pou,
                                                 Diagnostics& diagnostics);
 

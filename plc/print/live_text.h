@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structured Text and instruction lists of a running program: each line with the values of what it names.
+// Structured Text and instruction lists of a running program: each line with the values of its variables.
 
 #pragma once
 
@@ -19,7 +19,7 @@ struct LiveLine {
 };
 
 [[nodiscard]] std::vector<LiveLine> live_lines(std::string_view text, const ValueOf& value_of);
-// The paths that are looked for, in capitals, each once.
+// Returns the paths for which values are searched, in capitals, each once.
 [[nodiscard]] std::vector<std::string> paths_in(std::string_view text);
 
 }  // namespace indurop::plc

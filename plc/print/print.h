@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A PLCopen document on paper: its networks as text or as an SVG picture.
+// Prints a PLCopen document: its networks as text or as an SVG picture.
 
 #pragma once
 
@@ -18,15 +18,15 @@ struct PrintedBody {
   network::Body* body = nullptr;
 };
 
-// All of a document, or of the POU named so. Empty if there is none of this name.
+// Returns all bodies of a document, or those of the named POU. Empty if there is none of this name.
 [[nodiscard]] std::vector<PrintedBody> printed_bodies(plcopen::Document& document, const std::string& pou);
 
-// Code as it is written, networks drawn. What is wrong with the networks goes to `diagnostics`; then nothing is drawn.
+// Prints code as written, networks as drawings. Errors in the networks go to `diagnostics`; then nothing is drawn.
 [[nodiscard]] std::string print_text(const std::vector<PrintedBody>& bodies, bool unicode, Diagnostics& diagnostics);
-// Drawn languages only.
+// Prints drawn languages only.
 [[nodiscard]] std::string print_svg(const std::vector<PrintedBody>& bodies, Diagnostics& diagnostics);
 
-// Title and comments above a network, a line each.
+// Returns title and comments above a network, one per line.
 [[nodiscard]] std::vector<std::string> remarks_of(const network::Network& network);
 
 }  // namespace indurop::plc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The syntax tree as Structured Text: what the compiler makes of networks, charts and instruction lists.
+// Prints the syntax tree as Structured Text: the translation of networks, charts and instruction lists.
 
 #pragma once
 
