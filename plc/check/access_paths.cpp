@@ -15,7 +15,7 @@
 namespace indurop::plc {
 namespace {
 
-// resource.program.instance.list[3] as its parts, the outermost first.
+// Splits resource.program.instance.list[3] into its parts, the outermost first.
 void flatten(ast::Expression& expression, std::vector<ast::Expression*>& parts) {
   const bool inner =
       expression.kind == ast::Expression::Kind::Member || expression.kind == ast::Expression::Kind::Index;
@@ -29,7 +29,7 @@ class Walker {
  public:
   Walker(Context& context, const Place& at, std::string_view what) : context_(context), at_(at), what_(what) {}
 
-  // `home`: the program in which the path is written, null: a configuration.
+  // Resolves a path. `home`: the program in which the path is written, null: a configuration.
   std::optional<Reached> run(ast::Expression& path, const Pou* home) {
     std::vector<ast::Expression*> parts;
     flatten(path, parts);
@@ -75,7 +75,7 @@ class Walker {
     return known ? false : fail(fmt::format("there is no program or global variable '{}'", parts_.front()->name));
   }
 
-  // The resource may be left out.
+  // Matches an instance of a program. The resource may be omitted.
   bool at_instance() {
     const auto named = [&](std::size_t part, const std::string& name) {
       return part < parts_.size() && same_name(parts_[part]->name, name);
@@ -106,7 +106,7 @@ class Walker {
     return found;
   }
 
-  // With or without the resource or configuration before it.
+  // Matches a global, with or without the resource or configuration before it.
   bool at_named_global() {
     for (std::size_t i = 0; i < 2 && i < parts_.size(); ++i) {
       const auto global = context_.program.global_names.find(upper(parts_[i]->name));
@@ -322,7 +322,7 @@ class Resolver {
     to.push_back(std::move(made));
   }
 
-  // A variable; else a value.
+  // Returns true for a variable, false for a value.
   [[nodiscard]] bool is_path(const ast::Expression& value) const {
     const ast::Expression& root = ExpressionChecker::root_of(value);
     return value.kind == ast::Expression::Kind::Direct ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls that look like functions and are not: ADR, REF, SIZEOF, __ISVALIDREF, LOWER_BOUND, UPPER_BOUND.
+// Intrinsics that look like function calls: ADR, REF, SIZEOF, __ISVALIDREF, LOWER_BOUND, UPPER_BOUND.
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ struct Extent {
   std::uint64_t alignment = 1;
 };
 
-// As the C++ of the program lays it out; none: function blocks.
+// Returns the layout of the type in the C++ of the program; none for function blocks.
 std::optional<Extent> extent_of(const Type& type) {
   if (type.is_text()) {
     const std::uint64_t letter = type.is(Elementary::Wstring) ? sizeof(char16_t) : 1;
@@ -54,7 +54,7 @@ std::optional<Extent> extent_of(const Type& type) {
   }
   Extent sum;
   if (type.overlaps) {
-    return std::nullopt;  // C++ knows
+    return std::nullopt;  // known to C++ only
   }
   const auto round = [&](std::uint64_t to) { sum.bytes = (sum.bytes + to - 1) / to * to; };
   for (const Field& field : type.fields) {
@@ -72,8 +72,8 @@ std::optional<Extent> extent_of(const Type& type) {
 
 }  // namespace
 
-// ADR(x), REF(x), SIZEOF(x), __ISVALIDREF(r), LOWER_BOUND(a, 1). False: it is nothing of these. Null as the type: after
-// an error.
+// Checks ADR(x), REF(x), SIZEOF(x), __ISVALIDREF(r), LOWER_BOUND(a, 1). Returns false if it is none of these. `type` is
+// null after an error.
 bool CallChecker::address_call(Expression& call, const Type*& type) {
   const std::string name = upper(call.operands[0].name);
   if (name == "LOWER_BOUND" || name == "UPPER_BOUND") {
@@ -110,7 +110,7 @@ bool CallChecker::address_call(Expression& call, const Type*& type) {
     const Type* found = expressions_.reference_itself(of);
     const Variable* variable = of.kind == Expression::Kind::Name && of.resolved ? of.resolved->variable : nullptr;
     if (found != nullptr && variable != nullptr && variable->section == ast::Section::InOut) {
-      call = make::truth(call.at, true);  // given in each call
+      call = make::truth(call.at, true);  // an argument of each call
       type = expressions_.value(call);
       return true;
     }
@@ -124,7 +124,7 @@ bool CallChecker::address_call(Expression& call, const Type*& type) {
   return true;
 }
 
-// LOWER_BOUND(a, 1), UPPER_BOUND(a, 2): known now unless the array is ARRAY[*].
+// Checks LOWER_BOUND(a, 1), UPPER_BOUND(a, 2): a constant unless the array is ARRAY[*].
 const Type* CallChecker::bound_of(Expression& call, bool lower) {
   if (call.arguments.size() != 2 || !call.arguments[0].value || !call.arguments[1].value) {
     context_.error(call.at, fmt::format("{} takes an array and the number of a dimension", call.operands[0].name));
@@ -181,7 +181,7 @@ const Type* CallChecker::size_of(Expression& call, Expression& of) {
   return context_.elementary(Elementary::Udint);
 }
 
-// ARRAY[*] is seen during the call only, so nothing else may lead into it. With an error.
+// Reports accesses into an ARRAY[*]: it exists during the call only, so no pointer or reference may lead into it.
 bool ExpressionChecker::is_open(const Expression& expression) {
   for (const Expression* at = &expression; !at->operands.empty(); at = &at->operands[0]) {
     if (at->operands[0].type != nullptr && at->operands[0].type->open) {

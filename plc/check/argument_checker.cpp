@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is given to calls as VAR_IN_OUT, as an instance, and to inputs of types such as ANY_NUM.
+// Checks arguments passed as VAR_IN_OUT, as an instance, and to inputs of types such as ANY_NUM.
 
 #include <fmt/format.h>
 
@@ -17,13 +17,13 @@ namespace {
 using ast::Argument;
 using ast::Expression;
 
-// An array of as many dimensions and the same elements, whatever its bounds.
+// Returns true for an array with the same number of dimensions and the same elements, whatever its bounds.
 bool fits_open(const Type& type, const Type& wanted) noexcept {
   return type.kind == Type::Kind::Array && type.dimensions.size() == wanted.dimensions.size() &&
          same_type(*type.element, *wanted.element) && same_range(*type.element, *wanted.element);
 }
 
-// What the argument is for, if that has a type such as ANY_NUM. Inputs count up `position`.
+// Returns the parameter of the argument if it has a type such as ANY_NUM. Inputs increment `position`.
 const ast::Variable* generic_parameter(const ast::Pou& tree, const Argument& argument, std::size_t& position) {
   std::size_t at = 0;
   const std::size_t wanted = argument.output ? position : position++;
@@ -54,8 +54,8 @@ void CallChecker::in_out(const Expression& call, Expression& given, const Variab
   }
 }
 
-// A call without names gives each input that has no initial value of its own; false after an error. With names it may
-// leave out any, or all.
+// Checks that a call without names passes each input that has no initial value of its own; returns false after an
+// error. A call with names may omit any input, or all.
 bool CallChecker::all_given(const Expression& call, const Pou& pou) {
   const std::vector<Resolved::Actual>& actuals = call.resolved->actuals;
   const bool with_names = std::none_of(actuals.begin(), actuals.end(),
@@ -85,7 +85,7 @@ bool CallChecker::all_given(const Expression& call, const Pou& pou) {
   return true;
 }
 
-// An instance as an input: it is copied, as it is at the call.
+// Checks an instance as an input: it is copied in its state at the call.
 void CallChecker::instance_input(Expression& given, const Variable& parameter) {
   const Type* type = expressions_.typed(given, nullptr);
   if (type != nullptr && !same_type(*type, *parameter.type)) {
@@ -94,8 +94,8 @@ void CallChecker::instance_input(Expression& given, const Variable& parameter) {
   }
 }
 
-// The function for the types of the inputs. All of one generic type have one type, as in the library.
-// `wanted`: of the result, which numbers without a type take where nothing else says one.
+// Returns the function for the types of the inputs. All inputs of one generic type have one type, as in the library.
+// `wanted`: the required type of the result; numbers without a type take it if no other input has a type.
 const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree, const Type* wanted) {
   std::map<std::string, const Type*> types;
   const std::string of_result = tree.result ? generic_name(*tree.result) : "";
@@ -107,7 +107,7 @@ const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree,
         continue;
       }
       const std::string generic = generic_name(parameter->type);
-      Expression looked_at = *argument.value;  // the call itself is checked when its function is known
+      Expression looked_at = *argument.value;  // the call itself is checked once its function is known
       const Type*& known = types[generic];
       const bool asked = known == nullptr && bare && generic == of_result && wanted != nullptr;
       const Type* type = expressions_.value(looked_at, asked ? wanted : known);
@@ -129,7 +129,7 @@ const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree,
       }
       known = known == nullptr ? type : common;
       if (looked_at.kind == Expression::Kind::Call && looked_at.resolved->pou != nullptr && looked_at.type == type &&
-          !type->is_reference()) {  // else calls in calls would be looked at 2, 4, 8 times
+          !type->is_reference()) {  // otherwise nested calls would be checked 2, 4, 8 times
         looked_at.resolved->settled = true;
         *argument.value = std::move(looked_at);
       }
@@ -138,7 +138,7 @@ const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree,
   return function_for(context_, tree, types, call.at);
 }
 
-// Whose instance is called: not an input, which is only a copy of what was given.
+// Checks the instance of a call: not an input, which is only a copy of the argument.
 bool CallChecker::may_run(const Expression& callee) {
   const Resolved* root = ExpressionChecker::root_of(callee).resolved.get();
   const bool copy = root != nullptr && root->variable != nullptr && root->variable->section == ast::Section::Input &&

@@ -12,7 +12,7 @@ namespace {
 
 using ast::Expression;
 
-// MAX(1, 2); of SEL(x, 1, 2) the selector counts for nothing.
+// Returns true for MAX(1, 2); the selector of SEL(x, 1, 2) is ignored.
 bool is_bare_call(const Expression& call, const Program& program) {
   const Expression& callee = call.operands[0];
   if (callee.kind != Expression::Kind::Name || program.pou_names.contains(upper(callee.name))) {
@@ -20,7 +20,7 @@ bool is_bare_call(const Expression& call, const Program& program) {
   }
   const auto overloads = find_functions(callee.name);
   const auto of_numbers = std::find_if(overloads.begin(), overloads.end(), [](const LibraryFunction* one) {
-    return std::holds_alternative<Generic>(one->result);  // MUL has forms for TIME, too
+    return std::holds_alternative<Generic>(one->result);  // MUL has overloads for TIME, too
   });
   if (of_numbers == overloads.end()) {
     return false;

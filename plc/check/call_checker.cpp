@@ -41,13 +41,15 @@ bool has_body(const Pou& pou) noexcept {
   return !pou.tree->body.empty() || (pou.base != nullptr && has_body(*pou.base));
 }
 
-// Of a method only its own: it sees the variables of its instance, but is not called with them.
+// Returns a parameter. A method has only its own: it accesses the variables of its instance, but they are not its
+// parameters.
 const Variable* parameter_of(const Pou& pou, const std::string& name) {
   const Variable* found = pou.find(upper(name));
   return found != nullptr && pou.owner != nullptr && found->owner != &pou ? nullptr : found;
 }
 
-// Whether a drawing may call an instance of the type so: by its name, or that of one it extends or implements.
+// Returns whether a drawing may call an instance of the type by this name: its own, or that of one it extends or
+// implements.
 bool is_drawn_as(const Type& type, std::string_view drawn) {
   const std::string_view name = drawn.substr(drawn.rfind('.') + 1);  // without its namespace
   if (type.block != nullptr) {
@@ -66,10 +68,10 @@ bool is_drawn_as(const Type& type, std::string_view drawn) {
 
 }  // namespace
 
-// Notes EN and ENO; false with an error if they cannot stand here.
+// Records EN and ENO; returns false with an error if they are not allowed here.
 bool CallChecker::take_enable(Expression& call, bool allowed) {
   Resolved& out = ExpressionChecker::resolved(call);
-  out.enable = nullptr;  // the call may have been looked at before
+  out.enable = nullptr;  // the call may have been checked before
   out.enable_out = nullptr;
   bool fine = true;
   for (Argument& argument : call.arguments) {
@@ -98,7 +100,7 @@ bool CallChecker::take_enable(Expression& call, bool allowed) {
   return fine;
 }
 
-// The functions of the library that the name may mean.
+// Returns the library functions to which the name can refer.
 std::vector<const LibraryFunction*> CallChecker::overloads_of(const std::string& name, const Type* wanted) const {
   if (name.starts_with('@')) {
     const bool elementary = wanted != nullptr && wanted->kind == Type::Kind::Elementary;
@@ -106,7 +108,7 @@ std::vector<const LibraryFunction*> CallChecker::overloads_of(const std::string&
     return hidden == nullptr ? std::vector<const LibraryFunction*>() : std::vector{hidden};
   }
   if (same_name(name, "TRUNC") && wanted != nullptr && is_int(wanted->elementary)) {
-    // Any whole number, says the standard: the one that is wanted, else DINT.
+    // The standard allows any whole number: the required type, else DINT.
     return find_functions(fmt::format("TRUNC_{}", name_of(wanted->elementary)));
   }
   auto out = find_functions(name);
@@ -165,7 +167,7 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   return nullptr;
 }
 
-// Long: one case for each kind of thing that can be called, in the order in which names are looked for.
+// Long: one case for each kind of callable item, in the order in which names are searched.
 void CallChecker::statement(Expression& call) {
   Expression& callee = call.operands[0];
   leave_out_library(callee);
@@ -247,7 +249,7 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
   std::size_t position = 0;
   std::set<const LibraryParameter*> given;
   for (Argument& argument : call.arguments) {
-    // EN of a block that has an input of this name is that input.
+    // If the block has an input named EN, EN is that input.
     const std::size_t behind = position - std::min(position, block.inputs.size());
     const LibraryParameter* parameter = nullptr;
     if (argument.name.empty() && position < block.inputs.size()) {
@@ -287,7 +289,8 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
   }
 }
 
-// What values without a name are for: the inputs; if there are more values, all parameters as they are declared.
+// Returns the parameters of arguments without a name: the inputs; if there are more arguments, all parameters as
+// declared.
 std::vector<const Variable*> CallChecker::by_position(const Expression& call, const Pou& pou) {
   std::vector<const Variable*> inputs;
   std::vector<const Variable*> all;
@@ -321,7 +324,7 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
     if (is_enable(argument) || (is_enable_out(argument) && pou.find("ENO") == nullptr)) {
       continue;
     }
-    const std::size_t at = argument.output ? position : position++;  // one with a name has its place, too
+    const std::size_t at = argument.output ? position : position++;  // an argument with a name has a position, too
     const Variable* parameter =
         argument.name.empty() ? (at < inputs.size() ? inputs[at] : nullptr) : parameter_of(pou, argument.name);
     argument.output =
@@ -379,7 +382,7 @@ const Type* CallChecker::user_function(Expression& call, const Pou& pou) {
   if (context_.diagnostics.errors() != before || !all_given(call, pou)) {
     return nullptr;
   }
-  // In the order of the declaration, with those that are not given.
+  // In order of the declaration, including omitted ones.
   Resolved& out = ExpressionChecker::resolved(call);
   std::vector<Resolved::Actual> ordered;
   for (const Variable* each : parameters_of(pou)) {

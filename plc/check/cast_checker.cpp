@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Enumerations as numbers and back.
+// Conversions between enumerations and numbers.
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ void ExpressionChecker::cast(Expression& expression, const Type& to) {
   expression.type = &to;
 }
 
-// Whether the rules of CODESYS made a `to` of it: a number of an enumeration, or the other way round.
+// Returns whether the rules of CODESYS converted the expression to `to`: from an enumeration to a number or back.
 bool ExpressionChecker::convert_enumeration(Expression& expression, const Type& to) {
   if (!context_.codesys() || expression.type == nullptr) {
     return false;
@@ -58,8 +58,8 @@ bool ExpressionChecker::convert_enumeration(Expression& expression, const Type& 
   return true;
 }
 
-// COLOR_TO_INT(c), INT_TO_COLOR(i), TO_COLOR(i). False: it is nothing of these. Else `type` is what it gives, null
-// after an error; COLOR_TO_INT(c) becomes TO_INT() of a number, for the library.
+// Checks COLOR_TO_INT(c), INT_TO_COLOR(i), TO_COLOR(i). Returns false if it is none of these. Otherwise sets `type` to
+// that of the result, null after an error; COLOR_TO_INT(c) becomes TO_INT() of a number, for the library.
 bool CallChecker::enumeration_call(Expression& call, const Type*& type) {
   const std::string name = upper(call.operands[0].name);
   const std::size_t at = name.starts_with("TO_") ? 0 : name.find("_TO_");

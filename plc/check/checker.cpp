@@ -24,7 +24,7 @@
 namespace indurop::plc {
 namespace {
 
-// Constants that the bounds of types may need come before the types, all others after them.
+// Constants that bounds of types may need are declared before the types, all others after them.
 void declare_globals(Context& context, bool before_types) {
   const auto declare = [&](std::vector<ast::Variable>& variables) {
     for (ast::Variable& one : variables) {

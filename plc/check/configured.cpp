@@ -42,7 +42,7 @@ class Configurer {
  private:
   void error(std::string text) { context_.error(entry_.at, "VAR_CONFIG: " + std::move(text)); }
 
-  // The resource may be left out. Notes where in the path the program's instance stands.
+  // Finds the program; the resource may be omitted. Stores the position of the program's instance in the path.
   ast::Pou* program() {
     const ProgramInstance* instance = nullptr;
     bool configured = false;
@@ -110,7 +110,8 @@ class Configurer {
       return;
     }
     const bool inside = entry_.address && !of_program;
-    if (!inside && !other_.empty()) {  // both are variables of the program, which all its instances begin with
+    if (!inside &&
+        !other_.empty()) {  // both are variables of the program, whose initial values all its instances share
       error(
           fmt::format("{} and {} are of one program, and what is configured would be so in both; declare a program of "
                       "its own for {}",
@@ -155,7 +156,7 @@ class Configurer {
     context_.program.placed[upper(name)] = &declare_located(context_, made, type);
   }
 
-  // (motor := (speed := 3)), behind what is there already.
+  // Appends (motor := (speed := 3)) to the existing values.
   void initial() {
     std::optional<ast::Initial>* at = &outer_->initial;
     for (std::size_t i = first_ + 2; i < entry_.path.size(); ++i) {
@@ -176,11 +177,11 @@ class Configurer {
 
   Context& context_;
   Configured& entry_;
-  std::size_t first_ = 0;  // where the program stands in the path
+  std::size_t first_ = 0;  // position of the program in the path
   std::string instance_;
   std::string other_;  // another instance of the same program
   ast::Variable* variable_ = nullptr;
-  ast::Variable* outer_ = nullptr;  // of the program, in which it lies
+  ast::Variable* outer_ = nullptr;  // the variable of the program that contains it
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using ast::Operator;
 
-// Beyond this nothing is an IEC value any more.
+// Larger numbers are never IEC values.
 constexpr Integer kMost = Integer{1} << 64U;
 
 template <class T>
@@ -107,7 +107,8 @@ std::optional<Constant> integers(Operator op, Integer a, Integer b, std::string&
   return *out;
 }
 
-// Infinity and NaN are no constants: what gives them is left to the run time, where it is known what they mean.
+// Returns a constant unless it is infinite or NaN: such results are left to the run time, which knows how to treat
+// them.
 std::optional<Constant> finite(double value, std::string& why) {
   if (!std::isfinite(value)) {
     why = "the result is no number that LREAL holds, correct the numbers";

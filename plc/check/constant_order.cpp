@@ -96,7 +96,7 @@ class Order {
     order_.push_back(i);
   }
 
-  // Said once; the declarations count as errors, so that their uses are none.
+  // Reports a circle once; the declarations count as errors, so that their uses are not reported.
   void circle(std::size_t first) {
     std::string way;
     for (auto one = std::find(open_.begin(), open_.end(), first); one != open_.end(); ++one) {
@@ -111,7 +111,7 @@ class Order {
 
   std::vector<ast::Variable>& variables_;
   Diagnostics& diagnostics_;
-  std::vector<std::size_t> open_;  // being visited
+  std::vector<std::size_t> open_;  // in progress
   std::set<std::size_t> seen_;
   std::map<std::string, std::size_t> names_;
   std::vector<std::size_t> order_;

@@ -21,7 +21,7 @@ void complain_undeclared(Context& context, const Place& at, const std::string& n
       !context.known_errors.insert({context.pou, capitals}).second) {
     return;
   }
-  if (context.diagnostics.full()) {  // it only counts
+  if (context.diagnostics.full()) {  // further errors are only counted
     context.error(at, fmt::format("'{}' is not declared", name));
     return;
   }

@@ -136,7 +136,7 @@ const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted)
   if (type != nullptr && reading_ && counts_as_truth(expression, *type)) {
     return typed(make_truth(expression), nullptr);
   }
-  if (expression.resolved->meaning != Meaning::Type) {  // a type stays noted for the member behind it
+  if (expression.resolved->meaning != Meaning::Type) {  // a type stays recorded for the member after it
     expression.type = type;
   }
   return type;
@@ -193,7 +193,7 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
 const Type* ExpressionChecker::top_call(Expression& expression, const Type* wanted) {
   if (!resolved(expression).cast && !expression.resolved->settled) {
     const Type* type = CallChecker(*this).function(expression, wanted, true);
-    expression.type = type;  // the call may have become another expression
+    expression.type = type;  // the call may have been replaced by another expression
     if (type != nullptr && type->is_reference() && expression.resolved->pou != nullptr) {
       return follow(expression, *type);
     }
@@ -249,7 +249,7 @@ const Type* ExpressionChecker::bit(Expression& expression) {
   return context_.elementary(Elementary::Bool);
 }
 
-// w.%B1
+// Checks w.%B1.
 const Type* ExpressionChecker::part(Expression& expression, const Type& base) {
   const Elementary type = expression.width == 8    ? Elementary::Byte
                           : expression.width == 16 ? Elementary::Word
@@ -264,7 +264,7 @@ const Type* ExpressionChecker::part(Expression& expression, const Type& base) {
   return context_.elementary(type);
 }
 
-// s[1] is the first character, a CHAR; for CODESYS s[0], a BYTE. Those of a WSTRING are a WCHAR or a WORD.
+// Checks s[1], the first character, a CHAR; in CODESYS s[0], a BYTE. Characters of a WSTRING are a WCHAR or a WORD.
 const Type* ExpressionChecker::character(Expression& expression, const Type& text) {
   const bool reading = std::exchange(reading_, true);
   Expression& index = expression.operands[1];
@@ -332,7 +332,7 @@ const Type* ExpressionChecker::index(Expression& expression) {
   return fine ? base->element : nullptr;
 }
 
-// What counts: integers, and for CODESYS bit strings.
+// Returns true for integers, and in CODESYS also for bit strings.
 bool ExpressionChecker::is_whole(const Type& type) const noexcept {
   return type.kind == Type::Kind::Elementary &&
          (is_int(type.elementary) || (context_.codesys() && is_bit(type.elementary) && !type.is(Elementary::Bool)));

@@ -61,7 +61,7 @@ const Type* named(Context& context, const schema::Type& type) {
   Type* added = context.program.types.add(std::move(made));
   context.program.named_types.push_back(added);
   context.program.foreign_types.emplace(type.name, added);
-  // The program's own type of this name is found first.
+  // A type of the program with this name takes precedence.
   std::string key = upper(added->name);
   if (context.program.type_names.contains(key)) {
     key = upper(added->shared_name);
@@ -95,7 +95,7 @@ const Type* foreign_type(Context& context, const schema::Type& type) {
 
 namespace {
 
-// "PRESS.MODE" of "press::Mode"
+// Returns "PRESS.MODE" for "press::Mode".
 std::string path_in_capitals(std::string_view full) {
   std::string out;
   for (std::size_t i = 0; i < full.size(); ++i) {
@@ -106,7 +106,7 @@ std::string path_in_capitals(std::string_view full) {
   return upper(out);
 }
 
-// Under its whole name and its last one; null: several are called so.
+// Adds the type under its full name and its last one; null: the name is ambiguous.
 void remember(std::map<std::string, const schema::Type*>& names, const std::string& path, const schema::Type& type) {
   for (const std::string& name : {path, path.substr(path.rfind('.') + 1)}) {
     const auto [known, is_new] = names.emplace(name, &type);
@@ -131,7 +131,7 @@ void collect_types(ForeignNames& names, std::set<std::string>& seen, const schem
   }
 }
 
-// Without the dimensions of the variable it was found in.
+// Returns the type without the dimensions of the variable that uses it.
 const Type* single(Context& context, const schema::Type& type) {
   schema::Type one = type;
   one.dims.clear();

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 13> kGenerics{
     "ANY",          "ANY_ELEMENTARY", "ANY_MAGNITUDE", "ANY_NUM",  "ANY_REAL", "ANY_INT",  "ANY_SIGNED",
     "ANY_UNSIGNED", "ANY_BIT",        "ANY_STRING",    "ANY_DATE", "ANY_CHAR", "ANY_CHARS"};
 
-// How the type is declared; none of those that have no name.
+// Returns the declaration of the type; none for types without a name.
 std::optional<ast::TypeSpec> spec_of(const Type& type, const Place& at) {
   if (!type.name.empty() && (type.kind <= Type::Kind::Struct)) {
     return make::type(at, type.name);

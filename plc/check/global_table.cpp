@@ -72,7 +72,7 @@ Global* at_address(Program& program, const std::string& address) {
   return found == program.addresses.end() ? nullptr : found->second;
 }
 
-// Not shared, because the other one has the name.
+// Returns a name for a variable that is not shared because another one has its name.
 std::string free_name(const Program& program, std::string name) {
   while (program.global_names.contains(upper(name))) {
     name += "_1";
@@ -80,7 +80,7 @@ std::string free_name(const Program& program, std::string name) {
   return name;
 }
 
-// What is seen of a variable outside of the program: its name, unless that is taken there.
+// Returns the name of a variable outside of the program: its own, unless that is taken there.
 std::string free_shared_name(const Program& program, const std::string& name) {
   std::string shared = name_of_shared(name);
   while (program.shared_names.contains(upper(shared))) {
@@ -89,7 +89,7 @@ std::string free_shared_name(const Program& program, const std::string& name) {
   return shared;
 }
 
-// What can only be given to a call, or be extended.
+// Returns true, with an error, for types that can only be passed to a call, or be extended.
 bool is_no_variable(Context& context, const ast::Variable& variable, const Type& type) {
   if (type.open) {
     context.error(variable.at, kOpenArray);
@@ -156,7 +156,8 @@ void declare_one(Context& context, ast::Variable& variable, const Type& type) {
   add(program, std::move(global));
 }
 
-// The declared type of an external may show a shared variable as another number of the same size, or as BOOL.
+// Returns whether an external may access the shared variable as its declared type: another number of the same size, or
+// BOOL.
 bool can_show(const Type& as, const Type& of) noexcept {
   if (as.kind != Type::Kind::Elementary || of.kind > Type::Kind::Enum) {
     return same_type(as, of);
@@ -169,18 +170,18 @@ bool can_show(const Type& as, const Type& of) noexcept {
                                     (bits_of(as.elementary) == bits_of(other) || as.is(Elementary::Bool)));
 }
 
-// Whether the letter of the address is that of the type.
+// Returns whether the size letter of the address matches the type.
 bool lies_at(const Type& type, const ast::DirectAddress& address) noexcept {
   return type.kind <= Type::Kind::Enum && !type.is_text() && bits_of(type.elementary) == bits_of_size(address.size);
 }
 
-// An array at an address that this one lies in.
+// Returns an array at an address that contains this address.
 const Global* covering_array(const Program& program, const ast::DirectAddress& address) {
   const auto area = address.numbers.empty() ? program.areas.end() : program.areas.find(area_of(address));
   if (area == program.areas.end()) {
     return nullptr;
   }
-  constexpr int kMaxBefore = 1000;  // single variables that may stand before it, and would be an error themselves
+  constexpr int kMaxBefore = 1000;  // single variables that may come before it; more would be an error
   auto at = area->second.upper_bound(address.numbers.back());
   for (int i = 0; i < kMaxBefore && at != area->second.begin(); ++i) {
     const auto& [number, one] = *--at;
@@ -191,7 +192,7 @@ const Global* covering_array(const Program& program, const ast::DirectAddress& a
   return nullptr;
 }
 
-// Something else that is where this one is to lie, of which one is an array.
+// Returns another variable that overlaps this one, if one of the two is an array.
 const Global* overlapping(const Program& program, const ast::DirectAddress& address, const Type& type) {
   if (const Global* array = covering_array(program, address)) {
     return array;
@@ -226,7 +227,7 @@ void declare_global(Context& context, ast::Variable& variable) {
   }
 }
 
-// AT %I*: a shared variable of the declared name.
+// Declares AT %I*: a shared variable of the declared name.
 Global* declare_placeless(Context& context, ast::Variable& variable, const Type& type) {
   if (context.pou != nullptr && context.pou->tree->kind != ast::Pou::Kind::Program) {
     context.error(variable.at, fmt::format("AT {} has no place in a call, declare it in a program or function block",
@@ -248,7 +249,8 @@ Global* declare_placeless(Context& context, ast::Variable& variable, const Type&
 }
 
 Global& declare_located(Context& context, ast::Variable& variable, const Type& type) {
-  const Type& one = type.kind == Type::Kind::Array ? *type.element : type;  // an array fills the places behind it
+  const Type& one =
+      type.kind == Type::Kind::Array ? *type.element : type;  // an array also occupies the addresses after it
   if (!lies_at(one, *variable.address) && !(context.codesys() && variable.address->size == 'B' && !is_private(one))) {
     context.error(variable.at, fmt::format("{} does not lie at {}, use the size letter of its type: X B W D L",
                                            with_article(type), ast::to_string(*variable.address)));
@@ -259,7 +261,7 @@ Global& declare_located(Context& context, ast::Variable& variable, const Type& t
                                              to_string(known->at)));
     }
     if (context.pou == nullptr && !variable.name.empty()) {
-      context.program.global_names.emplace(upper(variable.name), known);  // another name of it
+      context.program.global_names.emplace(upper(variable.name), known);  // an additional name for it
     }
     return *known;
   }

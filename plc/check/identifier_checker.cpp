@@ -55,7 +55,7 @@ class Walk {
     }
   }
 
-  // No text names these, so OpenPLC may have a task called "task".
+  // No text refers to these names, so OpenPLC may have a task called "task".
   void apart(const std::string& text, const Place& at) {
     if (!is_identifier(text)) {
       name(text, at);

@@ -13,7 +13,7 @@
 namespace indurop::plc {
 namespace {
 
-constexpr std::size_t kMaxAncestors = 256;  // with those of interfaces
+constexpr std::size_t kMaxAncestors = 256;  // including those of interfaces
 
 class Inheritance {
  public:
@@ -41,7 +41,7 @@ class Inheritance {
     return out;
   }
 
-  // The first of the circle in the text extends nothing any more; what waits for it goes on.
+  // Breaks a circle: its first POU in the text extends nothing from now on; those that wait for it continue.
   void break_circle(const Pou& last) {
     const auto& open = walk_.open();
     auto first = std::find_if(open.begin(), open.end(), [&](const auto& one) { return one.one == &last; });

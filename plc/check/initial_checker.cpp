@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Initial values: one value, [..] of arrays, (..) of structures and instances of function blocks.
+// Checks initial values: one value, [..] of arrays, (..) of structures and instances of function blocks.
 
 #include <fmt/format.h>
 

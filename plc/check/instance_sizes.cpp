@@ -18,17 +18,17 @@
 namespace indurop::plc {
 namespace {
 
-constexpr std::size_t kMaxNesting = 64;                     // instances inside each other
-constexpr std::uint64_t kMaxVariables = 1'000'000;          // in the instances of one
-constexpr std::uint64_t kMaxVariablesTogether = 4'000'000;  // in those of all programs and global variables
+constexpr std::size_t kMaxNesting = 64;                     // nesting of instances
+constexpr std::uint64_t kMaxVariables = 1'000'000;          // in the instances of one POU
+constexpr std::uint64_t kMaxVariablesTogether = 4'000'000;  // in those of all programs and globals
 
-// Of INTEGRAL and so on RETAIN keeps no memory.
+// Returns true for INTEGRAL and the like, whose internal memory RETAIN does not keep.
 bool forgets(const LibraryBlock& block) {
   constexpr std::array<std::string_view, 5> kForgetful{"INTEGRAL", "DERIVATIVE", "PID", "RAMP", "RTC"};
   return std::find(kForgetful.begin(), kForgetful.end(), block.name) != kForgetful.end();
 }
 
-// A variable of the type, with what lies in it, if its function block was measured.
+// Returns the number of variables in a variable of the type, including inner ones, if its function block was measured.
 std::uint64_t variables_in(const Type& type) {
   switch (type.kind) {
     case Type::Kind::Array:
@@ -41,7 +41,7 @@ std::uint64_t variables_in(const Type& type) {
   }
 }
 
-// Whether it lies in the instance.
+// Returns whether the variable is stored in the instance.
 bool is_inside(const Variable& one) noexcept {
   return one.type != nullptr && one.section != ast::Section::InOut && one.section != ast::Section::External;
 }

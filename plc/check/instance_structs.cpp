@@ -33,7 +33,7 @@ class Finder {
       open.push_back(&one);
       each_name(one.type, [&](const std::string& name) { users[name].push_back(&one); });
     }
-    while (!open.empty()) {  // what holds one that was found is looked at again
+    while (!open.empty()) {  // types that contain a found one are checked again
       const std::string name = upper(open.back()->name);
       const bool is_new = look(*open.back());
       open.pop_back();
@@ -45,7 +45,7 @@ class Finder {
 
   [[nodiscard]] bool is_found(const ast::TypeDeclaration& one) const { return found_.contains(&one); }
 
-  // Of what it extends first.
+  // Returns the fields, those of its base first.
   [[nodiscard]] std::vector<ast::Variable> fields(const ast::TypeDeclaration& one, Diagnostics& diagnostics) const {
     std::vector<const ast::TypeDeclaration*> way;
     std::set<const ast::TypeDeclaration*> seen;
@@ -65,7 +65,7 @@ class Finder {
   }
 
  private:
-  // Names of types whose instances lie in one of the type.
+  // Visits the names of types whose instances are contained in one of the type.
   template <class Visit>
   static void each_name(const ast::TypeSpec& spec, Visit visit) {
     if (spec.kind == ast::TypeSpec::Kind::Named) {
@@ -93,7 +93,7 @@ class Finder {
            (instances_.contains(name) || (!types_.contains(name) && find_block(spec.name) != nullptr));
   }
 
-  // Whether it is now known to hold instances, and was not before.
+  // Returns whether the type is now, for the first time, known to hold instances.
   bool look(const ast::TypeDeclaration& one) {
     const ast::TypeSpec& spec = one.type;
     if (spec.kind != ast::TypeSpec::Kind::Struct) {
@@ -110,11 +110,11 @@ class Finder {
   }
 
   std::map<std::string, const ast::TypeDeclaration*> types_;
-  std::set<std::string> instances_;  // names of types that hold some
+  std::set<std::string> instances_;  // names of types that hold instances
   std::set<const ast::TypeDeclaration*> found_;
 };
 
-// TYPE Axis : STRUCT ... END_STRUCT := (speed := 5); becomes the values of its fields.
+// Applies the values of TYPE Axis : STRUCT ... END_STRUCT := (speed := 5); to the fields.
 void begin_with(std::vector<ast::Variable>& fields, ast::TypeDeclaration& from, Diagnostics& diagnostics) {
   if (!from.initial) {
     return;

@@ -10,7 +10,7 @@ namespace indurop::plc {
 namespace {
 
 using ast::Section;
-// Of CODESYS: nVal : INT := LowerLimit;
+// Returns true for a variable as an initial value, as CODESYS allows: nVal : INT := LowerLimit;
 bool is_variable(const Context& context, const Pou& pou, const ast::Expression& name) {
   const std::string capitals = upper(name.name);
   if (const Variable* own = pou.find(capitals)) {
@@ -20,7 +20,7 @@ bool is_variable(const Context& context, const Pou& pou, const ast::Expression& 
   return global != context.program.global_names.end() && global->second->kind != Global::Kind::Fixed;
 }
 
-// Names are those of constants, unless they stand for places or the dialect takes variables.
+// Names are constants, unless they refer to places or the dialect allows variables.
 bool is_known_early(const Context& context, const Pou& pou, const ast::Expression& expression, bool is_place) {
   const bool name = expression.kind == ast::Expression::Kind::Name || expression.kind == ast::Expression::Kind::Member;
   if (expression.kind == ast::Expression::Kind::Call || expression.kind == ast::Expression::Kind::Deref ||

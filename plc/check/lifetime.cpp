@@ -6,7 +6,7 @@
 namespace indurop::plc {
 namespace {
 
-// VAR_IN_OUT of functions and methods too, whatever stands behind them.
+// Also true for VAR_IN_OUT of functions and methods, whatever they refer to.
 bool is_of_call(const Variable& variable) {
   const bool callable =
       variable.owner->is_callable() && !variable.declared->is_static && !variable.declared->of_instance;

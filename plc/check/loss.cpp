@@ -14,7 +14,7 @@ namespace {
 using ast::Expression;
 using ast::Operator;
 
-// The first division or product in it whose result the rest only adds to, multiplies, or changes the sign of.
+// Returns the first division or product whose result the rest of the expression only adds to, multiplies, or negates.
 const Expression* find(const Expression& expression, Operator op) {
   if (constant_of(expression) != nullptr) {
     return nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of methods, properties, THIS^ and SUPER^.
+// Checks calls of methods, properties, THIS^ and SUPER^.
 
 #include <fmt/format.h>
 
@@ -21,14 +21,15 @@ bool is_this(const Expression& expression) noexcept {
          (expression.resolved->meaning == Meaning::This || expression.resolved->meaning == Meaning::Super);
 }
 
-// What a call returned, and what is in it: its types are known when they were found once, and calls are checked once.
+// Returns true for the result of a call and parts of it: their types are kept once they are known, because a call is
+// checked only once.
 bool comes_from_call(const Expression& expression) noexcept {
   const bool part = expression.kind == Expression::Kind::Member || expression.kind == Expression::Kind::Index;
   return expression.kind == Expression::Kind::Call || expression.kind == Expression::Kind::Deref ||
          (part && comes_from_call(expression.operands[0]));
 }
 
-// A type whose instances have methods.
+// Returns whether instances of the type have methods.
 bool has_methods(const Type& type) noexcept {
   return type.pou != nullptr && (type.kind == Type::Kind::Interface || type.kind == Type::Kind::Block);
 }
@@ -47,7 +48,7 @@ std::vector<std::string> methods_of(const Pou& pou, bool properties) {
 
 }  // namespace
 
-// THIS and SUPER are the instance itself, with or without ^; null with an error where there is none.
+// Checks THIS and SUPER, which are the instance itself, with or without ^; null with an error if there is no instance.
 const Type* ExpressionChecker::this_or_super(Expression& expression) {
   const Pou* self = context_.pou != nullptr ? context_.pou->self() : nullptr;
   const bool super = same_name(expression.name, "SUPER");
@@ -65,7 +66,8 @@ const Type* ExpressionChecker::this_or_super(Expression& expression) {
   return super ? self->base->type : self->type;
 }
 
-// THIS^.x is the variable of the instance, whatever the method calls its own. False: it is no variable.
+// Checks THIS^.x, a variable of the instance even if the method declares one of that name. Returns false if it is not a
+// variable.
 bool ExpressionChecker::variable_of_this(Expression& expression) {
   const Expression& base = expression.operands[0];
   const Expression& root = base.kind == Expression::Kind::Deref ? base.operands[0] : base;
@@ -85,7 +87,7 @@ bool ExpressionChecker::variable_of_this(Expression& expression) {
   return true;
 }
 
-// What a method sees of its instance.
+// Returns whether a method can access the variable of its instance.
 bool ExpressionChecker::can_see(Variable& variable, const Place& at) {
   if (variable.owner == context_.pou || variable.owner == nullptr) {
     return true;
@@ -131,16 +133,17 @@ bool ExpressionChecker::may_call(const Pou& method, const Place& at) {
   return fine;
 }
 
-// The type of the instance before the dot, THIS and SUPER included; null: none that has methods. No errors.
+// Returns the type of the instance before the dot, including THIS and SUPER; null if it has no methods. Reports no
+// errors.
 const Type* ExpressionChecker::object(Expression& expression) {
   const bool reading = std::exchange(reading_, true);
   const bool known = expression.type != nullptr && expression.resolved && comes_from_call(expression);
-  const Type* type = known ? expression.type : typed(expression, nullptr);  // calls behind calls only once
+  const Type* type = known ? expression.type : typed(expression, nullptr);  // chained calls are checked only once
   reading_ = reading;
   return type != nullptr && has_methods(*type) ? type : nullptr;
 }
 
-// pump.Restart; the instance is as before then.
+// Checks pump.Restart; if it is not an action, the instance is unchanged.
 bool ExpressionChecker::is_action(Expression& callee) {
   const Type* type = object(callee.operands[0]);
   const Pou* method =
@@ -155,7 +158,7 @@ bool ExpressionChecker::is_action(Expression& callee) {
   return true;
 }
 
-// x.Speed or Speed as a value: a call of its GET. Null without an error: it is none.
+// Checks x.Speed or Speed as a value: a call of its GET. Null without an error if it is not one.
 const Pou* ExpressionChecker::accessor(const Pou& pou, const Expression& expression, ast::Accessor which) {
   const Pou* found = find_method(pou, expression.name, which);
   const ast::Accessor other = which == ast::Accessor::Get ? ast::Accessor::Set : ast::Accessor::Get;
@@ -184,7 +187,7 @@ const Type* ExpressionChecker::read_property(Expression& expression, const Pou& 
   return CallChecker(*this).method(expression, getter);
 }
 
-// x.Speed := 5 becomes a call of its SET. False: it is an ordinary assignment.
+// Turns x.Speed := 5 into a call of its SET. Returns false for an ordinary assignment.
 bool ExpressionChecker::write_property(ast::Statement& statement) {
   Expression& target = *statement.target;
   const Pou* found = nullptr;
@@ -217,7 +220,7 @@ bool ExpressionChecker::write_property(ast::Statement& statement) {
   return true;
 }
 
-// The method a call means; null: none, with an error if `said`.
+// Returns the method that is called; null if there is none. `said`: an error was reported.
 const Pou* CallChecker::method_of(Expression& callee, bool& said) {
   said = false;
   if (!context_.program.has_objects || context_.pou == nullptr) {
@@ -249,7 +252,7 @@ const Pou* CallChecker::method_of(Expression& callee, bool& said) {
   return found;
 }
 
-// Checks the call of the method; its result, null after an error or if it has none.
+// Checks the call of the method; returns the type of its result, null after an error or if it has none.
 const Type* CallChecker::method(Expression& call, const Pou& pou) {
   Expression& callee = call.operands[0];
   Resolved& out = ExpressionChecker::resolved(call);

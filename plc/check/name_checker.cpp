@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What names mean: variables, members, values of enumerations, shared variables, addresses.
+// Resolves names: variables, members, values of enumerations, shared variables, addresses.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ bool is_global_list(const Program& program, std::string_view name) {
   return std::any_of(lists.begin(), lists.end(), [&](const std::string& list) { return same_name(list, name); });
 }
 
-// The same for types of which one is the other with another value to begin with.
+// Returns the same id for types that differ in their initial value only.
 std::string id_of(const Type& enumeration) {
   return upper(enumeration.name) + '|' + enumeration.shared_name;
 }
@@ -46,7 +46,7 @@ const Pou* innermost_pou(const Type& type) noexcept {
 
 }  // namespace
 
-// Long: one case for each kind of thing that has a name, in the order in which they hide each other.
+// Long: one case for each kind of named item, in the order in which they hide each other.
 const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) {
   Resolved& out = resolved(expression);
   const std::string capitals = upper(expression.name);
@@ -118,7 +118,7 @@ bool ExpressionChecker::counts_as_truth(const Expression& expression, const Type
          (is_int(type.elementary) || (is_bit(type.elementary) && !type.is(Elementary::Bool)));
 }
 
-// x <> 0
+// Turns x into x <> 0.
 Expression& ExpressionChecker::make_truth(Expression& expression) {
   Expression number = std::move(expression);
   number.as_truth = false;
@@ -135,7 +135,7 @@ Expression& ExpressionChecker::make_truth(Expression& expression) {
   return expression;
 }
 
-// A value of the enumeration that is wanted, else of the only one that has it. Null: none has it, or `both` do.
+// Resolves a value of the required enumeration, else of the only one that has it. Null if none has it, or `both` do.
 const Type* ExpressionChecker::bare_enum_value(Expression& expression, const Type* wanted,
                                                std::pair<std::string, std::string>& both) {
   Program& program = context_.program;
@@ -283,7 +283,7 @@ const Type* ExpressionChecker::member(Expression& expression) {
   return nullptr;
 }
 
-// w.RUNNING, where RUNNING is a CONSTANT: the bit of that number.
+// Resolves w.RUNNING, where RUNNING is a CONSTANT: the bit of that number.
 const Type* ExpressionChecker::named_bit(Expression& expression, const Type& base) {
   const std::string capitals = upper(expression.name);
   const Constant* known = nullptr;
@@ -324,7 +324,7 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
   } else if (block.pou != nullptr) {
     Variable* found = block.pou->find(upper(expression.name));
     if (found != nullptr) {
-      found->used = true;  // if only from outside
+      found->used = true;  // even if only from outside
       found->aliased = true;
     }
     if (found != nullptr && (found->section == ast::Section::Input || found->section == ast::Section::Output)) {
@@ -347,7 +347,7 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
       return found->type;
     }
     if (found != nullptr && found->section == ast::Section::InOut && reading_ && context_.pou != nullptr) {
-      // It is the variable that the call above was given.
+      // It is the variable that was passed to the preceding call.
       const auto given = context_.pou->given.find(upper(expression.operands[0].name + "." + expression.name));
       if (given != context_.pou->given.end()) {
         expression = ast::Expression(given->second);

@@ -20,7 +20,7 @@ std::string joined(const std::string& space, const std::string& name) {
   return space.empty() ? name : space + "." + name;
 }
 
-// "A" of "A.B", "" of "A".
+// Returns "A" for "A.B", "" for "A".
 std::string outer(const std::string& space) {
   const std::size_t at = space.rfind('.');
   return at == std::string::npos ? "" : space.substr(0, at);
@@ -46,7 +46,7 @@ class Names {
       }
       taken_.insert(upper(own));
       if (!known_.emplace(upper(joined(scope.space, name)), own).second) {
-        own = name;  // a double, for the checker to find
+        own = name;  // a duplicate, for the checker to find
       }
       for (std::string space = scope.space; !space.empty(); space = outer(space)) {
         spaces_.insert(upper(space));
@@ -66,7 +66,7 @@ class Names {
   [[nodiscard]] bool is_enumeration(const std::string& own_name) const { return enums_.contains(upper(own_name)); }
   [[nodiscard]] bool is_space(const std::string& path) const { return spaces_.contains(upper(path)); }
 
-  // What a path means where it stands; null: nothing of the project.
+  // Returns the meaning of a path in this scope; null if it is not an item of the project.
   [[nodiscard]] const std::string* find(const std::string& path, const ast::Scope& scope) const {
     for (std::string space = scope.space;; space = outer(space)) {
       if (const auto found = known_.find(upper(joined(space, path))); found != known_.end()) {
@@ -83,7 +83,7 @@ class Names {
     }
     return nullptr;
   }
-  // "Space.F" of F, which cannot be seen without that; "" if there is none.
+  // Returns "Space.F" for an F that needs the namespace in front; "" if there is none.
   [[nodiscard]] std::string hidden(const std::string& name) const {
     const auto found = inside_.find(upper(name));
     return found == inside_.end() ? "" : found->second;
@@ -100,14 +100,14 @@ class Names {
     }
   }
 
-  std::map<std::string, std::string> known_;   // "SPACE.F" to its name of its own
+  std::map<std::string, std::string> known_;   // unique name by "SPACE.F"
   std::map<std::string, std::string> inside_;  // "F" to "Space.F"
   std::set<std::string> spaces_;
   std::set<std::string> enums_;
   std::set<std::string> taken_;
 };
 
-// Puts the names in the place of what means them.
+// Replaces references by the unique names.
 class Resolver {
  public:
   Resolver(const Names& names, Diagnostics& diagnostics) : names_(names), diagnostics_(diagnostics) {}
@@ -192,7 +192,8 @@ class Resolver {
     }
   }
 
-  // Space.F, Space.Color.Red: as much of it as is a name of the project. Inner parts come after the outer ones.
+  // Resolves Space.F, Space.Color.Red: the part of it that is a name of the project. Inner parts come after the outer
+  // ones.
   void expression(Expression& one) {
     if (one.kind == Expression::Kind::Name && !one.value_enum.empty()) {
       name(one.value_enum, one.at);
@@ -224,7 +225,7 @@ class Resolver {
     }
   }
 
-  // Space.Color.Red becomes Color#Red, which no variable called Color hides.
+  // Space.Color.Red becomes Color#Red, which a variable called Color does not hide.
   bool is_enumeration(Expression& one) const {
     const std::string path = one.kind == Expression::Kind::Member ? ast::path_of(one.operands[0]) : "";
     if (path.find('.') == std::string::npos || variables_.contains(upper(path.substr(0, path.find('.'))))) {
@@ -247,7 +248,7 @@ class Resolver {
   Diagnostics& diagnostics_;
   const ast::Scope nowhere_;
   const ast::Scope* scope_ = &nowhere_;
-  std::set<std::string> variables_;  // of the POU
+  std::set<std::string> variables_;  // variables of the POU
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ std::string_view word_of(const Pou& pou) noexcept {
   return pou.tree->kind == Kind::Interface ? "INTERFACE" : pou.tree->kind == Kind::Class ? "CLASS" : "FUNCTION_BLOCK";
 }
 
-// "METHOD Start", "GET of the PROPERTY Speed"
+// Returns "METHOD Start", "GET of the PROPERTY Speed".
 std::string shown(const Pou& method) {
   switch (method.tree->accessor) {
     case ast::Accessor::Get:
@@ -37,7 +37,7 @@ bool same_exactly(const Type* a, const Type* b) noexcept {
   return a == b || (a != nullptr && b != nullptr && same_type(*a, *b) && same_range(*a, *b));
 }
 
-// What two methods that stand for each other do not have in common; "" if nothing.
+// Returns the difference of two methods of which one replaces the other; "" if there is none.
 std::string difference(const Pou& method, const Pou& other) {
   if (!same_exactly(method.result, other.result)) {
     return fmt::format("its result is {}", other.result != nullptr ? with_article(*other.result) : "none");
@@ -236,7 +236,7 @@ class ObjectChecker {
     }
   }
 
-  // Of an instance there is one variable of a name.
+  // Checks that the variables of an instance, including inherited ones, have different names.
   void variables() {
     for (const Variable& one : pou_.variables) {
       if (pou_.base == nullptr) {
@@ -254,7 +254,7 @@ class ObjectChecker {
     }
   }
 
-  // All that its interfaces ask for.
+  // Returns all methods that its interfaces require.
   std::vector<const Pou*> wanted() const {
     std::vector<const Pou*> out;
     for (const Pou* one : pou_.ancestors) {
@@ -265,7 +265,7 @@ class ObjectChecker {
     return out;
   }
 
-  // One error for all that miss.
+  // Reports all missing methods in one error.
   void complete() {
     constexpr std::size_t kShown = 100;
     std::string missing;
@@ -295,7 +295,7 @@ class ObjectChecker {
     }
   }
 
-  // Those that do what an interface asks for are as it says, and PUBLIC.
+  // Checks that methods required by an interface have its signature and are PUBLIC.
   void signatures() {
     for (const Pou* one : wanted()) {
       const Pou* found = find_method(pou_, one->name, one->tree->accessor);

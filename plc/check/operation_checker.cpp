@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operators with two sides: which type both become, and what is known of the result.
+// Checks binary operators: the common type of both sides, and the result if it is constant.
 
 #include <fmt/format.h>
 
@@ -20,12 +20,12 @@ bool is_elementary_bit(const Type& type) noexcept {
   return type.kind == Type::Kind::Elementary && is_bit(type.elementary);
 }
 
-// A bit string with more than one bit.
+// Returns true for a bit string with more than one bit.
 bool is_bits(const Type* type) noexcept {
   return type != nullptr && is_elementary_bit(*type) && !type->is(Elementary::Bool);
 }
 
-// NOT 16#2, which inverts as many bits as the other side has.
+// Returns true for NOT 16#2, which inverts as many bits as the other side has.
 bool is_inverted(const Expression& expression, const Program& program) {
   return expression.kind == Expression::Kind::Unary && expression.op == Operator::Not &&
          is_bare(expression.operands[0], program);
@@ -35,12 +35,12 @@ bool is_number(const Type& type) noexcept {
   return type.kind == Type::Kind::Elementary && (is_num(type.elementary) || is_elementary_bit(type));
 }
 
-// Whole numbers wrap; a REAL that is too large becomes infinite, which is left to the run time.
+// Returns false for an infinite REAL, which is left to the run time; whole numbers wrap.
 bool holds(const Type& type, const Constant& value) noexcept {
   return !std::holds_alternative<double>(value) || fits(value, type);
 }
 
-// 1 / 2 where 0.5 is meant.
+// Returns true for 1 / 2 where 0.5 is intended.
 bool loses_fraction(const Expression& expression, const Constant& a, const Constant& b, const Type* wanted) noexcept {
   const auto* x = std::get_if<Integer>(&a);
   const auto* y = std::get_if<Integer>(&b);
@@ -50,7 +50,7 @@ bool loses_fraction(const Expression& expression, const Constant& a, const Const
 
 }  // namespace
 
-// For CODESYS the values of an enumeration are numbers, except where two of one enumeration are told apart.
+// In CODESYS the values of an enumeration are numbers, except when two of one enumeration are compared.
 void ExpressionChecker::count_enumerations(Expression& expression) {
   Expression& a = expression.operands[0];
   Expression& b = expression.operands[1];
@@ -65,7 +65,7 @@ void ExpressionChecker::count_enumerations(Expression& expression) {
   }
 }
 
-// A name that is at most a value of an enumeration.
+// Returns true for a name that is not a variable, but may be a value of an enumeration.
 bool ExpressionChecker::is_no_variable(const Expression& expression) const {
   const std::string capitals = upper(expression.name);
   return expression.kind == Expression::Kind::Name && expression.value_enum.empty() &&
@@ -118,8 +118,8 @@ const Type* ExpressionChecker::unary(Expression& expression, const Type* wanted)
   return out.untyped ? context_.elementary(default_type(*out.constant)) : context_.elementary(operand.type->elementary);
 }
 
-// The sides' values: first of one that has a type, which numbers without one on the other side take where nothing else
-// is wanted. Where nothing says a type, none is too small: MAX(300, 1) * 300 > 30000. False after an error.
+// Checks the values of both sides: first one that has a type, which numbers without one on the other side take if the
+// context requires none. Without any type, none is too small: MAX(300, 1) * 300 > 30000. Returns false after an error.
 bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
   Expression& a = expression.operands[0];
   Expression& b = expression.operands[1];
@@ -127,7 +127,7 @@ bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
   const bool b_bare = is_bare(b, context_.program);
   const bool a_value = is_no_variable(a);
   if (expression.op >= Operator::Less && expression.op <= Operator::NotEqual && a_value != is_no_variable(b)) {
-    const Type* type = value(a_value ? b : a);  // says which enumeration the value is of
+    const Type* type = value(a_value ? b : a);  // determines the enumeration of the value
     return value(a_value ? a : b, type) != nullptr && type != nullptr;
   }
   const bool a_inverted = is_inverted(a, context_.program);
@@ -188,7 +188,7 @@ const Type* ExpressionChecker::binary(Expression& expression, const Type* wanted
   return context_.elementary(default_type(*out.constant));
 }
 
-// Brings both to one type; false if there is none.
+// Converts both to one type; returns false if there is none.
 bool ExpressionChecker::meet(Expression& a, Expression& b) {
   static_cast<void>(adapt_character(a, *b.type) || adapt_character(b, *a.type));
   if (a.resolved->untyped && !adapt(a, *context_.elementary(b.type->elementary)) && !b.type->is_text()) {
@@ -228,7 +228,8 @@ const Type* ExpressionChecker::comparison(Expression& expression) {
   return context_.elementary(Elementary::Bool);
 }
 
-// Sums of REALs are rounded; one that is compared with 0 or 2.5 may never have been computed with.
+// Warns of exact comparisons: sums of REALs are rounded, but a value that is compared with 0 or 2.5 may never have been
+// computed.
 void ExpressionChecker::warn_about_exactness(const Place& at, const Type& type, const Expression& a,
                                              const Expression& b) {
   if (type.kind != Type::Kind::Elementary || !is_real(type.elementary)) {
@@ -290,7 +291,7 @@ void ExpressionChecker::fold(Expression& expression, const Type& operand) {
   const Constant* a = constant_of(expression.operands[0]);
   const Constant* b = constant_of(expression.operands[1]);
   if (a == nullptr || b == nullptr || operand.is(Elementary::Wstring)) {
-    return;  // the order of UTF-16 is not that of its UTF-8
+    return;  // the order of UTF-16 differs from that of UTF-8
   }
   std::string why;
   auto known = apply(expression.op, operand.is_text() ? *a : stored(*a, operand),

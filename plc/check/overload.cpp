@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which form of a library function the types of the inputs mean, and what the generic types become.
+// Selects the overload of a library function by the types of its inputs, and resolves its generic types.
 
 #include <fmt/format.h>
 
@@ -40,7 +40,7 @@ bool untyped(const Expression& expression) noexcept {
   return expression.resolved->untyped;
 }
 
-// For CODESYS a bit string is a number, and a number has bits.
+// In CODESYS a bit string is a number, and a number has bits.
 bool generic_accepts(Generic generic, const Type& type, bool codesys) noexcept {
   if (generic == Generic::Any || type.kind != Type::Kind::Elementary) {
     return generic == Generic::Any;
@@ -60,7 +60,7 @@ std::string types_of(const std::vector<Expression*>& inputs) {
   return text;
 }
 
-// Where a bare number stands beside a time.
+// Returns a hint if a number without a unit is combined with a time.
 std::string missing_unit(const std::vector<Expression*>& inputs) {
   if (std::none_of(inputs.begin(), inputs.end(), [](const Expression* one) { return untyped(*one); })) {
     return {};
@@ -73,14 +73,14 @@ std::string missing_unit(const std::vector<Expression*>& inputs) {
   return {};
 }
 
-// Whether both inputs have one type. Length and position in a text are numbers of their own.
+// Returns whether both inputs share one type. Length and position in a text have separate types.
 bool same_group(const LibraryFunction& function, std::size_t a, std::size_t b) noexcept {
   const auto* result = std::get_if<Elementary>(&function.result);
   const bool counts = result != nullptr && is_text(*result) && function.input(a).type == LibraryType(Generic::AnyInt);
   return function.input(a).type == function.input(b).type && (a == b || !counts);
 }
 
-// As = and <> do.
+// Returns true for functions that compare values of one enumeration, as = and <> do.
 bool compares_one_enumeration(const LibraryFunction& function, const std::vector<Expression*>& inputs) noexcept {
   const bool compares = function.name == "EQ" || function.name == "NE";
   return compares && std::all_of(inputs.begin(), inputs.end(), [&](const Expression* one) {
@@ -90,7 +90,7 @@ bool compares_one_enumeration(const LibraryFunction& function, const std::vector
 
 }  // namespace
 
-// The values by position; none after an error.
+// Returns the values by position; none after an error.
 std::optional<CallChecker::Inputs> CallChecker::positions(Expression& call, const LibraryFunction& first) {
   Inputs inputs;
   std::size_t next = 0;
@@ -128,7 +128,8 @@ std::optional<CallChecker::Inputs> CallChecker::positions(Expression& call, cons
   return inputs;
 }
 
-// What numbers without a type become together, if one of them is computed: EQ(MAX(300, 1) * 300, 2.5). Null: nothing.
+// Returns the common type of numbers without a type, if one of them is computed: EQ(MAX(300, 1) * 300, 2.5). Null if
+// none is.
 const Type* CallChecker::widest_beside(const Inputs& inputs, const LibraryFunction& function, Generic generic) {
   std::optional<Elementary> widest;
   bool computed = false;
@@ -143,7 +144,8 @@ const Type* CallChecker::widest_beside(const Inputs& inputs, const LibraryFuncti
   return computed && widest ? context_.elementary(*widest) : nullptr;
 }
 
-// First those that have a type, which numbers without one take where nothing else is wanted: MAX(d, 807 * MIN(1, 2)).
+// Checks first the inputs that have a type, which numbers without one take if the context requires none: MAX(d, 807 *
+// MIN(1, 2)).
 bool CallChecker::input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads,
                                const Type* wanted) {
   const LibraryFunction& first = *overloads.front();
@@ -176,8 +178,7 @@ bool CallChecker::input_values(const Inputs& inputs, const std::vector<const Lib
 
 const Type* CallChecker::library_function(Expression& call, std::vector<const LibraryFunction*> overloads,
                                           const Type* wanted) {
-  if (wanted == nullptr && is_bare(call, context_.program) &&
-      computes(call)) {  // where nothing says a type, none is too small
+  if (wanted == nullptr && is_bare(call, context_.program) && computes(call)) {  // without any type, none is too small
     wanted = context_.elementary(widest_of(call, context_.program));
   }
   const auto found = positions(call, *overloads.front());
@@ -262,7 +263,7 @@ std::optional<CallChecker::Choice> CallChecker::match(const LibraryFunction& fun
     if (const auto* fixed = std::get_if<Elementary>(&wished)) {
       type = context_.elementary(*fixed);
     } else {
-      // What is wanted of the result says something about the inputs only if they have its type.
+      // The required type of the result applies to the inputs only if they have its type.
       type = group_type(function, i, inputs, function.result == wished ? wanted : nullptr);
       groups[std::get<Generic>(wished)] = type;
     }
@@ -281,7 +282,7 @@ std::optional<CallChecker::Choice> CallChecker::match(const LibraryFunction& fun
   return out.result != nullptr ? std::optional(std::move(out)) : std::nullopt;
 }
 
-// 0: the type itself, 1: widened; none: cannot be used.
+// Returns 0: the type itself, 1: widened; none: cannot be used.
 std::optional<int> CallChecker::cost_of(const Expression& input, const Type& type) {
   if (untyped(input)) {
     return adapts(*input.resolved->constant, type) ? std::optional(0) : std::nullopt;
@@ -292,13 +293,13 @@ std::optional<int> CallChecker::cost_of(const Expression& input, const Type& typ
   return same_type(*input.type, type) || type.is_text() ? 0 : 1;
 }
 
-// The one type of all inputs of the group of this one; null if there is none.
+// Returns the common type of all inputs in the group of this one; null if there is none.
 const Type* CallChecker::group_type(const LibraryFunction& function, std::size_t member, const Inputs& inputs,
                                     const Type* wanted) {
   const Generic generic = std::get<Generic>(function.input(member).type);
   const Type* group = nullptr;
   bool first = true;
-  for (const bool numbers : {false, true}) {  // those without a type join the others
+  for (const bool numbers : {false, true}) {  // numbers without a type join the others
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (!same_group(function, member, i) || untyped(*inputs[i]) != numbers) {
         continue;
@@ -328,7 +329,7 @@ const Type* CallChecker::group_type(const LibraryFunction& function, std::size_t
   return group;
 }
 
-// The group's type after a number without a type has joined it.
+// Returns the type of the group after a number without a type has joined it.
 const Type* CallChecker::join_untyped(Generic generic, const Type* group, const Expression& input, const Type* wanted) {
   const Constant& number = *input.resolved->constant;
   if (group != nullptr && adapts(number, *group)) {
@@ -351,7 +352,7 @@ const Type* CallChecker::join_untyped(Generic generic, const Type* group, const 
   return group == nullptr ? type : context_.common_type(*group, *type);
 }
 
-// What DIV and / stand for where a REAL may become infinite.
+// The function of DIV and / where a REAL may become infinite.
 const LibraryFunction& infinite_division() {
   static const LibraryFunction kMade = [] {
     LibraryFunction made = *find_functions("DIV").front();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// POINTER TO, REF_TO and REFERENCE TO: what they lead to, what can be computed with them, ADR and SIZEOF.
+// Checks POINTER TO, REF_TO and REFERENCE TO: their targets, arithmetic with them, ADR and SIZEOF.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ bool is_zero(const Expression& expression) noexcept {
   return known != nullptr && expression.resolved->untyped && *known == Constant(Integer{0});
 }
 
-// The same before it was looked at.
+// Returns whether it is NULL, before the expression was checked.
 bool is_null(const Expression& expression) noexcept {
   const auto* number = std::get_if<std::uint64_t>(&expression.value);
   return expression.kind == Expression::Kind::Literal
@@ -54,7 +54,7 @@ const Type* ExpressionChecker::deref(Expression& expression) {
   return base->element;
 }
 
-// r of a REFERENCE TO stands for r^.
+// Replaces r of a REFERENCE TO by r^.
 const Type* ExpressionChecker::follow(Expression& expression, const Type& reference) {
   expression.type = &reference;
   Expression inner = std::move(expression);
@@ -74,7 +74,7 @@ const Type* ExpressionChecker::reference_itself(Expression& expression) {
   return type;
 }
 
-// What is written through the pointer would not be looked at.
+// Reports a pointer to another range: values written through it would not be checked.
 void ExpressionChecker::complain_of_range(const Place& at, const Type& type, const Type& to) {
   context_.error(at, fmt::format("{} and what {} leads to have other limits, so a value could be written that is none "
                                  "of them; use one type for both",
@@ -134,7 +134,7 @@ bool ExpressionChecker::assigned_pointer(Expression& expression, const Type& to)
   return false;
 }
 
-// An instance that has what the interface asks for, or another variable of it.
+// Checks an instance that implements the interface, or another variable of the interface.
 bool ExpressionChecker::assigned_interface(Expression& expression, const Type& to) {
   const Type* type = expression.kind == Expression::Kind::Call ? top_call(expression, &to) : typed(expression, nullptr);
   if (type == nullptr) {
@@ -157,7 +157,7 @@ bool ExpressionChecker::assigned_interface(Expression& expression, const Type& t
   return true;
 }
 
-// p[3]: what lies as many values behind p^.
+// Checks p[3]: the value at this offset from p^, counted in values.
 const Type* ExpressionChecker::pointer_index(Expression& expression, const Type& pointer) {
   const bool reading = std::exchange(reading_, true);
   Expression& index = expression.operands[1];
@@ -170,7 +170,7 @@ const Type* ExpressionChecker::pointer_index(Expression& expression, const Type&
   return type != nullptr ? pointer.element : nullptr;
 }
 
-// p + 3 is three bytes further on.
+// Checks pointer arithmetic: p + 3 is three bytes further.
 const Type* ExpressionChecker::pointer_operation(Expression& expression) {
   Expression& a = expression.operands[0];
   Expression& b = expression.operands[1];

@@ -30,7 +30,7 @@ const Type& innermost_array(const Type& type) noexcept {
   return type.kind == Type::Kind::Pointer && type.element != nullptr ? innermost_array(*type.element) : type;
 }
 
-// Whose variables lie in one of the type.
+// Returns the POU whose variables are contained in one of the type.
 const Pou* held(const Type& type) noexcept {
   return type.kind == Type::Kind::Array ? held(*type.element) : type.kind == Type::Kind::Block ? type.pou : nullptr;
 }
@@ -65,7 +65,7 @@ class VariableDeclarer {
     } else if (declared.initial && holds_instances(*type)) {
       context_.open_initials.push_back({&*declared.initial, type, &pou_});
     } else if (declared.initial && expressions_.initial(*declared.initial, *type) && declared.constant &&
-               declared.section == Section::Local) {  // VAR_INPUT CONSTANT is given by the caller
+               declared.section == Section::Local) {  // VAR_INPUT CONSTANT is passed by the caller
       remember_constant(*made, declared);
     }
     if (context_.diagnostics.errors() == before) {
@@ -74,7 +74,7 @@ class VariableDeclarer {
     use_types(*type);
   }
 
-  // Of a variable, or the result.
+  // Records the types that a variable, or the result, uses.
   void use_types(const Type& type) {
     if (const Pou* used = innermost(type).pou) {
       pou_.uses.insert(used);
@@ -92,7 +92,7 @@ class VariableDeclarer {
       context_.error(declared.at, abstract_instance(*held_one));
     }
     const bool has_memory =
-        !pou_.is_callable() || declared.is_static || declared.of_instance || context_.codesys();  // for this call
+        !pou_.is_callable() || declared.is_static || declared.of_instance || context_.codesys();  // lasts for this call
     const bool given = declared.section == Section::Input || declared.section == Section::InOut;
     if (!has_memory && !given && declared.section != Section::External) {
       context_.error(declared.at, pou_.owner != nullptr
@@ -132,7 +132,7 @@ class VariableDeclarer {
     }
   }
 
-  // RETAIN, and AT %I* in function blocks: a shared variable for each instance.
+  // Checks RETAIN, and AT %I* in function blocks: a shared variable for each instance.
   void check_memory(const ast::Variable& declared, const Type& type) {
     const bool is_block = holds_instances(type);
     const bool program = pou_.tree->kind == ast::Pou::Kind::Program;
@@ -216,7 +216,7 @@ void declare_methods(Context& context, Pou& pou) {
 
 void declare_pous(Context& context) {
   for (ast::Pou& tree : context.program.project.pous) {
-    // TIME is a function, too, which a project may replace.
+    // A project may replace TIME, which is a function, too.
     const bool replaces = tree.kind == ast::Pou::Kind::Function && !find_functions(tree.name).empty();
     if (elementary_named(tree.name) && !replaces) {
       context.error(tree.at, fmt::format("'{}' is a name of the standard, use another one", tree.name));
@@ -299,7 +299,7 @@ void declare_method(Context& context, Pou& owner, ast::Pou& tree) {
 
 namespace {
 
-// What only shows when the variables of all function blocks are known.
+// Checks what is known only after the variables of all function blocks are declared.
 void check_instances(Context& context) {
   for (const Pou& pou : context.program.pous) {
     context.pou = nullptr;
@@ -333,7 +333,7 @@ void check_bodies(Context& context) {
                                 : !pou.tree->is_abstract && pou.owner->tree->kind != ast::Pou::Kind::Interface;
   };
   std::vector<Pou*> fine;
-  for (std::size_t i = 0; i < context.program.pous.size(); ++i) {  // calls may make further ones
+  for (std::size_t i = 0; i < context.program.pous.size(); ++i) {  // calls may add further ones
     Pou& pou = context.program.pous[i];
     if (!has_body(pou)) {
       continue;
@@ -345,7 +345,7 @@ void check_bodies(Context& context) {
       fine.push_back(&pou);
     }
   }
-  if (context.diagnostics.failed()) {  // what is left out there may use everything
+  if (context.diagnostics.failed()) {  // omitted parts might use everything
     fine.clear();
   }
   for (Pou* pou : fine) {  // methods use variables of their instances, too

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each POU behind those it calls and those whose variables lie in it.
+// Orders POUs: each after those it calls and those whose variables it contains.
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ class PouOrder {
   void run() {
     walk_.run(
         context_.program.pous,
-        [](const Pou& pou) {  // in the order of the text
+        [](const Pou& pou) {  // in text order
           std::vector<const Pou*> needed;
           std::set_union(pou.holds.begin(), pou.holds.end(), pou.calls.begin(), pou.calls.end(),
                          std::back_inserter(needed), pou.holds.key_comp());
@@ -33,7 +33,7 @@ class PouOrder {
 
  private:
   void complain(const Pou& pou) {
-    if (context_.diagnostics.full()) {  // it only counts
+    if (context_.diagnostics.full()) {  // further errors are only counted
       context_.error(pou.tree->at, "recursion is not possible");
       return;
     }

@@ -14,7 +14,8 @@ std::string allowed(std::string_view name, NameRole role, bool global) {
   return glb2idl::objection(name, role, global) ? glb2idl::proposal(name, role, global) : std::string(name);
 }
 
-// Those that keep their name come first, so that nobody else gets it. `reserved` are further names that cannot be.
+// Names that stay unchanged are assigned first, so that no other item gets them. `reserved`: further names that cannot
+// be used.
 template <class List, class Reserved>
 void name_all(List& list, NameRole role, Reserved reserved) {
   std::set<std::string> taken;
@@ -55,10 +56,10 @@ void name_types(Context& context) {
   for (Type* type : context.program.named_types) {
     const std::string shared = (named++)->shared;
     if (!type->shared_name.empty()) {
-      continue;  // of another .glb, as it is
+      continue;  // of another .glb: unchanged
     }
     type->glb_name = shared;
-    name_all(type->fields, NameRole::Field, [&](const std::string& name) {  // IDL does not tell cases from each other
+    name_all(type->fields, NameRole::Field, [&](const std::string& name) {  // IDL ignores case
       return names.contains(name) || same_name(name, type->name) || same_name(name, shared);
     });
     name_all(type->items, NameRole::Enumerator, [](const std::string&) { return false; });

@@ -13,10 +13,10 @@
 namespace indurop::plc {
 namespace {
 
-// A quarter of the stack: calls through interfaces are not seen here, and the compiler has temporaries of its own.
+// A quarter of the stack: calls through interfaces are not visible here, and the compiler has temporaries of its own.
 constexpr std::uint64_t kMost = std::uint64_t{128} * 1024;
 
-// About as large as in C++.
+// Sizes approximately as in C++.
 class Sizes {
  public:
   std::uint64_t of(const Type& type) {
@@ -82,7 +82,7 @@ class Sizes {
   std::map<const Type*, std::uint64_t> known_;
 };
 
-// A part of what a call needs.
+// One contribution to the stack of a call.
 struct Part {
   std::string name;
   Place at;
@@ -94,7 +94,7 @@ class StackChecker {
   explicit StackChecker(Context& context) : context_(context) {}
 
   void run() {
-    for (const Pou* pou : context_.program.order) {  // what is called comes first
+    for (const Pou* pou : context_.program.order) {  // called POUs come first
       look_at(*pou);
     }
   }
@@ -115,7 +115,7 @@ class StackChecker {
       }
     }
     const std::uint64_t all = sum_of(own, below);
-    depth_[&pou] = std::min(all, kMost);  // said once
+    depth_[&pou] = std::min(all, kMost);  // reported once
     if (all > kMost) {
       complain(pou, parts, own > kMost ? nullptr : deepest, all);
     }
@@ -139,7 +139,7 @@ class StackChecker {
     return parts;
   }
 
-  // Texts that functions give, of the statement with the largest.
+  // Returns the size of texts returned by functions, for the statement with the largest sum.
   std::uint64_t temporaries(const Pou& pou) {
     std::uint64_t most = 0;
     for (ast::Statement& one : pou.tree->body) {

@@ -43,7 +43,7 @@ Expression number(const Place& at, std::int64_t value) {
   return negative;
 }
 
-// A variable of the method that no user has.
+// Declares a variable of the method with a name that no user can write.
 std::string counter(ast::Pou& method) {
   const std::string name = fmt::format("_start_{}_", method.variables.size());
   ast::Variable made = make::variable(Section::Temp, name, make::type(method.at, Elementary::Dint));
@@ -125,8 +125,8 @@ void StartStatements::instances(ast::Pou* method, const Variable& one, ast::Body
   elements(method, spec.starts, *one.type, make::name(one.declared->at, one.name), to);
 }
 
-// All elements of an array: with what is given to each of them, else in loops, whose variables `method` gets; null:
-// it can have no more, so one after the other.
+// Starts all elements of an array: with the arguments of each of them, else in loops, whose variables `method` gets;
+// null: it can have no further variables, so one statement per element.
 void StartStatements::elements(ast::Pou* method, const std::vector<ast::StartArguments>& starts, const Type& type,
                                Expression object, ast::Body& to) {
   if (type.kind != Type::Kind::Array) {
@@ -196,7 +196,7 @@ void StartStatements::listed(const std::vector<ast::StartArguments>& starts, con
   }
 }
 
-// What is in it, then itself.
+// Starts the instances inside it, then the instance itself.
 void StartStatements::instance(const ast::StartArguments& given, const Type& type, Expression object, ast::Body& to) {
   if (needs_start(*type.pou)) {
     to.push_back(start::run(object, kStart, {}));

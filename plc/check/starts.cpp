@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All of it is made as statements of the language, which are then checked and translated as those of the user.
+// All of it is generated as statements of the language, which are checked and translated like those of the user.
 #include "plc/check/starts.h"
 
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ class Starter {
     }
   }
 
-  // `takes`: it stands where instances are given values.
+  // Checks the arguments. `takes`: instances can have arguments at this place.
   void check_arguments(const ast::Variable& declared, const Type* declared_type, bool takes) {
     const ast::TypeSpec& spec = start::innermost(declared.type);
     if (spec.starts.empty() || declared_type == nullptr) {
@@ -70,7 +70,7 @@ class Starter {
     }
   }
 
-  // That of what it extends runs before it.
+  // The FB_Init of its base runs before it.
   void init(Pou& method) {
     method.tree->access = ast::Access::Public;
     const std::vector<const Variable*> inputs = start::inputs_of(method);
@@ -100,7 +100,7 @@ class Starter {
     body.insert(body.begin(), start::run(start::super_of(method.tree->at), kInit, std::move(arguments)));
   }
 
-  // Of variables that are new in each call.
+  // Starts variables that are new in each call.
   void begin_of_call(Pou& pou) {
     if (pou.tree->is_abstract) {
       return;
@@ -119,7 +119,7 @@ class Starter {
     body.insert(body.begin(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
   }
 
-  // Base first, so that find_method() finds what it overrides.
+  // Base first, so that find_method() finds the overridden method.
   void start_method(Pou& pou) {
     if (!done_.insert(&pou).second) {
       return;

@@ -16,7 +16,7 @@ using ast::Statement;
 
 namespace {
 
-// x.Speed; as editors have it: only what the PROPERTY does when it is read. False: an ordinary call.
+// Checks x.Speed; as editors allow: only the GET of the PROPERTY runs. Returns false for an ordinary call.
 bool read_alone(Context& context, ExpressionChecker& expressions, Statement& one) {
   ast::Expression& call = *one.value;
   const bool brackets = call.arguments.size() != 1 || call.arguments[0].value || !call.arguments[0].name.empty();
@@ -37,7 +37,7 @@ bool read_alone(Context& context, ExpressionChecker& expressions, Statement& one
   return true;
 }
 
-// Whether something in the body of a loop leaves it.
+// Returns whether a statement in the body of a loop leaves it.
 bool leaves(const ast::Body& body, bool innermost) {
   return std::any_of(body.begin(), body.end(), [&](const Statement& one) {
     using Kind = Statement::Kind;
@@ -135,7 +135,7 @@ void StatementChecker::statement(Statement& one) {
   }
 }
 
-// pump.Restart(speed := 5, running => r): the action Restart has no values of its own, they are those of pump.
+// Checks pump.Restart(speed := 5, running => r): the action Restart has no parameters, they are those of pump.
 bool StatementChecker::action_with_values(Statement& one) {
   ast::Expression& callee = one.value->operands[0];
   if (callee.kind != ast::Expression::Kind::Member || one.value->arguments.empty() || !context_.program.has_objects) {
@@ -165,7 +165,7 @@ bool StatementChecker::action_with_values(Statement& one) {
   return true;
 }
 
-// WHILE TRUE that nothing leaves: the scan would not end.
+// Warns of a WHILE TRUE that nothing leaves: the scan would not end.
 void StatementChecker::warn_about_endless(const Statement& one) {
   const Constant* known = constant_of(*one.value);
   const bool goes_on = one.kind == Statement::Kind::While;
@@ -182,7 +182,7 @@ void StatementChecker::condition(ast::Expression& expression) {
   }
 }
 
-// A temporary of a translated network gets its type from the first value.
+// Gives a temporary of a translated network the type of its first value.
 bool StatementChecker::infer(Statement& one) {
   Variable* variable =
       one.target->kind == ast::Expression::Kind::Name ? context_.pou->find(upper(one.target->name)) : nullptr;
@@ -196,7 +196,7 @@ bool StatementChecker::infer(Statement& one) {
   return type != nullptr;
 }
 
-// r REF= x; the reference itself, not what it refers to.
+// Checks r REF= x; for the reference itself, not its target.
 void StatementChecker::bind(Statement& one) {
   const Type* to = expressions_.reference_itself(*one.target);
   if (to != nullptr && !to->is_reference()) {
@@ -210,7 +210,7 @@ void StatementChecker::bind(Statement& one) {
   }
 }
 
-// a ?= b: NULL unless what b leads to is of the type of a.
+// Checks a ?= b: NULL unless the target of b is of the type of a.
 void StatementChecker::attempt(Statement& one) {
   const auto leads = [](const Type& type) {
     const Type* to = type.kind == Type::Kind::Interface ? &type
@@ -264,7 +264,7 @@ void StatementChecker::assign(Statement& one) {
   }
 }
 
-// fb := other; takes over all its variables, as CODESYS does.
+// Checks fb := other; which copies all its variables, as CODESYS does.
 void StatementChecker::copy_instance(Statement& one, const Type& to) {
   const Type* from = expressions_.value_or_instance(*one.value, &to);
   if (from == nullptr) {
@@ -352,7 +352,7 @@ void StatementChecker::for_statement(Statement& one) {
     context_.error(one.target->at, "the variable of a FOR is a plain variable of a whole number type");
   }
   for (auto* part : {&one.value, &one.to, &one.by}) {
-    if (*part && whole) {  // a step is none of the values of a subrange
+    if (*part && whole) {  // a step is not one of the values of a subrange
       expressions_.assigned(**part, part == &one.by ? *context_.elementary(type->elementary) : *type);
     } else if (*part) {
       expressions_.value(**part);

@@ -42,7 +42,7 @@ class TaskPlanner {
     }
   }
 
-  // Programs no configuration mentions.
+  // Adds programs that no configuration mentions.
   void rest(bool configured) {
     TaskPlan* plan = nullptr;
     for (const Pou& pou : context_.program.pous) {
@@ -50,7 +50,7 @@ class TaskPlanner {
         continue;
       }
       if (pou.instance != nullptr && is_called(pou)) {
-        continue;  // another one runs it
+        continue;  // it runs in another one
       }
       if (configured) {
         context_.warning(pou.tree->at, fmt::format("the program {} is in no task and never runs", pou.name));
@@ -78,7 +78,7 @@ class TaskPlanner {
     return made;
   }
 
-  // Its name, with that of the resource before it where another resource has the same one.
+  // Returns the name, with that of the resource before it if another resource has the same one.
   template <class List>
   [[nodiscard]] std::string name_of(const Configuration& configuration, const std::string& name, List list) const {
     const auto has = [&](const Resource& resource) {
@@ -91,7 +91,7 @@ class TaskPlanner {
       return name;
     }
     if (std::string why = why_no_name(resource_->name);
-        !why.empty()) {  // "Plc Logic" is fine where nothing is named so
+        !why.empty()) {  // "Plc Logic" is valid where no name is derived from it
       context_.error(resource_->at, fmt::format("'{}' is in two resources, which tell them apart: {}", name, why));
       return name;
     }
@@ -119,7 +119,7 @@ class TaskPlanner {
     made.periodic = single == nullptr || task.interval_ns.has_value();
   }
 
-  // Null with an error.
+  // Returns null after an error.
   const Global* single_of(const Task& task) {
     const auto known = context_.program.global_names.find(upper(task.single));
     const auto address = st::address_literal(task.single);
@@ -172,7 +172,7 @@ class TaskPlanner {
   std::map<std::pair<const Resource*, std::string>, std::string> in_resource_;  // tasks as they are called outside
 };
 
-// What cannot be a shared variable lives in one module.
+// Checks that a variable that cannot be shared is used in one module only.
 void check_private_globals(Context& context) {
   std::map<const Global*, std::vector<std::string>> users_of;
   for (const TaskPlan& task : context.program.tasks) {
@@ -209,7 +209,7 @@ void check_private_globals(Context& context) {
   }
 }
 
-// A program that others use by its name is one.
+// Checks that a program that other POUs use by its name has one instance only.
 void check_named_programs(Context& context) {
   std::map<const Pou*, std::size_t> instances;
   for (const TaskPlan& task : context.program.tasks) {

@@ -84,7 +84,7 @@ bool in_range_of(const Type& from, const Type& to) noexcept {
   if (from.kind == Type::Kind::Array && to.kind == Type::Kind::Array) {
     return in_range_of(*from.element, *to.element);
   }
-  if (from.kind == Type::Kind::Pointer && to.kind == Type::Kind::Pointer) {  // it is written to through both
+  if (from.kind == Type::Kind::Pointer && to.kind == Type::Kind::Pointer) {  // both can write to it
     return from.element == nullptr || to.element == nullptr || !same_type(*from.element, *to.element) ||
            same_range(*from.element, *to.element);
   }
@@ -139,7 +139,7 @@ const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept 
     if (is_real(a.elementary) && is_real(b.elementary)) {
       return bits_of(a.elementary) > bits_of(b.elementary) ? &a : &b;
     }
-    return is_signed_int(b.elementary) ? &a : &b;  // of the same size: CODESYS takes the one without a sign
+    return is_signed_int(b.elementary) ? &a : &b;  // same size: CODESYS uses the unsigned one
   }
   return a_to_b ? &b : b_to_a ? &a : nullptr;
 }

@@ -109,7 +109,7 @@ class TypeBuilder {
       context_.program.type_names.emplace(upper(spec.name), added);
       return added;
     }
-    if (context_.diagnostics.full()) {  // it only counts
+    if (context_.diagnostics.full()) {  // further errors are only counted
       context_.error(spec.at, fmt::format("there is no type and no function block '{}'", spec.name));
       return nullptr;
     }
@@ -133,7 +133,7 @@ class TypeBuilder {
     return nullptr;
   }
 
-  // To a type that comes later, too: close_pointers() finds that.
+  // The type may be declared later: close_pointers() finds it.
   const Type* pointer(ast::TypeSpec& spec) {
     Type type;
     type.kind = Type::Kind::Pointer;
@@ -294,7 +294,7 @@ class TypeBuilder {
     return added;
   }
 
-  // Else an error.
+  // Returns whether it is within the limits, else reports an error.
   bool is_limited(const Place& at, const Type& type) {
     if (type.depth > kMaxTypeNesting) {
       context_.error(at,
@@ -311,7 +311,7 @@ class TypeBuilder {
     return false;
   }
 
-  // Fields of the STRUCT it extends come first.
+  // Adds the fields of the STRUCT it extends, before its own.
   bool inherit(ast::TypeSpec& spec, Type& type) {
     const Type* base = build(*spec.element, "");
     if (base != nullptr && (base->kind != Type::Kind::Struct || base->overlaps || spec.overlaps)) {
@@ -364,7 +364,7 @@ class TypeBuilder {
     return added;
   }
 
-  // Of an enumeration that is declared where it is used: mode : (Off, On);
+  // Returns a name for an enumeration that is declared where it is used: mode : (Off, On);
   std::string free_type_name() {
     const std::string begin = context_.pou != nullptr ? context_.pou->name + "_values" : "values";
     std::size_t& last = context_.type_numbers[begin];

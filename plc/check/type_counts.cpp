@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Not more than the passes over types and values bear.
+// Limits types and values to what the passes over them can handle.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The types of a project, each after those it contains, wherever they stand in the text.
+// Orders the types of a project, each after those it contains, wherever they are declared in the text.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace indurop::plc {
 namespace {
 
-// Names of the project's types that the declaration needs to be known before.
+// Collects names of the project's types that must be declared before the declaration.
 void collect_names(const ast::TypeSpec& spec, std::vector<std::string>& to) {
   if (spec.kind == ast::TypeSpec::Kind::Named) {
     to.push_back(upper(spec.name));
@@ -46,7 +46,7 @@ class TypeOrder {
   void run() {
     for (ast::TypeDeclaration& one : context_.program.project.types) {
       begin(one);
-      while (!open_.empty()) {  // no recursion: names of types may lead to each other thousands of times
+      while (!open_.empty()) {  // no recursion: there may be chains of thousands of type names
         step();
       }
     }
@@ -119,11 +119,12 @@ class TypeOrder {
   Context& context_;
   std::map<std::string, ast::TypeDeclaration*> declared_;
   std::set<const ast::TypeDeclaration*> done_;
-  std::vector<Open> open_;                         // each is needed by the one before it
-  std::set<const ast::TypeDeclaration*> waiting_;  // those of them
+  std::vector<Open> open_;                         // each is needed by the previous one
+  std::set<const ast::TypeDeclaration*> waiting_;  // the elements of `open_`
 };
 
-// TYPE P : POINTER TO P; such a type has no end, and one behind too many pointers counts as if it had none.
+// Returns true for TYPE P : POINTER TO P; such a type has no end, and one with too many levels of pointers counts as
+// one.
 bool leads_to_itself(const Type& pointer) noexcept {
   const Type* at = pointer.element;
   std::size_t depth = 0;

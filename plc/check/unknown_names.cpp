@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names that no declaration of a variable or function explains: what else they may be, or what is said about them.
+// Names without a declaration of a variable or function: other meanings they may have, or the error message.
 
 #include <fmt/format.h>
 
@@ -94,7 +94,7 @@ void CallChecker::leave_out_library(Expression& callee) const {
   callee = make::name(callee.at, name);
 }
 
-// Why the name is none.
+// Reports why the name is not a function.
 void CallChecker::no_function(const Expression& call) {
   const Expression& callee = call.operands[0];
   const Variable* variable = context_.pou != nullptr ? context_.pou->find(upper(callee.name)) : nullptr;
@@ -133,7 +133,7 @@ void CallChecker::no_function(const Expression& call) {
                                         block->name));
     return;
   }
-  if (context_.diagnostics.full()) {  // it only counts
+  if (context_.diagnostics.full()) {  // further errors are only counted
     context_.error(call.at, fmt::format("there is no function '{}'", callee.name));
     return;
   }

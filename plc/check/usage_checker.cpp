@@ -10,7 +10,7 @@ namespace {
 
 using ast::Section;
 
-// That does something when it is called.
+// Returns true for instances that do something when they are called.
 bool is_instance(const Type& type) noexcept {
   const bool has_body = type.pou == nullptr || type.pou->tree->kind != ast::Pou::Kind::Class;
   return (type.kind == Type::Kind::Block && has_body) || (type.kind == Type::Kind::Array && is_instance(*type.element));
@@ -44,7 +44,7 @@ void warn_about_usage(Context& context, const Pou& pou) {
   const bool empty = std::all_of(pou.tree->body.begin(), pou.tree->body.end(),
                                  [](const ast::Statement& one) { return one.kind == ast::Statement::Kind::Empty; });
   if (empty && pou.tree->kind != ast::Pou::Kind::Class && pou.result == nullptr && !pou.is_object &&
-      pou.owner == nullptr && context.diagnostics.errors() == 0) {  // after an error it may only seem so
+      pou.owner == nullptr && context.diagnostics.errors() == 0) {  // after an error it may only seem unused
     context.warning(pou.tree->at, "the body is empty");
   }
 }

@@ -30,7 +30,7 @@ ValueTree leaf(Constant value) {
   return out;
 }
 
-// The values of a list with their repetitions, which are not written out.
+// The values of a list with their repetitions, which are not expanded.
 class Runs {
  public:
   explicit Runs(const ast::Initial* list) {
@@ -49,7 +49,7 @@ class Runs {
   [[nodiscard]] bool at_end() const noexcept { return next_ == runs_.size(); }
   [[nodiscard]] const ast::Initial* value() const noexcept { return at_end() ? nullptr : runs_[next_].first; }
   [[nodiscard]] std::uint64_t repeated() const noexcept { return at_end() ? 0 : runs_[next_].second; }
-  // At most as many as the first value is repeated.
+  // Requires that `count` is not more than the remaining repetitions of the first value.
   void take(std::uint64_t count) noexcept {
     if (!at_end() && (runs_[next_].second -= count) == 0) {
       ++next_;
@@ -61,7 +61,7 @@ class Runs {
   std::size_t next_ = 0;
 };
 
-// Elements of the dimensions from `level` on.
+// Returns the number of elements of the dimensions from `level` on.
 std::uint64_t elements_from(const Type& array, std::size_t level) noexcept {
   std::uint64_t count = 1;
   for (; level < array.dimensions.size(); ++level) {
@@ -70,7 +70,7 @@ std::uint64_t elements_from(const Type& array, std::size_t level) noexcept {
   return count;
 }
 
-// All elements of the dimensions from `level` on are the same.
+// Makes the elements of the dimensions from `level` on if all are equal.
 ValueTree equal_rows(const Type& array, std::size_t level, const ast::Initial* value) {
   if (level == array.dimensions.size()) {
     return initial_value(*array.element, value);
@@ -81,7 +81,7 @@ ValueTree equal_rows(const Type& array, std::size_t level, const ast::Initial* v
   return out.parts[0].zero ? zero() : out;
 }
 
-// Takes the elements of the dimensions from `level` on. What is zero up to the end is left out.
+// Consumes the elements of the dimensions from `level` on. Zeros at the end are left out.
 ValueTree rows(const Type& array, std::size_t level, Runs& list) {
   const std::uint64_t all = elements_from(array, level);
   if (list.at_end() || list.repeated() >= all) {
@@ -104,7 +104,7 @@ ValueTree rows(const Type& array, std::size_t level, Runs& list) {
   return all_zero ? zero() : out;
 }
 
-// Those that are given, or of the declaration of the field; null: those of its type.
+// Returns the given values, or those of the declaration of the field; null: those of its type.
 std::vector<const ast::Initial*> values_of_fields(const Type& type, const ast::Initial* initial) {
   std::vector<const ast::Initial*> out;
   for (const Field& field : type.fields) {
@@ -153,7 +153,7 @@ std::uint64_t values_of_array(const Type& type, const ast::Initial* initial) {
   return saturating(sum, left, values_of(*type.element, nullptr));
 }
 
-// Of a type's own values, which do not change any more.
+// Computes the number of a type's own values, which do not change afterwards.
 std::uint64_t computed_values_of(const Type& type, const ast::Initial* initial) {
   switch (type.kind) {
     case Type::Kind::Elementary:

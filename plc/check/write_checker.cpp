@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be written and passed by reference, and who writes what.
+// Checks what can be written and passed by reference, and records the writers.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace {
 using ast::Expression;
 using Meaning = Resolved::Meaning;
 
-// What can stand left of := : a name, with members, indices and bits of it.
+// Returns true for an expression that can be left of := : a name, with members, indices and bits of it.
 bool is_designator(const Expression& expression) noexcept {
   switch (expression.kind) {
     case Expression::Kind::Name:
@@ -25,7 +25,7 @@ bool is_designator(const Expression& expression) noexcept {
     case Expression::Kind::Bit:
     case Expression::Kind::Index:
       return is_designator(expression.operands[0]);
-    case Expression::Kind::Deref:  // also of a call that gives a reference
+    case Expression::Kind::Deref:  // also of a call that returns a reference
       return expression.operands[0].kind == Expression::Kind::Call || is_designator(expression.operands[0]);
     case Expression::Kind::Literal:
     case Expression::Kind::Call:
@@ -36,7 +36,7 @@ bool is_designator(const Expression& expression) noexcept {
   return false;
 }
 
-// ".a.b" as far as it is fixed: an index and what is behind it do not count.
+// Returns ".a.b" up to the first index; `fixed` is false if there is one.
 std::string path_of(const Expression& expression, bool& fixed) {
   if (expression.resolved && expression.resolved->meaning != Meaning::Value) {
     fixed = true;
@@ -47,7 +47,7 @@ std::string path_of(const Expression& expression, bool& fixed) {
   return fixed ? path + "." + expression.name : path;
 }
 
-// The variables of the instances in a value of the type.
+// Marks the variables of the instances in a value of the type as aliased.
 void mark_aliased(const Type& type, std::set<const Pou*>& marked) {
   if (type.element != nullptr && type.kind == Type::Kind::Array) {
     mark_aliased(*type.element, marked);
@@ -129,7 +129,7 @@ bool ExpressionChecker::writable(const Expression& expression) {
                    fmt::format("{} is an input, which only the world outside changes; use %Q or %M", address));
     return false;
   }
-  // Outputs of an instance belong to its function block.
+  // Outputs of an instance are written by its function block only.
   for (const Expression* at = &expression; at != &root; at = &at->operands[0]) {
     const Type* base = at->operands[0].type;
     const bool of_block = at->kind == Expression::Kind::Member && base != nullptr && base->kind == Type::Kind::Block;
@@ -165,7 +165,7 @@ void ExpressionChecker::note_call(const Expression& expression) {
   }
 }
 
-// A pointer can be moved everywhere in the variable it leads into.
+// A pointer can be moved anywhere in the variable to which it points.
 void ExpressionChecker::note_address(const Expression& expression) {
   if (through_pointer(expression) != nullptr) {
     return;
@@ -185,7 +185,7 @@ void ExpressionChecker::note_address(const Expression& expression) {
 
 void ExpressionChecker::note_write(const Expression& expression) {
   if (context_.pou == nullptr || through_pointer(expression) != nullptr) {
-    return;  // what a pointer leads to was noted where its address was taken
+    return;  // recorded where its address was taken
   }
   const Resolved& root = *root_of(expression).resolved;
   for (const auto& [variable, at] : context_.loop_variables) {
