@@ -41,15 +41,13 @@ bool has_body(const Pou& pou) noexcept {
   return !pou.tree->body.empty() || (pou.base != nullptr && has_body(*pou.base));
 }
 
-// Returns a parameter. A method has only its own: it accesses the variables of its instance, but they are not its
-// parameters.
+// Returns a parameter; for a method only its own: variables of its instance are accessible, but not parameters.
 const Variable* parameter_of(const Pou& pou, const std::string& name) {
   const Variable* found = pou.find(upper(name));
   return found != nullptr && pou.owner != nullptr && found->owner != &pou ? nullptr : found;
 }
 
-// Returns whether a drawing may call an instance of the type by this name: its own, or that of one it extends or
-// implements.
+// Returns whether a drawing may call an instance of the type by this name: its own, or that of a base or interface.
 bool is_drawn_as(const Type& type, std::string_view drawn) {
   const std::string_view name = drawn.substr(drawn.rfind('.') + 1);  // without its namespace
   if (type.block != nullptr) {
@@ -289,8 +287,7 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
   }
 }
 
-// Returns the parameters of arguments without a name: the inputs; if there are more arguments, all parameters as
-// declared.
+// Returns the parameters of arguments without names: the inputs; for more arguments all parameters as declared.
 std::vector<const Variable*> CallChecker::by_position(const Expression& call, const Pou& pou) {
   std::vector<const Variable*> inputs;
   std::vector<const Variable*> all;

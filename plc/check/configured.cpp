@@ -110,8 +110,7 @@ class Configurer {
       return;
     }
     const bool inside = entry_.address && !of_program;
-    if (!inside &&
-        !other_.empty()) {  // both are variables of the program, whose initial values all its instances share
+    if (!inside && !other_.empty()) {  // both set a variable of the program, shared by its instances
       error(
           fmt::format("{} and {} are of one program, and what is configured would be so in both; declare a program of "
                       "its own for {}",

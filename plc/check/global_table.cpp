@@ -249,8 +249,7 @@ Global* declare_placeless(Context& context, ast::Variable& variable, const Type&
 }
 
 Global& declare_located(Context& context, ast::Variable& variable, const Type& type) {
-  const Type& one =
-      type.kind == Type::Kind::Array ? *type.element : type;  // an array also occupies the addresses after it
+  const Type& one = type.kind == Type::Kind::Array ? *type.element : type;  // an array occupies further addresses
   if (!lies_at(one, *variable.address) && !(context.codesys() && variable.address->size == 'B' && !is_private(one))) {
     context.error(variable.at, fmt::format("{} does not lie at {}, use the size letter of its type: X B W D L",
                                            with_article(type), ast::to_string(*variable.address)));

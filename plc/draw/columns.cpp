@@ -49,7 +49,7 @@ class Columns {
   }
 
   void longest_paths() {
-    // A net is passed once all of its sources have their column.
+    // A net is done when all of its sources have their column.
     std::vector<int> missing;
     std::vector<std::vector<std::size_t>> leaves(graph_.items.size());
     std::vector<int> waits(graph_.items.size(), 0);
@@ -86,7 +86,7 @@ class Columns {
     }
   }
 
-  // Constants and variables stand beside the pin they feed.
+  // Constants and variables are placed next to the pin they feed.
   void pull_values() {
     for (const Net& net : graph_.nets) {
       int nearest = std::numeric_limits<int>::max();
@@ -140,7 +140,7 @@ class Columns {
     graph_.items.push_back(std::move(wire));
     return {static_cast<int>(graph_.items.size()) - 1, 0, carries};
   }
-  // Wires in columns from `from` to `to` behind `end`; the last of them.
+  // Adds wires in the columns `from` to `to` after `end`; returns the last of them.
   End extend(End end, double rank, int from, int to) {
     for (int column = from; column <= to; ++column) {
       Net piece;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From items in columns and lines to a picture: widths of columns, tracks between them, pieces of lines.
+// Turns items in columns and lines into a picture: widths of columns, tracks between them, pieces of lines.
 #include <algorithm>
 
 #include "plc/draw/layout_graph.h"
@@ -70,7 +70,7 @@ class Painter {
     picture_.width = x;
   }
 
-  // The rail moves to the right, and coils with it.
+  // Moves the rail to the right, and the coils with it.
   void widen(int by) {
     int last = graph_.columns;
     for (const Item& each : graph_.items) {
@@ -101,7 +101,7 @@ class Painter {
     }
   }
 
-  // Where a line meets the item, in halves of characters: the border of a block, the symbol of a contact.
+  // Returns where a line meets the item, in halves of characters: the border of a block, the symbol of a contact.
   [[nodiscard]] int left_end(const Item& each) const {
     const int begin = 2 * each.symbol.x;
     switch (kind_of(each)) {
@@ -173,11 +173,11 @@ class Painter {
 
   Graph graph_;
   bool rails_;
-  int width_;  // at least
+  int width_;  // minimum
   Picture picture_;
-  std::vector<int> begins_;  // of columns
+  std::vector<int> begins_;  // first character of each column
   std::vector<int> widths_;
-  std::vector<std::vector<int>> tracks_;  // behind columns, by net
+  std::vector<std::vector<int>> tracks_;  // after each column, by net
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 using Kind = Element::Kind;
 using Role = Item::Role;
 
-// Outputs are counted through the outputs of a block and its in-outs.
+// Returns the port of a source: the outputs of a block are counted first, then its in-outs.
 int port_of(const Source& source) {
   if (source.pin == nullptr) {
     return 0;
@@ -30,7 +30,7 @@ int port_of(const Source& source) {
   return 0;
 }
 
-// How a value of the last scan is written at the input it comes back to.
+// Returns the text of a value of the last scan at the input to which it is fed back.
 std::string kept_text(const Source& source) {
   return source.pin == nullptr ? source.element->text : source.element->instance + "." + source.pin->name;
 }
@@ -81,8 +81,8 @@ class Builder {
     return add(std::move(item));
   }
 
-  // As high as the first of its sources, sources one below the other in the order of evaluation, which follows the
-  // places on the sheet where a file has them. So do coils.
+  // Ranks each item like the first of its sources; sources one below the other in evaluation order, which follows the
+  // places on the sheet if the file has them. Coils are ranked in the same way.
   void rank() {
     double next = 0;
     double last_end = 0;
@@ -169,7 +169,7 @@ class Builder {
     }
   }
 
-  // Some editors write the variable that takes an output at its pin.
+  // Adds the variables that some editors write at the pin of an output.
   void outputs(const Element& element) {
     const int item = items_of_.at(&element);
     int port = 0;
@@ -182,7 +182,7 @@ class Builder {
     }
   }
 
-  // Right rails are connected with what the file says and, in ladders, with every coil that has nothing behind it.
+  // Connects right rails as the file defines and, in ladders, with every coil that feeds nothing else.
   void end_at_rail() {
     std::unordered_map<int, bool> goes_on;
     for (const auto& [sources, ends] : targets_) {
@@ -227,7 +227,7 @@ class Builder {
     return {{element, pin}};
   }
 
-  // A source of several nets gets a piece of wire for each of them: lines that are joined always carry the same.
+  // A source of several nets gets a piece of wire for each of them: joined lines always carry the same.
   void make_nets() {
     std::map<std::pair<int, int>, int> uses;
     for (const auto& [sources, ends] : targets_) {
@@ -266,7 +266,7 @@ class Builder {
   bool rails_;
   Graph graph_;
   std::unordered_map<const Element*, int> items_of_;
-  std::map<Ends, std::vector<End>> targets_;  // by what feeds them
+  std::map<Ends, std::vector<End>> targets_;  // by their sources
 };
 
 }  // namespace

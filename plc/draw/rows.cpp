@@ -7,7 +7,7 @@
 namespace indurop::plc::draw {
 namespace {
 
-// More rounds only move things apart that cannot all be straight.
+// Further rounds only move items apart that cannot all be straight.
 constexpr int kRounds = 4;
 constexpr int kMostClashes = 200;
 
@@ -92,7 +92,7 @@ class Rows {
     }
   }
 
-  // The first of the sources of a net beside the first of its targets.
+  // Aligns the first of the sources of a net with the first of its targets.
   void pull_down(const std::vector<std::size_t>& column) {
     for (const std::size_t i : column) {
       if (out_of_[i] != nullptr) {
@@ -120,11 +120,11 @@ class Rows {
 
   Graph& graph_;
   std::vector<std::vector<std::size_t>> columns_;
-  std::vector<const Net*> into_;    // by item: into its first connected input
-  std::vector<const Net*> out_of_;  // by item: of which it is the first source
+  std::vector<const Net*> into_;    // by item: the net into its first connected input
+  std::vector<const Net*> out_of_;  // by item: the net of which it is the first source
 };
 
-// A net between two columns: the lines it touches.
+// The lines that a net between two columns touches.
 struct Span {
   std::size_t net = 0;
   int top = 0;
@@ -157,7 +157,7 @@ std::vector<Span> spans_of(const Graph& graph, int column) {
   return spans;
 }
 
-// On one line a source of `a` and a target of `b`: the track of a must be left of that of b.
+// Returns true if a source of `a` and a target of `b` are on one line: the track of a must be left of that of b.
 bool comes_before(const Span& a, const Span& b) {
   return std::any_of(a.left.begin(), a.left.end(),
                      [&](int row) { return std::find(b.right.begin(), b.right.end(), row) != b.right.end(); });

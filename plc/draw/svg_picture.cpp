@@ -11,12 +11,12 @@ namespace indurop::plc::draw {
 namespace {
 
 constexpr int kMargin = 24;
-constexpr int kLeft = 64;  // numbers of networks stand left of the sheet
+constexpr int kLeft = 64;  // numbers of networks are left of the sheet
 constexpr int kHeading = 40;
 constexpr int kRemark = 18;
 constexpr int kGap = 26;
 
-// Places where at least three pieces of a net meet.
+// Returns the points where at least three pieces of a net meet.
 std::vector<std::pair<int, int>> joints_of(const Picture& picture) {
   std::map<std::tuple<int, int, int>, unsigned> arms;  // net, x, y
   for (const Line& line : picture.lines) {

@@ -27,7 +27,7 @@ std::string cpp_of(const Reached::Step& step) {
   return out;
 }
 
-// ".eOpCode" of a global: the fields that everything else lies in.
+// Returns ".eOpCode" for a global: the outer fields that contain the rest of the path.
 std::string written_part(const Reached& reached) {
   std::string out;
   for (const Reached::Step& one : reached.steps) {
@@ -55,7 +55,7 @@ bool uses(const TaskPlan& task, const Global& global) {
   return std::any_of(pous.begin(), pous.end(), [&](const Pou* one) { return one->globals.contains(&global); });
 }
 
-// Of a global the first task that uses it.
+// Returns whether this task handles the access; for a global that is the first task that uses it.
 bool belongs(const Program& program, const TaskPlan& task, const Reached& to) {
   if (to.global == nullptr) {
     return false;

@@ -11,8 +11,8 @@ namespace {
 
 using ast::Statement;
 
-constexpr std::size_t kLong = 300;  // statements of a body, and
-constexpr std::size_t kPart = 150;  // of a part of it
+constexpr std::size_t kLong = 300;  // statements of a body that is split, and
+constexpr std::size_t kPart = 150;  // statements of each part
 
 std::size_t count(const ast::Body& body);
 
@@ -45,7 +45,7 @@ bool leaves(const Statement& one) {
          std::any_of(one.branches.begin(), one.branches.end(), [](const ast::Branch& arm) { return leaves(arm.body); });
 }
 
-// What drawn networks are made of. Nobody takes their address.
+// Returns true for the variables of drawn networks, whose address is never taken.
 bool is_temporary(const Variable& variable) {
   return variable.section == ast::Section::Temp && variable.declared->made;
 }
@@ -66,7 +66,7 @@ void BodyParts::split(const ast::Body& body) {
   std::size_t taken = 0;  // statements of the last part
   for (std::size_t i = 0; i < body.size(); ++i) {
     const bool alone = !leaves(body[i]);
-    const bool network = body[i].kind == Statement::Kind::Empty;  // its power is needed nowhere else
+    const bool network = body[i].kind == Statement::Kind::Empty;  // its power is used in no other network
     const bool full = taken >= kPart && (network || taken >= 2 * kPart);
     if (parts_.empty() || parts_.back().alone != alone || (alone && full)) {
       parts_.push_back({i, i, alone, {}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of functions and methods in C++.
+// Emits calls of functions and methods.
 
 #include <fmt/format.h>
 
@@ -18,13 +18,13 @@ namespace {
 using ast::Expression;
 using Meaning = Resolved::Meaning;
 
-// Of an input that is not given.
+// Returns the value of an omitted input.
 std::string default_value(const Type& type, const ast::Initial* initial) {
   const std::string value = cpp_initial(type, initial);
   return value == "{}" ? cpp_type(type) + value : fmt::format("{}({})", cpp_type(type), value);
 }
 
-// What is given by value, from left to right.
+// Returns the arguments passed by value, from left to right.
 std::vector<const Resolved::Actual*> inputs_of(const Expression& call) {
   std::vector<const Resolved::Actual*> inputs;
   for (const Resolved::Actual& one : call.resolved->actuals) {
@@ -57,7 +57,7 @@ std::string ExpressionEmitter::library_call(const Expression& expression) const 
   return order.close(fmt::format("{}({})", resolved.function->cpp, arguments));
 }
 
-// What is called: a function of the user, or a method of an instance.
+// Returns the callee: a function of the user, or a method of an instance.
 std::string ExpressionEmitter::callee(const Expression& call) const {
   const Pou& pou = *call.resolved->pou;
   if (pou.owner == nullptr) {

@@ -20,7 +20,7 @@ const char* word_of(CoverageTable::Kind kind) {
   return "";
 }
 
-// In a line with tabs.
+// Returns the text as a field of a line separated by tabs.
 std::string field(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');

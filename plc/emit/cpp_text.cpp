@@ -16,7 +16,7 @@
 namespace indurop::plc {
 namespace {
 
-// Words of C++, macros of the C library; then, from std on, names that the generated code uses itself.
+// Words of C++, macros of the C library; then, from std on, names used by the generated code.
 constexpr std::array<std::string_view, 117> kTaken{
     "alignas",     "alignof",   "and",        "and_eq",      "asm",      "auto",         "bitand",
     "bitor",       "bool",      "break",      "case",        "catch",    "char",         "char8_t",
@@ -36,7 +36,7 @@ constexpr std::array<std::string_view, 117> kTaken{
     "irp",         "indurop",   "plc",        "scan",        "shared",   "before",       "kept",
     "BUFSIZ",      "main",      "run",        "POU_PROGRAM", "Image"};
 
-// What the emitters call their own variables beside those of the program.
+// Returns true for names of variables that the emitters add to those of the program.
 bool is_generated(std::string_view name) noexcept {
   const std::string_view letters = name.substr(0, name.find_last_not_of("0123456789") + 1);
   const bool numbered = letters.size() < name.size();
@@ -99,7 +99,7 @@ std::string of_tree(const Type& type, const ValueTree& tree, std::size_t level) 
   const auto part = [&](const ValueTree& one) {
     return innermost ? of_tree(*type.element, one, 0) : of_tree(type, one, level + 1);
   };
-  Type rest = type;  // of this level and those inside
+  Type rest = type;  // of this dimension and the inner ones
   rest.dimensions.erase(rest.dimensions.begin(), rest.dimensions.begin() + static_cast<std::ptrdiff_t>(level));
   if (tree.equal_parts) {
     return fmt::format("iec::filled<{}>({})", cpp_type(rest), part(tree.parts[0]));
@@ -115,10 +115,10 @@ const Type& innermost(const Type& type) {
   return type.kind == Type::Kind::Array ? innermost(*type.element) : type;
 }
 
-// Assignments of values that an instance, or those of an array, begin with.
+// Returns assignments of the initial values of an instance, or of those of an array.
 std::string of_instances(const std::string& target, const Type& type, const ast::Initial& initial);
 
-// Row after row, those that are given something.
+// Row after row, only those that have values.
 std::string of_blocks(const std::string& target, const Type& type, const ast::Initial& initial) {
   std::string text;
   std::uint64_t at = 0;
@@ -136,7 +136,7 @@ std::string of_blocks(const std::string& target, const Type& type, const ast::In
   return text;
 }
 
-// Values of inputs.
+// Returns the assignments of inputs.
 std::string of_block(const std::string& target, const Type& type, const ast::Initial& initial) {
   std::string text;
   for (const ast::InitialElement& one : initial.elements) {
@@ -163,7 +163,7 @@ std::string of_instances(const std::string& target, const Type& type, const ast:
 
 }  // namespace
 
-// With '_' behind it where it is taken, and one more where it would then be the name of another one: new, new_, new__.
+// Appends '_' if the name is taken, and one more if the result would be the name of another one: new, new_, new__.
 std::string cpp_name(std::string_view name) {
   const std::string_view bare = name.substr(0, name.find_last_not_of('_') + 1);
   const bool taken = std::find(kTaken.begin(), kTaken.end(), bare) != kTaken.end() || is_generated(bare) ||
@@ -253,7 +253,7 @@ std::string quoted(std::string_view text) {
 
 std::string wide_quoted(std::string_view utf8) {
   std::string out = "u\"";
-  bool number = false;  // a digit behind one would be part of it
+  bool number = false;  // a digit after a numeric escape would become part of it
   for (const char16_t one : to_wide(utf8)) {
     const bool plain = one >= 0x20 && one < 0x7F && one != '"' && one != '\\' && one != '?';
     out += number && plain ? "\" u\"" : "";
@@ -273,7 +273,7 @@ std::string comment_text(std::string_view text) {
 
 std::string cpp_place(const Place& place, std::string_view pou) {
   Place shown = place;
-  if (place.file) {  // the folder would make the module depend on where it was built
+  if (place.file) {  // with the folder the module would depend on where it was built
     shown.file = std::make_shared<const std::string>(place.file->substr(place.file->rfind('/') + 1));
   }
   std::string text = to_string(shown);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers are copied by loops over tables: a line of C++ for each of thousands of variables would take g++ longer than
-// the whole program.
+// Numbers are copied by loops over tables: with a line of C++ for each of thousands of variables g++ would take longer
+// than for the whole program.
 #include "plc/emit/exchange_emitter.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,8 @@
 namespace indurop::plc {
 namespace {
 
-// Of a number, or a time: the same bytes in the program and in the store, which it reads and writes at once.
+// Returns the size of a number or a time: it has the same bytes in the program and in the store, which accesses it at
+// once.
 std::size_t word_bytes(const Type& type) {
   constexpr unsigned kBits = 8;
   return type.kind == Type::Kind::Elementary && !type.is_text() ? std::max(bits_of(type.elementary), kBits) / kBits : 0;
@@ -65,7 +66,8 @@ class Emitter {
 
   void add(const Type& type, Word word) { words_[word_bytes(type)].push_back(std::move(word)); }
 
-  // Who reads and writes what, for those who look at a module's file; elsewhere each access leaves its own.
+  // Records the readers and writers of variables, for tools that inspect a module file; elsewhere each access leaves
+  // its own record.
   void records() {
     if (words_.empty()) {
       return;
@@ -150,12 +152,12 @@ class Emitter {
     out_.close();
   }
 
-  // Only what the program can have changed: other fields may have other writers.
+  // Writes only what the program can have changed: other fields may have other writers.
   void write_back(const Global& global) {
     const GlobalUse& use = use_.globals.at(&global);
     const bool whole = use.writes.contains("");
     for (const std::string& path : use.writes) {
-      bool covered = false;  // a struct around it is written
+      bool covered = false;  // an outer struct is written
       for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0 && !covered;
            dot = path.rfind('.', dot - 1)) {
         covered = use.writes.contains(path.substr(0, dot));
@@ -168,7 +170,7 @@ class Emitter {
     }
   }
 
-  // Once, when what was retained is there: timers go on, and an input that was true is no edge.
+  // Runs once, after retained values are restored: timers continue, and an input that was true is no edge.
   void restore() {
     if (use_.restored.empty()) {
       return;

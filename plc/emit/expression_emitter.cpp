@@ -57,7 +57,7 @@ std::string_view text_comparison(Operator op) noexcept {
   }
 }
 
-// Whether the name of a constant says more than its value.
+// Returns whether the name of a constant is more informative than its value.
 bool is_named(const Expression& expression) noexcept {
   return expression.kind == Expression::Kind::Name && expression.resolved->meaning != Meaning::Value;
 }
@@ -167,7 +167,7 @@ std::string ExpressionEmitter::name(const Expression& expression) const {
                                ? kept_name(variable)
                                : (expression.of_this ? "this->" : "") + cpp_name(std::string_view(variable.name));
   if (variable.section == ast::Section::InOut && !variable.owner->is_callable() && !variable.type->open) {
-    if (pou_.owner != nullptr) {  // a method may run when nothing was given yet, or what was given is gone
+    if (pou_.owner != nullptr) {  // a method may run before or after the variables passed to a call exist
       return fmt::format("iec::given({}, {})", place(expression.at), text);
     }
     return "(*" + text + ")";
@@ -196,7 +196,7 @@ std::string ExpressionEmitter::member(const Expression& expression) const {
   return raw(expression.operands[0]) + "." + (as_is ? expression.name : cpp_name(std::string_view(expression.name)));
 }
 
-// ADR(x), SIZEOF(x), __ISVALIDREF(r)
+// Emits ADR(x), SIZEOF(x), __ISVALIDREF(r).
 std::string ExpressionEmitter::intrinsic(const Expression& expression) const {
   const Resolved& resolved = *expression.resolved;
   const Expression& of = *expression.arguments[0].value;
@@ -220,7 +220,7 @@ std::string ExpressionEmitter::intrinsic(const Expression& expression) const {
                      ends_with_call(of) ? ", lifetime" : "");
 }
 
-// An element of what a pointer leads to: only that has to be there, not the whole array.
+// Emits access to one element through a pointer: only that element must exist, not the whole array.
 std::string ExpressionEmitter::index_through_pointer(const Expression& expression) const {
   const Expression& base = expression.operands[0];
   const bool whole = base.type->kind == Type::Kind::Array;  // p^[i], else p[i]
@@ -270,7 +270,7 @@ std::string ExpressionEmitter::one_index(const Expression& expression, Bounds bo
                            bounds.low < 0 ? fmt::format("({})", bounds.low) : fmt::format("{}", bounds.low));
 }
 
-// The variable of a FOR around it, plus or minus a constant: its values are known.
+// Returns true for the variable of a surrounding FOR, plus or minus a constant: its values are known.
 bool ExpressionEmitter::stays_within(const Expression& expression, Bounds bounds) const {
   if (expression.kind == Expression::Kind::Name) {
     const auto loop = loops_.find(expression.resolved->variable);
@@ -341,7 +341,7 @@ std::string ExpressionEmitter::logic(const Expression& expression) const {
   const std::string left = value(expression.operands[0], type, true);
   const std::string right = value(expression.operands[1], type, true);
   const bool flags = type.is(Elementary::Bool);
-  if (flags && expression.op != Operator::Xor) {  // from left to right in C++, too
+  if (flags && expression.op != Operator::Xor) {  // C++ evaluates these from left to right, too
     return fmt::format("{} {} {}", wrapped(left), expression.op == Operator::And ? "&&" : "||", wrapped(right));
   }
   OperandOrder order({&expression.operands[0], &expression.operands[1]});

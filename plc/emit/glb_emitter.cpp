@@ -49,7 +49,7 @@ std::uint64_t count_of(const Type& array, std::size_t level) noexcept {
   return array.dimensions[level].count();
 }
 
-// Counted from 0 without gaps, as .glb has them.
+// Returns whether values count from 0 without gaps, as .glb requires.
 bool is_glb_enum(const Type& type) noexcept {
   std::int64_t next = 0;
   return std::all_of(type.items.begin(), type.items.end(), [&](const EnumItem& one) { return one.value == next++; });
@@ -81,7 +81,7 @@ class GlbEmitter {
       const TaskUse use = use_of(program_, task, show_locals);
       for (const SharedLocal& one : use.locals) {
         if (program_.placed.contains(upper(one.name))) {
-          continue;  // VAR_CONFIG puts it where a global is
+          continue;  // VAR_CONFIG gives it the address of a global
         }
         need(*one.type);
         variable(std::string(last_name(one.shared_name)), *one.type, one.initial, one.retain, one.comment, one.at);
@@ -207,7 +207,7 @@ class GlbEmitter {
     return "{" + parts + "}";
   }
 
-  // Its characters as numbers, up to the end of the array.
+  // Returns its characters as numbers, up to the end of the array.
   static std::string wide_text(std::string_view utf8) {
     std::string parts;
     for (const char16_t one : to_wide(utf8)) {

@@ -13,19 +13,19 @@ bool names(const ast::Expression& expression, const Variable& variable) noexcept
          expression.resolved->variable == &variable;
 }
 
-// w.3 := TRUE writes w.
+// Returns whether an assignment writes the variable: w.3 := TRUE writes w.
 bool writes(const ast::Expression& target, const Variable& variable) noexcept {
   return names(target, variable) || (target.kind == ast::Expression::Kind::Bit && names(target.operands[0], variable));
 }
 
-// Whether it has a value when its POU is called again.
+// Returns whether its value is kept until the next call of its POU.
 bool is_kept(const Variable& variable) noexcept {
   const Pou& owner = *variable.owner;
   return owner.is_callable() ? variable.declared->is_static || variable.declared->of_instance
                              : variable.section != ast::Section::Temp;
 }
 
-// Whether a call in it has the variable as an output, or may lead to this body again.
+// Returns whether a call in it has the variable as an output, or may call this body again.
 bool gives_away(const ast::Expression& expression, const Variable& variable) {
   const bool calls = expression.kind == ast::Expression::Kind::Call && expression.resolved &&
                      (expression.resolved->pou != nullptr || expression.resolved->by_super);

@@ -24,7 +24,7 @@ class ModuleEmitter {
  public:
   ModuleEmitter(const Program& program, const TaskPlan& task, const ModuleOptions& options)
       : program_(program), task_(task), options_(options), use_(use_of(program, task, options.show_locals)) {
-    for (const Global& global : program.globals) {  // in the order of the text
+    for (const Global& global : program.globals) {  // in text order
       if (use_.globals.contains(&global)) {
         globals_.push_back(&global);
       }
@@ -104,7 +104,7 @@ class ModuleEmitter {
     out_.line();
   }
 
-  // What pointers lead to may come later.
+  // Declares targets of pointers in advance; they may be defined later.
   void announce() {
     for (const Type* type : program_.named_types) {
       if (type->shared_name.empty() && type->kind == Type::Kind::Struct) {
@@ -144,7 +144,7 @@ class ModuleEmitter {
 
   const Type& of(Elementary type) const { return *program_.types.elementary(type); }
 
-  // copy_fields() knows every struct that has the same field names.
+  // copy_fields() supports every struct that has the same field names.
   void structure(const Type& type, const std::string& name) {
     if (type.overlaps) {
       std::string parts;
@@ -245,7 +245,7 @@ class ModuleEmitter {
     out_.line();
   }
 
-  // What runs before the first scan: that of globals, then that of programs.
+  // Collects what runs before the first scan: the start of globals, then that of programs.
   void find_start() {
     const auto program = [&](const Pou& pou, const std::string& instance) {
       if (const Pou* method = find_method(pou, kStart)) {
@@ -311,7 +311,7 @@ class ModuleEmitter {
     }
   }
 
-  // Where no namespace of shared variables is taken for plc, which may have that name.
+  // Written outside of the namespaces of shared variables, one of which may be named plc.
   void scan() {
     out_.line("// One scan: all variables it sees are from its beginning, what it changed is there at its end.");
     out_.open("void one_scan()");

@@ -27,13 +27,13 @@ std::string result_of(const Pou& method) {
   return method.result != nullptr ? cpp_type(*method.result) : "void";
 }
 
-// Whether one of its interfaces asks for it.
+// Returns whether one of its interfaces requires the method.
 bool is_asked_for(const Pou& pou, const Pou& method) {
   return std::any_of(pou.interfaces.begin(), pou.interfaces.end(),
                      [&](const Pou* one) { return find_method(*one, method.name, method.tree->accessor) != nullptr; });
 }
 
-// What an interface asks for and the base has: C++ wants it here.
+// Emits methods that an interface requires and the base has: C++ needs them in this struct.
 void forward(const Pou& pou, const Pou& interface, std::set<std::string>& done, TextWriter& out) {
   for (const Pou* one : interface.methods) {
     const Pou* found = pou.base != nullptr ? find_method(*pou.base, one->name, one->tree->accessor) : nullptr;
@@ -127,7 +127,7 @@ void declare_methods(const Pou& pou, TextWriter& out) {
                          parameters(*method), over ? " override" : "", method->tree->is_abstract ? " = 0" : ""));
   }
   std::set<std::string> done;
-  std::set<const Pou*> asked;  // each once, whatever ways lead to it
+  std::set<const Pou*> asked;  // each once, even if it is inherited several times
   for (const Pou* one : pou.interfaces) {
     for (const Pou* ancestor : one->ancestors) {
       if (asked.insert(ancestor).second) {

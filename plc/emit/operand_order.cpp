@@ -12,7 +12,7 @@ namespace {
 
 using ast::Expression;
 
-// Whether it leads to variables of others.
+// Returns whether a value of the type refers to other variables.
 bool leads_elsewhere(const Type& type) noexcept {
   return type.kind == Type::Kind::Pointer || type.kind == Type::Kind::Interface ||
          (type.kind == Type::Kind::Array && leads_elsewhere(*type.element)) ||
@@ -20,7 +20,7 @@ bool leads_elsewhere(const Type& type) noexcept {
                      [](const Field& field) { return leads_elsewhere(*field.type); });
 }
 
-// A function that changes nothing but its result.
+// Returns true for a function that changes only its result.
 bool is_pure(const Pou& pou) {
   return pou.tree->kind == ast::Pou::Kind::Function && !pou.calls_blocks &&
          std::none_of(pou.variables.begin(), pou.variables.end(),

@@ -25,7 +25,7 @@ std::string name_of(const Variable& variable) {
   return cpp_name(std::string_view(variable.name));
 }
 
-// "Type name = value;"
+// Returns "Type name = value;".
 std::string declaration(const Variable& variable) {
   const std::string value = cpp_initial(*variable.type, initial_of(variable));
   return value == "{}" ? fmt::format("{} {}{{}};", cpp_type(*variable.type), name_of(variable))
@@ -61,7 +61,7 @@ void members(const Pou& pou, TextWriter& out) {
   }
 }
 
-// Locals of the call: VAR_TEMP, and inputs of which only the edge counts.
+// Emits locals of the call: VAR_TEMP, and inputs of which only the edge is used.
 void locals(const Pou& pou, const BodyParts& parts, TextWriter& out) {
   for (const Variable& one : pou.variables) {
     if (one.section == Section::Temp && !parts.is_local(one)) {
@@ -80,7 +80,7 @@ std::string cpp_name_of(const Pou& pou) {
   return cpp_name(std::string_view(pou.name));
 }
 
-// Of the call, for pointers to its variables.
+// Emits the lifetime of the call, for pointers to its variables.
 void lifetime(const Pou& pou, TextWriter& out) {
   if (pou.points_to_own) {
     out.line("const iec::Lifetime lifetime;");
@@ -102,12 +102,12 @@ bool has_lines(const ast::Body& body) {
                      [](const ast::Statement& one) { return StatementEmitter::is_line(one); });
 }
 
-// Statements, from the place on where all variables are known.
+// Emits the statements, starting where all variables are known.
 void code(const Pou& pou, const BodyParts& parts, TextWriter& out, const Probes& probes) {
   if (probes.debug != nullptr) {
     emit_frame(pou, *probes.debug, out);
     if (pou.tree->kind == ast::Pou::Kind::Program && !has_lines(pou.tree->body)) {
-      // An empty program can be stood in, too: a debugger that finds no line in a scan would wait for ever.
+      // A debugger can stop in an empty program, too: if a scan had no line, it would wait forever.
       out.line(fmt::format("debugger.line({});", probes.debug->lines.size()));
       probes.debug->lines.push_back({pou.tree->at, &pou});
     }
@@ -136,13 +136,13 @@ void define_block(const Pou& pou, TextWriter& out, const Probes& probes) {
   out.close();
 }
 
-// "plc::Color Motor::method_PAINT(std::int16_t x)"
+// Returns "plc::Color Motor::method_PAINT(std::int16_t x)".
 std::string head(const Pou& pou) {
   const std::string name = pou.owner == nullptr ? cpp_name_of(pou) : cpp_name_of(*pou.owner) + "::" + method_name(pou);
   return fmt::format("{} {}({})", pou.result != nullptr ? cpp_type(*pou.result) : "void", name, parameters(pou));
 }
 
-// Functions and methods: their variables are those of the call.
+// Emits functions and methods: their variables are those of the call.
 void define_callable(const Pou& pou, TextWriter& out, const Probes& probes) {
   out.open((pou.owner != nullptr ? "inline " : "") + head(pou));
   if (pou.called_unseen) {
@@ -168,7 +168,7 @@ void define_callable(const Pou& pou, TextWriter& out, const Probes& probes) {
     }
   }
   code(pou, BodyParts(pou, false), out,
-       pou.name.starts_with('@') ? Probes{} : probes);  // it stands in no line of the user
+       pou.name.starts_with('@') ? Probes{} : probes);  // it is not in any line of the user
   if (pou.result != nullptr) {
     out.line(fmt::format("return {};", ExpressionEmitter::result_name(pou)));
   }

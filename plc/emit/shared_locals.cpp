@@ -15,7 +15,7 @@
 namespace indurop::plc {
 namespace {
 
-// Made by the translation of a drawn program.
+// Returns true for variables made by the translation of a drawn program.
 bool is_hidden(const Variable& variable) {
   return variable.name.starts_with('_');
 }
@@ -27,16 +27,16 @@ bool is_kept(const Variable& variable, bool in_program) {
          (in_program || !variable.declared->is_static);
 }
 
-// What an instance, or a variable in it, is called on the way to a value.
+// The names of an instance, or of a variable in it, along the path to a value.
 struct Way {
   std::string cpp;
   std::string name;
   bool retain = false;
-  bool outside = false;                   // in a program, not in an instance in it
+  bool outside = false;                   // in a program, not in an instance inside it
   const ast::Initial* initial = nullptr;  // null: that of the type
 };
 
-// (PT := T#1s) of the declaration of the instance.
+// Returns (PT := T#1s) in the declaration of the instance.
 const ast::Initial* initial_text_of(const Way& instance, const std::string& field) {
   if (instance.initial == nullptr) {
     return nullptr;
@@ -87,7 +87,7 @@ class Finder {
   }
 
  private:
-  // `index`: of the first element below, row after row.
+  // `index`: index of the first element below, row after row.
   void element(const Type& array, std::size_t level, const Way& way, std::uint64_t index = 0) {
     if (level == array.dimensions.size()) {
       Way inner = way;

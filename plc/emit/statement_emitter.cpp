@@ -25,7 +25,7 @@ const Type& boolean() {
   return kType;
 }
 
-// A statement of the running view: 3 of _flow[3] := ...
+// Returns the number of a statement of the running view: 3 for _flow[3] := ...
 std::optional<std::uint64_t> flow_point(const Statement& one) {
   if (one.kind != Statement::Kind::Assign || one.target->kind != Expression::Kind::Index) {
     return std::nullopt;
@@ -61,7 +61,7 @@ void StatementEmitter::list(std::span<const Statement> body) {
   }
 }
 
-// What is told of the power in a network, at once: thousands of single assignments would take g++ longer than the rest.
+// Emits all reports of power in a network at once: thousands of single assignments would take g++ longer than the rest.
 std::size_t StatementEmitter::flow(std::span<const Statement> body) {
   const std::optional<std::uint64_t> first = flow_point(body[0]);
   if (!first) {
@@ -186,7 +186,7 @@ void StatementEmitter::enabled(const Expression& call, Body body) {
   out_.line(fmt::format("const bool {} = {};", name, flag));
   out_.open(fmt::format("if ({})", name));
   body();
-  // What sets its own ENO has done so.
+  // A POU with its own ENO has set it.
   const bool sets = resolved.enable_out != nullptr && resolved.pou != nullptr && resolved.pou->find("ENO") != nullptr;
   if (sets) {
     out_.reopen("else");
@@ -269,7 +269,7 @@ void StatementEmitter::block_call(const Expression& call) {
 
 void StatementEmitter::if_statement(const Statement& one) {
   bool first = true;
-  // A coil that sets or resets; what it does is counted with its power.
+  // A coil that sets or resets: its statement is counted with its power.
   const bool coil = one.branches.size() == 1 && one.branches[0].body.size() == 1 &&
                     one.branches[0].body[0].kind == Statement::Kind::Assign &&
                     is_coil(one.branches[0].body[0].target->at);
@@ -293,7 +293,7 @@ void StatementEmitter::if_statement(const Statement& one) {
   out_.close();
 }
 
-// No switch: EXIT inside of it has to end the loop around it.
+// Not emitted as a switch: EXIT inside of it must end the surrounding loop.
 void StatementEmitter::case_statement(const Statement& one) {
   const Type& type = *one.value->type;
   const std::string name = fmt::format("case_{}", ++loops_);
@@ -337,7 +337,7 @@ void StatementEmitter::for_statement(const Statement& one) {
   }
 }
 
-// The variable is a constant inside: the compiler sees that it stays within the bounds, and so do we.
+// The variable is a constant inside the loop: the C++ compiler and the emitter know that it stays within the bounds.
 void StatementEmitter::counted_loop(const Statement& one, std::int64_t step) {
   const Variable& variable = *one.target->resolved->variable;
   const Type& type = *one.target->type;

@@ -20,14 +20,14 @@ class Emitter {
  public:
   explicit Emitter(TextWriter& out, std::string to = "out") : out_(out), to_(std::move(to)) {}
 
-  // In the order of watch_layout().
+  // Same order as watch_layout().
   void pou(const Pou& pou) {
     out_.open(fmt::format("[[maybe_unused]] void show([[maybe_unused]] iec::Watch& out, [[maybe_unused]] const {}& x)",
                           watched_name_of(pou)));
     if (pou.base != nullptr) {
       out_.line(fmt::format("show(out, static_cast<const {}&>(x));", watched_name_of(*pou.base)));
     }
-    std::vector<const Variable*> row;  // that lie behind each other
+    std::vector<const Variable*> row;  // adjacent variables
     for (const Variable& one : pou.variables) {
       const bool fits = is_watched(one) && is_number(*one.type);
       if (!row.empty() && is_member(one) && !(fits && packed_size(*one.type) == packed_size(*row.back()->type))) {
@@ -39,7 +39,7 @@ class Emitter {
         value(name_in_x(one), *one.type);
       }
       if (one.declared->edge != ast::Edge::None) {
-        end(row);  // the value before lies between
+        end(row);  // the previous value is between them
       }
     }
     end(row);
@@ -65,13 +65,13 @@ class Emitter {
  private:
   static std::string name_in_x(const Variable& variable) { return "x." + cpp_name(std::string_view(variable.name)); }
   static bool is_number(const Type& type) { return type.kind == Type::Kind::Elementary && !type.is_text(); }
-  // Whether it lies in the struct of its instance.
+  // Returns whether it is a member of the struct of its instance.
   static bool is_member(const Variable& variable) {
     return variable.section != ast::Section::External && variable.section != ast::Section::Temp &&
            variable.global == nullptr && !variable.is_constant && !variable.declared->is_static;
   }
 
-  // Thousands of variables one by one would take g++ longer than the program.
+  // Writes adjacent variables at once: thousands one by one would take g++ longer than the program.
   void end(std::vector<const Variable*>& row) {
     constexpr std::size_t kFew = 3;
     if (row.size() > kFew) {

@@ -12,7 +12,7 @@ namespace indurop::plc {
 namespace {
 
 constexpr std::size_t kMarkBytes = 8;
-constexpr std::size_t kMostBytes = 16384;  // of one variable: larger arrays are not told
+constexpr std::size_t kMostBytes = 16384;  // of one variable: larger arrays are not reported
 
 bool is_told(const Type& type) {
   switch (type.kind) {
@@ -81,7 +81,7 @@ class Layout {
   }
 
  private:
-  // As it is written: "Motor.delay".
+  // The name as written: "Motor.delay".
   using Name = std::string;
 
   void pou(const Pou& pou, const Name& name) {
@@ -183,7 +183,7 @@ std::size_t packed_size(const Type& type) {
       }
       return sum;
     }
-    case Type::Kind::Block:  // what is in it is looked at by itself; in an array its number counts
+    case Type::Kind::Block:  // its contents are watched separately; in an array its number counts
       return 1;
     case Type::Kind::Pointer:
     case Type::Kind::Interface:

@@ -22,7 +22,7 @@
 namespace indurop::plc {
 namespace {
 
-// HMI_NODE marks a place in the tree of the pictures.
+// HMI_NODE marks a place in the tree of SVGHMI pictures.
 constexpr std::array<std::string_view, 11> kHmiTypes{"SINT",  "INT",   "DINT", "LINT",   "USINT", "UINT",
                                                      "UDINT", "ULINT", "REAL", "STRING", "BOOL"};
 
@@ -33,10 +33,10 @@ VAR before : BOOL; END_VAR
 END_FUNCTION_BLOCK
 )";
 
-// Table 36 of the standard: functions with several outputs, written in the language.
+// Functions of Table 36 of the standard with several outputs, written in the language.
 struct Split {
   std::string_view name;
-  std::string_view text;  // behind FUNCTION and the name
+  std::string_view text;  // text after FUNCTION and the name
 };
 constexpr std::string_view kSplitDay = R"( VAR_OUTPUT YEAR, MONTH, DAY : INT; END_VAR
 VAR text_ : STRING[20]; END_VAR
@@ -76,7 +76,7 @@ constexpr std::array<Split, 6> kSplits{{{"DATE", kSplitDay},
                                         {"DT", kSplitBoth},
                                         {"LDT", kSplitBoth}}};
 
-// ADSLOGSTR of TwinCAT: a line of the module's log. What it calls last has no name in the language.
+// ADSLOGSTR of TwinCAT: writes a line to the log of the module. The last function it calls has no name in the language.
 constexpr std::string_view kAdsLog = R"(FUNCTION ADSLOGSTR : DINT
 VAR_INPUT msgCtrlMask : DWORD; msgFmtStr, strArg : STRING[255]; END_VAR
 VAR at_, level_ : INT; text_ : STRING[255]; END_VAR
@@ -163,7 +163,7 @@ Project parsed(std::string_view text, const char* whose) {
   return st::parse_project({text, at}, others, quiet);
 }
 
-// IF TRIG AND NOT before THEN write the line; END_IF; before := TRIG;
+// Makes IF TRIG AND NOT before THEN write the line; END_IF; before := TRIG;
 ast::Body logger_body(const Place& at) {
   std::vector<ast::Argument> values;
   std::vector<ast::Argument> level;

@@ -20,13 +20,13 @@ bool is_name(std::string_view name) noexcept {
          std::all_of(name.begin(), name.end(), [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
 }
 
-// "prog" of ".../prog.st"; what C++ cannot have in a name becomes '_'.
+// Returns "prog" for ".../prog.st"; characters that C++ does not allow in a name become '_'.
 std::string name_from(const std::string& file) {
   std::string name = std::filesystem::path(file).stem().string();
   std::replace_if(
       name.begin(), name.end(), [](char c) { return !is_name(std::string("a") + c); }, '_');
   for (std::size_t at = name.find("__"); at != std::string::npos; at = name.find("__")) {
-    name.erase(at, 1);  // C++ keeps it for itself
+    name.erase(at, 1);  // reserved in C++
   }
   return is_name(name) ? name : "plc_" + name;
 }
@@ -80,7 +80,7 @@ std::unique_ptr<Program> check_files(const CompileOptions& options, const std::s
                                  reading, diagnostics);
   project.dialect = options.dialect.value_or(project.dialect);
   if (project.incomplete) {
-    return nullptr;  // what is left out would be missed everywhere
+    return nullptr;  // omitted items would cause errors at all their uses
   }
   auto program = check(std::move(project), std::move(check_options), diagnostics);
   if (program != nullptr) {

@@ -22,7 +22,7 @@ std::string file_names(const std::vector<std::string>& files) {
   return out;
 }
 
-// Checks the .glb we wrote as its users will; its errors are about the variables of the program.
+// Checks the emitted .glb as its users will; its errors refer to the variables of the program.
 void check_glb(const std::string& name, const GlbFile& glb, const std::vector<std::string>& others,
                const glb2idl::FileReader& read_other, Diagnostics& diagnostics) {
   const std::string own = name + ".glb";

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kFirstLine = "indurop plc library 1";
 
-// Takes "<word> rest" up to the end of the line; none if the line begins with something else.
+// Consumes "<word> rest" up to the end of the line; none if the line begins with something else.
 std::optional<std::string> line_of(std::string_view& text, std::string_view word) {
   const std::size_t end = text.find('\n');
   const std::string_view line = text.substr(0, end);
@@ -23,7 +23,7 @@ std::optional<std::string> line_of(std::string_view& text, std::string_view word
   return std::string(line.substr(std::min(word.size() + 1, line.size())));
 }
 
-// "motor.st 1234", and as many bytes behind it.
+// Reads "motor.st 1234" and the given number of bytes after it.
 bool source_of(const std::string& line, std::string_view& text, LibraryFile& to) {
   const std::size_t blank = line.rfind(' ');
   std::size_t size = 0;

@@ -126,7 +126,7 @@ bool ends_with(const std::string& file, std::string_view ending) {
   return upper(file).ends_with(upper(ending));
 }
 
-// Beremiz puts blocks of its own into every program it writes; who does not use them does not miss them.
+// Leaves out blocks that Beremiz writes into every program and that this program does not use.
 void leave_out(Project& project, Diagnostics& diagnostics) {
   for (const ast::Pou& pou : project.pous) {
     if (!pou.c_code) {
@@ -144,7 +144,7 @@ void leave_out(Project& project, Diagnostics& diagnostics) {
   std::erase_if(project.pous, [](const ast::Pou& pou) { return pou.c_code.has_value(); });
 }
 
-// Function blocks with instances of what was left out go the same way, as python_gear of Beremiz.
+// Leaves out function blocks with instances of those that were left out, such as python_gear of Beremiz.
 void leave_out_users(Project& project, Diagnostics& diagnostics) {
   std::map<std::string, std::vector<std::pair<const ast::Pou*, const ast::Variable*>>> users;
   std::vector<std::string> open;
@@ -193,7 +193,7 @@ class FileReader {
     }
   }
 
-  // What is wrong in it is said with the name of the library.
+  // Errors in a library are reported with its name.
   void library(const LibraryChoice& choice) {
     const auto text = bytes_of(choice.file);
     if (!text) {
@@ -223,7 +223,7 @@ class FileReader {
     out_.dialect = read->dialect == Dialect::Iec ? out_.dialect : read->dialect;
   }
 
-  // With the code as it is written or drawn.
+  // Reads a file with its code as written or drawn.
   void document(const std::string& file, plcopen::Document& to) {
     Place at = place_of(file);
     const FileType* type = type_of(file);
@@ -257,7 +257,7 @@ class FileReader {
   }
 
  private:
-  // Null: none of a program.
+  // Returns null if the file is not a program.
   static const FileType* type_of(const std::string& file) {
     const auto types = file_types();
     const auto type =
@@ -319,7 +319,7 @@ class FileReader {
   std::vector<std::pair<std::string, std::string>> libraries_;  // names and versions
 };
 
-// Whether the ending is one of a program; else an error.
+// Returns whether the ending is that of a program; else reports an error.
 bool is_program(const std::string& file, Diagnostics& diagnostics) {
   const auto types = file_types();
   std::string known;

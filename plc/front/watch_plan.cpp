@@ -22,11 +22,11 @@ WatchPlan watch_plan(CompileOptions options, const glb2idl::FileReader& read) {
         plan.layouts.push_back(watch_layout(one));
       }
     }
-    Diagnostics quiet;  // all of it was said by the check
+    Diagnostics quiet;  // the check has reported all of it
     plan.document = read_document(options.files, {.in_editor = options.dialect == Dialect::Codesys}, read, quiet);
   }
   for (base::Diagnostic& one : diagnostics.list()) {
-    if (one.severity == base::Diagnostic::Severity::Error) {  // the build has told the warnings
+    if (one.severity == base::Diagnostic::Severity::Error) {  // the build has reported the warnings
       plan.diagnostics.push_back(std::move(one));
     }
   }

@@ -43,7 +43,7 @@ bool is_time(Elementary type) {
   return type == Elementary::Time || is_date(type);
 }
 
-// The conversions between times that mean something; others between numbers, texts and times all do.
+// Returns whether a conversion between these times is useful; all others between numbers, texts and times are.
 bool is_useful_between_times(Elementary from, Elementary to) {
   switch (from) {
     case Elementary::DateAndTime:
@@ -59,7 +59,7 @@ bool is_useful_between_times(Elementary from, Elementary to) {
   }
 }
 
-// A character is a number, and a text.
+// A character converts to a number and to a text.
 bool is_useful_for_character(Elementary other) {
   return is_int(other) || is_text(other) || is_character(other) || (is_bit(other) && other != Elementary::Bool);
 }
@@ -128,7 +128,7 @@ void append_decimals(std::vector<LibraryFunction>& all) {
   }
 }
 
-// "TOD_TO_DT" with `separator` "_TO_": the type names on both sides in full; empty if one of them is no type.
+// Returns "TOD_TO_DT" (`separator` "_TO_") with the full type names on both sides; empty if one of them is not a type.
 string in_full(const string& name, std::string_view separator) {
   const std::size_t at = name.find(separator);
   if (at == string::npos) {

@@ -31,7 +31,7 @@ std::vector<LibraryFunction> make() {
   return out;
 }
 
-// The generic type that the name says: that of the result, else of the first input that has one.
+// Returns the generic type that the name replaces: that of the result, else of the first input that has one.
 std::optional<Generic> named_generic(const LibraryFunction& function) {
   if (const auto* result = std::get_if<Generic>(&function.result)) {
     return *result;
@@ -60,7 +60,7 @@ std::optional<LibraryFunction> typed(const LibraryFunction& function, Elementary
   return out;
 }
 
-// Those of the standard's tables that are overloaded; not conversions, which have two types in their names.
+// The overloaded functions of the standard's tables; not conversions, which have two types in their names.
 std::map<std::string, LibraryFunction> make_typed() {
   std::map<std::string, LibraryFunction> out;
   for (const LibraryFunction& function : library_functions()) {

@@ -19,7 +19,7 @@ LibraryType type_named(std::string_view name) {
   return Generic::Any;
 }
 
-// The member of the block's struct: lower case, and not a word of C++.
+// Returns the member of the block's struct: lower case, and not a word of C++.
 std::string member_named(std::string_view name) {
   std::string member;
   for (const char c : name) {
@@ -28,7 +28,7 @@ std::string member_named(std::string_view name) {
   return member == "auto" ? "automatic" : member;
 }
 
-// "R/RESET BOOL"
+// Reads "R/RESET BOOL".
 LibraryParameter make_parameter(std::string_view text) {
   const std::size_t blank = text.find(' ');
   const std::string_view names = text.substr(0, blank);

@@ -96,7 +96,7 @@ constexpr Row kFunctions[] = {
     {"FIND(IN1/STR1 STRING, IN2/STR2 STRING): INT", "find"},
     {"FIND(IN1/STR1 WSTRING, IN2/STR2 WSTRING): INT", "find"},
 
-    // As the library Standard64 of CODESYS has them.
+    // As in the library Standard64 of CODESYS.
     {"WLEN(IN/STR WSTRING): INT", "len"},
     {"WLEFT(IN/STR WSTRING, L/SIZE ANY_INT): WSTRING", "left"},
     {"WRIGHT(IN/STR WSTRING, L/SIZE ANY_INT): WSTRING", "right"},
@@ -149,7 +149,7 @@ constexpr Row kBlocks[] = {
     {"RAMP(RUN BOOL, X0 REAL, X1 REAL, TR TIME, CYCLE TIME): BUSY BOOL, XOUT REAL", "Ramp"},
 };
 
-// '*' stands for the type that counts: CTU counts an INT, CTU_DINT a DINT.
+// '*' is replaced by the type of the counter: CTU counts an INT, CTU_DINT a DINT.
 constexpr Row kCounters[] = {
     {"CTU(CU BOOL, R/RESET BOOL, PV *): Q BOOL, CV *", "Ctu"},
     {"CTD(CD BOOL, LD/LOAD BOOL, PV *): Q BOOL, CV *", "Ctd"},
@@ -204,7 +204,7 @@ const LibraryParameter* find_named(const std::vector<LibraryParameter>& paramete
   return found == parameters.end() ? nullptr : &*found;
 }
 
-// "IN12" is "IN" and 12.
+// Splits "IN12" into "IN" and 12.
 std::pair<std::string_view, unsigned> split_number(std::string_view name) {
   const std::size_t letters = name.find_last_not_of("0123456789") + 1;
   unsigned number = 0;

@@ -23,7 +23,7 @@ ast::Expression with_sign(const Pin& pin, ast::Expression value) {
   return pin.negated ? make::negation(std::move(value)) : std::move(value);
 }
 
-// The pin of a function's result: named like it or OUT, else its first one.
+// Returns the pin of a function's result: named like it or OUT, else its first one.
 const Pin* result_pin(const Element& element) noexcept {
   const Pin* first = nullptr;
   for (const Pin& pin : element.outputs) {
@@ -63,7 +63,7 @@ const ast::Variable* find_variable(const ast::Pou* pou, const std::string& name)
 
 }  // namespace
 
-// One of the project takes the place of that of the library.
+// A function of the project replaces that of the library.
 bool BlockLowering::is_standard(const std::string& function) const {
   return !find_functions(function).empty() && find_pou(options_.project, function) == nullptr;
 }
@@ -117,7 +117,7 @@ std::vector<ast::Argument> BlockLowering::arguments(const Element& element, bool
   return arguments;
 }
 
-// Structured Text in a box. What flows out of it is what flowed in.
+// Translates Structured Text in a box. The power after it equals the power before it.
 void BlockLowering::code(const Element& element, const std::string& enable) {
   std::optional<Place> c_code;
   ast::Body body = st::parse_body({element.inlined->text, element.inlined->text_at}, c_code, code_.diagnostics());
@@ -191,7 +191,7 @@ void BlockLowering::function(const Element& element, const std::string& enable) 
   store_outputs(element, enable);
 }
 
-// VAR_OUTPUT of a function of the project.
+// Adds VAR_OUTPUT of a function of the project.
 void BlockLowering::further_outputs(const Element& element, const Pin* result, std::vector<ast::Argument>& arguments) {
   for (const Pin& pin : element.outputs) {
     if (&pin == result || is_enabled(pin)) {

@@ -59,7 +59,7 @@ class ChartLowering {
     declare(ast::Section::Local, kRunning, make::type(at, Elementary::Bool));
   }
 
-  // SFCReset of CODESYS: while it is true the chart begins anew.
+  // SFCReset of CODESYS: while it is true the chart starts again.
   void reset() {
     if (chart_.steps.empty() || !around_.declared(kReset)) {
       return;
@@ -124,7 +124,8 @@ class ChartLowering {
     return code.value ? std::move(*code.value) : make::truth(element.at, false);
   }
 
-  // First all steps behind, then all before: a step that is both stays active.
+  // First clears all steps before the transitions, then activates all steps after them: a step that is both stays
+  // active.
   void clear() {
     for (const bool activate : {false, true}) {
       for (std::size_t i = 0; i < chart_.transitions.size(); ++i) {
@@ -139,8 +140,8 @@ class ChartLowering {
     }
   }
 
-  // The time for which a step is active; it stays when the step is left. Transitions see that of now; behind them it is
-  // measured again, so that it begins with the step.
+  // Measures the time for which a step is active; it is kept when the step is left. Transitions see the current time;
+  // after them it is measured again, so that it begins with the step.
   void measure() {
     for (std::size_t i = 0; i < chart_.steps.size(); ++i) {
       const Place& at = chart_.steps[i].element->at;

@@ -66,7 +66,7 @@ class Actions {
     return groups;
   }
 
-  // Valve.Open, of an instance in this POU.
+  // Returns true for Valve.Open of an instance in this POU.
   [[nodiscard]] bool is_of_another(const network::ActionLine& line) const {
     return line.name.find('.') != std::string::npos && (line.only_action || around_.foreign_action(line.name));
   }
@@ -110,7 +110,7 @@ class Actions {
     body.push_back(std::move(statement));
     add(make::when(std::move(condition), std::move(body)));
   }
-  // A hidden variable of this kind; its name.
+  // Declares a hidden variable of this kind; returns its name.
   std::string hidden(ast::Section section, std::string_view letters, std::size_t number, ast::TypeSpec type) {
     const std::string name = fmt::format("_{}{}", letters, number);
     code_.variables.push_back(make::variable(section, name, std::move(type)));
@@ -181,7 +181,7 @@ class Actions {
     add(make::when(std::move(runs), std::move(inner.body)));
   }
 
-  // True on entry, or on exit, of the step.
+  // Returns TRUE on entry to, or on exit from, the step.
   ast::Expression edge(const Association& association, bool on_exit) {
     const Place& at = association.line->at;
     ast::Expression now = active(chart_, association.step, at);
@@ -212,7 +212,8 @@ class Actions {
     return make::name(at, stored);
   }
 
-  // `input` has been true for the duration, or is true and has not yet.
+  // Returns whether `input` has been true for the duration or, if `limit`, whether it is true for less than the
+  // duration.
   ast::Expression timed(const Association& association, std::size_t number, ast::Expression input, bool limit) {
     const Place& at = association.line->at;
     const std::string timer = hidden(ast::Section::Local, "at", number, make::type(at, std::string(kTimerType)));
@@ -239,7 +240,7 @@ class Actions {
   const Chart& chart_;
   const ChartSurroundings& around_;
   Diagnostics& diagnostics_;
-  std::deque<network::Body> calls_;  // of actions of other POUs
+  std::deque<network::Body> calls_;  // calls of actions of other POUs
   Lowered code_;
 };
 

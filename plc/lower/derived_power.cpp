@@ -19,7 +19,7 @@ using network::Pin;
 using network::Sheet;
 using Kind = Element::Kind;
 
-// Names in a text like "axes[i].ready", in capitals. Of addresses, which lie in each other, "%" alone.
+// Returns the names in a text like "axes[i].ready", in capitals. For addresses, which overlap, only "%".
 std::set<std::string> names_in(std::string_view text) {
   std::set<std::string> out;
   for (std::size_t i = 0; i < text.size();) {
@@ -37,7 +37,7 @@ std::set<std::string> names_in(std::string_view text) {
   return out;
 }
 
-// Whose code is not of this network: it may write anything.
+// Returns true for elements that run code outside of this network: it may write anything.
 bool runs_other_code(const Element& element) {
   const bool known = find_block(element.type) != nullptr || !find_functions(element.type).empty();
   return element.kind == Kind::Block && (!known || element.inlined != nullptr || !element.in_outs.empty());
@@ -71,7 +71,7 @@ Written written_in(const Network& network) {
   return out;
 }
 
-// Comes from rails, contacts and coils alone.
+// Returns true for power from rails, contacts and coils only.
 bool is_plain_power(const Pin& pin, const Sheet& sheet) {
   return !pin.negated && pin.edge == ast::Edge::None && pin.expression.empty() && !pin.connections.empty() &&
          std::all_of(pin.connections.begin(), pin.connections.end(), [&](const network::Connection& one) {
@@ -81,7 +81,7 @@ bool is_plain_power(const Pin& pin, const Sheet& sheet) {
          });
 }
 
-// Behind what is jumped over is no power, whatever is closed.
+// Returns whether networks may be jumped over: there is no power then, even if contacts are closed.
 bool has_jumps(const Sheet& sheet) {
   return std::any_of(sheet.order.elements.begin(), sheet.order.elements.end(), [](const Element* one) {
     return one->kind == Kind::Jump || one->kind == Kind::Return || one->inlined != nullptr;

@@ -23,7 +23,7 @@ ast::Expression number(const Place& at, std::uint64_t value) {
   return literal;
 }
 
-// _flow[43]
+// Returns _flow[43].
 ast::Expression point_of(const Place& at, const std::string& variable, std::size_t number_of_point) {
   ast::Expression made;
   made.kind = ast::Expression::Kind::Index;
@@ -33,7 +33,7 @@ ast::Expression point_of(const Place& at, const std::string& variable, std::size
   return made;
 }
 
-// Through the end of the body, where the flow is written.
+// Makes the body leave through its end, where the flow is written.
 bool leave_through_end(ast::Body& body, const Place& at) {
   bool found = false;
   for (ast::Statement& statement : body) {
@@ -81,7 +81,7 @@ std::size_t number_points(std::vector<FlowPoint>& flow) {
 }
 
 void add_flow(LoweredNetworks& lowered, const std::string& variable, const Place& at, bool declare) {
-  // What is jumped over has no power, so there it is written at the end only.
+  // Networks that are jumped over have no power, so with jumps it is written at the end only.
   const bool at_end = leave_through_end(lowered.body, at) || has_jumps(lowered.body);
   number_points(lowered.flow);
   std::size_t points = 0;

@@ -19,7 +19,7 @@ struct Found {
   bool sure = true;  // false: a base is not in the project
 };
 
-// Those it inherits, too.
+// Finds inherited variables, too.
 Found variable_of(const Project& project, const ast::Pou& pou, std::string_view name) {
   const ast::Pou* at = &pou;
   constexpr int kMostBases = 64;

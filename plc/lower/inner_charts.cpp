@@ -13,7 +13,7 @@
 namespace indurop::plc::lower {
 namespace {
 
-using Names = std::map<std::string, std::string>;  // in capitals, and what they become
+using Names = std::map<std::string, std::string>;  // names in capitals, and their replacements
 
 void rename(Lowered& code, const Names& names) {
   for (ast::Variable& one : code.variables) {
@@ -28,14 +28,14 @@ void rename(Lowered& code, const Names& names) {
   });
 }
 
-// Made by the translation.
+// Returns true for variables made by the translation.
 bool is_hidden(const ast::Variable& variable) {
   return variable.name.starts_with('_');
 }
 
 }  // namespace
 
-// By a variable, or by a step of the POU's own chart.
+// Returns whether the name is used by a variable, or by a step of the POU's own chart.
 bool InnerCharts::is_taken(const std::string& name) const {
   const auto& elements = code_->body.diagram.elements;
   return std::any_of(pou_->variables.begin(), pou_->variables.end(),

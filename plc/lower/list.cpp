@@ -63,7 +63,7 @@ class ListLowering {
     }
   }
 
-  // False after an error.
+  // Returns false after an error.
   bool instruction() {
     if (in_.accept(";")) {
       return true;
@@ -83,7 +83,7 @@ class ListLowering {
     return operation(in_.take());
   }
 
-  // Where the code behind a label uses what is loaded, all ways to it bring it in one variable.
+  // Where the code after a label uses the loaded value, all paths to it bring it in one variable.
   void label(const Token& word) {
     const Place at = in_.place(word);
     const auto joint = joints_.find(upper(word.text));
@@ -141,8 +141,8 @@ class ListLowering {
     return accumulator_.loaded();
   }
 
-  // "CU c" with an instance c is "CAL c(CU := what is loaded)" (Tables 53.3 and 54), also for names that mean something
-  // else in front of other variables: R, S, LD.
+  // Returns true for "CU c" with an instance c: it is "CAL c(CU := loaded value)" (Tables 53.3 and 54), also for names
+  // that have another meaning before other variables: R, S, LD.
   [[nodiscard]] bool is_input(const Token& word) const {
     const Token& instance = in_.peek();
     return instance.kind == TokenKind::Word && instance.line == word.line && has_input_(instance.text, word.text) &&
@@ -179,8 +179,8 @@ class ListLowering {
     return true;
   }
 
-  // An expression that ends with its line, before a comma or a bracket that was opened before it: the operator of the
-  // next line is none of it.
+  // Parses an expression that ends with its line, before a comma or a closing bracket opened before it: the operator of
+  // the next line is not part of it.
   std::optional<Expression> operand() {
     std::vector<Token> tokens;
     int depth = 0;
@@ -207,7 +207,7 @@ class ListLowering {
     return value;
   }
 
-  // AND x; AND( x ... )
+  // Translates AND x; AND( x ... )
   bool binary(const Token& word, Operator op, bool negated) {
     if (!loaded(word)) {
       return false;
@@ -232,7 +232,7 @@ class ListLowering {
     return value.has_value();
   }
 
-  // ADD (a + b) on one line is a value in brackets.
+  // Returns true for ADD (a + b) on one line, which is a value in brackets.
   [[nodiscard]] bool closed_on_line() const {
     int depth = 0;
     for (std::size_t i = 0; in_.peek(i).kind != TokenKind::End && in_.peek(i).line == in_.peek().line; ++i) {
@@ -328,7 +328,7 @@ class ListLowering {
     return true;
   }
 
-  // LIMIT 0, 10 has the accumulator as its first value; LIMIT(MN := 0, ...) has not.
+  // LIMIT 0, 10 has the accumulator as its first value; LIMIT(MN := 0, ...) does not.
   bool function(const Token& word) {
     const Place at = in_.place(word);
     std::vector<ast::Argument> arguments;
@@ -383,7 +383,7 @@ class ListLowering {
   const HasInput& has_input_;
   Diagnostics& diagnostics_;
   Lowered lowered_;
-  std::map<std::string, std::string> joints_;  // labels and the variables with what is loaded there
+  std::map<std::string, std::string> joints_;  // labels and the variables with the value loaded there
   Accumulator accumulator_;
   std::vector<Open> open_;
 };

@@ -15,9 +15,9 @@ namespace {
 
 using Kind = Element::Kind;
 
-constexpr std::size_t kDeepest = 64;  // operators inside each other
+constexpr std::size_t kDeepest = 64;  // nesting of operators
 
-// MAX(300, 1): nothing can change it.
+// Returns true for MAX(300, 1): its value cannot change.
 bool is_fixed(const ast::Expression& expression) {
   switch (expression.kind) {
     case ast::Expression::Kind::Literal:
@@ -35,7 +35,7 @@ bool is_fixed(const ast::Expression& expression) {
   }
 }
 
-// One behind the other, but not deeper than later passes bear.
+// Combines the values one after the other, but not deeper than later passes can handle.
 ast::Expression any_of(std::vector<ast::Expression> values) {
   while (values.size() > 1) {
     std::vector<ast::Expression> out;
@@ -70,9 +70,9 @@ std::string key_of(const Element& element) {
 
 std::optional<ast::Expression> NetworkCode::parse(std::string_view text, const Place& at) {
   if (text.empty()) {
-    return std::nullopt;  // the check of the drawing has said so
+    return std::nullopt;  // reported by the check of the drawing
   }
-  text.remove_suffix(text.ends_with(';') ? 1 : 0);  // TwinCAT does not mind it
+  text.remove_suffix(text.ends_with(';') ? 1 : 0);  // TwinCAT accepts it
   return st::parse_expression({text, at}, diagnostics_);
 }
 
@@ -154,7 +154,7 @@ Value NetworkCode::read(const Source& source, const Place& at, bool guarded) {
   Output& found = output->second;
   const bool moved = found.written != lowered_.body.size();
   if (found.deferred && is_fixed(found.value.expression) && (guarded || found.value.guard.empty())) {
-    return found.value;  // the same wherever it is written, and its type is that of the place
+    return found.value;  // the same wherever it is written; its type is that of the place
   }
   if (found.deferred && (moved || uses(key) > 1 || (!guarded && !found.value.guard.empty()))) {
     keep(key, found);
@@ -175,7 +175,7 @@ void NetworkCode::defer(const Element& element, const Pin& pin, ast::Expression 
   }
 }
 
-// The value as it was where the function stands: the statement goes there, not to the end.
+// Stores the value at the position of the function: the statement goes there, not to the end.
 void NetworkCode::keep(const Key& key, Output& output) {
   const Place at = output.value.expression.at;
   const std::string name =

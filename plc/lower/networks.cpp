@@ -40,7 +40,7 @@ class NetworkLowering {
     }
     for (const Network& network : sheet_.networks) {
       if (begun_.insert(&network).second) {
-        begin(network, {});  // labels behind everything
+        begin(network, {});  // labels after the last network
       }
     }
     return code_.finish();
@@ -97,7 +97,7 @@ class NetworkLowering {
       variable = make::negation(std::move(*variable));
     }
     ast::Expression before = code_.input(element, element.inputs.front());
-    const bool always = make::is_true(before);  // at the rail: the contact alone decides
+    const bool always = make::is_true(before);  // at the rail: only the contact decides
     ast::Expression closed = *variable;
     const ast::Expression power = code_.power(element, make::both(std::move(before), std::move(*variable)));
     code_.show(FlowPoint::Kind::Closed, {&element, nullptr}, always ? power : std::move(closed));

@@ -33,7 +33,7 @@ std::string_view trimmed(std::string_view text) {
                                          : text.substr(first, text.find_last_not_of(kSpace) - first + 1);
 }
 
-// Of ":= x AND y;", as editors write conditions: x AND y.
+// Returns x AND y for ":= x AND y;", as editors write conditions.
 std::string_view condition_text(std::string_view text) {
   text = trimmed(text);
   if (text.ends_with(';')) {
@@ -45,7 +45,7 @@ std::string_view condition_text(std::string_view text) {
   return text;
 }
 
-// Statements that leave the body they stand in.
+// Returns a statement that leaves the body.
 const ast::Statement* leaving(const ast::Body& body) {
   for (const ast::Statement& statement : body) {
     using Kind = ast::Statement::Kind;
@@ -90,7 +90,7 @@ class PouLowering {
   }
 
  private:
-  // A name means one of them.
+  // Reports duplicates: a name must refer to one of them.
   void once(std::vector<NamedBody>& bodies) {
     for (std::size_t i = 1; i < bodies.size(); ++i) {
       const auto known = std::find_if(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(i),
@@ -103,7 +103,7 @@ class PouLowering {
     }
   }
 
-  // Variables that the translation needs, among those of the POU.
+  // Adds variables of the translation to those of the POU.
   void keep(Lowered& code) {
     for (ast::Variable& one : code.variables) {
       one.of_instance = pou_.kind == ast::Pou::Kind::Method && one.section == ast::Section::Local;
@@ -111,7 +111,7 @@ class PouLowering {
     }
   }
 
-  // As others may call it. What is wrong in it was said already if the POU itself calls it.
+  // Translates an action for other POUs to call. Its errors were reported already if the POU itself calls it.
   void outer_action(NamedBody& named, const std::string& prefix) {
     const bool known = lowered_actions_.contains(&named.body);
     Diagnostics again;
@@ -131,11 +131,11 @@ class PouLowering {
     made.name = named.name;
     made.body = std::move(code.body);
     for (ast::Variable& one : code.variables) {
-      if (is_flow(one.name)) {  // one for all its callers
+      if (is_flow(one.name)) {  // shared by all its callers
         pou_.variables.push_back(std::move(one));
         continue;
       }
-      one.of_instance = one.section == ast::Section::Local;  // kept from call to call
+      one.of_instance = one.section == ast::Section::Local;  // kept between calls
       made.variables.push_back(std::move(one));
     }
     pou_.actions.push_back(std::move(made));
@@ -178,7 +178,7 @@ class PouLowering {
     return code;
   }
 
-  // The variable with the power in its networks, of what has a name and keeps its variables.
+  // Returns the variable with the power in its networks, for bodies that have a name and keep their variables.
   [[nodiscard]] std::optional<std::string> watched_as(const Body& body) const {
     if (!read_options_.watch || pou_.kind == ast::Pou::Kind::Function) {
       return std::nullopt;
@@ -212,7 +212,7 @@ class PouLowering {
     return block != nullptr && block->input(input) != nullptr;
   }
 
-  // "Open();" of an action of this POU: its code, here.
+  // Replaces "Open();" of an action of this POU by its code.
   void call_actions(ast::Body& body, std::vector<ast::Variable>& variables) {
     for (ast::Statement& statement : body) {
       call_actions(statement.body, variables);
@@ -249,7 +249,7 @@ class PouLowering {
     return code;
   }
 
-  // Contacts and boxes of a chart are conditions of transitions.
+  // Translates a chart; its contacts and boxes are conditions of transitions.
   Lowered chart(Body& body, const std::string& what) {
     const Sheet sheet = network::make_sheet(body, what, diagnostics_);
     const network::Chart read = network::read_chart(body.diagram, diagnostics_);
@@ -315,11 +315,11 @@ class PouLowering {
     return code;
   }
 
-  // An action stands wherever it is called.
+  // An action is copied to each of its calls.
   bool may_copy(const Body& body) {
     constexpr std::size_t kMostInside = 32;
     constexpr std::size_t kMost = std::size_t{16} << 20U;
-    constexpr std::size_t kElement = 100;  // counts as so many bytes
+    constexpr std::size_t kElement = 100;  // size of an element, in bytes
     if (depth_ >= kMostInside) {
       diagnostics_.error(
           body.at, fmt::format("more than {} actions call each other, make function blocks of some", kMostInside));
@@ -341,7 +341,7 @@ class PouLowering {
     }
   }
 
-  // `name`: of the transition; the variable its networks write.
+  // `name`: of the transition; its networks write this variable.
   Lowered condition(Body& body, const std::string& name, const std::string& prefix) {
     if (body.language == Language::St) {
       Lowered code;
@@ -368,7 +368,7 @@ class PouLowering {
   const ReadOptions& read_options_;
   Project& project_;
   ast::Pou& pou_;
-  std::size_t depth_ = 0;  // of actions in each other
+  std::size_t depth_ = 0;  // nesting of actions
   Diagnostics& diagnostics_;
   std::string what_;
   InnerCharts charts_;

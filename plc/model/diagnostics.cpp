@@ -20,7 +20,7 @@ void Diagnostics::add(base::Diagnostic::Severity severity, const Place& at, std:
   const std::size_t before = found_.size();
   // NOLINTNEXTLINE(cppcoreguidelines-slicing): the rest of the place has fields of its own below
   all_.add({severity, at.file ? *at.file : std::string(), at, std::move(text)});
-  if (found_.size() > before) {  // else it is there already, or there are too many
+  if (found_.size() > before) {  // otherwise it is a duplicate, or there are too many
     found_.back().within = at.within ? *at.within : std::string();
     found_.back().picture = picture(at);
   }
@@ -38,7 +38,7 @@ std::string Diagnostics::picture(const Place& at) const {
   }
   std::string_view line = rest.substr(0, rest.find('\n'));
   line = line.substr(0, line.find('\r'));
-  // The mark is as long as the word there.
+  // The marker is as long as the word there.
   const auto column = static_cast<std::size_t>(at.column);
   std::size_t width = 1;
   for (std::size_t i = column; i < line.size() && is_word(line[i]) && is_word(line[column - 1]); ++i) {

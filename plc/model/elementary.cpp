@@ -12,7 +12,7 @@ struct ElementaryRow {
   unsigned bits;
 };
 
-// In the order of the enumeration.
+// Same order as the enumeration.
 constexpr std::array<ElementaryRow, kElementaryCount> kRows{
     {{"BOOL", 1},           {"BYTE", 8},   {"WORD", 16},   {"DWORD", 32}, {"LWORD", 64}, {"SINT", 8},
      {"INT", 16},           {"DINT", 32},  {"LINT", 64},   {"USINT", 8},  {"UINT", 16},  {"UDINT", 32},

@@ -19,8 +19,8 @@ bool is_letter(char c) noexcept {
 
 // Long: a list.
 bool is_keyword(std::string_view word) noexcept {
-  // Type and function names are not in it: they are ordinary names with a meaning. Neither are words that mean
-  // something where no name can stand: TASK, TRANSITION, R_EDGE.
+  // Type and function names are not included: they are ordinary names with a meaning. Neither are words that have a
+  // meaning where no name can be: TASK, TRANSITION, R_EDGE.
   static constexpr std::array<std::string_view, 82> kWords{"ACTION",
                                                            "AND",
                                                            "ARRAY",

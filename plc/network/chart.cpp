@@ -73,7 +73,7 @@ class Reader {
   }
 
  private:
-  // A body may hold several charts, which run beside each other; each begins in one step.
+  // A body may contain several charts, which run in parallel; each begins in one step.
   void begins_once() {
     std::vector<std::size_t> chart_of(chart_.steps.size());
     std::iota(chart_of.begin(), chart_of.end(), std::size_t{0});
@@ -139,7 +139,7 @@ class Reader {
     chart_.steps.push_back({&element, element.text, element.initial});
   }
 
-  // Those that do not end in a jump.
+  // Counts the branches that do not end in a jump.
   [[nodiscard]] std::size_t branches_of(const Element& convergence) {
     std::size_t count = 0;
     each_source(convergence, index_, diagnostics_,
@@ -147,7 +147,7 @@ class Reader {
     return count;
   }
 
-  // Whether the lines around the element are still to be followed.
+  // Returns whether the lines around the element still have to be followed.
   bool enter(const Element& element) {
     constexpr std::size_t kMost = 500;
     if (depth_ >= kMost) {
@@ -157,7 +157,7 @@ class Reader {
     return passed_.insert(&element).second;
   }
 
-  // Steps before a transition: one, or all those of a simultaneous convergence.
+  // Collects the steps before a transition: one, or all those of a simultaneous convergence.
   void before(const Element& element, std::vector<std::size_t>& into) {
     if (!enter(element)) {
       return;  // a circle without a step: reported as a transition without one
@@ -179,7 +179,7 @@ class Reader {
           [[fallthrough]];
         default:
           if (from.kind == Kind::SelectionConvergence && branches_of(from) == 1) {
-            before(from, into);  // as CODESYS draws it where all branches but one end in a jump
+            before(from, into);  // CODESYS draws it if all branches but one end in a jump
           } else {
             diagnostics_.error(element.at, fmt::format("{} stands before it, where a step must be", title_of(from)));
           }
@@ -188,7 +188,7 @@ class Reader {
     --depth_;
   }
 
-  // Transitions that lead into `element` get the step.
+  // Adds the step to transitions that lead into `element`.
   void into(const Element& element, std::size_t step) {
     if (!enter(element)) {
       return;
@@ -209,7 +209,7 @@ class Reader {
           break;
         case Kind::JumpStep:
           if (element.kind == Kind::SelectionConvergence) {
-            break;  // CODESYS closes branches that end in a jump, too
+            break;  // CODESYS also closes branches that end in a jump
           }
           [[fallthrough]];
         default:
@@ -254,7 +254,7 @@ class Reader {
   std::unordered_map<const Element*, std::size_t> steps_;
   std::unordered_map<const Element*, std::size_t> numbers_;  // of transitions
   std::unordered_map<std::string, std::size_t> names_;
-  std::unordered_set<const Element*> passed_;  // in the search that goes on
+  std::unordered_set<const Element*> passed_;  // in the current search
   std::size_t depth_ = 0;
 };
 

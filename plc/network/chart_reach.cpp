@@ -13,9 +13,9 @@ namespace {
 
 using Active = std::vector<bool>;  // by step
 
-// Charts with more situations than this are looked at in part only.
+// Charts with more situations than this are checked only partly.
 constexpr std::size_t kMostSituations = 5'000;
-constexpr std::size_t kMostSteps = 50'000'000;  // looked at in all of them
+constexpr std::size_t kMostSteps = 50'000'000;  // checked in all situations together
 
 class Walk {
  public:
@@ -78,7 +78,7 @@ class Walk {
 
 void warn_about_reach(const Chart& chart, Diagnostics& diagnostics) {
   if (std::none_of(chart.steps.begin(), chart.steps.end(), [](const Step& step) { return step.initial; })) {
-    return;  // which is an error of its own
+    return;  // reported as an error elsewhere
   }
   Walk walk(chart);
   walk.run();

@@ -28,7 +28,7 @@ bool has_output(Kind kind) noexcept {
   return kind == Kind::LeftRail || kind == Kind::Contact || kind == Kind::Coil || kind == Kind::Block ||
          kind == Kind::InVariable || kind == Kind::InOutVariable || kind == Kind::Continuation;
 }
-// Power flows out of it: several of them at one pin are a parallel branch.
+// Returns whether power flows out of it: several such elements at one pin are a parallel branch.
 bool gives_power(Kind kind) noexcept {
   return kind == Kind::LeftRail || kind == Kind::Contact || kind == Kind::Coil || kind == Kind::Block;
 }
@@ -153,7 +153,7 @@ class Check {
     }
   }
 
-  // Contacts that lead nowhere, values nobody takes.
+  // Warns of contacts that lead nowhere, and of unused values.
   void used(const Diagram& diagram) {
     std::unordered_set<const Element*> sources;
     for (const Element& element : diagram.elements) {
@@ -177,7 +177,7 @@ class Check {
     }
   }
 
-  // Of two coils of a variable the last one wins, whatever the first has got.
+  // Warns of two coils of a variable: the last one overwrites the first.
   void coils(const Diagram& diagram) {
     std::unordered_map<std::string, const Element*> known;
     for (const Element& element : diagram.elements) {

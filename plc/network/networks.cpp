@@ -18,7 +18,7 @@ using Kind = Element::Kind;
 bool is_rail(const Element& element) noexcept {
   return element.kind == Kind::LeftRail || element.kind == Kind::RightRail;
 }
-// Stands beside networks and belongs to the next one.
+// Returns true for elements next to networks that belong to the next one.
 bool is_remark(const Element& element) noexcept {
   return element.kind == Kind::Comment || element.kind == Kind::Title || element.kind == Kind::Label;
 }
@@ -55,7 +55,7 @@ void each_connection(const Element& element, Function&& function) {
   }
 }
 
-// A network before it is numbered: its extent on the sheet, and where it begins in the file.
+// A network before it is numbered: its extent on the sheet, and its begin in the file.
 struct Draft {
   Network network;
   int top = std::numeric_limits<int>::max();
@@ -140,7 +140,7 @@ class Splitter {
       auto draft = std::find_if(drafts_.begin(), drafts_.end(),
                                 [&](const Draft& each) { return drawn_ ? each.bottom >= element.y : each.first > i; });
       if (draft == drafts_.end() && (element.kind == Kind::Label || drafts_.empty())) {
-        draft = drafts_.emplace(drafts_.end());  // a label behind everything: the end of the body
+        draft = drafts_.emplace(drafts_.end());  // a label after the last network: the end of the body
         draft->bottom = std::numeric_limits<int>::max();
       }
       attach(element, draft == drafts_.end() ? drafts_.back() : *draft);

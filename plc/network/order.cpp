@@ -16,13 +16,13 @@ struct Edge {
   const Element* from;
 };
 
-// Depth first along the sources, without recursion: rungs may be long. A circle is cut behind an element that keeps its
-// value; if that is not where the walk noticed the circle, the walk begins anew and knows the cut.
+// Walks depth first along the sources, without recursion: rungs may be long. A circle is cut after an element that
+// keeps its value; if that is not where the circle was found, the walk starts again with the cut.
 class Walk {
  public:
   Walk(const Index& index, Order& order) : index_(index), order_(order) {}
 
-  // False: begin anew.
+  // Returns false if it must start again.
   bool run(const std::vector<const Element*>& roots) {
     order_.elements.clear();
     return std::all_of(roots.begin(), roots.end(), [&](const Element* root) { return visit(root); });
@@ -91,8 +91,8 @@ class Walk {
     stack_.pop_back();
   }
 
-  // The circle is on the stack: from the level of closing.from, which is to be evaluated first, to the top. True: the
-  // walk can go on.
+  // Cuts the circle on the stack: from the level of closing.from, which is evaluated first, to the top. Returns true if
+  // the walk can continue.
   bool cut(const Edge& closing) {
     std::size_t level = stack_.size() - 1;
     while (stack_[level].element != closing.from) {

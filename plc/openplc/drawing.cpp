@@ -55,7 +55,7 @@ bool has_input(Kind kind) noexcept {
          kind == Kind::Connector;
 }
 
-// One rung of a ladder, or a whole function block diagram.
+// Reads one rung of a ladder, or a whole function block diagram.
 class RungReader {
  public:
   RungReader(const Json& rung, Place at, std::uint64_t first_id, int top)
@@ -146,7 +146,7 @@ class RungReader {
     }
   }
 
-  // `handle` empty: its only input.
+  // Reads an input; `handle` empty: its only one.
   Pin input(const Json& node, const std::string& handle) {
     Pin pin;
     pin.at = at_;
@@ -156,7 +156,7 @@ class RungReader {
     return pin;
   }
 
-  // Branches of a ladder begin and end in nodes of their own, which are only where lines meet.
+  // Follows branches of a ladder, which begin and end in special nodes that are only joints of lines.
   void lead(const std::string& to, const std::string& handle, Pin& pin, std::set<std::string>& seen) {
     for (const Json& edge : rung_["edges"].values()) {
       const bool here = text_of(edge["target"]) == to && (handle.empty() || text_of(edge["targetHandle"]) == handle);

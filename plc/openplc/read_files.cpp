@@ -20,7 +20,7 @@ std::string text_of(const Json& value) {
   return value.text().value_or("");
 }
 
-// ARRAY [0..9] OF INT
+// Returns ARRAY [0..9] OF INT.
 std::string array_text(const Json& dimensions, const Json& element) {
   std::string bounds;
   for (const Json& one : dimensions.values()) {
@@ -34,7 +34,7 @@ std::string type_text(const Json& type) {
                                                 : text_of(type["value"]);
 }
 
-// "speed AT %QW0 : INT := 5;"
+// Returns "speed AT %QW0 : INT := 5;".
 std::string variable_text(const Json& variable) {
   const std::string place = text_of(variable["location"]);
   const Json& initial = variable["initialValue"];
@@ -95,7 +95,7 @@ class ProjectReader {
   }
 
  private:
-  // The line where it has its name.
+  // Returns the line that contains its name.
   Place place_of(const Json& named) const {
     Place at = at_;
     at.column = 0;
@@ -117,7 +117,7 @@ class ProjectReader {
     append(out_, std::move(made));
   }
 
-  // Of a project that keeps its POUs in project.json.
+  // Reads a POU of a project that stores its POUs in project.json.
   void pou(const std::string& kind, const Json& data) {
     const std::string word = word_of(kind);
     const std::string result = kind == "function" ? " : " + text_of(data["returnType"]) : "";

@@ -178,7 +178,7 @@ void DeclarationWriter::spec(const TypeSpec& of) {
       out_.close();
       break;
     case TypeSpec::Kind::Inferred:
-      break;  // only behind an error
+      break;  // only after an error
   }
 }
 

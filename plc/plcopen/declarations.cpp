@@ -54,7 +54,7 @@ ast::Edge edge_of(const Node& variable) {
   return ast::Edge::None;
 }
 
-// fb : Motor(speed := 3), which CODESYS and TwinCAT keep beside the type.
+// Reads fb : Motor(speed := 3), which CODESYS and TwinCAT store next to the type.
 void read_starts(const Node& variable, const std::string& what, ast::TypeSpec& type, Diagnostics& diagnostics) {
   ast::StartArguments given;
   for (const Node& data : children_of(variable.child("addData"))) {

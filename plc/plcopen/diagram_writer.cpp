@@ -72,7 +72,7 @@ const char* tag_of(Kind kind) noexcept {
   return "";
 }
 
-// The attribute with its name, or null.
+// Returns the attribute with its name, or null.
 const char* name_attribute(Kind kind) noexcept {
   switch (kind) {
     case Kind::Connector:
@@ -107,7 +107,7 @@ bool has_output(Kind kind) noexcept {
   }
 }
 
-// Whose outputs have names, though empty ones.
+// Returns whether outputs of the element have names, possibly empty ones.
 bool names_outputs(Kind kind) noexcept {
   return kind == Kind::LeftRail || kind == Kind::Step || kind == Kind::SelectionDivergence ||
          kind == Kind::SimultaneousDivergence;
@@ -155,7 +155,7 @@ class Writer {
   }
 
   Attributes attributes_of(const Element& one) {
-    const std::uint64_t id = one.kind == Kind::Title ? next_id_++ : one.id;  // titles are read without theirs
+    const std::uint64_t id = one.kind == Kind::Title ? next_id_++ : one.id;  // the ids of titles are not read
     Attributes out{
         {"localId", std::to_string(id)}, {"width", std::to_string(one.width)}, {"height", std::to_string(one.height)}};
     if (const char* name = name_attribute(one.kind)) {
@@ -207,7 +207,7 @@ class Writer {
     out_.close();
   }
 
-  // As CODESYS writes it.
+  // Writes a title in the form of CODESYS.
   void title(const Element& one) {
     out_.formatted("alternativeText", one.text);
     out_.open("addData");

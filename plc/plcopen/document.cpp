@@ -119,7 +119,7 @@ class Reader {
     }
   }
 
-  // Of the configurations and resources of a whole project, whose lists of globals have names in CODESYS.
+  // Reads extensions of configurations and resources of a whole project; lists of globals have names in CODESYS.
   void extensions_below(const Node& node) {
     for (const Node& child : node.children) {
       if (child.name == "globalVars" && child.has("name")) {
@@ -132,7 +132,8 @@ class Reader {
     }
   }
 
-  // CODESYS and TwinCAT keep lists of globals, and what lies below an application, in extensions of the format.
+  // Reads lists of globals, and items below an application, which CODESYS and TwinCAT store in extensions of the
+  // format.
   void extensions(const Node& node) {
     for (const Node& data : children_of(node.child("addData"))) {
       if (!data.attribute("name").starts_with(kExtensionsOfCodesys)) {
@@ -156,7 +157,7 @@ class Reader {
     }
   }
 
-  // A list in which variables have different attributes holds one list for each kind.
+  // A list of variables with different attributes contains one list for each kind.
   void globals(const Node& list) {
     for (const Node& data : children_of(list.child("addData"))) {
       if (const Node* mixed = data.child("MixedAttrsVarList")) {

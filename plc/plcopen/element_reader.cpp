@@ -45,7 +45,7 @@ constexpr std::array<std::pair<std::string_view, Kind>, 22> kKinds{
      {"simultaneousConvergence", Kind::SimultaneousConvergence},
      {"actionBlock", Kind::ActionBlock}}};
 
-// Attributes and elements in which kinds keep their name.
+// Attributes and elements that contain the names of elements.
 constexpr std::array<std::string_view, 4> kNameAttributes{"name", "label", "targetName", "target"};
 constexpr std::array<std::string_view, 2> kNameElements{"variable", "expression"};
 
@@ -66,7 +66,7 @@ bool is_true(const Node& node, std::string_view attribute) {
   return value == "true" || value == "1";
 }
 
-// A number of the sheet; what is not one counts as 0, positions only order and draw.
+// Returns a coordinate on the sheet; 0 for invalid text, because positions only affect order and drawing.
 int coordinate(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -102,7 +102,7 @@ class Reader {
   }
 
  private:
-  // What is printed at a transition that has one operand drawn to it.
+  // Sets the text printed at a transition that has one operand drawn to it.
   void name_conditions() {
     for (Element& each : diagram_.elements) {
       if (each.condition && each.condition->connections.size() == 1) {
@@ -118,7 +118,7 @@ class Reader {
     return at;
   }
 
-  // Titles of networks are kept, other elements of vendors are theirs.
+  // Reads titles of networks; other elements of vendors are ignored.
   void title(const Node& node) {
     const Node* text = node.child("alternativeText");
     const Node* extension = node.child("addData");
@@ -225,7 +225,7 @@ class Reader {
       }
     }
     if (made.inputs.empty() && has_one_input(made.kind)) {
-      made.inputs.emplace_back().at = made.at;  // not connected, which is an error of the drawing
+      made.inputs.emplace_back().at = made.at;  // not connected: an error of the drawing
     }
     if (made.kind == Kind::InOutVariable && is_true(node, "negatedOut")) {
       diagnostics_.error(made.at, "a negated output of a variable is not supported; negate the pins behind it");
@@ -331,7 +331,7 @@ class Reader {
     }
   }
 
-  // CODESYS and TwinCAT keep the actions of a step itself in attributes with numbers for names.
+  // Reads the actions of a step itself, which CODESYS and TwinCAT store in attributes with numbers as names.
   void step_actions(const Node& node, Element& made) {
     for (const Node& data : children_of(node.child("addData"))) {
       for (const Node& attribute : children_of(data.child("attributes"))) {

@@ -22,7 +22,7 @@ std::optional<std::int64_t> iso_ns(std::string_view text) {
     return std::nullopt;
   }
   text.remove_prefix(1);
-  bool of_day = false;  // behind the T
+  bool of_day = false;  // after the T
   double total = 0;
   while (!text.empty()) {
     if (text.front() == 'T' && !of_day) {
@@ -61,7 +61,7 @@ std::optional<std::int64_t> literal_ns(std::string_view text) {
   return ns == nullptr ? std::nullopt : std::optional(*ns);
 }
 
-// "00:00:00.020000", as Beremiz once wrote it: hours, minutes, seconds.
+// Reads "00:00:00.020000", as older versions of Beremiz wrote it: hours, minutes, seconds.
 std::optional<std::int64_t> clock_ns(std::string_view text) {
   std::array<double, 3> parts{};
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -124,7 +124,7 @@ class Reader {
     return made;
   }
 
-  // TwinCAT writes interval="PT0S", and what it means into an extension.
+  // Returns the interval; TwinCAT writes interval="PT0S" and the actual value into an extension.
   static std::string interval_text(const Node& task) {
     const std::string standard(task.attribute("interval"));
     if (!standard.empty() && interval_ns(standard) != 0) {
@@ -175,7 +175,7 @@ class Reader {
     made.name = std::string(node.attribute("name"));
     made.at = within(node.at, "program " + made.name);
     made.task = task;
-    // Some editors write both the same way: the type alone.
+    // Some editors write only the type, in either attribute.
     made.type = std::string(node.attribute("typeName").empty() ? node.attribute("type") : node.attribute("typeName"));
     if (made.type.empty()) {
       made.type = made.name;

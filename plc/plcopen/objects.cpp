@@ -13,7 +13,7 @@
 namespace indurop::plc::plcopen {
 namespace {
 
-// "A, B"
+// Reads "A, B".
 void names(const Node& node, std::vector<ast::NameAt>& to) {
   std::string text = node.text;
   std::replace(text.begin(), text.end(), ',', ' ');
@@ -117,7 +117,7 @@ class ObjectReader {
     into_.methods.push_back(std::move(made));
   }
 
-  // What a property is set to has its name in SET.
+  // The value assigned to a property has its name in SET.
   void property(const Node& node) {
     const std::string where = fmt::format("{}, property {}", what_, node.attribute("name"));
     const PouDocument form = begin(node, where);

@@ -18,7 +18,7 @@ std::string named(const std::string& what, std::string_view variable) {
   return fmt::format("{}, variable {}", what, variable);
 }
 
-// instancePathAndName, in which what leads to an address says nothing.
+// Reads instancePathAndName; the part before an address is ignored.
 std::optional<ast::Expression> path_of(const Node& node, const Place& at, Diagnostics& diagnostics) {
   std::string_view text = node.attribute("instancePathAndName");
   if (const std::size_t address = text.find('%'); address != std::string_view::npos) {
@@ -31,7 +31,7 @@ std::optional<ast::Expression> path_of(const Node& node, const Place& at, Diagno
   return st::parse_expression({text, at}, diagnostics);
 }
 
-// a.b.c as its names; empty with an error.
+// Returns the names of a.b.c; empty with an error.
 std::vector<std::string> names_of(const ast::Expression& path, const Place& at, Diagnostics& diagnostics) {
   std::vector<std::string> out;
   const ast::Expression* one = &path;

@@ -32,7 +32,7 @@ bool has_places(const Body& body) {
                      [](const Element& one) { return one.x != 0 || one.y != 0; });
 }
 
-// In which order the elements are evaluated, transitions of a chart among each other too; and whether it is known.
+// The order in which the elements are evaluated, including transitions of a chart, and whether it is known.
 struct Meaning {
   Ids order;
   std::size_t cuts = 0;
@@ -103,7 +103,7 @@ class Placer {
       stand(chart.transitions[i].element, spots.transitions[i]);
     }
     others();
-    // Transitions count from left to right: where they did not, their priorities say it.
+    // Transitions are ordered from left to right; where they were not, their priorities define it.
     if (const Body copy = body_;
         network::read_chart(copy.diagram, quiet).transitions.size() == chart.transitions.size()) {
       rank(chart, network::read_chart(copy.diagram, quiet));
@@ -120,7 +120,7 @@ class Placer {
     return element.kind == Kind::Label || element.kind == Kind::Comment || element.kind == Kind::Title;
   }
 
-  // What stands in the file before the first of the network.
+  // Places elements that come before the first one of the network in the file.
   void remarks(std::size_t& next, const std::vector<const Element*>& network) {
     auto& elements = body_.diagram.elements;
     for (; next < elements.size(); ++next) {
@@ -157,7 +157,8 @@ class Placer {
     }
   }
 
-  // Beams of a chart stand at what leads to them, jumps and action blocks beside it, conditions left of it.
+  // Places beams of a chart at the elements that lead to them, jumps and action blocks next to these, conditions left
+  // of them.
   void others() {
     for (Element& one : body_.diagram.elements) {
       const bool known = one.kind == Kind::Step || one.kind == Kind::Transition;
@@ -192,7 +193,7 @@ class Placer {
   int right_ = 0;
 };
 
-// Sizes, spots and corners.
+// Completes sizes, spots and corners.
 class Finisher {
  public:
   explicit Finisher(std::vector<Element>& elements) : elements_(elements) {
@@ -258,7 +259,7 @@ class Finisher {
     }
   }
 
-  // The lines of one element with several ends take one after the other.
+  // Lines of one element with several ends use them one after the other.
   Point spot_of(const Element& source, const Connection& line) {
     for (const auto* pins : {&source.outputs, &source.in_outs}) {
       for (const Pin& pin : *pins) {

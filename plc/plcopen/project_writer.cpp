@@ -63,7 +63,7 @@ class Writer {
       out_.close();
     }
     out_.close();
-    if (document_.project.dialect == Dialect::Codesys) {  // by this its rules are known again
+    if (document_.project.dialect == Dialect::Codesys) {  // identifies its rules when the file is read again
       out_.open("addDataInfo");
       out_.leaf(
           "info",
@@ -167,7 +167,7 @@ class Writer {
     return made;
   }
 
-  // The first one has the globals that are in none.
+  // The first configuration contains the globals that are in none.
   void configuration(const Configuration& of) {
     out_.open("configuration", {{"name", of.name}});
     int number = 0;

@@ -13,7 +13,7 @@ using network::Pin;
 using network::Point;
 using Kind = Element::Kind;
 
-constexpr int kHead = 30;  // of a block, to its first pin
+constexpr int kHead = 30;  // height of a block above its first pin
 
 int text_size(const Element& element) {
   return kCharacter * std::max(1, draw::text_width(element.text));
@@ -67,7 +67,7 @@ Point size_of(const Element& element) {
   return {text + 2 * kCharacter, kLine};
 }
 
-// The k-th of several lines along a side.
+// Returns the position of the k-th of several lines along a side.
 int along(int length, std::size_t k, std::size_t count) {
   return static_cast<int>((2 * k + 1) * static_cast<std::size_t>(length) / (2 * std::max<std::size_t>(count, 1)));
 }

@@ -40,7 +40,7 @@ class Reader {
     return std::nullopt;
   }
 
-  // What a <value> or <initialValue> holds.
+  // Reads the content of a <value> or <initialValue>.
   std::optional<ast::Initial> initial(const Node& node) {
     if (const Node* simple = node.child("simpleValue")) {
       return st::parse_initial({simple->attribute("value"), place(simple->value_at("value"))}, diagnostics_);

@@ -21,7 +21,7 @@ constexpr base::XmlRules kRules{"PLCopen file",
                                 kMaxXmlAttributes,
                                 true};
 
-// With the name of the file at every place, and names without their prefixes.
+// Adds the name of the file to every place, and removes prefixes from names.
 Node node_of(base::Element&& from, const std::shared_ptr<const std::string>& file) {
   Node node;
   node.name = local_name(from.name);

@@ -8,7 +8,7 @@
 namespace indurop::plc::plcopen {
 namespace {
 
-// XML has no other control characters.
+// Returns whether XML allows the character: it has no other control characters.
 bool is_character(char c) noexcept {
   return static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n' || c == '\r';
 }
@@ -25,7 +25,7 @@ std::string escaped(std::string_view text, bool in_attribute) {
   return out;
 }
 
-// Editors show what stands in CDATA as it is. Its end cannot stand in it: there it is interrupted.
+// Editors show text in CDATA unchanged. CDATA cannot contain its own end: there it is split.
 std::string unescaped(std::string_view text) {
   constexpr std::string_view kEnd = "]]>";
   std::string out = "<![CDATA[";

@@ -6,8 +6,8 @@
 namespace indurop::plc {
 namespace {
 
-// Steps first, then transitions, numbered as one. Walked depth first from the initial step: what is met the first time
-// stands below, in columns of its own; what is met again is joined from the side, or, if it stands above, jumped to.
+// Steps first, then transitions, numbered together. Walked depth first from the initial step: a node found for the
+// first time is placed below, in columns of its own; a known one is joined from the side or, if it is above, by a jump.
 class Layout {
  public:
   explicit Layout(const network::Chart& chart) : chart_(chart), nodes_(chart.steps.size() + chart.transitions.size()) {
@@ -43,13 +43,13 @@ class Layout {
   enum class State : std::uint8_t { New, Open, Done };
   struct Node {
     std::vector<std::size_t> next;
-    std::vector<bool> upwards;  // of each of them: it is open, that is above
+    std::vector<bool> upwards;  // for each of them: it is open, that is above
     State state = State::New;
     std::size_t row = 0;
     std::size_t column = 0;
   };
 
-  // How many columns it and what stands below it take.
+  // Returns the number of columns of the node and the nodes below it.
   std::size_t walk(std::size_t number, std::size_t column) {
     nodes_[number].state = State::Open;
     nodes_[number].column = column;
@@ -59,7 +59,7 @@ class Layout {
       if (nodes_[next].state == State::New) {
         width += walk(next, column + width);
       } else if (nodes_[number].next.size() > 1) {
-        ++width;  // the line to it has a column of its own
+        ++width;  // the line to it has its own column
       }
     }
     nodes_[number].state = State::Done;
@@ -75,7 +75,7 @@ class Layout {
       out.rows = std::max(out.rows, node.row + 1);
       (i < chart_.steps.size() ? out.steps : out.transitions).push_back({node.row, node.column});
       if (i >= chart_.steps.size()) {
-        // A transition that no step leads to was not walked.
+        // A transition without a step before it was not walked.
         out.jumps.push_back(node.upwards);
         out.jumps.back().resize(node.next.size(), true);
       }

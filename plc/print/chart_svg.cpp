@@ -18,7 +18,7 @@ constexpr int kStep = 30;      // height of a step
 constexpr int kAction = 22;    // height of a line of actions
 constexpr int kBar = 13;       // half the width of a transition
 constexpr int kBetween = 42;   // between rows: lines and branches
-constexpr int kBranch = 15;    // below a node its branch, above one its joint
+constexpr int kBranch = 15;    // below a node its branch, above a node its joint
 constexpr int kColumn = 36;    // between columns
 constexpr const char* kLine = R"(stroke="#1F2D3D" stroke-width="1.6" stroke-linecap="square")";
 
@@ -68,7 +68,7 @@ class Drawing {
     return qualifiers + texts;
   }
 
-  // Places of columns (their middle line) and rows (the top of what stands there).
+  // Computes positions of columns (their middle line) and rows (their top).
   void measure() {
     std::vector<int> left(layout_.columns, 40);
     std::vector<int> right(layout_.columns, 40);
@@ -115,7 +115,7 @@ class Drawing {
     }
     out_.line(x1, y1, x2, y2, kLine);
   }
-  // What begins or ends together.
+  // Draws the line where simultaneous branches begin or end.
   void double_line(int x1, int x2, int y) {
     line(std::min(x1, x2) - 10, y - 2, std::max(x1, x2) + 10, y - 2);
     line(std::min(x1, x2) - 10, y + 2, std::max(x1, x2) + 10, y + 2);
@@ -149,7 +149,7 @@ class Drawing {
     }
   }
 
-  // From a step to the transitions that leave it alone: one of them.
+  // Draws from a step to the transitions that leave it alone: one of them is taken.
   void branch(std::size_t i) {
     const int x = x_of(layout_.steps[i]);
     for (std::size_t t = 0; t < chart_.transitions.size(); ++t) {
@@ -165,7 +165,7 @@ class Drawing {
     }
   }
 
-  // From several steps to the transition that leaves them all.
+  // Draws from several steps to the transition that leaves them all.
   void together(std::size_t t) {
     const auto& from = chart_.transitions[t].from;
     if (from.size() < 2) {
@@ -212,7 +212,7 @@ class Drawing {
     }
   }
 
-  // An arrow with the name of the step.
+  // Draws an arrow with the name of the step.
   void jump(int x, int y, const std::string& name) {
     line(x, y, x, y + 14);
     out_.path(fmt::format("M{} {}h12l-6 8z", x - 6, y + 14), R"(fill="#1F2D3D")");

@@ -19,7 +19,7 @@ using ast::Operator;
 struct Spelling {
   Operator op;
   std::string_view text;
-  int strength;  // of precedence
+  int strength;  // precedence
 };
 
 constexpr std::array<Spelling, 17> kSpellings{{{Operator::Not, "NOT ", 9},
@@ -95,7 +95,7 @@ std::string index_text(const Expression& expression) {
   return text + "]";
 }
 
-// `around`: how strongly the operator binds that it is an operand of.
+// `around`: precedence of the operator of which it is an operand.
 std::string text_of(const Expression& expression, int around) {
   switch (expression.kind) {
     case Expression::Kind::Literal:

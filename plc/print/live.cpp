@@ -124,7 +124,7 @@ std::optional<bool> LivePower::before(const network::Pin& pin) {
   return plain ? known(source) : std::nullopt;
 }
 
-// Functions whose module does not say whether they are of BOOL: their inputs do.
+// Determines the power of functions whose module does not report whether they are of BOOL from their inputs.
 std::optional<bool> LivePower::of_logic(const network::Element& element) {
   const std::string type = upper(element.type);
   const bool logic = type == "AND" || type == "OR" || type == "XOR" || type == "NOT" || type == "MOVE";
@@ -135,7 +135,7 @@ std::optional<bool> LivePower::of_logic(const network::Element& element) {
   for (const network::Pin& pin : element.inputs) {
     const auto value = same_name(pin.name, "EN") ? std::nullopt : before(pin);
     if (!value) {
-      return std::nullopt;  // one with an EN that is off keeps what it gave before
+      return std::nullopt;  // with EN off it keeps its previous output
     }
     const bool on = *value != pin.negated;
     all = !all ? on : type == "AND" ? *all && on : type == "OR" ? *all || on : *all != on;

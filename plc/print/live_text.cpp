@@ -14,7 +14,7 @@ namespace {
 using st::Token;
 using st::TokenKind;
 
-// A name of the text with everything behind it that leads into it.
+// A name in the text, and the members and indices after it.
 struct Mention {
   std::string written;
   int line = 0;
@@ -24,7 +24,7 @@ bool is_name(const Token& token) {
   return token.kind == TokenKind::Word && is_identifier(token.text) && !is_keyword(token.text);
 }
 
-// "[3" or "[1, -2" and so on: elements whose number is in the text.
+// Consumes "[3" or "[1, -2" and so on: elements whose indices are in the text.
 std::size_t take_index(const std::vector<Token>& tokens, std::size_t at, std::string& path) {
   std::string text = "[";
   std::size_t next = at + 1;
@@ -62,7 +62,7 @@ std::vector<Mention> mentions_in(std::string_view text) {
       }
     }
     if (i < tokens.size() && tokens[i].is("[")) {
-      continue;  // an element whose number only the program knows
+      continue;  // an element whose index is known at run time only
     }
     found.push_back(std::move(one));
   }

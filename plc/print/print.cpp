@@ -71,7 +71,8 @@ void append_lines(std::vector<std::string>& lines, const std::string& text) {
   }
 }
 
-// The networks of a chart that are more than an operand, and their numbers at the transitions they lead to.
+// Returns the networks of a chart that are more than an operand, and writes their numbers at the transitions they lead
+// to.
 std::vector<std::size_t> conditions_of(network::Diagram& diagram, const network::Sheet& sheet) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < sheet.networks.size(); ++i) {
@@ -93,7 +94,7 @@ std::vector<std::size_t> conditions_of(network::Diagram& diagram, const network:
   return found;
 }
 
-// Code in a file is indented as the editor left it; common white space goes.
+// Code in a file is indented as in the editor; common white space is removed.
 std::string code_text(const std::string& code) {
   std::vector<std::string> lines;
   append_lines(lines, code);

@@ -37,7 +37,7 @@ std::int64_t whole_number(Elementary type, std::span<const std::uint8_t> bytes) 
   }
 }
 
-// Up to its end, in UTF-8.
+// Returns the text up to its end, in UTF-8.
 std::string wide_text(std::span<const std::uint8_t> bytes) {
   std::u16string wide;
   for (; bytes.size() >= sizeof(char16_t); bytes = bytes.subspan(sizeof(char16_t))) {

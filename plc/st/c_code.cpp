@@ -36,7 +36,7 @@ bool is_type(std::string_view word) noexcept {
   return std::find(kTypes.begin(), kTypes.end(), word) != kTypes.end();
 }
 
-// The number a division is by; 0: something else than a number of full thousands.
+// Returns the divisor; 0 if it is not a number of full thousands.
 std::int64_t divisor(std::string_view word) noexcept {
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
@@ -47,7 +47,7 @@ std::int64_t divisor(std::string_view word) noexcept {
 
 }  // namespace
 
-// Declarations of C, products of the two, of what was declared, and quotients by thousands: nothing else is allowed.
+// Accepts declarations of C, products of the two and of declared variables, and quotients by thousands: nothing else.
 std::optional<TimeBase> time_base(std::string_view code) {
   const std::vector<std::string_view> words = words_of(code);
   std::vector<std::string_view> known{kTick, kTickTime};

@@ -20,8 +20,8 @@ bool ChartParser::at_chart() const {
   return in_.peek().is("INITIAL_STEP") || (in_.peek().is("STEP") && in_.peek(2).is(":"));
 }
 
-// An operator of the list and its operand; in Structured Text none follows a name. Or a formal call on lines of its
-// own, behind which no ';' stands but an operator.
+// Returns whether an operator of the list and its operand are next; in Structured Text no operand follows a name. Or a
+// formal call on several lines that is followed by an operator, not by ';'.
 bool ChartParser::at_instruction_list() const {
   if (in_.peek().kind == TokenKind::Word && in_.peek(1).is("(")) {
     constexpr std::size_t kLongest = 1000;
@@ -47,7 +47,7 @@ WrittenBody ChartParser::instruction_list(std::string_view end) {
   return std::move(out_);
 }
 
-// Statements with ACTIONs before or behind them.
+// Parses statements with ACTIONs before or after them.
 WrittenBody ChartParser::statements(std::string_view end) {
   while (in_.accept("ACTION")) {
     take_action();
@@ -166,7 +166,7 @@ bool ChartParser::action_line(Element& block) {
     line.qualifier = upper(in_.take().text);
   }
   for (bool first = true; in_.accept(","); first = false) {
-    const Token& token = in_.take();  // indicators behind the duration say nothing about the run
+    const Token& token = in_.take();  // indicators after the duration do not affect execution
     line.duration = first ? std::string(token.text) : line.duration;
   }
   block.actions.push_back(std::move(line));
@@ -181,7 +181,7 @@ bool ChartParser::action() {
   made.at = in_.here();
   made.name = in_.take().text;
   in_.accept(":");   // TwinCAT has none
-  if (at_chart()) {  // a chart of its own, whose actions are those of the POU
+  if (at_chart()) {  // a separate chart, whose actions are those of the POU
     WrittenBody inner = ChartParser(in_).chart("END_ACTION");
     made.body = std::move(inner.code.body);
     std::move(inner.code.actions.begin(), inner.code.actions.end(), std::back_inserter(out_.code.actions));
@@ -231,7 +231,7 @@ bool ChartParser::steps(std::vector<const Token*>& into) {
   return !several || in_.expect(")", "behind the steps");
 }
 
-// The text from here to before the word, or the other one.
+// Returns the text up to the word, or the other one.
 network::Body ChartParser::code_until(std::string_view end, Body::Language language, std::string_view other) {
   Body body;
   body.language = language;
@@ -259,7 +259,8 @@ network::Element* ChartParser::step_named(const Token& name) {
   return &out_.code.body.diagram.elements[found->second];
 }
 
-// As drawn: several steps before a transition meet in a convergence, several behind it begin at a divergence.
+// Builds the elements of the drawing: several steps before a transition meet in a convergence, several after it begin
+// at a divergence.
 void ChartParser::connect(const Transition& transition) {
   bool known = true;
   for (const auto* names : {&transition.from, &transition.to}) {

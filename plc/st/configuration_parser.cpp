@@ -31,7 +31,7 @@ void ConfigurationParser::recover() {
   }
 }
 
-// Nothing, or ( item , item ).
+// Parses nothing, or ( item , item ).
 template <class Item>
 bool ConfigurationParser::in_brackets(Item item, std::string_view behind) {
   if (!in_.accept("(")) {
@@ -45,7 +45,7 @@ bool ConfigurationParser::in_brackets(Item item, std::string_view behind) {
   return in_.expect(")", behind);
 }
 
-// The items of the section whose word was taken.
+// Parses the items of the section whose word was consumed.
 template <class Item>
 void ConfigurationParser::up_to_end_var(std::string_view section, Item item) {
   const int line = in_.previous().line;

@@ -65,7 +65,7 @@ std::optional<DeclarationParser::Block> DeclarationParser::block() {
   out.is_static = word.is("VAR_STAT");
   out.of_instance = word.is("VAR_INST");
   while (true) {
-    // VAR PUBLIC; the words are names of variables where no other name follows.
+    // VAR PUBLIC; the words are names of variables if no other name follows.
     const auto access = in_.peek(1).kind == TokenKind::Word ? access_word(in_.peek()) : std::nullopt;
     if (access) {
       out.access = access;
@@ -89,14 +89,14 @@ void DeclarationParser::variables(std::vector<ast::Variable>& to) {
   const auto kind = block();
   while (!in_.at_end() && !in_.peek().is("END_VAR")) {
     if (in_.accept(";")) {
-      continue;  // one too many, which editors let pass
+      continue;  // a surplus one, which editors accept
     }
     const std::size_t from = in_.position();
     if (!kind || !declaration(*kind, to)) {
       recover("END_VAR");
     }
     if (in_.position() == from) {
-      break;  // the end of something else
+      break;  // the end of another construct
     }
   }
   if (in_.expect("END_VAR", fmt::format("to close the {} of line {}", first.text, first.line))) {
@@ -111,7 +111,7 @@ std::string DeclarationParser::comment(const Token& first, int before) const {
   return first.comment_line > before ? std::string(first.comment) : std::string();
 }
 
-// Names that are known, but no more than that: their uses are no further errors.
+// Declares names without further data: their uses are no further errors.
 bool DeclarationParser::broken(std::vector<ast::Variable>& found, std::vector<ast::Variable>& to) {
   for (ast::Variable& one : found) {
     one.type.kind = ast::TypeSpec::Kind::Inferred;
@@ -120,7 +120,7 @@ bool DeclarationParser::broken(std::vector<ast::Variable>& found, std::vector<as
   return false;
 }
 
-// a, b AT %IX0.0, before the type. False: nothing of what follows belongs to them.
+// Parses a, b AT %IX0.0, before the type. Returns false if the rest does not belong to them.
 bool DeclarationParser::names(const Block& block, std::vector<ast::Variable>& found) {
   do {
     ast::Variable one;
@@ -225,7 +225,7 @@ void DeclarationParser::types(std::vector<ast::TypeDeclaration>& to) {
 bool DeclarationParser::one_type(std::vector<ast::TypeDeclaration>& to) {
   ast::TypeDeclaration out;
   if (in_.peek(1).kind == TokenKind::Word && access_word(in_.peek())) {
-    in_.take();  // of TwinCAT: which libraries see it
+    in_.take();  // TwinCAT only: defines which libraries can access it
   }
   const int before = in_.previous().line;
   const Token& first = in_.peek();
@@ -260,7 +260,7 @@ bool DeclarationParser::one_type(std::vector<ast::TypeDeclaration>& to) {
       return false;
     }
   }
-  // Behind END_STRUCT many leave the ';' out.
+  // After END_STRUCT the ';' is often omitted.
   const bool closed = in_.accept(";") || spec->kind == ast::TypeSpec::Kind::Struct || in_.expect_end("behind the type");
   out.type = std::move(*spec);
   out.comment = comment(first, before);

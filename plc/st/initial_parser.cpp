@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Initial values: a value, [1, 2, 3(0)] or (x := 1).
+// Parses initial values: a value, [1, 2, 3(0)] or (x := 1).
 
 #include "plc/st/expression_parser.h"
 #include "plc/st/nesting.h"

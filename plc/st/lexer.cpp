@@ -23,13 +23,13 @@ std::string_view trimmed(std::string_view text) noexcept {
                                          : text.substr(first, text.find_last_not_of(" \t\r\n*") - first + 1);
 }
 
-// Pragmas of editors say how to show, check and export the program, or which parts of it count.
+// Pragmas of editors that define how to show, check and export the program, or which parts of it are used.
 constexpr std::array<std::string_view, 22> kPragmas{
     "ATTRIBUTE", "REGION", "ENDREGION", "WARNING",  "TEXT",    "INFO",  "ERROR",  "DEFINE",
     "UNDEFINE",  "ENABLE", "DISABLE",   "ANALYSIS", "LIBRARY", "FLOW",  "NOFLOW", "IMPLICIT",
     "OBSOLETE",  "PACK",   "IF",        "ELSIF",    "ELSE",    "END_IF"};
 
-// "extern long __tick; TX = __tick;", as Beremiz and OpenPLC pass it on to their C compiler.
+// Returns true for "extern long __tick; TX = __tick;", which Beremiz and OpenPLC pass to their C compiler.
 bool is_c_code(std::string_view pragma) {
   pragma = trimmed(pragma);
   const auto* const end = std::find_if_not(pragma.begin(), pragma.end(), is_word);
@@ -165,8 +165,8 @@ class Lexer {
     remember(text_.substr(from_ + 2, at_ - from_ - 4));
   }
 
-  // Comments of one kind may lie inside each other. 0 if that gives no end: then the first end is meant from there on,
-  // as the standard once had it.
+  // Returns the length of a comment; comments of one kind may be nested. 0 if that gives no end: then the first end is
+  // used from there on, as in older editions of the standard.
   [[nodiscard]] std::size_t nested_comment(std::string_view end) const noexcept {
     int depth = 0;
     for (std::size_t at = at_; at + 1 < text_.size(); ++at) {
@@ -189,7 +189,7 @@ class Lexer {
     comment_line_ = comment_.empty() ? 0 : from_line_;
   }
 
-  // What changes the program is refused, other pragmas are skipped.
+  // Rejects pragmas that change the program and skips others.
   void pragma() {
     const bool twice = peek(1) == '{';
     const std::string_view close = twice ? "}}" : "}";
@@ -232,7 +232,7 @@ class Lexer {
     push(TokenKind::Typed);
   }
 
-  // What stands behind "INT#", "T#", "D#", "Color#".
+  // Reads the text after "INT#", "T#", "D#", "Color#".
   void typed(std::string_view prefix) {
     const auto skip = [this](std::string_view others) {
       while (is_word(peek()) || (others.find(peek()) != std::string_view::npos && peek() != '\0')) {
@@ -258,7 +258,7 @@ class Lexer {
     }
   }
 
-  // 12, 16#FF, 1.5, 1.5E-3; not the dots of 1..5.
+  // Reads 12, 16#FF, 1.5, 1.5E-3; not the dots of 1..5.
   void number() {
     const auto digits = [this] {
       while (is_word(peek())) {

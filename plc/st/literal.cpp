@@ -28,7 +28,7 @@ Literal wrong(std::string why) {
   return out;
 }
 
-// Digits with single '_' between them.
+// Returns true for digits with single '_' between them.
 bool well_formed(std::string_view digits) noexcept {
   return !digits.empty() && digits.front() != '_' && digits.back() != '_' &&
          digits.find("__") == std::string_view::npos;
@@ -83,7 +83,7 @@ Literal boolean(std::string_view text, std::string_view whole) {
   return out;
 }
 
-// A number behind INT#, WORD#, REAL#.
+// Evaluates a number after INT#, WORD#, REAL#.
 Literal typed_number(Elementary type, std::string_view text, std::string_view whole) {
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) {
@@ -109,7 +109,7 @@ Literal typed_number(Elementary type, std::string_view text, std::string_view wh
   return out;
 }
 
-// One character behind '$'; nullopt if it has no meaning.
+// Returns the character for the one after '$'; nullopt if it has no meaning.
 std::optional<char> escaped(char c) noexcept {
   switch (c) {
     case '$':
@@ -135,7 +135,7 @@ std::optional<char> escaped(char c) noexcept {
   }
 }
 
-// Text between escapes: characters of two bytes, or bytes.
+// Appends text between escapes: characters of two bytes, or bytes.
 void append(std::string_view plain, bool wide, std::u16string& out) {
   if (wide) {
     out += to_wide(plain);
@@ -157,7 +157,7 @@ std::optional<char16_t> hexadecimal(std::string_view text, std::size_t digits) n
   return text.size() == digits ? std::optional(static_cast<char16_t>(value)) : std::nullopt;
 }
 
-// 'a' of CHAR#'a', "a" of WCHAR#"a".
+// Evaluates 'a' of CHAR#'a', "a" of WCHAR#"a".
 Literal character(Elementary type, std::string_view quoted, std::string_view whole) {
   const bool wide = type == Elementary::Wchar;
   Literal out = text_literal(quoted);
@@ -273,7 +273,7 @@ std::optional<ast::DirectAddress> address_literal(std::string_view text) {
     ++at;
   }
   if (text.substr(at) == "*") {
-    return out;  // AT %I*: the place is left open
+    return out;  // AT %I*: the address is open
   }
   while (at < text.size()) {
     int number = 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// FOR, WHILE and REPEAT, and how the body of a statement is read whose head has an error.
+// Parses FOR, WHILE and REPEAT, and the bodies of statements whose head has an error.
 #include "plc/st/statement_parser.h"
 
 namespace indurop::plc::st {
 
-// Behind the word that ends the head of a statement, if it is there: its body is read although the head has an error.
+// Skips the word that ends the head of a statement, if it is there: the body is parsed although the head has an error.
 void StatementParser::skip_header(std::string_view word) {
   const bool misspelled = in_.peek().kind == TokenKind::Word && !is_keyword(in_.peek().text) &&
                           in_.peek().line == in_.previous().line && in_.peek(1).line > in_.peek().line;
@@ -24,7 +24,7 @@ void StatementParser::skip_header(std::string_view word) {
   }
 }
 
-// What stands in a loop whose head has an error.
+// Parses the body of a loop whose head has an error.
 bool StatementParser::headless(Statement& out, std::string_view end) {
   skip_header("DO");
   out = {};

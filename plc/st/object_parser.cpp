@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Object orientation of the third edition: METHOD, PROPERTY (of CODESYS), CLASS, INTERFACE, the words in the first line
-// of a POU; NAMESPACE.
+// Parses object orientation of the third edition: METHOD, PROPERTY (of CODESYS), CLASS, INTERFACE, the words in the
+// first line of a POU; NAMESPACE.
 
 #include "plc/st/project_parser.h"
 
 namespace indurop::plc::st {
 namespace {
 
-// What stands between METHOD and END_METHOD, and so on.
+// Returns the end of a construct: END_METHOD for METHOD, and so on.
 std::string end_of(const Token& word) {
   return "END_" + upper(word.text);
 }
 
 }  // namespace
 
-// FUNCTION_BLOCK ABSTRACT Name, METHOD PUBLIC FINAL OVERRIDE Name. These words are names where no other follows.
+// FUNCTION_BLOCK ABSTRACT Name, METHOD PUBLIC FINAL OVERRIDE Name. These words are names if no other name follows.
 void ProjectParser::modifiers(ast::Pou& out) {
   while (in_.next_is({"ABSTRACT", "FINAL", "OVERRIDE", "PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"}) &&
          in_.peek(1).kind == TokenKind::Word && !is_keyword(in_.peek(1).text) && !in_.peek(1).is("EXTENDS") &&
@@ -74,7 +74,7 @@ void ProjectParser::method(ast::Pou& to) {
   }
 }
 
-// Variables and statements up to `end`, which is not taken.
+// Parses variables and statements up to `end`, which is not consumed.
 void ProjectParser::code(ast::Pou& out, std::string_view end) {
   while (declarations_.at_variables()) {
     declarations_.variables(out.variables);
@@ -112,7 +112,7 @@ void ProjectParser::property(ast::Pou& to) {
   }
 }
 
-// What a property is set to has its name in SET.
+// The value assigned to a property has its name in SET.
 ast::Pou ProjectParser::accessor_of(const ast::Pou& property, ast::Accessor which) {
   ast::Pou out = property;
   out.accessor = which;
@@ -225,7 +225,7 @@ void ProjectParser::space(Project& out) {
   }
 }
 
-// Those of a POU, in its first lines.
+// Parses the USING of a POU, in its first lines.
 void ProjectParser::uses(ast::Pou& out) {
   while (in_.peek().is("USING") && in_.peek(1).kind == TokenKind::Word) {
     using_directive(out.scope.uses);

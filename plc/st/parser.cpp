@@ -6,7 +6,7 @@
 namespace indurop::plc::st {
 namespace {
 
-// Gives what `parse` finds if nothing stands behind it.
+// Returns the result of `parse` if nothing follows it.
 template <class Parse>
 auto alone(const Text& text, Diagnostics& diagnostics, Parse parse) -> decltype(parse(std::declval<TokenReader&>())) {
   const auto tokens = tokenize(text.text, text.at, diagnostics);

@@ -20,7 +20,7 @@ std::string_view word_of(ast::Pou::Kind kind) noexcept {
   return "";
 }
 
-// END_PROGRAM and so on, which editors leave away at the end of the text.
+// Consumes END_PROGRAM and so on, which editors omit at the end of the text.
 void take_end(TokenReader& in, const ast::Pou& pou, int line, std::string_view end, bool may_miss) {
   if (may_miss && in.at_end()) {
     in.warning(pou.at, fmt::format("{} has no {}, which is taken to stand at the end of the text", pou.name, end));
@@ -37,7 +37,7 @@ void take_end(TokenReader& in, const ast::Pou& pou, int line, std::string_view e
 
 Project ProjectParser::project() {
   Project out;
-  bool complained = false;  // one message for a stretch of text that is nothing
+  bool complained = false;  // one message for each run of unknown text
   while (!in_.at_end()) {
     bool known = element(out);
     if (!known) {
@@ -57,7 +57,7 @@ Project ProjectParser::project() {
   return out;
 }
 
-// What stands in a namespace, or outside of all. False: nothing of that begins here.
+// Parses an element of a namespace, or of the whole text. Returns false if none begins here.
 bool ProjectParser::element(Project& out) {
   const std::size_t types = out.types.size();
   const std::size_t pous = out.pous.size();
@@ -96,9 +96,9 @@ bool ProjectParser::element(Project& out) {
   return true;
 }
 
-// Whether ACTIONs stand in this POU or behind it.
+// Returns whether there are ACTIONs in this POU or after it.
 bool ProjectParser::has_actions(std::string_view end) {
-  std::size_t& next = next_end_[std::string(end)];  // the text behind each POU is not searched again
+  std::size_t& next = next_end_[std::string(end)];  // so the text after each POU is not searched again
   next = std::max(next, in_.position());
   const auto ahead = [&](std::size_t more) -> const Token& { return in_.peek(next - in_.position() + more); };
   while (ahead(0).kind != TokenKind::End && !ahead(0).is("ACTION") && !ahead(0).is(end)) {
@@ -173,7 +173,7 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   }
 }
 
-// The body in Structured Text, or its text.
+// Parses the body in Structured Text, or keeps its text.
 std::optional<WrittenBody> ProjectParser::statements(ast::Pou& out, std::string_view end) {
   const Token& before = in_.previous();
   out.body = body(end);
@@ -184,7 +184,7 @@ std::optional<WrittenBody> ProjectParser::statements(ast::Pou& out, std::string_
   return text_behind(before);
 }
 
-// From behind the token to here, comments included.
+// Returns the text after the token up to here, comments included.
 WrittenBody ProjectParser::text_behind(const Token& before) const {
   const char* begin = before.written.data() + before.written.size();
   WrittenBody made;

@@ -11,7 +11,7 @@
 namespace indurop::plc::st {
 namespace {
 
-constexpr int kMaxNesting = 64;  // statements inside each other
+constexpr int kMaxNesting = 64;  // nesting of statements
 
 bool has_call(const ast::Expression& expression) {
   return expression.kind == ast::Expression::Kind::Call ||
@@ -37,7 +37,7 @@ ast::Body StatementParser::list(std::initializer_list<std::string_view> ends) {
       continue;
     }
     if (TokenReader::is_end_word(in_.peek())) {
-      break;  // the end of something around this list: its reader says what is missing
+      break;  // the end of a surrounding construct: its parser reports missing words
     }
     before_.clear();
     if (auto one = statement()) {
@@ -51,7 +51,7 @@ ast::Body StatementParser::list(std::initializer_list<std::string_view> ends) {
   return out;
 }
 
-// The statement that C code stands for; none where it has no meaning here, which is noted.
+// Returns the statement that C code represents; none if it is not supported, which is recorded.
 std::optional<ast::Statement> StatementParser::c_code() {
   const Place at = in_.here();
   const auto base = time_base(in_.take().text);
@@ -63,7 +63,7 @@ std::optional<ast::Statement> StatementParser::c_code() {
   return make::assign(make::name(at, base->variable), make::call(at, make::name(at, std::string(ticks)), {}));
 }
 
-// Behind the next ';', or before a word that ends a statement around this one.
+// Skips to the position after the next ';', or before a word that ends a surrounding statement.
 void StatementParser::recover(std::size_t from) {
   while (!in_.at_end() && !TokenReader::is_end_word(in_.peek())) {
     if (in_.position() > from && in_.next_is({"ELSE", "ELSIF", "UNTIL", "IF", "FOR", "WHILE", "REPEAT", "CASE"})) {
@@ -92,7 +92,7 @@ std::optional<ast::Statement> StatementParser::statement() {
   return ok ? std::optional(std::move(out)) : std::nullopt;
 }
 
-// The ';' behind END_IF and its like is one that list() skips: CODESYS and TwinCAT leave it out.
+// The ';' after END_IF and the like is skipped by list(): CODESYS and TwinCAT omit it.
 bool StatementParser::fill(Statement& out) {
   if (in_.accept("IF")) {
     return if_statement(out);
@@ -317,7 +317,7 @@ bool StatementParser::labels(ast::Branch& out) {
   return in_.expect(":", "behind the values of this case");
 }
 
-// Whether values and a ':' stand here, and no statement: those have a ':=' or end before.
+// Returns whether values and a ':' are next, not a statement: a statement has a ':=' or ends before the ':'.
 bool StatementParser::at_case_label() const {
   int depth = 0;
   for (std::size_t ahead = 0;; ++ahead) {

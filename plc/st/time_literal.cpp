@@ -30,7 +30,7 @@ TimeValue wrong_time(std::string why) {
   return {std::nullopt, std::move(why)};
 }
 
-// Takes the digits (and '_') at the front; "" if there are none.
+// Consumes the digits (and '_') at the front; "" if there are none.
 std::string take_digits(std::string_view& text) {
   std::string out;
   while (!text.empty() && ((text[0] >= '0' && text[0] <= '9') || (text[0] == '_' && !out.empty()))) {
@@ -42,7 +42,7 @@ std::string take_digits(std::string_view& text) {
   return out;
 }
 
-// whole.fraction times `unit`; nullopt if it does not fit. What is smaller than a nanosecond is cut off.
+// Returns whole.fraction times `unit`; nullopt if it does not fit. Fractions of a nanosecond are cut off.
 std::optional<std::int64_t> scaled(const std::string& whole, const std::string& fraction, std::int64_t unit) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(whole.data(), whole.data() + whole.size(), value);
@@ -60,7 +60,7 @@ std::optional<std::int64_t> scaled(const std::string& whole, const std::string& 
   return ns;
 }
 
-// A number of exactly these limits at the front.
+// Consumes a number at the front; none if it is not within the limits.
 std::optional<int> take_number(std::string_view& text, int least, int most) {
   const std::string digits = take_digits(text);
   int value = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types, as they stand in declarations.
+// Parses types in declarations.
 
 #include "plc/st/declaration_parser.h"
 
@@ -198,7 +198,7 @@ bool DeclarationParser::enumeration(ast::TypeSpec& out) {
   if (!in_.expect(")", "behind the last value")) {
     return false;
   }
-  // (A, B) INT, as some editors write it
+  // (A, B) INT, as written by some editors
   const auto base = in_.peek().kind == TokenKind::Word ? elementary_named(in_.peek().text) : std::nullopt;
   if (base) {
     out.elementary = *base;

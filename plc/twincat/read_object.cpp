@@ -24,13 +24,13 @@ using plcopen::Node;
 using st::Token;
 using st::TokenKind;
 
-// The declaration of a POU has no end, and its statements, methods and actions stand beside it. Their words become one
-// list in the order of the standard, each with its own place.
+// The declaration of a POU has no end word, and its statements, methods and actions are stored separately. Their tokens
+// are joined into one list in the order of the standard, each with its own place.
 class Words {
  public:
   explicit Words(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  // Of <Declaration> or <ST>; nothing where there is none.
+  // Adds the tokens of <Declaration> or <ST>; none if it is null.
   void text(const Node* node) {
     if (node == nullptr) {
       return;
@@ -42,7 +42,7 @@ class Words {
     found.pop_back();  // the end
     std::move(found.begin(), found.end(), std::back_inserter(list_));
   }
-  // What the file does not write, as END_METHOD.
+  // Adds a word that the file omits, such as END_METHOD.
   void word(std::string_view text, TokenKind kind = TokenKind::Word) {
     list_.push_back({kind, text, text, last_.line, last_.column, {}, 0});
   }
@@ -217,7 +217,7 @@ network::Body written_body(const Node& node) {
   return out;
 }
 
-// The statements of a <POU> and of its actions.
+// Returns the statements of a <POU> and of its actions.
 st::WrittenBody written_code(const Node& node) {
   st::WrittenBody out;
   out.code.body = written_body(node);
