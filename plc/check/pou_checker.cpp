@@ -350,7 +350,7 @@ void check_bodies(Context& context) {
   }
   for (Pou* pou : fine) {  // methods use variables of their instances, too
     context.pou = pou;
-    const bool special = pou->owner != nullptr && upper(pou->name).starts_with("FB_");  // nobody looks at its result
+    const bool special = pou->owner != nullptr && upper(pou->name).starts_with("FB_");  // its result is not used
     if (pou->result != nullptr && !pou->result_assigned && !special) {
       context.warning(pou->tree->at, fmt::format("the {} never gives its result, assign it: {} := ...;",
                                                  pou->owner != nullptr ? "method" : "function", pou->name));

@@ -142,7 +142,7 @@ void read_interface(const Node& interface, const std::string& what, ast::Pou& po
     } else if (node.name == "accessVars" && pou.kind != ast::Pou::Kind::Program) {
       diagnostics.error(within(node.at, what), "VAR_ACCESS is for programs and configurations, remove it");
     } else if (node.name != "accessVars" && node.name != "addData" && node.name != "documentation" &&
-               node.name != "Attributes") {  // what the editor of CODESYS is told about a property
+               node.name != "Attributes") {  // settings of a property for the editor of CODESYS
       diagnostics.error(within(node.at, what), fmt::format("<{}> is not a part of an interface; remove it", node.name));
     }
   }
