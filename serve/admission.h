@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the options to what the gate goes by: is the address this machine's own, which names and tokens count.
+// Derives the gate's settings from the options: whether the address is loopback, which names and tokens are valid.
 
 #pragma once
 
@@ -20,11 +20,11 @@ struct Admission {
   GateSettings gate;
   ClientAuthority authority;
 };
-// What these options want. Makes the token file if it is named and not there.
+// Evaluates these options. Creates the token file if one is named but does not exist.
 Result<Admission, tools::Failure> admission_of(const tools::ServeOptions& options);
 
 bool is_loopback(std::string_view address) noexcept;
-// Tokens of a file's text, or what is wrong with it.
+// Returns the tokens in the text of a token file, or what is wrong with it.
 Result<std::vector<Token>, base::Problem> parse_tokens(std::string_view text);
 
 }  // namespace indurop::serve

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client may do that shows a certificate of --client-ca. Of a plant's certificates those of deployers may write
-// and all others look; which ones were revoked is looked up each time.
+// The rights of a client with a certificate of --client-ca. Of a plant's certificates, those of deployers may write and
+// all others may read; the revocation list is read again for each client.
 
 #pragma once
 
@@ -16,10 +16,10 @@ namespace indurop::serve {
 
 class ClientAuthority {
  public:
-  // Nobody's certificate counts.
+  // Accepts no certificate.
   ClientAuthority() = default;
-  // `revoked`: a list of this authority; empty: the revoked.pem beside `authority`, which a plant's authority must
-  // have.
+  // `revoked`: a revocation list of this authority; empty: the file revoked.pem in the folder of `authority`, which
+  // must exist for a plant's authority.
   static Result<ClientAuthority, base::Problem> open(const std::filesystem::path& authority,
                                                      const std::filesystem::path& revoked);
 
@@ -27,10 +27,10 @@ class ClientAuthority {
   [[nodiscard]] Client identify(const std::string& certificate) const;
 
  private:
-  // Why no certificate can be judged; empty: `list` is the list, or there is none.
+  // Reads the revocation list. Returns why no certificate can be checked; empty: `list` is the list, or there is none.
   [[nodiscard]] std::string read_list(std::string& list) const;
 
-  std::filesystem::path revoked_;  // empty: none is kept
+  std::filesystem::path revoked_;  // empty: there is no list
   std::string authority_;          // PEM
 };
 

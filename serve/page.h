@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of the page, out of one folder and no other one.
+// Serves the files of the page, from one folder only.
 
 #pragma once
 
@@ -12,20 +12,20 @@ namespace indurop::serve {
 
 class Page {
  public:
-  // `folder` empty: the one that was installed or built with this program.
+  // `folder` empty: the page that was installed or built with this program.
   explicit Page(std::filesystem::path folder);
 
   [[nodiscard]] bool there() const;
-  // The file of a path, "/" is index.html. If there is no page: for "/" what is missing.
+  // Returns the file of a path; "/" is index.html. Without a page "/" returns what is missing.
   [[nodiscard]] Reply answer(std::string_view path) const;
 
  private:
   std::filesystem::path folder_;
 };
 
-// Is this path made of names that lead nowhere else?
+// Returns whether all parts of this path are plain names, so that it stays inside the folder.
 bool harmless(std::string_view path) noexcept;
-// "text/css; charset=utf-8" for "app.css".
+// Returns the content type: "text/css; charset=utf-8" for "app.css".
 std::string_view type_of(std::string_view path) noexcept;
 
 }  // namespace indurop::serve

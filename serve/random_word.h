@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A word that nobody can guess: tokens, names of leases.
+// A random word that cannot be guessed: for tokens and names of leases.
 
 #pragma once
 

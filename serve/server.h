@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop-serve put together: gate, door, answers, page.
+// indurop-serve as a whole: gate, door, answers, page.
 
 #pragma once
 
@@ -42,7 +42,7 @@ class Server final : public House {
   std::unique_ptr<Visitor> receive(const Request& request, Line& line) override;
 
  private:
-  // Boards and jobs of one more thread. The worker ends first.
+  // One more thread with its own boards and jobs. The worker ends first.
   struct Helper {
     explicit Helper(const std::string& node, const RemoteBoards* remote = nullptr, std::size_t reader = 0)
         : boards(node, remote, reader) {}
@@ -54,10 +54,10 @@ class Server final : public House {
   std::optional<Reply> ask_plant(Match match, Ticket ticket);
   std::optional<Reply> order_plant(Match match, Ticket ticket);
   std::optional<Reply> ask_plc(Match match, Ticket ticket);
-  // About a board of another host. Nothing to do with it: nothing.
+  // Returns true if the request is about a board of another host.
   [[nodiscard]] bool is_remote(const Match& match) const;
   std::optional<Reply> ask_remote(Match match, Ticket ticket);
-  // Answers on the helper's thread.
+  // Returns the job that answers on the helper's thread.
   std::function<void()> job_of(Helper& helper, Match match, Ticket ticket);
   void announce() const;
 
@@ -73,7 +73,7 @@ class Server final : public House {
   RemoteBoards remote_boards_;
   Boards boards_;
   Hub hub_;
-  std::unique_ptr<Door> door_;  // after all that its connections use
+  std::unique_ptr<Door> door_;  // declared after everything its connections use
   std::unique_ptr<Door::Alarm> sampling_;
   Helper files_;
   Helper orders_;
@@ -82,20 +82,20 @@ class Server final : public House {
     Plant(const deploy::LinkSettings& settings, const std::string& node, const RemoteBoards& boards_of_it)
         : watch(settings), boards(node, &boards_of_it, kReader) {}
     static constexpr std::size_t kReader = 1;  // the door's thread is 0
-    tools::PlantWatch watch;                   // of the worker's thread
-    Boards boards;                             // likewise
+    tools::PlantWatch watch;                   // used by the worker's thread
+    Boards boards;                             // used by the worker's thread
     Worker worker;
     Worker orders;  // one at a time
   };
   struct Plc {
     Plc(const std::vector<tools::PlcFiles>& programs, const std::string& node) : pictures(programs), boards(node) {}
-    tools::PlcPictures pictures;  // of the worker's thread
+    tools::PlcPictures pictures;  // used by the worker's thread
     Boards boards;
     Worker worker;
   };
   std::unique_ptr<Plc> plc_;                      // null: no program is shown
-  std::unique_ptr<Plant> plant_;                  // null: no plant is looked at
-  std::vector<std::unique_ptr<Helper>> waiting_;  // one for each that waits; made when they are needed
+  std::unique_ptr<Plant> plant_;                  // null: no plant is served
+  std::vector<std::unique_ptr<Helper>> waiting_;  // one for each request that waits; created when needed
 };
 
 }  // namespace indurop::serve

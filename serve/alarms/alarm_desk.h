@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks at the alarms of all boards on a thread of its own, and knows how many there are for whoever asks.
+// Checks the alarms of all boards on its own thread, and keeps their counts for other threads.
 
 #pragma once
 
@@ -17,11 +17,11 @@ namespace indurop::serve {
 
 class AlarmDesk {
  public:
-  // Looks at these boards, unless the look before has not ended. The door's thread.
+  // Starts a check of these boards, unless the previous check is still running. Called by the door's thread.
   void look(std::vector<std::string> boards);
-  // Any thread.
+  // May be called by any thread.
   [[nodiscard]] alarms::AlarmCounts counts(const std::string& board) const;
-  // A word of the stream for each board whose alarms changed since the last call; the door's thread.
+  // Returns one stream message for each board whose alarms changed since the last call. Called by the door's thread.
   std::vector<std::string> news();
 
  private:
@@ -34,11 +34,11 @@ class AlarmDesk {
 
   mutable std::mutex lock_;
   std::map<std::string, Figures, std::less<>> figures_;
-  // Of the worker's thread.
+  // Used by the worker's thread only.
   std::map<std::string, std::unique_ptr<alarms::AlarmWatch>, std::less<>> watches_;
   std::uint64_t round_ = 0;
   std::string problem_;
-  Worker worker_;  // ends first
+  Worker worker_;  // last member, so that its thread ends first
 };
 
 }  // namespace indurop::serve

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The answers, one function per path and method of serve/openapi.json. Those of one subject are in one file.
+// The answers to API requests, one function per path and method of serve/openapi.json. Each file has the answers of one
+// subject.
 
 #pragma once
 
@@ -35,7 +36,7 @@ Reply plant_history(Api& api, const Call& call);
 Reply plant_difference(Api& api, const Call& call);
 Reply plant_rollback(Api& api, const Call& call);
 
-// The same of a board of another host.
+// The same answers for a board of another host.
 Reply remote_messages(Api& api, const Call& call);
 Reply remote_modules(Api& api, const Call& call);
 Reply remote_histograms(Api& api, const Call& call);
@@ -89,11 +90,12 @@ Reply restart_module(Api& api, const Call& call);
 
 }  // namespace answers
 
-// The board a path names, or why there is none.
+// Returns the board that the path names, or the reply that says why there is none.
 Result<Board*, Reply> board_of(const Call& call);
-// "board": its name.
+// Returns a JSON object with the board's name in "board".
 base::Json about(const Board& board);
-// A number of the query, `usual` if it is not there; nothing if it is none or outside least..most.
+// Returns a number of the query, or `usual` if the query does not have it; nothing if it is not a number or not in
+// least..most.
 std::optional<std::uint64_t> query_number(const Call& call, std::string_view name, std::uint64_t usual,
                                           std::uint64_t least, std::uint64_t most);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all answers have at hand: the boards, who may write, what the server is.
+// What all answers share: the boards, the gate that decides who may write, and facts about the server.
 
 #pragma once
 
@@ -21,7 +21,7 @@ namespace indurop::serve {
 inline constexpr const char* kApiVersion = "1.0.0";
 inline constexpr double kMostRateHz = 100;
 
-// A client of the stream, for /api/v1/status.
+// One client of the stream, as /api/v1/status reports it.
 struct ClientFigures {
   std::uint64_t id = 0;
   std::string address;
@@ -36,9 +36,9 @@ struct ServerFacts {
   std::string version;
   std::size_t most_clients = 0;
   bool web = false;
-  std::filesystem::path recordings;  // folder; empty: black boxes only
-  bool plant = false;                // boards elsewhere are looked at too
-  bool plc = false;                  // so is a PLC program
+  std::filesystem::path recordings;  // folder of recordings; empty: black boxes only
+  bool plant = false;                // remote boards are served too
+  bool plc = false;                  // a PLC program is served too
   std::int64_t started_wall_ns = 0;
   std::int64_t started_ns = 0;
   std::function<std::vector<ClientFigures>()> clients;
@@ -59,8 +59,8 @@ class Api {
   [[nodiscard]] Audit& audit() const noexcept { return *audit_; }
   [[nodiscard]] LeaseDesk& leases() const noexcept { return *leases_; }
   [[nodiscard]] JogDesk& jogs() const noexcept { return *jogs_; }
-  // Writers and readers by variable; read once per run of the board. For the thread that reads files.
-  // Of boards of other hosts none.
+  // Returns the writers and readers of each variable, read once per run of the board; none for boards of other hosts.
+  // Called by the thread that reads files.
   const tools::KnownUses& uses_of(const Board& board);
 
  private:
@@ -77,7 +77,7 @@ class Api {
   std::map<std::string, Cached, std::less<>> uses_;
 };
 
-// The OpenAPI description, as it was built in.
+// The OpenAPI description that is compiled in.
 std::string_view api_description() noexcept;
 
 }  // namespace indurop::serve

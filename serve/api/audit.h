@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes are done only if they can be noted down: the audit log of this server.
+// The audit log of this server. A write is done only if it can be logged.
 
 #pragma once
 
@@ -19,7 +19,7 @@ class Audit {
  public:
   explicit Audit(std::filesystem::path file) : file_(std::move(file)) {}
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
-  // Any thread. Why it could not be noted down, else nothing.
+  // May be called by any thread. Returns why the entry could not be logged, else an empty text.
   std::string note(AuditEntry entry) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which answer belongs to a path. The paths are those of serve/openapi.json, which a test compares with this.
+// Maps a path to its answer. The paths are those of serve/openapi.json; a test compares the two.
 
 #pragma once
 
@@ -25,28 +25,29 @@ class Api;
 
 class Boards;
 
-// A request whose path was understood.
+// A request whose path was recognized.
 struct Call {
   const Request* request = nullptr;
-  Boards* boards = nullptr;                              // of the thread that answers
-  tools::PlantWatch* plant = nullptr;                    // of Pace::Plant
-  const deploy::LinkSettings* link = nullptr;            // of Pace::PlantOrders
-  tools::PlcPictures* plc = nullptr;                     // of Pace::Plc
-  std::string who;                                       // as the gate knows the client
+  Boards* boards = nullptr;                              // those of the thread that answers
+  tools::PlantWatch* plant = nullptr;                    // for Pace::Plant
+  const deploy::LinkSettings* link = nullptr;            // for Pace::PlantOrders
+  tools::PlcPictures* plc = nullptr;                     // for Pace::Plc
+  std::string who;                                       // name of the client, as the gate knows it
   std::map<std::string, std::string, std::less<>> part;  // "board", "module", "name"
 };
 
-// Which thread answers: the door's; one that may read files; one that may wait for a node; one of those that wait for
-// something to happen; one for what must not wait for the others; the one that hears other boards; the one that changes
-// what they run; the one that knows the PLC program. Files of the page and streams have no answer of their own.
+// The thread that answers: the door's; one that may read files; one that may wait for a node; one of those that wait
+// for an event; one for requests that must not wait for the others; one that receives from remote boards; one that
+// changes what they run; one that has the PLC program. Files of the page and streams have no answer of their own.
 enum class Pace { Quick, Files, Orders, Wait, Holds, Plant, PlantOrders, Plc, Page, Stream };
 
 using Answer = Reply (*)(Api& api, const Call& call);
 
-// How a question about a board of another host is answered.
+// How a request about a board of another host is answered.
 struct Remote {
-  bool possible = false;    // false: by a server on that host only
-  Answer answer = nullptr;  // asks or orders through the plant; null: the usual answer, from what its agent reported
+  bool possible = false;    // false: answered only by a server on that host
+  Answer answer = nullptr;  // sends a request or command through the plant; null: the usual answer, from what its agent
+                            // reported
 };
 inline constexpr Remote kHereOnly{};
 inline constexpr Remote kAlike{true, nullptr};
@@ -56,7 +57,7 @@ constexpr Remote through(Answer answer) noexcept {
 
 struct Route {
   Method method;
-  std::string_view pattern;  // "/api/v1/boards/{board}/set"; a last part "{file...}" is every path
+  std::string_view pattern;  // "/api/v1/boards/{board}/set"; a last part "{file...}" matches any path
   Right right;
   Pace pace;
   Answer answer;
@@ -64,7 +65,7 @@ struct Route {
   std::string_view protocol = "";  // subprotocol of a WebSocket; empty: HTTP
 };
 
-// Everything that can be asked of the server. What is not in here is not there: no protocol, no path, no method.
+// All routes of the server. Anything else does not exist: no protocol, no path, no method.
 std::span<const Route> all_routes();
 
 struct Match {
@@ -73,12 +74,12 @@ struct Match {
   Call call;
 };
 Match match_route(std::span<const Route> routes, const Request& request);
-// What a client needs to be allowed for this request; of what is not there as much as if it were.
+// Returns the right a client needs for this request; for a path that does not exist the same as if it did.
 Right right_of(std::span<const Route> routes, const Request& request);
-// The first of the subprotocols a client asks for that is in the table; empty: none.
+// Returns the first of the subprotocols requested by the client that is in the table; empty: none.
 std::string choose_subprotocol(std::span<const Route> routes, const Request& request);
 
-// The parts of a path that a pattern names; nothing if it does not fit.
+// Returns the values of the named parts of a pattern; nothing if the path does not match it.
 std::optional<std::map<std::string, std::string, std::less<>>> match_path(std::string_view pattern,
                                                                           std::string_view path);
 

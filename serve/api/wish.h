@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the body of a set, a force or a release asks for.
+// The request in the body of a set, a force or a release.
 
 #pragma once
 
@@ -12,9 +12,9 @@
 
 namespace indurop::serve {
 
-// What a body asks for, after it was understood.
+// A parsed request body.
 struct Wish {
-  std::vector<std::pair<std::string, std::string>> values;  // name, value as `indurop set` takes it
+  std::vector<std::pair<std::string, std::string>> values;  // name, and value in the syntax of `indurop set`
   std::vector<std::string> names;
   std::string reason;
   std::int64_t for_ns = 0;
@@ -22,9 +22,9 @@ struct Wish {
   bool lease = false;
 };
 
-// Or why it is none.
+// Parses a body, or returns what is wrong with it.
 Result<Wish, std::string> read_wish(const std::string& body);
-// For the audit log.
+// The request as text for the audit log.
 std::string text_of(const Wish& wish);
 
 }  // namespace indurop::serve

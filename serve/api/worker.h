@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The second thread: does what may wait or read files, one job after the other.
+// A second thread for jobs that may wait or read files; it executes them one after the other.
 
 #pragma once
 
@@ -18,12 +18,12 @@ class Worker {
   Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
-  // Lets the job at hand end; those that wait are dropped.
+  // Waits for the current job; discards those that have not started.
   ~Worker();
 
-  // False if too many wait already.
+  // Returns false if too many jobs are waiting already.
   bool add(std::function<void()> job);
-  // The same, for jobs that take long: false if it has anything to do.
+  // The same for long jobs: returns false if the worker is not idle.
   bool add_if_idle(std::function<void()> job);
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One write of a client, from its body to the note in the audit log. The store is opened to write for that moment only.
+// One write of a client, from the request body to the entry in the audit log. The store is open for writing only during
+// this write.
 
 #pragma once
 
@@ -24,22 +25,22 @@ class Write {
   Write& operator=(const Write&) = delete;
 
   tools::Context& context() noexcept { return context_; }
-  // The last one for the client.
+  // The last message for the client.
   [[nodiscard]] std::string message() const { return messages_.empty() ? std::string() : messages_.back(); }
 
-  // Opens the board's store to write; it has to run if `running`.
+  // Opens the board's store for writing; with `running` the node must be running.
   Result<vars::Store, Reply> open(bool running);
-  // Who writes, and why.
+  // Returns who writes, from where, and why.
   [[nodiscard]] operate::Who who() const { return {entry_.who, entry_.from, entry_.reason}; }
-  // What is noted.
+  // Sets what is logged.
   void about(std::string what, std::string reason);
   Reply failed(int code, std::string why);
-  // For all these reasons, at least one; the first one is noted.
+  // Fails for all these reasons (at least one); the first one is logged.
   Reply failed(int code, const std::vector<std::string>& all);
   Reply failed_with(int exit_code);
-  // What operate/ refused.
+  // Fails because operate/ refused it.
   Reply failed(const operate::Refusal& refusal);
-  // Before anything is changed: without a note nothing is written.
+  // To be called before anything is changed: a write that cannot be logged is not done.
   std::optional<Reply> begin();
   Reply done(const base::Json& body);
 

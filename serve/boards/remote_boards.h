@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boards of other hosts, by what their agents say: their values as often as somebody wants them, at most four times a
-// second and 512 kB a second of each.
+// Boards of other hosts as their agents report them: values are fetched as often as clients request them, at most four
+// times a second and 512 kB a second for each board.
 
 #pragma once
 
@@ -18,12 +18,14 @@ namespace indurop::serve {
 
 class RemoteBoards {
  public:
-  // Of the thread that hears boards. Asks for what is due; takes up to two seconds if a board does not answer.
+  // Requests what is due; takes up to two seconds if a board does not answer. Called by the thread that receives from
+  // boards.
   void look(tools::PlantWatch& watch);
-  // Values of this board as they are now, as far as it answers.
+  // Fetches the current values of this board, as far as it answers.
   void fetch(tools::PlantWatch& watch, const std::string& name);
 
-  // Of any thread: boards that were ever heard and do not run on this host. Null: there is none of that name.
+  // May be called by any thread: boards that were ever discovered and do not run on this host. Null: there is none of
+  // that name.
   [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] std::shared_ptr<tools::RemoteBoard> find(const std::string& name) const;
 
@@ -34,9 +36,9 @@ class RemoteBoards {
   static void learn(tools::PlantWatch& watch, const Some& boards);
   [[nodiscard]] Some all() const;
 
-  mutable std::mutex mutex_;  // of the map, not of what is in it
+  mutable std::mutex mutex_;  // protects the map, not the boards in it
   std::map<std::string, std::shared_ptr<tools::RemoteBoard>> boards_;
-  std::map<std::string, std::int64_t> learn_ns_;  // not to be asked for their variables before
+  std::map<std::string, std::int64_t> learn_ns_;  // time before which their variables are not requested again
 };
 
 }  // namespace indurop::serve

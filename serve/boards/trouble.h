@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with a board, in words, worst first.
+// Describes what is wrong with a board, worst first.
 
 #pragma once
 

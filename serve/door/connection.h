@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One client: its requests one after the other, or its WebSocket. It is called when something has come, when something
-// can be sent, and when its time is over; it never waits.
+// One client connection: its requests one after the other, or its WebSocket. It is called when input is available, when
+// output is possible, and at its deadline; it never waits.
 
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace indurop::serve {
 
-// What all connections have in common.
+// Data that all connections share.
 struct Common {
   DoorSettings settings;
   House* house = nullptr;
@@ -27,7 +27,7 @@ struct Common {
   WrongTokens wrong_tokens;
   Ticket last_ticket = 0;
   std::size_t streams = 0;
-  std::size_t unknown_streams = 0;  // of clients without token or certificate
+  std::size_t unknown_streams = 0;  // streams of clients without token or certificate
 };
 
 class Connection final : public Line {
@@ -37,27 +37,27 @@ class Connection final : public Line {
 
   [[nodiscard]] ConnectionLimits::Id id() const noexcept { return id_; }
   [[nodiscard]] int file() const noexcept { return wire_.file(); }
-  [[nodiscard]] short events() const;  // for poll()
+  [[nodiscard]] short events() const;  // the events to pass to poll()
   [[nodiscard]] std::int64_t deadline_ns() const noexcept { return deadline_ns_; }
   [[nodiscard]] bool holds_input() const { return !input_ended_ && wire_.holds_input(); }
   void begin_at(std::int64_t now_ns);
-  // Results: false ends the connection.
+  // The following return false to end the connection.
   bool ready(short happened, std::int64_t now_ns);
   bool on_time(std::int64_t now_ns);
   bool reply(Reply reply, std::int64_t now_ns);
-  // Waits for this reply?
+  // Returns whether it waits for this reply.
   [[nodiscard]] bool waits_for(Ticket ticket) const { return phase_ == Phase::Answering && ticket_ == ticket; }
   void ask() override { asked_ = true; }
 
  private:
   enum class Phase {
-    Head,  // of a request that comes
+    Head,  // receiving the head of a request
     Body,
     Answering,  // the reply comes later
-    Held,       // so does a refusal, on purpose
-    Sending,    // of the reply
+    Held,       // a refusal, which is delayed on purpose
+    Sending,    // sending the reply
     Stream,     // a WebSocket
-    Closing,    // everything is said, the client ends
+    Closing,    // all is sent, waits for the client to close
   };
   void enter(Phase phase, std::int64_t lasts_ns, std::int64_t now_ns);
   bool receive(std::int64_t now_ns);
@@ -88,9 +88,9 @@ class Connection final : public Line {
   std::string input_;
   bool input_ended_ = false;
   std::string output_;
-  std::size_t sent_ = 0;  // of it
-  bool close_ = false;    // after what is being sent
-  bool no_body_ = false;  // HEAD: of a reply the head alone is sent
+  std::size_t sent_ = 0;  // bytes of it
+  bool close_ = false;    // close after what is being sent
+  bool no_body_ = false;  // HEAD: only the head of a reply is sent
   Request request_;
   std::size_t body_length_ = 0;
   Ticket ticket_ = 0;
@@ -98,13 +98,13 @@ class Connection final : public Line {
   std::string certificate_;  // PEM
   bool certificate_read_ = false;
 
-  // A WebSocket.
+  // Members of a WebSocket.
   std::unique_ptr<Visitor> visitor_;
   FrameReader frames_{kMostMessage};
   SharedMessage message_;
-  std::size_t message_begin_ = 0;  // of its frame
-  std::size_t message_sent_ = 0;   // of that
-  bool asked_ = false;             // next() has something
+  std::size_t message_begin_ = 0;  // index in the frame
+  std::size_t message_sent_ = 0;   // bytes of that
+  bool asked_ = false;             // next() may have a message
   std::int64_t heard_ns_ = 0;
 };
 

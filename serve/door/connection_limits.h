@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many connections there may be, and which one has to end when a further one comes: those that ask for nothing
-// (idle, or too slow to say what they want) never keep the others out. Pure numbers, no sockets.
+// Limits the number of connections, and selects the one to end when another one comes: connections without a request
+// (idle, or too slow to send it) never block others. Pure numbers, no sockets.
 
 #pragma once
 
@@ -12,26 +12,27 @@
 
 namespace indurop::serve {
 
-// Whose limits an address counts for: an IPv4 address as it is, of an IPv6 address the network (its first 64 bits),
-// because whoever has one of it has all of it.
+// Returns the key under which an address is limited: an IPv4 address itself, of an IPv6 address the network (its first
+// 64 bits), because the owner of one such address has all of them.
 std::string limits_key(const std::string& address);
 
 class ConnectionLimits {
  public:
-  using Id = std::uint64_t;  // given by admit()
+  using Id = std::uint64_t;  // assigned by admit()
 
-  // `of_one`: of one address; those of this machine (`loopback`) have no limit of their own, they all look the same.
+  // `of_one`: maximum of one address; those of this machine (`loopback`) have no limit of their own, since they all
+  // look the same.
   ConnectionLimits(std::size_t most, std::size_t of_one) : most_(most), of_one_(of_one) {}
 
   struct Admission {
-    Id id = 0;                  // 0: it may not come in
-    std::optional<Id> instead;  // which has to end for it; it counts no more
+    Id id = 0;                  // 0: rejected
+    std::optional<Id> instead;  // connection to end for it; it is no longer counted
   };
-  // A new connection: waiting() until said otherwise.
+  // Admits a new connection, which is in the state of waiting().
   Admission admit(const std::string& address, bool loopback);
-  // From now on it may be ended in favour of others, the longest waiting first.
+  // From now on it may be ended in favour of others, the longest waiting one first.
   void waiting(Id id);
-  // It may not: its request is being answered, or it is a stream.
+  // It must not be ended: its request is being answered, or it is a stream.
   void busy(Id id);
   void gone(Id id) { all_.erase(id); }
   [[nodiscard]] std::size_t size() const noexcept { return all_.size(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop that serves all connections: one thread. Limits of size, time and number are kept in this folder; what is
-// asked and answered is the house's business.
+// The loop that serves all connections in one thread. This folder limits sizes, times and numbers; requests are
+// answered by the House.
 
 #pragma once
 
@@ -20,12 +20,12 @@ namespace indurop::serve {
 
 struct DoorSettings {
   std::string bind = "127.0.0.1";
-  int port = 8080;  // 0: any
+  int port = 8080;  // 0: any free port
   std::filesystem::path cert;
-  std::filesystem::path key;  // with cert: TLS
+  std::filesystem::path key;  // with `cert`: enables TLS
   std::filesystem::path client_ca;
   std::size_t most_streams = 64;
-  bool reserve_streams = false;  // some of them are kept for clients with a token or certificate
+  bool reserve_streams = false;  // some streams are reserved for clients with a token or certificate
 };
 
 inline constexpr std::size_t kMostBody = 256U << 10;
@@ -33,19 +33,19 @@ inline constexpr std::size_t kMostMessage = 64U << 10;
 
 class Door {
  public:
-  // `house` is borrowed. Says why it cannot listen.
+  // `house` is borrowed. Errors: why it cannot listen.
   static Result<std::unique_ptr<Door>, base::Problem> open(const DoorSettings& settings, House& house);
   Door(const Door&) = delete;
   Door& operator=(const Door&) = delete;
   ~Door();
 
   [[nodiscard]] int port() const;
-  // Serves until `ended` says so; it is asked after each event, and a signal is one.
+  // Serves until `ended` returns true; it is called after each event, a signal included.
   void serve(const std::function<bool()>& ended);
-  // The reply to a request; any thread may call it. Nothing happens if the client has gone.
+  // Sends the reply to a request; may be called by any thread. Does nothing if the client has gone.
   void reply(Ticket ticket, Reply reply);
 
-  // Calls something after a time, again after each set().
+  // Calls a function after a time, once for each set().
   class Alarm {
    public:
     Alarm(Door& door, std::function<void()> ring);

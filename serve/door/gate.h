@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who may come in and who may write, decided from a request's headers alone, before its body is read.
+// Decides who has access and who may write, from a request's headers alone, before its body is read.
 
 #pragma once
 
@@ -19,21 +19,21 @@ struct Token {
 };
 
 struct GateSettings {
-  bool loopback = true;  // only this machine can reach us
+  bool loopback = true;  // the server can be reached from this machine only
   bool tls = false;
   bool write = false;
-  std::vector<std::string> hosts;  // lower-case names and addresses by which we may be called
+  std::vector<std::string> hosts;  // lower-case names and addresses of this server
   std::vector<Token> tokens;
-  std::vector<std::string> origins;  // of pages that may follow variables though they are not ours
+  std::vector<std::string> origins;  // of third-party pages that may follow variables
 };
 
 class Gate {
  public:
   explicit Gate(GateSettings settings) : settings_(std::move(settings)) {}
 
-  // Why the request, which needs `right`, is not answered, or nothing.
+  // Returns the refusal of a request that needs `right`, or nothing if it is allowed.
   [[nodiscard]] std::optional<Reply> refuse(const Request& request, Right right) const;
-  // Who the token, else the certificate, says it is.
+  // Returns the client identified by the token, else by the certificate.
   [[nodiscard]] Client client_of(const Request& request) const;
   [[nodiscard]] bool may_write(const Client& client) const { return settings_.write && client.role == Role::Writer; }
   [[nodiscard]] const GateSettings& settings() const noexcept { return settings_; }
@@ -46,10 +46,10 @@ class Gate {
   GateSettings settings_;
 };
 
-// Name or address of a Host header, in lower case and without the port; empty: it is no Host.
+// Returns name or address of a Host header, in lower case and without the port; empty: it is not a valid Host.
 std::string host_name(std::string_view host);
 
-// Takes the same time wherever the two differ.
+// Takes the same time wherever the two texts differ.
 bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept;
 
 }  // namespace indurop::serve

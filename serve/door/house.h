@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands behind the door: it answers requests and talks with those who stay. All calls come from the door's one
-// thread; none may block.
+// The interface that answers the requests of a Door and talks to the clients of WebSockets. All calls come from the
+// door's one thread; none may block.
 
 #pragma once
 
@@ -15,8 +15,8 @@
 
 namespace indurop::serve {
 
-// What goes to a WebSocket. Many clients share one: the frame's header is the same for all, and is written into the
-// room in front.
+// A message to a WebSocket. Many clients share one: the frame's header is the same for all, and is written into the
+// space in front of the payload.
 struct Message {
   static constexpr std::size_t kRoom = 32;
   explicit Message(std::string_view text, bool is_binary = false) : bytes(kRoom), binary(is_binary) {
@@ -29,7 +29,7 @@ struct Message {
 };
 using SharedMessage = std::shared_ptr<Message>;
 
-// WebSocket close codes we use.
+// The WebSocket close codes in use.
 namespace close_code {
 inline constexpr int kProtocol = 1002;
 inline constexpr int kNotUnderstood = 1003;
@@ -38,39 +38,40 @@ inline constexpr int kNotAllowed = 1008;
 inline constexpr int kTooLarge = 1009;
 }  // namespace close_code
 
-// Our own subprotocol.
+// The subprotocol of InduRoP.
 inline constexpr const char* kStream = "indurop.v1";
-// Subprotocols of https://github.com/foxglove/ws-protocol, under two names: of others' servers and of their own.
+// Subprotocols of https://github.com/foxglove/ws-protocol, under two names: that of third-party servers and that of
+// Foxglove's own.
 inline constexpr const char* kFoxglove = "foxglove.websocket.v1";
 inline constexpr const char* kFoxgloveSdk = "foxglove.sdk.v1";
 constexpr bool is_foxglove(std::string_view subprotocol) noexcept {
   return subprotocol == kFoxglove || subprotocol == kFoxgloveSdk;
 }
 
-// The way to a client with a WebSocket.
+// The connection to a client with a WebSocket.
 class Line {
  public:
   Line() = default;
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
   virtual ~Line() = default;
-  virtual void ask() = 0;  // next() is called once the client can take something
+  virtual void ask() = 0;  // next() is called once the client can receive
 };
 
-// A client with a WebSocket, as the house knows it. Deleted when the connection has ended.
+// A client with a WebSocket as the house sees it. Deleted when the connection has ended.
 class Visitor {
  public:
   Visitor() = default;
   Visitor(const Visitor&) = delete;
   Visitor& operator=(const Visitor&) = delete;
   virtual ~Visitor() = default;
-  // A text message. Another result than 0 is the code to close with.
+  // Receives a text message. A result other than 0 is the code to close with.
   virtual int heard(std::string_view text) = 0;
-  // What is sent now, null: nothing. It is asked again as long as there is something.
+  // Returns the message to send now, null: none. It is called again until it returns null.
   virtual SharedMessage next() = 0;
 };
 
-// Names a request whose reply may come later.
+// Identifies a request whose reply may come later.
 using Ticket = std::uint64_t;
 
 class House {
@@ -79,15 +80,15 @@ class House {
   House(const House&) = delete;
   House& operator=(const House&) = delete;
   virtual ~House() = default;
-  // Which of the subprotocols that a client asks for is spoken with it; empty: none of them.
+  // Returns which of the subprotocols that a client requests is used; empty: none of them.
   virtual std::string choose_subprotocol(const Request& request) = 0;
-  // What a client may do that showed this certificate (PEM), which the authority signed.
+  // Returns the client that presented this certificate (PEM), which is signed by the authority.
   virtual Client identify(const std::string& certificate) = 0;
-  // Why this request is not answered, from its headers alone. Else `client` of it is filled in.
+  // Returns the refusal of this request, from its headers alone; else fills in its `client`.
   virtual std::optional<Reply> refuse(Request& request) = 0;
-  // So many requests of this address were refused for what they showed; `request` is the last one.
+  // Logs that `count` requests of this address were refused for their token or certificate; `request` is the last one.
   virtual void note_refused(const Request& request, const std::string& why, std::uint64_t count) = 0;
-  // Nothing: it comes later, by Door::reply().
+  // Returns the reply; nothing: it comes later, by Door::reply().
   virtual std::optional<Reply> answer(const Request& request, Ticket ticket) = 0;
   virtual std::unique_ptr<Visitor> receive(const Request& request, Line& line) = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The head of an HTTP/1.1 request as text: read strictly, because everything that two readers could understand in two
-// ways (a second Host, a bare line feed, a folded field) is what attacks are made of. Pure text, no sockets.
+// Parses the head of an HTTP/1.1 request. It is strict, because attacks use what two readers could understand in two
+// ways (a second Host, a bare line feed, a folded field). Pure text, no sockets.
 
 #pragma once
 
@@ -23,29 +23,29 @@ struct Head {
   std::string method;
   std::string path;  // decoded
   std::vector<std::pair<std::string, std::string>> query;
-  bool keeps_open = true;                                   // the connection, for further requests
+  bool keeps_open = true;                                   // the connection stays open for further requests
   std::vector<std::pair<std::string, std::string>> fields;  // names in lower case
 
-  // Values of all fields of this name, with commas between them; empty: none.
+  // Returns the values of all fields of this name, separated by commas; empty: none.
   [[nodiscard]] std::string field(std::string_view name) const;
-  // Is `word` one of the comma-separated words of this field? Without regard to case.
+  // Returns whether `word` is one of the comma-separated words of this field, ignoring case.
   [[nodiscard]] bool has_word(std::string_view name, std::string_view word) const;
 };
 
-// Length of the head at the beginning of `input`, its empty line included; 0: it is not complete yet.
+// Returns the length of the head at the beginning of `input`, with its empty line; 0: it is not complete yet.
 std::size_t head_length(std::string_view input);
-// `text` of that length. Or why it is refused.
+// Parses a head, `text` of that length; or returns the refusal.
 Result<Head, Reply> read_head(std::string_view text);
 
-// Length of the body that is announced, or why it cannot be taken.
+// Returns the announced length of the body, or the refusal.
 Result<std::size_t, Reply> body_length(const Head& head);
-// What of the head the rest of the server looks at.
+// Returns the parts of the head that the rest of the server uses.
 Request request_of(const Head& head);
 
-// The key of a WebSocket's answer; empty: `key` is none.
+// Returns the key of a WebSocket's answer; empty: `key` is invalid.
 std::string websocket_accept(std::string_view key);
 
-// Status line and fields of a reply.
+// Returns status line and fields of a reply.
 std::string head_of(const Reply& reply);
 
 }  // namespace indurop::serve

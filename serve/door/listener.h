@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The socket the door listens on. Ours, not the library's: it has to be bound to exactly the address that was asked
-// for, or to none.
+// The socket the door listens on. Own code instead of the library's, because it has to be bound to exactly the
+// requested address or to none.
 
 #pragma once
 
@@ -15,7 +15,7 @@ namespace indurop::serve {
 
 class Listener {
  public:
-  // `address`: of this machine, numeric or "localhost"; `port` 0: any that is free.
+  // `address`: one of this machine, numeric or "localhost"; `port` 0: any free one.
   static Result<Listener, base::Problem> open(const std::string& address, int port);
 
   [[nodiscard]] int file() const noexcept { return file_.get(); }
@@ -25,7 +25,7 @@ class Listener {
     std::string address;
     bool loopback = false;
   };
-  // The next connection. Never blocks. Without one, `sys_errno` is 0 if none waits, else why it cannot be had.
+  // Returns the next connection. Never blocks. Error: `sys_errno` is 0 if none waits, else why accepting failed.
   [[nodiscard]] Result<Taken, Error> take() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A request and its reply as plain data: nothing here knows the library that speaks HTTP.
+// A request and its reply as plain data, independent of the HTTP library.
 
 #pragma once
 
@@ -15,17 +15,17 @@ namespace indurop::serve {
 
 enum class Method { Get, Post, Other };
 
-// What a request asks for: nothing that is anybody's, to look, or to change something.
+// The right a request needs: none, to read, or to write.
 enum class Right { Open, Read, Write };
 
-// What a client may do. On this machine those that nobody knows may look.
+// The rights of a client. On this machine unidentified clients may read.
 enum class Role { Unknown, Reader, Writer };
 
-// Who asks, as far as its certificate or token says.
+// The client, as identified by its certificate or token.
 struct Client {
-  std::string name;  // empty: nobody known
+  std::string name;  // empty: not identified
   Role role = Role::Unknown;
-  std::string refusal;  // why what it showed does not count; empty: it counts, or there was nothing
+  std::string refusal;  // why its token or certificate is rejected; empty: it is accepted, or there was none
 };
 
 struct Request {
@@ -35,17 +35,17 @@ struct Request {
   std::string host;
   std::string origin;         // empty: none was sent
   std::string fetch_site;     // Sec-Fetch-Site
-  std::string authorization;  // whole header
+  std::string authorization;  // the whole header
   std::string subprotocols;   // Sec-WebSocket-Protocol
-  std::string subprotocol;    // the one that is spoken; empty: HTTP
+  std::string subprotocol;    // the one in use; empty: HTTP
   std::string content_type;
-  Client certificate;  // what the client's certificate says
-  Client client;       // what certificate and token say together; known once it was admitted
+  Client certificate;  // the client according to its certificate
+  Client client;       // the client according to certificate and token; set once it was admitted
   std::string from;    // address
   std::string body;
   bool has_body = false;
-  bool stream = false;  // asks for a WebSocket
-  bool close = false;   // wants no further request on this connection
+  bool stream = false;  // requests a WebSocket
+  bool close = false;   // requests to close the connection after the reply
 };
 
 struct Reply {
@@ -53,9 +53,9 @@ struct Reply {
   std::string type = "application/json";
   std::string body;
   std::string allow;              // header Allow, of 405
-  bool immutable = false;         // may be kept by browsers for a year
+  bool immutable = false;         // browsers may cache it for a year
   bool close = false;             // end the connection afterwards
-  std::string wrong_credentials;  // why the token or certificate that was shown does not count; empty: it does
+  std::string wrong_credentials;  // why the token or certificate is rejected; empty: it is accepted
 };
 
 namespace status {
@@ -78,14 +78,14 @@ inline constexpr int kUnavailable = 503;
 inline constexpr int kNoAnswer = 504;
 }  // namespace status
 
-// The word for programs that belongs to a status: "not_found".
+// Returns the machine-readable word for a status: "not_found".
 std::string_view word_of(int status) noexcept;
 
 Reply json_reply(const base::Json& value);
-// {"error", "message", "details"}; `details` is left out if there are none.
+// Returns a refusal with the body {"error", "message", "details"}; without `details` if there are none.
 Reply refusal(int status, std::string message, const std::vector<std::string>& details = {});
 
-// First value of a name; nothing if there is none.
+// Returns the first value of a name in the query; nothing if there is none.
 std::optional<std::string> query_value(const Request& request, std::string_view name);
 
 }  // namespace indurop::serve

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TLS of the server: its certificate, and whose certificates of clients are believed.
+// TLS of the server: its certificate, and which authority signs certificates of clients.
 
 #pragma once
 
@@ -20,8 +20,8 @@ struct FreeTls {
 using TlsContext = std::unique_ptr<SSL_CTX, FreeTls>;
 using TlsConnection = std::unique_ptr<SSL, FreeTls>;
 
-// `client_ca` may be empty: nobody is asked for a certificate. A client need not show one, but one that is not of this
-// authority, or not valid now, ends the connection.
+// `client_ca` may be empty: no client is asked for a certificate. A client need not present one, but a certificate that
+// is not signed by this authority, or not valid now, ends the connection.
 Result<TlsContext, base::Problem> open_tls(const std::filesystem::path& certificate, const std::filesystem::path& key,
                                            const std::filesystem::path& client_ca);
 

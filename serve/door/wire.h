@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes from and to one client, through TLS if there is any. Nothing blocks.
+// Reads and writes the bytes of one client, optionally through TLS. Never blocks.
 
 #pragma once
 
@@ -18,19 +18,19 @@ class Wire {
   Wire(base::Descriptor file, SSL_CTX* context);
 
   enum class State { Done, Later, Ended };
-  // Appends what has come, at most some kilobytes. Ended: the client sends no more.
+  // Appends received bytes, at most some kilobytes. Ended: the client sends no more.
   State read(std::string& into);
-  // `taken`: so many bytes of `bytes` are on their way. The rest has to be given again, from its first byte on.
+  // `taken` is the number of bytes that were accepted. The rest has to be passed again, from its first byte on.
   State write(std::string_view bytes, std::size_t& taken);
-  // Tells the client that nothing more comes.
+  // Signals the client that nothing more is sent.
   void finish();
 
   [[nodiscard]] int file() const noexcept { return file_.get(); }
-  // TLS waits for room to send, whatever is read or written.
+  // Returns true if TLS waits until it can send, for reading as well as for writing.
   [[nodiscard]] bool waits_for_room() const noexcept { return waits_for_room_; }
-  // Something was received already that poll() does not tell of.
+  // Returns true if input is buffered that poll() does not report.
   [[nodiscard]] bool holds_input() const;
-  // The client's certificate as PEM, if it showed one that is valid; else empty.
+  // Returns the client's certificate as PEM if it presented a valid one; else an empty text.
   [[nodiscard]] std::string certificate() const;
 
  private:

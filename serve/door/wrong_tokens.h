@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who shows wrong tokens or certificates, by address: how long the refusal is held back, and when it is noted down. Its
-// memory has a limit, whatever comes. Pure numbers, no sockets.
+// Wrong tokens and certificates by address: how long a refusal is delayed, and when it is logged. Its memory is bounded
+// under any load. Pure numbers, no sockets.
 
 #pragma once
 
@@ -14,17 +14,18 @@ namespace indurop::serve {
 class WrongTokens {
  public:
   static constexpr std::size_t kMostAddresses = 256;
-  static constexpr std::int64_t kWindowNs = 60'000'000'000;   // after as long without any all is forgotten
-  static constexpr std::uint64_t kAtOnce = 3;                 // are refused without delay
-  static constexpr std::int64_t kFirstDelayNs = 250'000'000;  // doubled with each one
+  static constexpr std::int64_t kWindowNs = 60'000'000'000;   // after this time without a wrong one the counts are
+                                                              // cleared
+  static constexpr std::uint64_t kAtOnce = 3;                 // these are refused without delay
+  static constexpr std::int64_t kFirstDelayNs = 250'000'000;  // doubled with each further one
   static constexpr std::int64_t kMostDelayNs = 2'000'000'000;
-  static constexpr std::uint64_t kMostNotes = 30;  // in a window, of all addresses
+  static constexpr std::uint64_t kMostNotes = 30;  // maximum log entries in a window, for all addresses together
 
   struct Verdict {
     std::int64_t delay_ns = 0;
-    std::uint64_t note = 0;  // so many are to be noted down now, this one included; 0: nothing
+    std::uint64_t note = 0;  // number of refusals to log now, this one included; 0: log nothing
   };
-  // One more of this address.
+  // Counts another refusal of this address.
   Verdict wrong(const std::string& address, std::int64_t now_ns);
   [[nodiscard]] std::size_t size() const noexcept { return all_.size(); }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Robots moved by hand from afar: the enabling switch of ROBOT_JOG, pressed as long as its client says so again and
-// again. Three things let it go: the client, this desk when it does not hear the client, and the robot task when it
-// does not see the desk's beat.
+// Remote jogging of robots: the enabling switch of ROBOT_JOG, which is pressed as long as its client keeps renewing. It
+// is released by the client, by this desk when the client does not renew in time, and by the robot task when the desk's
+// heartbeat stops.
 
 #pragma once
 
@@ -20,15 +20,15 @@
 
 namespace indurop::serve {
 
-// What a client wants moved.
+// The motion that a client requests.
 struct JogWish {
   std::string frame;          // "axes", "base", "tool" or a work frame
-  std::vector<double> speed;  // %, of axes, or along and about x, y, z; one is not 0
+  std::vector<double> speed;  // in %, of axes, or along and about x, y, z; one is not 0
 };
 
 class JogDesk {
  public:
-  // A client has to say so again within this time.
+  // A client has to renew within this time.
   static constexpr std::int64_t kKeepNs = 250'000'000;
 
   explicit JogDesk(const Audit& audit);
@@ -36,13 +36,14 @@ class JogDesk {
   JogDesk(const JogDesk&) = delete;
   JogDesk& operator=(const JogDesk&) = delete;
 
-  // Presses the switch of `robot`, the namespace of its ROBOT_JOG. Returns the name to go on by; or why not.
+  // Presses the switch of `robot`, the namespace of its ROBOT_JOG. Returns the name to renew it by, or why it was
+  // refused.
   Result<std::string, base::Problem> begin(const std::string& board, const std::string& robot, const std::string& who,
                                            const std::string& from, const JogWish& wish);
-  // False: that hand is not at the switch any more.
+  // Renews. Returns false if this client does not hold the switch any more.
   bool keep(const std::string& board, const std::string& name, const std::string& who);
   bool end(const std::string& board, const std::string& name, const std::string& who);
-  // Releases those whose client was not heard in time.
+  // Releases switches whose client did not renew in time.
   void look();
   [[nodiscard]] bool busy() const noexcept { return hands_.load() > 0; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forces that end with their client: held as long as it says so again within a lease's time. The node's table of forces
-// ends them by itself, so they end, too, if this server dies.
+// Forces that end with their client: they hold as long as it renews within the time of a lease. They are leases in the
+// node's table of forces, so they end too if this server dies.
 
 #pragma once
 
@@ -19,18 +19,19 @@ namespace indurop::serve {
 
 class LeaseDesk {
  public:
-  // How long it holds after it was renewed last: browsers let pages behind others speak once a second.
+  // Time after the last renewal: browsers let pages in the background send once a second only.
   static constexpr std::int64_t kLeaseNs = 5'000'000'000;
 
   explicit LeaseDesk(const Audit& audit) : audit_(&audit) {}
 
-  // Any thread. Returns the name to renew it by, which cannot be guessed. `store`: of the board, as it is now.
+  // Starts a lease; may be called by any thread. Returns the name to renew it by, which cannot be guessed. `store`: the
+  // current one of the board.
   std::string take(const std::string& board, const operate::Who& who, const std::string& what, const vars::Store& store,
                    operate::Lease lease);
-  // False: there is no such lease of this client, or it has ended.
+  // Returns false if there is no such lease of this client, or it has ended.
   bool renew(const std::string& board, const std::string& name, const std::string& who);
   bool end(const std::string& board, const std::string& name, const std::string& who);
-  // Forgets those that were not renewed in time, and notes so.
+  // Removes leases that were not renewed in time, and logs it.
   void look();
 
  private:
@@ -40,7 +41,7 @@ class LeaseDesk {
     std::string what;                  // for the audit log
     std::vector<std::uint64_t> names;  // hashes of the variables, in the order of lease.values
     std::uint64_t layout_hash = 0;
-    std::uint64_t generation = 0;  // of the node's run
+    std::uint64_t generation = 0;  // identifies the node's run
     operate::Lease lease;
     std::int64_t until_ns = 0;  // CLOCK_MONOTONIC
   };

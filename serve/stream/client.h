@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One client of the stream. Of each of its subscriptions at most one frame waits for it: what comes in the meantime
-// replaces that one and is counted as dropped.
+// One client of the stream. At most one frame of each subscription waits for it: a newer one replaces it, and the
+// replaced one is counted as dropped.
 
 #pragma once
 
@@ -28,14 +28,14 @@ class StreamClient final : public Follower {
   void tell(std::string_view word) override;
   void sampled(const Feed& feed) override;
   void ended(const Feed& feed, const Board* board) override;
-  void looked_around() override {}  // the hub's word says it
+  void looked_around() override {}  // the hub's message reports it
   [[nodiscard]] ClientFigures figures() const override;
 
  private:
   struct Subscription {
     std::shared_ptr<Feed> feed;
     bool binary = false;
-    bool waiting = false;        // its sample is to be sent
+    bool waiting = false;        // its sample has to be sent
     std::uint64_t sent_seq = 0;  // 0: none yet
     std::uint64_t untold = 0;    // dropped since the last frame
     std::uint64_t dropped = 0;
@@ -51,7 +51,7 @@ class StreamClient final : public Follower {
   std::int64_t since_ns_;
   std::deque<SharedMessage> control_;
   std::map<std::uint32_t, Subscription> subscriptions_;
-  std::uint32_t last_served_ = 0;  // subscriptions take turns
+  std::uint32_t last_served_ = 0;  // subscriptions are served one after another
   std::uint64_t sent_ = 0;
   std::uint64_t dropped_ = 0;
   std::uint64_t sent_bytes_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is looked at: names of a board at a rate, sampled once and encoded once for all clients that want the same.
+// A feed: variables of a board at a rate, sampled and encoded once for all clients that request the same.
 
 #pragma once
 
@@ -27,13 +27,13 @@ class Feed {
   [[nodiscard]] bool due(std::int64_t now_ns) const noexcept { return now_ns >= due_ns_; }
   [[nodiscard]] std::int64_t due_ns() const noexcept { return due_ns_; }
 
-  // Finds the names in the board's store. Once, before anything else.
+  // Finds the names in the board's store. To be called once, before anything else.
   void attach(const Board& board);
-  // The next sample, and when the one after it is due. `board`: refreshed, null if there is none. False: the layout has
-  // changed, this feed is at its end.
+  // Takes the next sample and computes when the following one is due. `board`: refreshed, null if there is none.
+  // Returns false if the layout has changed: this feed has ended.
   bool sample(const Board* board, std::int64_t now_ns);
 
-  // Of the last sample.
+  // These four return values of the last sample.
   [[nodiscard]] const tools::Item& item(std::size_t i) const { return items_[i]; }
   [[nodiscard]] std::span<const std::uint8_t> value(std::size_t i) const {
     return record_.value(i, items_[i].place.type.size());
@@ -41,11 +41,11 @@ class Feed {
   [[nodiscard]] bool readable(std::size_t i) const { return head_.alive && quality_[i] != Quality::Unread; }
   [[nodiscard]] std::int64_t wall_ns() const noexcept { return head_.wall_ns; }
 
-  // The sample as a message; made when it is first asked for. Changes are against the sample before.
+  // The sample as a message, encoded when it is first requested. changes() is relative to the previous sample.
   SharedMessage binary();
   SharedMessage everything();
   SharedMessage changes();
-  // {"type": "subscribed", ...}
+  // The answer {"type": "subscribed", ...}.
   [[nodiscard]] base::Json told(std::uint32_t id, bool binary) const;
 
  private:

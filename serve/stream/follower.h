@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client of the stream, as the hub knows it: whatever protocol it speaks.
+// A client of the stream as the hub sees it, independent of its protocol.
 
 #pragma once
 
@@ -13,13 +13,13 @@ namespace indurop::serve {
 
 class Follower : public Visitor {
  public:
-  // The feed has a new sample.
+  // Called when the feed has a new sample.
   virtual void sampled(const Feed& feed) = 0;
-  // Names or types of its board are others now: the feed is at its end. `board`: null if it has gone.
+  // Called when names or types of the feed's board have changed: the feed has ended. `board`: null if it has gone.
   virtual void ended(const Feed& feed, const Board* board) = 0;
-  // For everybody: boards that came or went, alarms.
+  // Sends a message for all clients: boards that came or went, alarms.
   virtual void tell(std::string_view word) = 0;
-  // Boards may have come, gone or become others.
+  // Called after a check for boards that came, went or changed.
   virtual void looked_around() = 0;
   [[nodiscard]] virtual ClientFigures figures() const = 0;
 };

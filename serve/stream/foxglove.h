@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client that speaks Foxglove's protocol: each variable is a channel. Of each subscription at most one message waits;
-// what comes in the meantime replaces it, is counted and told.
+// A client that uses Foxglove's protocol: each variable is a channel. At most one message per subscription waits; a
+// newer one replaces it, and the replaced ones are counted and reported.
 
 #pragma once
 
@@ -18,7 +18,7 @@ namespace indurop::serve {
 
 class FoxgloveClient final : public Follower {
  public:
-  // `hub` and `line` are borrowed; `settings` too.
+  // `hub`, `line` and `settings` are borrowed.
   FoxgloveClient(Hub& hub, Line& line, std::uint64_t id, std::string address, const FoxgloveSettings& settings);
   FoxgloveClient(const FoxgloveClient&) = delete;
   FoxgloveClient& operator=(const FoxgloveClient&) = delete;
@@ -27,10 +27,10 @@ class FoxgloveClient final : public Follower {
   int heard(std::string_view text) override;
   SharedMessage next() override;
 
-  void tell(std::string_view /*word*/) override {}  // of another protocol
+  void tell(std::string_view /*word*/) override {}  // part of another protocol
   void sampled(const Feed& feed) override;
   void ended(const Feed& feed, const Board* board) override;
-  // Offers the variables of boards that came or changed, withdraws those of boards that went.
+  // Advertises the variables of boards that came or changed, withdraws those of boards that went.
   void looked_around() override;
   [[nodiscard]] ClientFigures figures() const override;
 
@@ -46,7 +46,7 @@ class FoxgloveClient final : public Follower {
   struct Subscription {
     std::uint32_t channel = 0;
     std::shared_ptr<Feed> feed;
-    bool waiting = false;  // its sample is to be sent
+    bool waiting = false;  // its sample has to be sent
   };
 
   void say(const std::string& text);
@@ -67,13 +67,13 @@ class FoxgloveClient final : public Follower {
   std::map<std::uint32_t, Channel> channels_;
   std::map<std::string, Offered, std::less<>> offered_;  // by board
   std::map<std::uint32_t, Subscription> subscriptions_;
-  std::map<const Feed*, std::uint32_t> of_feed_;  // their ids
-  std::uint32_t last_served_ = 0;                 // subscriptions take turns
+  std::map<const Feed*, std::uint32_t> of_feed_;  // ids of their subscriptions
+  std::uint32_t last_served_ = 0;                 // subscriptions are served one after another
   std::vector<std::uint8_t> cdr_;
   std::uint64_t sent_ = 0;
   std::uint64_t dropped_ = 0;
-  std::uint64_t untold_ = 0;  // of those dropped
-  std::int64_t told_ns_ = 0;  // when it was told last
+  std::uint64_t untold_ = 0;  // dropped messages that were not reported yet
+  std::int64_t told_ns_ = 0;  // time of the last such report
   std::uint64_t sent_bytes_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The protocol of Foxglove's live connections (https://github.com/foxglove/ws-protocol, version 1): what clients ask
-// for, and what they are told.
+// The protocol of Foxglove's live connections (https://github.com/foxglove/ws-protocol, version 1): messages of clients
+// and messages to them.
 
 #pragma once
 
@@ -23,18 +23,19 @@ struct FoxgloveWord {
   std::vector<std::uint32_t> unsubscribe;                          // ids
 };
 
-// What is no number of 32 bits in a list is left out. Nothing if this is no JSON object with an `op`.
+// Parses a client's message. List entries that are not 32-bit numbers are left out. Returns nothing if the text is not
+// a JSON object with an `op`.
 std::optional<FoxgloveWord> read_foxglove_word(std::string_view text);
 
 namespace foxglove {
 
 std::string server_info(const std::string& version, std::int64_t started_ns);
-// One channel of `advertise`: CDR, described by OMG IDL, as in our recordings.
+// One channel of `advertise`: CDR, described by OMG IDL, as in recordings.
 base::Json channel(std::uint32_t id, const std::string& topic, const schema::Type& type);
 std::string advertise(base::Json channels);
 std::string unadvertise(const std::vector<std::uint32_t>& channels);
 std::string warning(const std::string& text);
-// The binary message of a value; `cdr` is that of recording/cdr.h.
+// The binary message with a value; `cdr` is encoded by recording/cdr.h.
 std::string message(std::uint32_t subscription, std::int64_t wall_ns, std::span<const std::uint8_t> cdr);
 
 }  // namespace foxglove

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All streams: which feeds there are, when each is due, who listens to it. Of the door's thread.
+// All streams: which feeds exist, when each is due, and its clients. Used by the door's thread only.
 
 #pragma once
 
@@ -20,13 +20,13 @@ namespace indurop::serve {
 
 class Follower;
 
-// What Foxglove is shown.
+// Which variables Foxglove gets, and how often.
 struct FoxgloveSettings {
-  std::vector<std::string> names;  // globs and parts; none: all variables
+  std::vector<std::string> names;  // globs and exact parts; none: all variables
   double rate_hz = 50;
 };
 
-// Why there is no stream.
+// Why a stream is refused.
 struct Refusal {
   std::string error;  // for programs
   std::string message;
@@ -34,20 +34,20 @@ struct Refusal {
 
 class Hub {
  public:
-  // `boards` is borrowed. `wake_at` is told when feeds are due next, in ns from now.
+  // `boards` is borrowed. `wake_at` is called with the time until the next feed is due, in ns from now.
   Hub(Boards& boards, std::string version, FoxgloveSettings foxglove, std::function<void(std::int64_t)> wake_at)
       : boards_(&boards), version_(std::move(version)), foxglove_(std::move(foxglove)), wake_at_(std::move(wake_at)) {}
 
   std::unique_ptr<Visitor> receive(const Request& request, Line& line);
-  // Samples what is due.
+  // Samples the feeds that are due.
   void run(std::int64_t now_ns);
-  // Looks for boards that came, went or changed, and tells all.
+  // Checks for boards that came, went or changed, and notifies all clients.
   void look_around();
-  // The same word to all clients.
+  // Sends the same message to all clients.
   void tell_all(const std::string& word);
   [[nodiscard]] std::vector<ClientFigures> clients() const;
 
-  // For clients.
+  // The following functions are for clients.
   Result<std::shared_ptr<Feed>, Refusal> feed_for(const ClientWord& word);
   void leave(Follower& client);
   [[nodiscard]] const std::string& boards_word() const noexcept { return boards_word_; }
@@ -63,7 +63,7 @@ class Hub {
   std::string version_;
   FoxgloveSettings foxglove_;
   std::function<void(std::int64_t)> wake_at_;
-  std::map<std::string, std::weak_ptr<Feed>, std::less<>> feeds_;  // by what is looked at
+  std::map<std::string, std::weak_ptr<Feed>, std::less<>> feeds_;  // by board, names and rate
   std::vector<Follower*> clients_;
   std::string boards_word_;
   std::uint32_t last_feed_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A binary frame: the bytes of all values of a stream at places that are told once (docs/serve.md). Little endian, as
-// the machines that InduRoP runs on.
+// A binary frame: the bytes of all values of a stream at offsets that are sent once (docs/serve.md). Little endian, as
+// are the machines that InduRoP runs on.
 
 #pragma once
 
@@ -30,7 +30,7 @@ class Record {
   static constexpr std::size_t kHeadSize = 40;
   static constexpr std::uint8_t kForced = 4;  // in a quality byte
 
-  // Places for values of these types, in their order.
+  // Reserves space for values of these types, in their order.
   explicit Record(const std::vector<tools::Item>& items);
 
   [[nodiscard]] std::size_t offset(std::size_t i) const { return offsets_[i]; }
@@ -41,7 +41,7 @@ class Record {
   }
 
   void set_head(const RecordHead& head);
-  // True if the value was another one.
+  // Returns true if the value has changed.
   bool set_value(std::size_t i, std::span<const std::uint8_t> value);
   void set_quality(std::size_t i, Quality quality, bool forced);
 

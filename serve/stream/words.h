@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client of the stream says, read from JSON and found good, and the answers that are always the same.
+// Messages of a client of the stream, parsed from JSON and checked, and the answers that are always the same.
 
 #pragma once
 
@@ -18,22 +18,22 @@ namespace indurop::serve {
 inline constexpr double kLeastRateHz = 0.1;
 inline constexpr double kUsualRateHz = 10;
 inline constexpr double kHighestRateHz = 100;
-inline constexpr std::size_t kMostNames = 2000;       // of one subscription, globs count once
-inline constexpr std::size_t kMostVariables = 20000;  // of one client
-inline constexpr std::size_t kMostStreams = 32;       // of one client
+inline constexpr std::size_t kMostNames = 2000;       // maximum of one subscription, a glob counts once
+inline constexpr std::size_t kMostVariables = 20000;  // maximum of one client
+inline constexpr std::size_t kMostStreams = 32;       // maximum of one client
 
 struct ClientWord {
   enum class Kind { Subscribe, Unsubscribe };
   Kind kind = Kind::Subscribe;
   std::uint32_t id = 0;
-  std::string board;  // empty: the only one
+  std::string board;  // empty: the only board
   std::vector<std::string> names;
   double rate_hz = kUsualRateHz;
   bool binary = false;
 };
 
 struct WordProblem {
-  bool garbage = false;  // no JSON object: not worth an answer
+  bool garbage = false;  // not a JSON object: gets no answer
   std::optional<std::uint32_t> id;
   std::string message;
 };
