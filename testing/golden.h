@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values over ticks, and their comparison with a file that was once looked at and found right.
+// Values over ticks, and their comparison with a golden file that was reviewed once.
 
 #pragma once
 
@@ -15,11 +15,12 @@ class Trace {
   void begin(std::vector<std::string> names);
   [[nodiscard]] bool on() const noexcept { return !names_.empty(); }
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
-  // The values after a tick; kept if they differ from those before.
+  // Adds the values after a tick; they are stored only if they differ from the previous ones.
   void add(std::uint64_t tick, std::vector<std::string> values);
 
   [[nodiscard]] std::string csv() const;
-  // "tick 12: gain is 5, was 4"; empty: none. Throws std::runtime_error if the file cannot be read or written.
+  // Returns the first difference, "tick 12: gain is 5, was 4"; empty: none. Throws std::runtime_error if the file
+  // cannot be read or written.
   [[nodiscard]] std::string difference_to(const std::filesystem::path& file) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An indurop-node --sim --step of this process: told how far to go, and watched while it goes there. Of a plant it is
-// the node that simulates it, and those of its boards.
+// A child process indurop-node --sim --step: it is told how many ticks to run, and monitored meanwhile. For a plant it
+// is the node that simulates the plant, together with the nodes of its boards.
 
 #pragma once
 
@@ -18,30 +18,30 @@ namespace indurop::testing {
 
 class NodeProcess {
  public:
-  // Starts it and waits until it stands before its first tick. `plant`: the configuration is one of several boards,
-  // whose nodes are called `node`-BOARD. Throws std::runtime_error.
+  // Starts the node and waits until it has stopped before its first tick. `plant`: the configuration has several
+  // boards, whose nodes are called `node`-BOARD. Throws std::runtime_error.
   NodeProcess(const std::string& node, bool plant, const std::vector<std::string>& arguments,
               std::chrono::seconds patience);
   ~NodeProcess();
   NodeProcess(const NodeProcess&) = delete;
   NodeProcess& operator=(const NodeProcess&) = delete;
 
-  // Goes on by so many ticks. Throws if it ends on the way.
+  // Runs this many ticks. Throws if the node ends meanwhile.
   void go(std::uint64_t ticks);
   [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
   struct Board {
-    std::string name;  // empty: the only one
+    std::string name;  // empty: the only board
     std::string node;
     vars::RunFile file;
-    std::uint64_t starts = 1;  // a script may kill it and have it return
+    std::uint64_t starts = 1;  // number of starts: a script may kill the board and let it return
     [[nodiscard]] scheduler::RunBlock& run() const noexcept { return *static_cast<scheduler::RunBlock*>(file.data()); }
   };
-  // By name. At least one.
+  // Sorted by name; at least one.
   [[nodiscard]] const std::vector<Board>& boards() const noexcept { return boards_; }
-  // Of the ticks that go() counts: the shortest of all boards.
+  // Period of the ticks that go() counts: the shortest of all boards.
   [[nodiscard]] std::int64_t basic_period_ns() const noexcept;
   [[nodiscard]] std::string printed() const;
-  // Why something cannot be done, with the node's last words.
+  // Throws with the reason and the last output of the node.
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
@@ -58,7 +58,7 @@ class NodeProcess {
   int output_ = -1;
   pid_t pid_ = -1;
   bool plant_;
-  std::vector<Board> boards_;  // none before they stand
+  std::vector<Board> boards_;  // none before all of them have stopped at the first tick
   std::uint64_t ticks_ = 0;
 };
 
