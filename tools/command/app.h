@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the verb on the command line, parses its options, runs it and turns what happened into an exit code.
+// Finds the verb on the command line, parses its options, runs it and converts the result into an exit code.
 
 #pragma once
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who wrote what, and from where: a file of JSON lines that `indurop serve` appends to and `indurop log --audit` shows.
+// The audit log, who wrote what and from where: a file of JSON lines that `indurop serve` appends to and `indurop log
+// --audit` shows.
 
 #pragma once
 
@@ -26,15 +27,15 @@ struct AuditEntry {
 };
 
 base::Json json_of(const AuditEntry& entry);
-// Nothing if the line is none of ours.
+// Returns nothing if the line is not an entry of the audit log.
 std::optional<AuditEntry> parse_audit_line(std::string_view line);
 
-// In the state folder: all servers of this user write to the same file.
+// The default file, in the state folder: all servers of this user write to the same one.
 std::filesystem::path usual_audit_file();
-// Appends one line, whole, and brings it to the disk. A file that has grown beyond 8 MiB is put aside as FILE.1 first.
-// Returns why that failed, else nothing.
+// Appends one whole line and syncs it to the disk. A file larger than 8 MiB is first renamed to FILE.1. Returns why
+// that failed, else an empty text.
 std::string append_audit(const std::filesystem::path& file, const AuditEntry& entry);
-// The newest `most`, oldest first; also of FILE.1. Empty if there is no such file.
+// Returns the newest `most` entries, oldest first, including those of FILE.1. Empty if there is no such file.
 std::vector<AuditEntry> read_audit(const std::filesystem::path& file, std::size_t most);
 
 }  // namespace indurop::tools

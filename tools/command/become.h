@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A verb that becomes another program: exit code and signals are that program's own.
+// Lets a verb continue as another program (exec): exit code and signals are that program's own.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop::tools {
 
-// Does not return, but for an error, which was said: its exit code.
+// Returns only after an error, which has been printed, with its exit code.
 int become(Context& context, const std::filesystem::path& program, std::vector<std::string> words);
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A verb that becomes indurop-serve.
+// Lets a verb continue as indurop-serve.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace indurop::tools {
 
-// Does not return, but for an error, which was said: its exit code.
+// Returns only after an error, which has been printed, with its exit code.
 int become_server(Context& context, const ServeOptions& options);
 
 }  // namespace indurop::tools

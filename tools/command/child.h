@@ -12,8 +12,8 @@
 
 namespace indurop::tools {
 
-// `arguments` begin with the program, which is looked for in PATH. Its output goes into the open file `output`, or
-// where ours goes. Returns its exit code, 128 + number after a signal, or why it cannot be started.
+// `arguments` begin with the program, which is searched for in PATH. Its output goes to the open file `output`, else to
+// this program's stdout. Returns its exit code, 128 + number after a signal, or why it cannot be started.
 Result<int, base::Problem> run_child(const std::vector<std::string>& arguments, int output = -1);
 
 }  // namespace indurop::tools

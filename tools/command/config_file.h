@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `check`, `plan` and `vars` have in common: read a configuration or the manifest of a plant, check it, print the
+// Shared by `check`, `plan` and `vars`: reads a configuration or the manifest of a plant, checks it, prints the
 // diagnostics.
 
 #pragma once
@@ -28,14 +28,14 @@ struct CheckedPlant {
   [[nodiscard]] bool ok() const;
 };
 
-// The file to read: `file`, else ./module.xml, else ./plant.xml. Fails if there is no such file.
+// Returns the file to read: `file`, else ./module.xml, else ./plant.xml. Fails if there is no such file.
 Result<std::string, Failure> find_config(const std::string& file);
 CheckedConfig load_config(const std::string& file, const config::CheckOptions& options);
-// Boards are other machines: nothing is compared with this one.
+// The boards are other machines, so nothing is compared with this one.
 CheckedPlant load_plant(const std::string& file, config::CheckOptions options);
-// `as_data`: they are what the verb was asked for (stdout), else they are messages (stderr).
+// `as_data`: the diagnostics are the result of the verb (stdout), else they are messages (stderr).
 void print_diagnostics(Context& context, const std::vector<base::Diagnostic>& diagnostics, bool as_data);
-// One line: OK and `content`, or FAILED and how many errors.
+// Prints one line: OK and `content`, or FAILED and the number of errors.
 void print_verdict(Context& context, const std::vector<base::Diagnostic>& diagnostics, const std::string& content);
 // "1 module", "2 modules"
 std::string counted(std::size_t n, const char* noun);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a verb cannot go on: the error of what it calls on its way.
+// Why a verb cannot continue: the error type of the functions it calls.
 
 #pragma once
 
@@ -14,10 +14,10 @@ namespace indurop::tools {
 
 struct Failure {
   int code = kFailed;
-  std::string text;  // empty: it was said already
+  std::string text;  // empty: it was printed already
 };
 
-// Says it and returns the exit code.
+// Prints the failure and returns the exit code.
 inline int report(Output& out, const Failure& failure) {
   if (!failure.text.empty()) {
     out.error(failure.text);

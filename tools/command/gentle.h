@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For verbs that look again and again: makes this process one that a control loop does not notice.
+// For verbs that poll: keeps this process from disturbing a control loop.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace indurop::tools {
 
-// Normal scheduling, nice +5, and off the core the node's tick thread is pinned to if there is another one. Whatever
-// the system refuses stays as it was.
+// Sets normal scheduling and nice +5, and leaves the core that the node's tick thread is pinned to if there is another
+// one. Settings that the system refuses remain unchanged.
 void be_gentle(const std::string& node);
 
 }  // namespace indurop::tools

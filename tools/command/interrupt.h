@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and SIGTERM while a verb works or waits: they end the wait, the verb tidies up and the program exits with
-// 128 + signal. Waits of all verbs go through here, so none is unbounded.
+// Ctrl-C and SIGTERM while a verb works or waits: they end the wait, the verb cleans up and the program exits with 128
+// + signal. All waits of verbs use this, so none is unbounded.
 
 #pragma once
 
@@ -8,16 +8,17 @@
 
 namespace indurop::tools {
 
-// Catches SIGINT and SIGTERM, ignores SIGPIPE (a gone reader shows as EPIPE). Once, at the start of main.
+// Catches SIGINT and SIGTERM, ignores SIGPIPE (a reader that has gone shows as EPIPE). To be called once, at the start
+// of main.
 void catch_interrupts();
 [[nodiscard]] bool interrupted() noexcept;
 [[nodiscard]] int interrupt_code() noexcept;  // 130, 143
-// For a verb that Ctrl-C ends as wished: what it does at its end may wait again, and its code is that of the program.
-// The next Ctrl-C ends the program.
+// For a verb that Ctrl-C ends normally: its cleanup may wait again, and it sets its own exit code. The next Ctrl-C ends
+// the program.
 void take_interrupt() noexcept;
 
-// As long as one lives, SIGINT and SIGTERM end the program at once: for work that asks for no signal, however long it
-// takes, and leaves nothing to tidy up.
+// While an instance exists, SIGINT and SIGTERM end the program at once: for work that does not check for signals,
+// however long it takes, and that leaves nothing to clean up.
 class EndsAtOnce {
  public:
   EndsAtOnce() noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program indurop-node, which verbs become.
+// The program indurop-node, which verbs execute in their place.
 
 #pragma once
 
@@ -10,10 +10,11 @@
 
 namespace indurop::tools {
 
-// Beside this program, in ../libexec/indurop, else along PATH. Empty, after a message: it is not there.
+// Searches in the folder of this program, in ../libexec/indurop, then in PATH. Returns an empty path, after a message,
+// if it is not found.
 std::filesystem::path node_program(Context& context);
 
-// Does not return, but for an error, which was said: its exit code.
+// Returns only after an error, which has been printed, with its exit code.
 int become_node(Context& context, const std::filesystem::path& program, const config::RunOptions& options);
 
 }  // namespace indurop::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a verb's output goes: data to stdout, messages to stderr. Knows about terminals, colour, a reader that has
-// gone (quiet) and a disk that is full (an error).
+// The output of a verb: data to stdout, messages to stderr. Handles terminals, colour, a reader that has gone (no
+// message) and a full disk (an error).
 
 #pragma once
 
@@ -38,22 +38,22 @@ class Output {
     pending_ += '\n';
     written_ = true;
   }
-  // Whether anything went to stdout.
+  // Returns whether anything was written to stdout.
   [[nodiscard]] bool written() const noexcept { return written_; }
-  // The first 100 messages of error() and message_line() so far, for output that a program reads.
+  // The first 100 messages of error() and message_line(), for output that a program reads.
   [[nodiscard]] const std::vector<std::string>& errors() const noexcept { return errors_; }
-  // False once stdout does not take anything any more.
+  // Returns false once stdout accepts no more output.
   bool flush();
-  // The reader of stdout has gone: stop working, it is no failure.
+  // Returns true if the reader of stdout has gone: stop working, this is not a failure.
   [[nodiscard]] bool reader_gone() const noexcept { return reader_gone_; }
   [[nodiscard]] int write_errno() const noexcept { return write_errno_; }
 
-  // Messages, one line each, on stderr after what is pending on stdout.
+  // Messages, one line each, to stderr, after the pending output to stdout.
   void error(std::string_view text);
   void note(std::string_view text);          // silent with -q
-  void message_line(std::string_view text);  // on stderr as it is
+  void message_line(std::string_view text);  // to stderr unchanged
 
-  // Messages are kept in `to` instead, without a word in front; null: on stderr again.
+  // Collects messages in `to` instead, without a prefix; null: to stderr again.
   void divert(std::vector<std::string>* to) noexcept { diverted_ = to; }
 
   [[nodiscard]] bool terminal() const noexcept { return terminal_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where CMake finds InduRoP.
+// Finds the CMake package of InduRoP.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace indurop::tools {
 
-// Folder with InduRoPConfig.cmake that belongs to these programs: their build directory or their installation. Empty:
-// it is not there.
+// Returns the folder with the InduRoPConfig.cmake of these programs: their build directory or their installation.
+// Empty: it does not exist.
 std::filesystem::path package_folder(const std::filesystem::path& programs);
 
 }  // namespace indurop::tools

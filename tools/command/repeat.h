@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// -w: a verb's output again and again, repainted in place on a terminal.
+// -w: repeats the output of a verb, repainted in place on a terminal.
 
 #pragma once
 
@@ -18,11 +18,11 @@ struct Repeat {
   std::int64_t timeout_ns = 0;  // 0: none
 };
 
-// -w, --once, -n COUNT, --interval, --timeout
+// Adds -w, --once, -n COUNT, --interval and --timeout.
 void add_repeat_options(base::Options& app, Repeat& repeat);
 
-// Calls `round` once, or with -w until the count, the time-out, Ctrl-C or a reader that has gone. Returns the last
-// round's code.
+// Calls `round` once, or with -w until the count, the time-out, Ctrl-C or until the reader has gone. Returns the code
+// of the last round.
 int repeat_rounds(Context& context, const Repeat& repeat, const std::function<int()>& round);
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// URDF, job and point files of robot modules, as the modules would read them when the node starts.
+// URDF, job and point files of robot modules, read as the modules read them when the node starts.
 
 #pragma once
 
@@ -11,7 +11,8 @@
 
 namespace indurop::tools {
 
-// Their errors. A robot module has the property `urdf` or `jobs` and, where its file can be read, reads URDF.
+// Returns the errors in these files. A robot module is one that has the property `urdf` or `jobs` and, if its file can
+// be read, reads URDF.
 std::vector<base::Diagnostic> check_robot_files(const config::Config& config, const config::CheckResult& check);
 
 // The robot modules of a configuration, and their files.

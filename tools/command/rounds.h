@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a verb that follows something looks at it next.
+// Timing of a verb that polls.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop::tools {
 
-// Counts rounds and watches the limits; `count` and `timeout_ns` 0: none.
+// Counts rounds and checks the limits; `count` and `timeout_ns` 0: no limit.
 class Rounds {
  public:
   Rounds(double hz, std::uint64_t count, std::int64_t timeout_ns)
@@ -20,7 +20,7 @@ class Rounds {
         begin_ns_(rt::now_ns()),
         next_ns_(begin_ns_),
         end_ns_(timeout_ns > 0 ? begin_ns_ + timeout_ns : INT64_MAX) {}
-  // True if another round follows: waits for it, on `key_file` too (then `key` says so).
+  // Waits for the next round, or for `key_file` (then `key` is set). Returns true if another round follows.
   bool wait(int key_file, bool& key) {
     key = false;
     if (count_ > 0 && done_ >= count_) {
@@ -33,7 +33,7 @@ class Rounds {
   [[nodiscard]] bool due() const { return rt::now_ns() >= next_ns_; }
   void done() {
     ++done_;
-    // On a grid, but rounds that a slow terminal made us miss are not made up for.
+    // Rounds are on a fixed grid; rounds missed because of a slow terminal are skipped.
     next_ns_ = std::max(next_ns_ + interval_ns_, rt::now_ns());
   }
   [[nodiscard]] std::int64_t elapsed_ns() const { return rt::now_ns() - begin_ns_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A block of lines on a terminal that is painted again in place, and single keys from it. Everything is put back to
-// normal at the end.
+// A block of lines on a terminal that is repainted in place, and single keys typed there. The terminal is restored at
+// the end.
 
 #pragma once
 
@@ -21,13 +21,13 @@ class Screen {
   Screen& operator=(const Screen&) = delete;
   ~Screen();
 
-  // Shows these lines where the last ones were; each is cut at the right border.
+  // Shows these lines in place of the previous ones; each is cut at the right border.
   void paint(const std::vector<std::string>& lines);
-  // The last lines stay where they are; what is printed next comes below.
+  // The current lines stay where they are; later output comes below them.
   void leave_behind() { painted_ = 0; }
-  // File to wait on for keys, -1 if there are none.
+  // File descriptor to wait on for keys, -1 if there are no keys.
   [[nodiscard]] int key_file() const noexcept { return keys_ ? 0 : -1; }
-  // Next key typed, 0 if none.
+  // Returns the next key typed, 0 if there is none.
   char key();
 
  private:
@@ -37,7 +37,7 @@ class Screen {
   termios before_{};
 };
 
-// `text` cut to `columns` places on the screen; escape sequences take none and are kept.
+// Returns `text` cut to `columns` columns of the screen; escape sequences take no column and are kept.
 std::string cut_to_width(const std::string& text, std::size_t columns);
 
 }  // namespace indurop::tools

@@ -9,7 +9,8 @@
 
 namespace indurop::tools {
 
-// " Did you mean 'x'?" or nothing. The unique continuation of a shortened word ("stat") counts as near, too.
+// Returns " Did you mean 'x'?" or an empty text. The unique continuation of a shortened word ("stat") also counts as
+// near.
 std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
 }  // namespace indurop::tools

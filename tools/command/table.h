@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows that are a table for people, CSV and JSON for programs: every cell has a text and a raw value. A column
-// without title is left out of the table, one without key out of CSV and JSON.
+// Rows as a table for people, CSV and JSON for programs: every cell has a text and a raw value. A column without title
+// is left out of the table, one without key out of CSV and JSON.
 
 #pragma once
 
@@ -15,7 +15,7 @@ namespace indurop::tools {
 
 using JsonValue = base::Json;
 
-// Version of the field names of every JSON document we print ("schema_version").
+// Version of the field names of every JSON document of these programs ("schema_version").
 inline constexpr int kJsonVersion = 1;
 
 enum class Align { Left, Right };
@@ -24,8 +24,8 @@ struct Column {
   std::string title;  // as printed in the heading
   std::string key;    // JSON field and CSV heading
   Align align = Align::Left;
-  int drop = 0;          // on a terminal too narrow for the table, columns with the highest go first; 0: never
-  std::size_t most = 0;  // longer cells do not widen the column, they stick out; 0: no limit
+  int drop = 0;          // if the terminal is too narrow, columns with the highest number are left out first; 0: never
+  std::size_t most = 0;  // longer cells do not widen the column, they extend beyond it; 0: no limit
 };
 
 struct Cell {
@@ -40,12 +40,12 @@ struct Cell {
 class Table {
  public:
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
-  // As many cells as columns.
+  // Adds a row with one cell for each column.
   void add(std::vector<Cell> cells) { rows_.push_back(std::move(cells)); }
   [[nodiscard]] bool empty() const noexcept { return rows_.empty(); }
 
-  // Heading and rows, columns separated by two spaces, no trailing spaces, columns without any text left out; empty if
-  // there are no rows.
+  // Returns heading and rows, columns separated by two spaces, no trailing spaces, columns without any text left out;
+  // empty if there are no rows.
   [[nodiscard]] std::string text(const Output& output) const;
   // RFC 4180 with a heading, lines ended by \n.
   [[nodiscard]] std::string csv() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of this run's own.
+// A temporary folder of this run.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace indurop::tools {
 
-// Gone at the end, with all that is in it.
+// Removes the folder with its contents in the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -26,7 +26,7 @@ class TemporaryFolder {
       std::filesystem::remove_all(path_, error);
     }
   }
-  // Empty: it could not be made.
+  // Empty: it could not be created.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
  private:

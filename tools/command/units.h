@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers and texts as people read them in a table.
+// Numbers and texts formatted for people.
 
 #pragma once
 
@@ -17,9 +17,9 @@ std::string human_age(std::int64_t ns);
 std::string human_bytes(std::uint64_t bytes);
 // "2026-11-22 03:10:21", of CLOCK_REALTIME, in the time zone of this machine.
 std::string local_time(std::int64_t wall_ns);
-// Control characters (terminal escapes in foreign text) become '?'; invalid UTF-8 likewise.
+// Replaces control characters (terminal escapes in text of others) and invalid UTF-8 by '?'.
 std::string printable(std::string_view text);
-// Columns `text` takes on a terminal: code points, combining marks not considered.
+// Number of columns `text` takes on a terminal: code points, combining marks not considered.
 std::size_t display_width(std::string_view text);
 
 }  // namespace indurop::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a verb of `indurop` is: a name, a help text, options, and an action. One file per verb (tools/verbs); the list
-// of all is in verbs.cpp.
+// A verb of `indurop`: a name, a help text, options, and an action. One file per verb (tools/verbs); verbs.cpp has the
+// list of all.
 
 #pragma once
 
@@ -23,24 +23,24 @@ namespace indurop::tools {
 
 enum class Format { Table, Json, Csv, Svg };
 
-// Variables of boards in the network instead of a node here.
+// Use variables of boards in the network instead of a local node.
 struct FarOptions {
   bool wanted = false;
   dds::NetworkSettings network;
-  std::filesystem::path keys;            // folder that network.security is from; empty: none
-  std::int64_t wait_ns = 3'000'000'000;  // for boards and values to be heard
+  std::filesystem::path keys;            // folder from which network.security was read; empty: none
+  std::int64_t wait_ns = 3'000'000'000;  // maximum time to receive boards and values
 };
 class ValueSource;
 
-// What every verb gets besides its own options.
+// What every verb gets in addition to its own options.
 struct Context {
   Output out;
   Format format = Format::Table;
   std::string node;  // as given by --node, else empty
   FarOptions far;
   std::shared_ptr<ValueSource> values;  // once open_store() has opened them
-  std::string who;                      // gives the order, else the user of this process
-  std::string from;                     // likewise, an address
+  std::string who;                      // who gives the command; empty: the user of this process
+  std::string from;                     // from where it was given: an address; empty likewise
   std::string reason;                   // as given by --reason, else empty
 };
 
@@ -51,25 +51,25 @@ struct Verb {
   const char* group = "";    // heading in the list of verbs
   const char* summary = "";  // one line
   const char* details = "";  // below the options: what it prints, examples
-  // Adds the verb's options to `app` and returns what to do once they are parsed.
+  // Adds the verb's options to `app` and returns the action to run after they are parsed.
   Action (*declare)(base::Options& app, Context& context) = nullptr;
 };
 
 std::span<const Verb> all_verbs();
 
-// Options several verbs share. The first format is the default.
+// Options that several verbs share. The first format is the default.
 void add_node_option(base::Options& app, Context& context);
-// --reason, for verbs that change something.
+// Adds --reason, for verbs that change something.
 void add_reason_option(base::Options& app, Context& context);
-// --remote and what belongs to it.
+// Adds --remote and related options.
 void add_far_options(base::Options& app, Context& context);
 void add_format_option(base::Options& app, Context& context, std::initializer_list<Format> formats);
 
-// A time given in seconds or with a unit, into nanoseconds; wrong text is a usage error.
+// Adds an option for a time in seconds or with a unit, converted to nanoseconds; wrong text is a usage error.
 base::Option add_time_option(base::Options& app, const std::string& names, std::int64_t& to_ns,
                              const std::string& help);
 
-// Prints `head` with "schema_version" in front and the table's rows under `rows_key`, or the table as text or CSV.
+// Prints JSON, "schema_version" and `head` first and the table's rows under `rows_key`, or the table as text or CSV.
 void print_table(Context& context, const Table& table, const JsonValue& head, const std::string& rows_key);
 // A JSON document that begins with "schema_version".
 JsonValue document();

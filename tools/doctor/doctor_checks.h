@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of this machine matters to a control loop: each finding with a grade and what to do about it. Only looks and
-// tries; changes nothing that lasts.
+// Checks what matters to a control loop on this machine: each finding has a grade and advice. Only reads and probes;
+// makes no lasting change.
 
 #pragma once
 
@@ -20,10 +20,11 @@ struct Finding {
   std::string advice;  // empty if there is nothing to do
 };
 
-// All but the latency test. `root` is put before /proc, /sys and /dev of what is only read (tests use a copy).
+// Does all checks except the latency test. `root` is put before /proc, /sys and /dev for what is only read (tests use a
+// copy).
 std::vector<Finding> examine_machine(const std::filesystem::path& root = "/");
 
-// Grade of a wake-up test: late by `p99_ns` in 99 %, `max_ns` at worst.
+// Grades a wake-up test: `p99_ns` is the lateness that 99 % do not exceed, `max_ns` the maximum.
 Finding grade_latency(std::int64_t p50_ns, std::int64_t p99_ns, std::int64_t max_ns, std::uint64_t wakeups,
                       bool real_time);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A short wake-up test: how late a thread like the node's tick thread gets the processor.
+// A short wake-up test: how late a thread like the node's tick thread is scheduled.
 
 #pragma once
 
@@ -20,7 +20,7 @@ struct LatencyResult {
   bool real_time = false;  // SCHED_FIFO was granted
 };
 
-// Ends early at Ctrl-C. Sleeps only; does not spin as the node does.
+// Ends early on Ctrl-C. Only sleeps; does not spin as the node does.
 LatencyResult measure_latency(const LatencyTest& test);
 
 }  // namespace indurop::tools

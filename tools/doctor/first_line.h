@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first line of a file below /proc or /sys.
+// Reads the first line of a file below /proc or /sys.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interrupts of disks and network that the kernel gives to a core where ticks run: each takes time from a tick.
+// Disk and network interrupts that the kernel assigns to a core that runs ticks: each takes time from a tick.
 
 #pragma once
 
@@ -13,12 +13,12 @@ namespace indurop::tools {
 
 enum class Movable { Yes, No, Unknown };
 
-// Whether the kernel lets a user say which core takes interrupt `number`. Root learns it, for others it is unknown;
-// nothing is changed.
+// Returns whether the kernel allows a user to choose the core of interrupt `number`. Only root can find out, for other
+// users it is unknown; nothing is changed.
 Movable can_move_interrupt(int number);
 
-// `cores`: where ticks run. `root` is put before /proc and /sys, `movable` asked for what fired there (tests use
-// copies).
+// `cores`: those that run ticks. `root` is put before /proc and /sys; `movable` is called for interrupts that fired
+// there (tests use copies).
 Finding examine_interrupts(const std::vector<int>& cores, const std::filesystem::path& root = "/",
                            const std::function<Movable(int)>& movable = can_move_interrupt);
 

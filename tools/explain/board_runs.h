@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All runs of a board's modules, with what they began with and left of a few variables: from its tape while it runs, or
-// from a recording.
+// All runs of a board's modules, with the values of a few variables before and after each run: from its tape while it
+// runs, or from a recording.
 
 #pragma once
 
@@ -24,23 +24,23 @@ namespace indurop::tools {
 
 class BoardRuns {
  public:
-  // `wanted`: full names of variables. `board`: empty for a node of its own.
+  // `wanted`: full names of variables. `board`: empty for a node that is not part of a plant.
   BoardRuns(std::string board, std::vector<std::string> modules, std::vector<std::string> wanted);
 
   [[nodiscard]] const std::string& board() const noexcept { return board_; }
   [[nodiscard]] const std::vector<std::string>& wanted() const noexcept { return wanted_; }
-  // A value that the next run of the module tells. Equal values have equal `value`, which is not 0.
+  // Adds a value that belongs to the next run of the module. Equal values have equal `value`, which is not 0.
   void tell(std::uint32_t module, std::size_t variable, tape::EntryKind kind, std::uint64_t value);
-  // That run; `shift_ns` is added to its times.
+  // Ends that run; `shift_ns` is added to its times.
   void end(std::uint32_t module, const tape::RunTail& tail, std::int64_t shift_ns);
 
-  // What was known stays known, the runs go.
+  // Discards the runs; the last known values are kept.
   void forget();
 
-  // The runs of a module between two variables of a chain; empty names: none.
+  // Returns the runs of a module between two variables of a chain; empty names: no variable.
   [[nodiscard]] std::vector<explain::ChainRun> runs_of(const std::string& module, const std::string& before,
                                                        const std::string& behind) const;
-  // All runs, for explain::keeping_of(); periods and cores are those of `modules`.
+  // Returns all runs, for explain::keeping_of(); periods and cores are taken from `modules`.
   [[nodiscard]] explain::Facts facts(const std::vector<explain::ModuleFact>& modules) const;
 
  private:
@@ -51,8 +51,8 @@ class BoardRuns {
   };
   struct Module {
     std::string name;
-    std::vector<std::uint64_t> known;   // by wanted variable: what its last entry told; 0: nothing yet
-    std::vector<std::uint64_t> begin;   // of the run that is being told
+    std::vector<std::uint64_t> known;   // by wanted variable: value of its last entry; 0: none yet
+    std::vector<std::uint64_t> begin;   // values before the run whose entries are being read
     std::optional<std::uint64_t> next;  // number of its next run
     std::vector<Run> runs;
   };
@@ -63,18 +63,18 @@ class BoardRuns {
   std::vector<Module> modules_;
 };
 
-// A number for the bytes of a value; never 0.
+// Returns a number that identifies the bytes of a value; never 0.
 std::uint64_t value_number(std::span<const std::uint8_t> cdr);
 
-// A board of this machine that is followed.
+// Follows the tape of a board of this machine.
 class FollowedBoard {
  public:
   // Errors: no such node, no tape.
   static Result<FollowedBoard, Failure> open(const std::string& node, const std::string& board,
                                              std::vector<std::string> wanted);
-  // Leaves out what there is.
+  // Skips everything on the tape so far.
   void skip();
-  // Takes what there is by now.
+  // Reads everything on the tape so far.
   void take();
   [[nodiscard]] const BoardRuns& runs() const noexcept { return runs_; }
 
@@ -87,10 +87,10 @@ class FollowedBoard {
   std::map<std::uint32_t, std::size_t> places_;  // of wanted variables, by index in the directory
 };
 
-// The boards of a recording, whose configuration `config` is then. Errors: it cannot be read, or tells no runs.
+// Returns the boards of a recording of which `config` is the configuration. Errors: it cannot be read, or has no runs.
 Result<std::vector<BoardRuns>, base::Problem> recorded_runs(const std::filesystem::path& file,
                                                             const std::vector<std::string>& wanted);
-// The configuration that a recording names; empty: none.
+// Returns the configuration that a recording names; empty: none.
 Result<std::string, base::Problem> recorded_config(const std::filesystem::path& file);
 
 }  // namespace indurop::tools

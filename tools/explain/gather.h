@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known for `indurop explain`: of a node of this machine, or of the recording of one.
+// Collects facts for `indurop explain` from a node of this machine, or from a recording.
 
 #pragma once
 
@@ -14,20 +14,21 @@
 
 namespace indurop::tools {
 
-// A node and a variable of which more is known: when it changed. Empty: none.
+// Facts of a local node. `variable`: one for which the times of its changes are added; empty: none.
 explain::Facts facts_here(const ChosenRun& chosen, const std::string& variable);
 
-// What the node says beside its runs and values, as a text for its recording.
+// Facts of the node other than its runs and values, as a text for its recording.
 std::string facts_text_here(const std::string& node, const RunView& run);
 
-// Of each node that the recording tells of. Errors: no recording of a node.
+// Facts of each node in the recording. Errors: it is not a recording of a node.
 Result<std::vector<explain::Facts>, base::Problem> facts_recorded(const std::filesystem::path& file,
                                                                   const std::string& variable);
 
-// Of two recordings of one board, which may contradict each other, neither is taken.
+// The message that two recordings of one board, which may contradict each other, are rejected.
 std::string two_recordings(const std::string& board, const std::string& file);
 
-// Adds what module.xml or plant.xml says: who writes what, who waits for whom. Nothing if it cannot be read.
+// Adds facts from module.xml or plant.xml: who writes what, who waits for whom. Adds nothing if the file cannot be
+// read.
 void add_config(const std::string& config, explain::Facts& facts);
 
 }  // namespace indurop::tools

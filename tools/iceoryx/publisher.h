@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part that touches iceoryx: reads the store and publishes what changed. Runs in a process of its own, because a
-// call of iceoryx may abort or never return when another program was killed in the wrong moment.
+// The part that calls iceoryx: reads the store and publishes changed values. Runs in its own process, because a call of
+// iceoryx may abort or never return if another program was killed at the wrong moment.
 
 #pragma once
 
@@ -8,12 +8,12 @@
 
 namespace indurop::iceoryx {
 
-// iceoryx's limits for all programs of a machine together and for a name.
+// iceoryx's limits: topics of all programs of a machine together, length of a name.
 std::size_t most_topics() noexcept;
 std::size_t longest_name() noexcept;
 
-// Publishes until a signal asks to stop, at most `hz` times per second. RouDi must run. A process in which iceoryx does
-// not return for this long is ended by SIGALRM.
+// Publishes until a signal requests the end, at most `hz` times per second. RouDi must run. SIGALRM ends a process in
+// which iceoryx does not return for this long.
 inline constexpr unsigned kStuckSeconds = 5;
 int publish(tools::Context& context, tools::WatchSource& source, int hz);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether iceoryx's daemon RouDi runs on this machine, found out without iceoryx: its own way to ask blocks for a
-// minute and then aborts the program.
+// Finds out whether iceoryx's daemon RouDi runs on this machine, without iceoryx: its own check blocks for a minute and
+// then aborts the program.
 
 #pragma once
 
@@ -13,7 +13,7 @@ namespace indurop::iceoryx {
 struct Roudi {
   enum class State { Absent, NoPermission, There };
   State state = State::Absent;
-  // Which one it is, to notice another that took its place.
+  // Identifies the daemon, to notice when another one replaces it.
   ino_t inode = 0;
   std::int64_t since_ns = 0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording as a picture (SVG): a lane for each column of few values, a panel for each of many, one axis of time.
+// Draws a recording as SVG: a lane for each column of few values, a panel for each of many, and one time axis.
 
 #pragma once
 
@@ -9,10 +9,10 @@
 
 namespace indurop::tools {
 
-// `way`: drawn below, as way_svg() does it.
+// `way`: a path that is drawn below, as by way_svg().
 std::string chart_svg(const std::string& heading, const Recording& recording, const Series* way = nullptr);
 
-// Round values between the ends, about as many as wanted.
+// Returns round values between the ends, about as many as requested.
 std::vector<double> round_values(double from, double to, int about);
 
 }  // namespace indurop::tools

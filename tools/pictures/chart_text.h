@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording as lines of text: each column, or element of an array, a row of blocks between its smallest and its
-// largest value.
+// Draws a recording as lines of text: each column, or element of an array, is a row of blocks between its minimum and
+// maximum.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace indurop::tools {
 
-// At most `columns` wide. Without `unicode` the blocks are digits 0 to 9.
+// Returns lines of at most `columns` characters. Without `unicode` the blocks are digits 0 to 9.
 std::vector<std::string> chart_lines(const Recording& recording, int columns, bool unicode);
 
 }  // namespace indurop::tools

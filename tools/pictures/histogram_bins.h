@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A histogram's many buckets gathered into as many bars as fit on a screen or a picture. Pure functions.
+// Combines a histogram's many buckets into as many bars as fit on a screen or a picture. Pure functions.
 
 #pragma once
 
@@ -18,10 +18,10 @@ struct Bin {
   std::uint64_t count = 0;
 };
 
-// At most `most` bins of equal width on the logarithmic scale, without empty ones at the ends.
+// Returns at most `most` bins of equal width on the logarithmic scale, without empty ones at the ends.
 std::vector<Bin> gather(const scheduler::HistogramCounts& histogram, std::size_t most);
 
-// One line per bin: range, bar, count, share.
+// Returns one line per bin: range, bar, count, share.
 std::vector<std::string> bar_lines(const std::vector<Bin>& bins, std::size_t bar_width, const Output& output);
 
 }  // namespace indurop::tools

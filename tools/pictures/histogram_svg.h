@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Histograms as a picture (SVG): one panel per module, both axes logarithmic, quantiles marked. Pure functions.
+// Draws histograms as SVG: one panel per module, both axes logarithmic, quantiles marked. Pure functions.
 
 #pragma once
 
@@ -17,7 +17,7 @@ struct HistogramPanel {
   scheduler::HistogramCounts counts;
 };
 
-// A complete SVG document, readable by browsers and by documents that take pictures.
+// Returns a complete SVG document for browsers and for documents that include pictures.
 std::string histogram_svg(const std::string& heading, std::span<const HistogramPanel> panels);
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives one command to a board and hears what became of it: asks for a number that counts once, signs, repeats.
+// Sends one command to a board and waits for the result: requests a number that is valid once, signs, repeats.
 
 #pragma once
 
@@ -23,7 +23,7 @@ struct Answered {
 
 class BoardCommander {
  public:
-  // With the key in that folder of the plant's; empty: boards that have no keys obey.
+  // Signs with the key in this folder of the plant's keys; empty: unsigned, which boards without keys accept.
   static Result<BoardCommander, Failure> make(Context& context, const std::filesystem::path& keys);
 
   // `self`: session of the link. Fails if no final answer comes in time, or the user interrupts.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that agents give to whoever asks for them by name, such as black boxes.
+// Files that agents provide by name, such as black boxes.
 
 #pragma once
 
@@ -15,12 +15,12 @@ namespace indurop::tools {
 struct BoardFile {
   std::string board;
   std::uint64_t agent = 0;
-  std::string blob;  // what the agent calls it
+  std::string blob;  // the agent's name for it
   std::uint64_t bytes = 0;
 };
 
-// To `to`, which is replaced. `self`: session of the link. Fails if the board stops answering, has lost it meanwhile,
-// or the user interrupts.
+// Writes it to `to`, which is replaced. `self`: session of the link. Fails if the board stops answering, has deleted it
+// meanwhile, or the user interrupts.
 Result<void, Failure> fetch_file(deploy::DeployLink& link, std::uint64_t self, const BoardFile& file,
                                  const std::filesystem::path& to);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// set, force, unforce and forces on a board anywhere in the network, through its agent.
+// set, force, unforce and forces for a board anywhere in the network, through its agent.
 
 #pragma once
 
@@ -15,16 +15,17 @@ namespace indurop::tools {
 struct BoardForces {
   BoardChoice board;
 };
-// Those of add_board_options.
+// Adds the options of add_board_options.
 void add_board_force_options(base::Options& app, BoardForces& options);
 
-// The board holds all of `assignments` (NAME=VALUE) for `for_ns` (0: until unforced), or none. Returns the exit code.
+// Forces all of `assignments` (NAME=VALUE) on the board for `for_ns` (0: until unforced), or none. Returns the exit
+// code.
 int force_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments, std::int64_t for_ns);
 int set_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments);
-// Held until the user ends it, or the board does not hear of this program any more.
+// Holds them until the user ends it, or the board receives nothing from this program any more.
 int hold_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments);
 int lock_board(Context& context, BoardForces& options, const std::string& word);
-// No names: all.
+// `names` empty: all.
 int unforce_on_board(Context& context, BoardForces& options, const std::vector<std::string>& names);
 
 }  // namespace indurop::tools

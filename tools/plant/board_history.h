@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Earlier deployments of a board, as its agent tells them.
+// Earlier deployments of a board, as its agent reports them.
 
 #pragma once
 
@@ -22,7 +22,8 @@ struct PastDeployment {
   std::string comment;
 };
 
-// By agent, oldest first; without agents that do not answer within two seconds. `self`: session of the link.
+// Returns them by agent, oldest first; without agents that do not answer within two seconds. `self`: session of the
+// link.
 std::map<std::uint64_t, std::vector<PastDeployment>> fetch_histories(deploy::DeployLink& link, std::uint64_t self,
                                                                      const std::vector<std::uint64_t>& agents);
 

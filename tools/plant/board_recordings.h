@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings of boards in the network: begun by their agents, kept going as long as somebody wants them, ended, and
-// fetched from the boards' disks.
+// Recordings of boards in the network: started on their agents, kept running by repeated requests, ended, and fetched
+// from the boards' disks.
 
 #pragma once
 
@@ -22,38 +22,38 @@ namespace indurop::tools {
 
 class BoardRecordings {
  public:
-  // `self`: session of the link, which is the recordings' name, too.
+  // `self`: session of the link, which is also the name of the recordings.
   BoardRecordings(std::unique_ptr<deploy::DeployLink> link, std::uint64_t self, BoardCommander commander);
   BoardRecordings(const BoardRecordings&) = delete;
   BoardRecordings& operator=(const BoardRecordings&) = delete;
   ~BoardRecordings() = default;
 
-  // Listens until these boards are heard, or for three seconds.
+  // Receives until these boards are discovered, at most for three seconds.
   void hear(const std::vector<std::string>& boards);
-  // `names`: wanted variables or globs; none: all. Returns those that no variable of the board matches; are these all,
-  // the board is not recorded. Fails if the board was not heard, runs another plant or refuses.
+  // `names`: variables or globs to record; none: all. Returns those without a match on the board; if these are all, the
+  // board is not recorded. Fails if the board was not discovered, runs another plant or refuses.
   Result<std::vector<std::string>, Failure> begin(const std::string& board, const std::string& plant,
                                                   const std::vector<std::string>& names, bool past);
-  // Asks for all of them again and again until end().
+  // Repeats the requests for all of them in a thread until end().
   void go_on();
-  // Ends them. Returns what is wrong with them, or is missing in them.
+  // Ends them. Returns what is wrong with them or missing in them.
   std::vector<std::string> end();
-  // To a file of the folder each, named as its board; not without what went wrong.
+  // Fetches each to a file in the folder, named after its board. Returns the files, and what went wrong.
   std::pair<std::vector<std::filesystem::path>, std::vector<std::string>> fetch(const std::filesystem::path& folder);
-  // The boards may forget them.
+  // Allows the boards to delete them.
   void drop();
   [[nodiscard]] bool empty() const noexcept { return all_.empty(); }
 
  private:
   struct One {
     deploy::BoardReport board;
-    std::string target;  // of the command that began it
+    std::string target;  // of the command that started it
   };
   Result<Answered, Failure> give(const One& one, deploy::Action action, std::chrono::nanoseconds timeout);
   void repeat(const std::stop_token& stop);
   std::string end(const One& one);
   void refresh();
-  // Its agent now, which may not be the one that began it.
+  // Returns the current agent of the board, which may not be the one that started the recording.
   std::uint64_t agent_of(const std::string& board);
 
   std::unique_ptr<deploy::DeployLink> link_;
@@ -62,7 +62,7 @@ class BoardRecordings {
   BoardCommander commander_;
   BoardRoster roster_;
   std::vector<One> all_;
-  std::jthread thread_;  // while it runs, link and commander are its own
+  std::jthread thread_;  // while it runs, only it uses link and commander
 };
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the node of a board anywhere in the network does, as its agent shows it, for the verbs that look at a node.
+// The run block of a board anywhere in the network, as its agent reports it, for the verbs that inspect a node.
 
 #pragma once
 
@@ -15,35 +15,36 @@
 
 namespace indurop::tools {
 
-// A board in the network instead of a node of this machine.
+// Selects a board in the network instead of a node of this machine.
 struct BoardChoice {
   bool remote = false;
-  std::string board;  // empty: the only one that is heard
-  std::string file;   // instead of both: what an agent has kept of a node that died
+  std::string board;  // empty: the only one that is discovered
+  std::string file;   // alternatively: a file in which an agent saved the run block of a node that died
   deploy::LinkSettings link;
   [[nodiscard]] bool wanted() const noexcept { return remote || !board.empty(); }
 
-  // Once it is open: further rounds ask anew.
+  // The open link, for further rounds to request again.
   std::unique_ptr<deploy::DeployLink> open;
   BoardRoster roster;
 };
 
-// --remote and --board, and with `link` --domain and the like.
+// Adds --remote and --board, and with `link` --domain and related options.
 void add_board_options(base::Options& app, BoardChoice& choice, bool link = true);
-// --from, for verbs that only look.
+// Adds --from, for verbs that only read.
 void add_kept_option(base::Options& app, BoardChoice& choice);
 
-// The agent of the chosen board; a failure that names the boards there are.
+// Returns the agent of the chosen board; the failure names the boards that are present.
 Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardChoice& choice);
 
 struct BoardRun : ChosenRun {
-  std::optional<std::vector<ForceView>> forces;  // of a board
-  vars::LockNote lock;                           // likewise
-  bool kept = false;                             // of long ago
+  std::optional<std::vector<ForceView>> forces;  // for a board only
+  vars::LockNote lock;                           // for a board only
+  bool kept = false;                             // an old one from a file
 };
-// In what a board's agent says of its node: a line of JSON and the run block (deploy/agent/run_image.h). `who` said it.
+// Parses a report of a board's agent about its node: a line of JSON and the run block (deploy/agent/run_image.h). `who`
+// names the source.
 Result<BoardRun, Failure> read_run(const std::string& who, const std::string& text);
-// The chosen board's run block as it is now, that of a node of this machine (--node), or the one in the file.
+// Returns the current run block of the chosen board or of a node of this machine (--node), or the one in the file.
 Result<BoardRun, Failure> open_run(Context& context, BoardChoice& choice);
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All boards that were heard, a line for each: what `boards` and `status --plant` show.
+// All discovered boards, one per line: the output of `boards` and `status --plant`.
 
 #pragma once
 
@@ -14,17 +14,17 @@
 
 namespace indurop::tools {
 
-// What boards read from each other, by agent.
+// The variables that boards read from each other, by agent.
 using VariablesRead = std::map<std::uint64_t, std::vector<mirror::MirroredVariable>>;
 
-// With `read` also what each board reads from the others and how old it is.
+// With `read` the table also has what each board reads from the others and its age.
 Table board_table(const BoardRoster& roster, std::int64_t now_ns, const VariablesRead* read = nullptr);
-// Agents of other releases and who reports in the name of others, which no table can show: a line for each on stderr,
-// and as JSON.
+// Agents of other releases and participants that report in the name of others, which are not in the table: one line
+// each on stderr, and as JSON.
 void note_others(Context& context, const BoardRoster& roster);
 JsonValue json_of_others(const BoardRoster& roster);
 JsonValue json_of_impostors(const BoardRoster& roster);
-// Boards that others name as members of their plant and that are not there.
+// Boards that others name as members of their plant and that were not discovered.
 std::vector<std::string> boards_not_heard(const BoardRoster& roster);
 
 }  // namespace indurop::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways from one variable to another over modules and boards of a configuration, and how old what goes along them is
-// at the end.
+// The chains from one variable to another through modules and boards of a configuration, and the age of the data at
+// their end.
 
 #pragma once
 
@@ -20,25 +20,27 @@
 namespace indurop::tools {
 
 struct Chain {
-  using Node = std::pair<std::size_t, std::size_t>;  // board, module: into the views and their modules
+  using Node = std::pair<std::size_t, std::size_t>;  // indices of the board in the views and of the module in it
   std::vector<Node> modules;
-  std::vector<std::string> variables;  // between them
+  std::vector<std::string> variables;  // those between the modules
 };
 
 class Chains {
  public:
-  // `boards` and `uses` are borrowed. `owners`: of variables that travel, by name; `every`: at most this often.
+  // `boards` and `uses` are borrowed. `owners`: owning board of variables that are sent between boards, by name;
+  // `every`: minimum interval of sending.
   Chains(std::span<const config::BoardView> boards, const config::Uses& uses, std::map<std::string, std::size_t> owners,
          std::map<std::string, base::Nanos> every);
 
-  // Each begins with a module that writes the one and ends with one that writes the other. Both are in `uses`.
-  // Empty: none does.
+  // Each chain begins with a module that writes `from` and ends with one that writes `to`. Both must be in `uses`.
+  // Empty: there is no chain.
   [[nodiscard]] std::vector<Chain> find(const std::string& from, const std::string& to) const;
   // "table@sensor -cell::encoder-> controller@control"
   [[nodiscard]] std::string name(const Chain& chain) const;
   [[nodiscard]] base::Nanos period(Chain::Node one) const { return uses_.module({one.first, one.second}).period; }
 
-  // How long a module executes at most, if it does not say so itself; how late the first one of a tick begins.
+  // Sets the maximum execution time of a module that does not declare one; and the maximum latency of the first module
+  // of a tick.
   void measured(Chain::Node one, base::Nanos execution);
   void measured_start(std::size_t board, base::Nanos basic_period, base::Nanos late);
   [[nodiscard]] config::ChainAge age(const Chain& chain, base::Nanos network) const;
@@ -59,13 +61,13 @@ class Chains {
   std::map<std::string, base::Nanos> every_;
   std::map<Node, std::vector<std::pair<std::string, Node>>> edges_;
   std::map<Node, std::size_t> place_;
-  std::vector<std::vector<config::Timed>> timed_;  // of each board, in order of execution
+  std::vector<std::vector<config::Timed>> timed_;  // by board, in order of execution
 };
 
-// A file whose chains are asked for, checked.
+// A checked file for which chains are requested.
 class ChainPlant {
  public:
-  // module.xml or plant.xml; `options` as of `indurop check`.
+  // A module.xml or plant.xml; `options` as for `indurop check`.
   ChainPlant(const std::string& file, const config::CheckOptions& options);
 
   [[nodiscard]] bool ok() const;
@@ -73,7 +75,7 @@ class ChainPlant {
   [[nodiscard]] std::span<const config::BoardView> boards() const noexcept { return views_; }
   [[nodiscard]] const config::Uses& uses() const noexcept { return *uses_; }  // if ok
   [[nodiscard]] Chains chains() const;
-  // Kept by no module: a message with what is meant perhaps; empty: it is known.
+  // Returns a message with a suggestion if no module has the variable; empty: it is known.
   [[nodiscard]] std::string unknown(const std::string& variable) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop check --chain: the ways from one variable to another over modules and boards, and how old what goes along
-// them is at the end.
+// indurop check --chain: the chains from one variable to another through modules and boards, and the age of the data at
+// their end.
 
 #pragma once
 
@@ -19,12 +19,12 @@ namespace indurop::tools {
 struct ChainQuestion {
   std::string from;
   std::string to;
-  // What a way from board to board takes at most; empty: what boards of the plant that run on this machine measure,
-  // else config::kNetworkHop.
+  // Maximum time from board to board; empty: what boards of the plant that run on this machine measure, else
+  // config::kNetworkHop.
   std::optional<base::Nanos> network;
 };
 
-// What a way from board to board takes at most, and how that is known.
+// Maximum time from board to board, and its source.
 struct NetworkTime {
   base::Nanos most{};
   bool told = false;
@@ -32,12 +32,12 @@ struct NetworkTime {
 };
 NetworkTime network_time(std::span<const config::BoardView> boards, const std::optional<base::Nanos>& told);
 std::string network_words(const NetworkTime& network);
-// The longest that a beacon was under way between boards that run on this machine, with what is not known of the
+// Returns the maximum time of a beacon between boards that run on this machine, including the uncertainty of their
 // clocks.
 std::optional<base::Nanos> measured_network(std::span<const config::BoardView> boards);
 std::string microseconds(base::Nanos time);
 
-// Empty, after a message: a variable is not known, or nothing leads from one to the other.
+// Returns nothing, after a message, if a variable is unknown, or no chain leads from one to the other.
 std::optional<std::vector<Chain>> find_chains(Context& context, const ChainPlant& plant, const std::string& from,
                                               const std::string& to);
 

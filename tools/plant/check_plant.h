@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop check on the manifest of a plant: its boards, and what travels between them.
+// indurop check on the manifest of a plant: its boards, and the variables sent between them.
 
 #pragma once
 

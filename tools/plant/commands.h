@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stop, start and restart have in common: modules of a node of this machine, and modules and nodes of boards
-// anywhere in the network.
+// Shared by stop, start and restart: modules of a node of this machine, and modules and nodes of boards anywhere in the
+// network.
 
 #pragma once
 
@@ -23,19 +23,18 @@ struct CommandOptions {
 
 struct CommandTarget {
   std::string module;  // empty: the node
-  std::string board;   // empty: on this machine
+  std::string board;   // empty: this machine
 };
 
 void add_command_options(base::Options& app, Context& context, CommandOptions& options);
 
-// What a verb declares that is only about modules and nodes named on its command line; `nobody`: what it says if there
-// is none.
+// Declares a verb that only takes modules and nodes on its command line; `nobody`: its message if there is none.
 Action declare_command(base::Options& app, Context& context, scheduler::ModuleCommand command, const char* nobody);
 
-// In the order given; the first that fails ends it. Returns the exit code.
+// Executes them in the given order and ends at the first failure. Returns the exit code.
 int carry_out(Context& context, scheduler::ModuleCommand command, CommandOptions& options);
 
-// The two ways (commands_here.cpp, commands_remote.cpp).
+// The two implementations, local and remote (commands_here.cpp, commands_remote.cpp).
 struct Commanded {
   int code = kFailed;
   scheduler::CommandResult result = scheduler::CommandResult::None;

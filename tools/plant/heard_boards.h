@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The boards that are heard in the network now, for verbs that do something with all of them.
+// The boards currently discovered in the network, for verbs that work on all of them.
 
 #pragma once
 
@@ -15,18 +15,18 @@
 
 namespace indurop::tools {
 
-// Boards that were heard, and what speaks to them.
+// The discovered boards, and the links to them.
 struct HeardBoards {
   std::unique_ptr<deploy::DeployLink> link;
   BoardRoster roster;
   std::vector<deploy::BoardReport> reports;
 
-  // What they say by now. `only`: this board; empty: all.
+  // Updates their reports. `only`: this board; empty: all.
   void refresh(const std::string& only);
 };
 
-// Listens for up to 3 s, or until all boards of the plant, or `only`, were heard; what of `link` is open is filled in.
-// Errors: none was; interrupted.
+// Discovers boards for up to 3 s, or until all boards of the plant, or `only`, are found; fills in missing settings of
+// `link`. Errors: no board was found; interrupted.
 Result<HeardBoards, Failure> hear_boards(Context& context, deploy::LinkSettings& link, const std::string& only);
 
 }  // namespace indurop::tools

@@ -12,10 +12,10 @@ namespace indurop::tools {
 
 struct PlantStatus {
   bool wanted = false;
-  bool check = false;  // kCheckFailed if something is wrong with a board that is heard
+  bool check = false;  // return kCheckFailed if something is wrong with a discovered board
   deploy::LinkSettings link;
 
-  // Once more each time; returns the exit code.
+  // Shows the status again with each call; returns the exit code.
   int show(Context& context);
 
  private:

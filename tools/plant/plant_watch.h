@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The boards of the network for a program that keeps looking: who is there, who was, who should be. One thread uses it.
+// The boards of the network for a program that monitors them: those that are present, were present, or should be. Used
+// by one thread.
 
 #pragma once
 
@@ -22,22 +23,22 @@ class PlantWatch {
  public:
   explicit PlantWatch(deploy::LinkSettings settings) : settings_(std::move(settings)) {}
 
-  // Takes what has come; the first time it waits until the boards were heard, at most 1.5 s. To be called twice a
-  // second.
+  // Processes received messages; the first call waits until the boards are discovered, at most 1.5 s. To be called
+  // twice a second.
   void look();
-  // As `indurop boards -o json` has it, and "heard": false for those that were there and are not. "problem": why none
-  // can be heard; "trouble": what is wrong with the plant, in words, worst first.
+  // The boards as `indurop boards -o json` prints them, with "heard": false for those that were present and are not
+  // now. "problem": why none can be discovered; "trouble": what is wrong with the plant, as texts, worst first.
   [[nodiscard]] base::Json json() const;
-  // Earlier deployments, newest first, as the boards remember them. Asks the agents, which takes up to two seconds
-  // each.
+  // Earlier deployments, newest first, as the boards remember them. Requests them from the agents, which takes up to
+  // two seconds each.
   [[nodiscard]] base::Json history();
-  // Of two deployments, by their whole ids: see deployment_difference.h.
+  // The difference of two deployments given by their full ids: see deployment_difference.h.
   [[nodiscard]] Result<base::Json, base::Problem> difference(const std::string& before, const std::string& after);
 
-  // Boards whose agents are heard now, or were: what json() says of each.
+  // Boards whose agents are present or were: the entry of json() for each.
   [[nodiscard]] std::vector<base::Json> rows() const;
-  // What these boards say by that name (deploy/words/deployment_words.h); within two seconds, without those that do
-  // not.
+  // Texts of that name of these boards (deploy/words/deployment_words.h); waits up to two seconds, without boards that
+  // have none.
   [[nodiscard]] std::map<std::string, std::string> texts(const char* name, const std::vector<std::string>& boards);
 
   struct RemoteOrder {
@@ -54,14 +55,14 @@ class PlantWatch {
       UnshelveAlarms
     };
     What what = What::Set;
-    // NAME=VALUE; of Unforce and of alarms names, none: all; else the word of the lock, or the module
+    // NAME=VALUE; for Unforce and for alarms names, none: all; else the word of the lock, or the module
     std::vector<std::string> lines;
-    std::int64_t for_ns = 0;  // of Force, 0: until it is let go; of ShelveAlarms
+    std::int64_t for_ns = 0;  // for Force, 0: until released; for ShelveAlarms
     std::string who;
     std::string reason;
   };
-  // Given to the board's agent, which looks whether it may be; waits until it is done, a few seconds at most. Boards
-  // with keys want those of the settings. Returns what the board says of it.
+  // Sends the command to the board's agent, which checks whether it is allowed; waits until it is done, a few seconds
+  // at most. Boards with keys require those of the settings. Returns the board's answer.
   Result<std::string, Failure> order(const std::string& board, const RemoteOrder& order);
 
  private:
@@ -77,7 +78,7 @@ class PlantWatch {
   std::string problem_;
   BoardRoster roster_;
   std::unique_ptr<BoardCommander> commander_;
-  std::map<std::string, Gone> seen_;  // all that were ever heard, by name
+  std::map<std::string, Gone> seen_;  // all that were ever discovered, by name
 };
 
 }  // namespace indurop::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording of boards that do not all run on this host: their agents record them meanwhile, and all of it becomes one
-// file on common time.
+// A recording of boards that do not all run on this host: their agents record them meanwhile, and everything is joined
+// in one file on a common time axis.
 
 #pragma once
 
@@ -17,20 +17,20 @@ namespace indurop::tools {
 
 struct BoardElsewhere {
   std::string name;
-  std::string why;  // it is not recorded here, though it runs here; else empty
+  std::string why;  // why it is not recorded locally, though it runs on this host; else empty
 };
 struct RemoteWish {
   std::string plant;
   std::vector<BoardElsewhere> boards;
-  std::vector<std::string> names;  // wanted variables or globs; none: all
+  std::vector<std::string> names;  // variables or globs to record; none: all
   bool past = false;
-  std::int64_t duration_ns = 0;  // if nothing is recorded here; 0: until the user ends it
-  std::filesystem::path file;    // must not be there
+  std::int64_t duration_ns = 0;  // if nothing is recorded locally; 0: until the user ends it
+  std::filesystem::path file;    // must not exist
 };
 
-// Begins what agents are to record, calls `here` with a file for what this host records (empty: nothing), and when that
-// returns, ends the others and joins all. `nobody_has`: the wanted names that no board of this host has. Returns the
-// exit code of the first problem; boards that are not in the file are named.
+// Starts the recordings of the agents, calls `here` with a file for what this host records (empty: nothing), and when
+// that returns, ends the others and joins all. `nobody_has`: the requested names that no board of this host has.
+// Returns the exit code of the first problem; boards that are missing in the file are named.
 int record_with_agents(Context& context, const RemoteWish& wish, deploy::LinkSettings& link,
                        const std::vector<std::string>& nobody_has,
                        const std::function<int(const std::filesystem::path& file)>& here);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The variables of a board elsewhere, as its agent says them, in a private store like that of a node here: one thread
-// fills it, a few others read it alike. Leaves nothing behind in /dev/shm.
+// The variables of a remote board, as its agent reports them, in a private store like that of a local node: one thread
+// writes it, a few others read it. Leaves nothing in /dev/shm.
 
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace indurop::tools {
 
-// What stores of this process are called as long as they have a name: not nodes.
+// Prefix of the names of this process's stores, as long as they have one: they are not nodes.
 std::string remote_store_prefix();
 
 class RemoteBoard {
@@ -28,35 +28,36 @@ class RemoteBoard {
   RemoteBoard(const RemoteBoard&) = delete;
   RemoteBoard& operator=(const RemoteBoard&) = delete;
 
-  // Of the thread that hears the board. What makes no sense changes nothing and is false.
+  // For the thread that receives from the board. Invalid input changes nothing and returns false.
   [[nodiscard]] bool knows_variables() const;
   bool take_variables(std::string_view text);
   enum class Taken : std::uint8_t { Yes, OtherVariables, Nonsense };
   Taken take_values(std::string_view text, std::int64_t now_ns);
-  // `row`: what `indurop boards` says of it; "heard" and "state" are looked at.
+  // `row`: the board's entry in the output of `indurop boards`; "heard" and "state" are evaluated.
   void look_at(const base::Json& row);
-  // Its values are not what it has now.
+  // Marks its values as not current.
   void silent();
-  // It is time to ask for values again: soon if somebody wants them and they are not too many bytes, else now and then.
+  // Returns true if it is time to request values again: soon if a client requests them and they are not too many bytes,
+  // else now and then.
   [[nodiscard]] bool due(std::int64_t now_ns) const;
 
-  // Of any thread.
+  // For any thread.
   void want(std::int64_t now_ns) noexcept { wanted_ns_.store(now_ns, std::memory_order_relaxed); }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  // Another one than when it was attached: attach again. Each reader once for each.
+  // If it differs from the one when it was attached: attach again. Each reader may attach once to each.
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_.load(std::memory_order_acquire); }
-  // Errors: NotFound (nothing has come yet), Busy (this reader has it).
+  // Errors: NotFound (nothing was received yet), Busy (this reader has it already).
   Result<vars::Store> attach(std::size_t reader);
   struct Said {
     base::Json row;
-    base::Json forces = base::Json::array();  // as json_of(ForceView) has them
+    base::Json forces = base::Json::array();  // format of json_of(ForceView)
     base::Json lock;
-    base::Json alarms;  // how many, as json_of(AlarmCounts) has them; none: it does not say
+    base::Json alarms;  // their number, format of json_of(AlarmCounts); null: not reported
     std::string state;  // "running", "not heard, last 3.2 s ago"
     std::string layout;
     bool heard = false;
-    bool running = false;  // its node, and it is heard
-    bool values = false;   // they are being said
+    bool running = false;  // the node runs and the board is received
+    bool values = false;   // values are being received
   };
   [[nodiscard]] Said said() const;
 
@@ -68,12 +69,12 @@ class RemoteBoard {
   std::atomic<std::int64_t> wanted_ns_{0};
   std::atomic<std::uint64_t> generation_{0};
 
-  mutable std::mutex mutex_;  // all below
+  mutable std::mutex mutex_;  // protects all members below
   Said said_;
-  std::optional<vars::Store> store_;  // filled
+  std::optional<vars::Store> store_;  // the one that is written
   std::array<std::optional<vars::Store>, kReaders> views_;
-  bool node_runs_ = false;  // by its values
-  std::string forced_;      // by what it was said
+  bool node_runs_ = false;  // as received with its values
+  std::string forced_;      // forces as received last
   std::int64_t next_ns_ = 0;
 };
 

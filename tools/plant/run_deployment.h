@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes a deployment through on all its boards: what deploy and rollback have in common.
+// Executes a deployment on all its boards: shared by deploy and rollback.
 
 #pragma once
 
@@ -21,9 +21,9 @@ namespace indurop::tools {
 
 struct Deployment {
   deploy::Order order;  // who, what, for whom
-  std::string key;      // private key that signs orders; empty: unsigned
+  std::string key;      // private key that signs the commands; empty: unsigned
   deploy::BlobServer::Find files;
-  std::int64_t patience_ns = 0;  // how long nothing at all may happen
+  std::int64_t patience_ns = 0;  // maximum time without any progress
   JsonValue head;                // of the result as JSON
   std::string title;             // "plant cell, deployment 0123456789ab"
 };
@@ -31,13 +31,13 @@ struct Deployment {
 // Prints progress and the result; returns the exit code.
 int run_deployment(Context& context, deploy::DeployLink& link, BoardRoster& roster, Deployment deployment);
 
-// Private key of the deployer in a folder of keys (indurop keys init). With no folder none, and a note says what that
-// means.
+// Reads the private key of the deployer in a folder of keys (indurop keys init). Without a folder there is none, and a
+// note explains what that means.
 Result<std::string, base::Problem> read_deploy_key(Context& context, const std::filesystem::path& folder);
-// A generation above all those heard.
+// Returns a generation above all those reported.
 std::uint64_t next_generation(const BoardRoster& roster);
-// Those boards of `wanted` that are there, at least one. Fails if some are missing (and `allow_missing` is not set), or
-// two have one name.
+// Returns those of `wanted` that are present, at least one. Fails if some are missing (and `allow_missing` is not set),
+// or two have the same name.
 Result<std::vector<std::string>, Failure> present_boards(Context& context, deploy::DeployLink& link,
                                                          BoardRoster& roster, const std::vector<std::string>& wanted,
                                                          bool allow_missing, std::int64_t timeout_ns);

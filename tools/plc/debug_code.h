@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The code of a program that is debugged: which statements stand in which line, and the values a body sees.
+// The code of a program that is debugged: the statements of each line, and the values that a body accesses.
 
 #pragma once
 
@@ -18,7 +18,7 @@ namespace indurop::tools {
 // A line of a text, or a rung or step of a drawing.
 struct CodeLine {
   std::string name;  // "motor.st:12", "POU main, rung 3"
-  std::string text;  // of the source; "" if it is drawn
+  std::string text;  // source text; "" for a drawing
 };
 
 class DebugCode {
@@ -28,11 +28,11 @@ class DebugCode {
   // Null if there is no such module.
   [[nodiscard]] const plc::ModuleText* module(std::string_view name) const;
   [[nodiscard]] CodeLine line(const plc::DebugTable& table, std::uint32_t number);
-  // Lines around it, the one itself marked.
+  // Returns the lines around it, with a mark on the line itself.
   [[nodiscard]] std::vector<std::string> around(const plc::DebugTable& table, std::uint32_t number);
 
-  // "12", "motor.st:12", "rung 3", "main rung 3", "Motor": the first statement of that line or of the next one with
-  // code. `file`: the one meant by a number alone. Module by module.
+  // A breakpoint at "12", "motor.st:12", "rung 3", "main rung 3" or "Motor": the first statement of that line or of the
+  // next one with code, in each module. `file`: the file of a line number without file name.
   struct Breakpoint {
     std::string asked;
     CodeLine line;
@@ -47,10 +47,10 @@ class DebugCode {
   std::map<std::string, std::vector<std::string>> sources_;
 };
 
-// "t.ET" or "list[2]" of the frame, else of what is global. "" if there is no such variable.
+// Returns the value of "t.ET" or "list[2]" in the frame, else of a global variable. "" if there is no such variable.
 [[nodiscard]] std::string debug_value(const plc::DebugTable& table, const DebugStop& stop, std::size_t frame,
                                       const std::string& name);
-// "name = value" for each of them, hidden ones left out.
+// Returns "name = value" for each variable, without hidden ones.
 [[nodiscard]] std::vector<std::string> debug_values(const plc::FrameLayout& layout,
                                                     const std::vector<std::uint8_t>& bytes);
 

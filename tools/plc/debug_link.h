@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The conversation with the modules of a simulated node that were built with --debug (include/indurop/plc/debug.h).
+// The connection to the modules of a simulated node that were built with --debug (include/indurop/plc/debug.h).
 
 #pragma once
 
@@ -13,14 +13,14 @@
 
 namespace indurop::tools {
 
-// Where a module stands. It waits for an answer.
+// The place at which a module has stopped. It waits for an answer.
 struct DebugStop {
   enum class Kind { Begin, Line, Fault };
   struct Frame {
     std::uint32_t number = 0;
     std::vector<std::uint8_t> values;
   };
-  Kind kind = Kind::Begin;  // of a scan; before the statement `line`; a fault in it
+  Kind kind = Kind::Begin;  // begin of a scan; before the statement `line`; a fault in it
   std::int64_t time_ns = 0;
   std::uint64_t mark = 0;
   std::uint32_t line = 0;
@@ -38,11 +38,11 @@ class DebugLink {
   explicit DebugLink(const std::filesystem::path& path);
   [[nodiscard]] bool is_open() const noexcept { return listener_.get() >= 0; }
 
-  // What a module says, nothing if none has said anything for so long.
+  // Returns the next stop, nothing if no module has reported one within this time.
   std::optional<DebugStop> wait(int milliseconds);
-  // Lets the one that spoke last go on.
+  // Lets the module that stopped last continue.
   void answer(DebugMode mode, const std::vector<std::uint32_t>& breakpoints);
-  // Lets all go on for good.
+  // Lets all modules continue without further stops.
   void close();
 
  private:

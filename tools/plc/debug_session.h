@@ -21,21 +21,21 @@ class DebugSession {
   // `node`: the name of the simulated node, whose process is `process`.
   DebugSession(Context& context, const plc::Compiled& compiled, DebugLink& link, std::string node, pid_t process);
 
-  // Until the user leaves or the node ends. The exit code.
+  // Runs until the user leaves or the node ends. Returns the exit code.
   int run();
 
  private:
   enum class Aim { Run, Into, Over, Out, Scan };
 
-  // False: the session is over.
+  // Returns false if the session is over.
   bool meet(const DebugStop& stop);
   void go_on(DebugMode mode);
   void begin_of_scan(const DebugStop& stop);
   [[nodiscard]] bool is_same_line(const DebugStop& stop);
   [[nodiscard]] DebugMode mode_of_aim() const;
-  // Reads commands until one lets the program go on; false: leave.
+  // Reads commands until one lets the program continue; returns false to leave.
   bool prompt();
-  // Nothing: stay at the prompt.
+  // Executes a command. Nothing: stay at the prompt.
   std::optional<bool> obey(const std::string& line);
   bool aim(Aim aim);
   std::optional<bool> travel(const std::string& verb, const std::string& rest);
@@ -63,7 +63,7 @@ class DebugSession {
   Aim aim_ = Aim::Into;
   std::uint64_t scans_left_ = 0;
   std::size_t frame_ = 0;
-  DebugStop stop_;  // the last one that was shown
+  DebugStop stop_;  // the stop shown last
   std::string stop_line_;
   std::optional<std::int64_t> began_ns_;
   bool prompts_ = false;

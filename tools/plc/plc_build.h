@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop plc build and check: from the files of a PLC program to modules that a node loads.
+// indurop plc build and check: compiles the files of a PLC program to modules that a node loads.
 
 #pragma once
 
@@ -11,12 +11,12 @@
 
 namespace indurop::tools {
 
-// Writes <name>.glb and, for each task, .cpp and, unless only the sources are wanted, .so. False after an error, which
-// was then told.
+// Writes <name>.glb and, for each task, .cpp and, unless only the sources are requested, .so. Returns false after an
+// error message.
 [[nodiscard]] bool write_modules(Context& context, const plc::CompileOptions& options, const plc::Compiled& compiled,
                                  const std::filesystem::path& folder, bool only_sources);
 
-// Adds the subcommands; once one was parsed, `chosen` is what to do.
+// Adds the subcommands; after one was parsed, `chosen` is the action to run.
 void add_plc_build(base::Options& app, const std::shared_ptr<Action>& chosen);
 
 }  // namespace indurop::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs g++ and glb2idl on what was written for a PLC program. What they say about that is no message for who wrote the
-// program: code that does not compile is a mistake of ours.
+// Runs g++ and glb2idl on the code generated for a PLC program. Their messages are not shown to the author of the
+// program: generated code that does not compile is a fault of this compiler.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace indurop::tools {
 
-// `arguments` begin with the program and compile `code`, which was made of `sources`. False after an error, which was
-// then told; what the program said stays beside the code, in a file that ends in .log.
+// `arguments` begin with the program and compile `code`, which was generated from `sources`. Returns false after an
+// error message; the output of the program remains in a .log file in the folder of the code.
 bool run_compiler(Context& context, const std::vector<std::string>& arguments, const std::filesystem::path& code,
                   const std::string& sources);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop plc coverage: which lines, branches and coils of PLC programs were tried, from the counters of modules that
-// were built with --coverage.
+// indurop plc coverage: the lines, branches and coils of PLC programs that were executed, from the counters of modules
+// that were built with --coverage.
 
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace indurop::tools {
 
-// Of one file of a program, over all modules and runs.
+// The coverage of one file of a program, over all modules and runs.
 struct FileCoverage {
   struct Line {
     std::uint64_t runs = 0;
@@ -37,16 +37,16 @@ struct FileCoverage {
 };
 using Coverage = std::map<std::string, FileCoverage>;  // by file
 
-// Adds what a file of counters says. Errors: it is none, or is damaged.
+// Adds the counters in a file. Errors: it is not a counter file, or is damaged.
 Result<void, base::Problem> add_counters(const std::filesystem::path& path, Coverage& coverage);
-// As lcov, genhtml and others read it. What is in a file of this machine is named by its whole path.
+// The coverage in the format of lcov and genhtml. Files of this machine are named by their full path.
 std::string lcov_text(const Coverage& coverage);
 
-// What the counters in a folder say, as context.format says; `lcov`: also into this file, if not empty. Returns the
-// exit code.
+// Prints the coverage from the counters in a folder in context.format; `lcov`: if not empty, also writes this file.
+// Returns the exit code.
 int show_coverage(Context& context, const std::filesystem::path& folder, const std::string& lcov);
 
-// Adds the subcommand; once it was parsed, `chosen` is what to do.
+// Adds the subcommand; after it was parsed, `chosen` is the action to run.
 void add_plc_coverage(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen);
 
 }  // namespace indurop::tools

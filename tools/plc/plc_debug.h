@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop plc debug: a program in simulation that stands at breakpoints and goes on line by line.
+// indurop plc debug: a program in simulation with breakpoints and single steps.
 
 #pragma once
 

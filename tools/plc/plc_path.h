@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands behind the name of a variable: fields and elements, as ".X", "[3]" or "[1,2].Y".
+// The part of a variable that follows its name: fields and elements, as ".X", "[3]" or "[1,2].Y".
 
 #pragma once
 
@@ -15,10 +15,10 @@ namespace indurop::tools {
 struct Part {
   const plc::Type* type = nullptr;
   std::size_t offset = 0;  // in the packed value (plc/emit/watch_layout.h)
-  std::string place = {};  // behind the name of a shared variable: "[2].y", counted from 0
+  std::string place = {};  // what follows the name of a shared variable: "[2].y", counted from 0
 };
 
-// Nothing if there is no such part. `path` in capitals; "" is the whole.
+// Returns nothing if there is no such part. `path` in capitals; "" is the whole variable.
 [[nodiscard]] std::optional<Part> part_of(const plc::Type& type, std::string_view path);
 
 }  // namespace indurop::tools

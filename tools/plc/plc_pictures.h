@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PLC programs' pictures with what running ones tell, for programs that draw themselves. One thread uses it.
+// Drawings of PLC programs with the values of running ones, as data for programs that draw themselves. Used by one
+// thread.
 
 #pragma once
 
@@ -17,7 +18,7 @@ namespace indurop::tools {
 
 class PlcView;
 
-// Files of one program, as `indurop plc watch` takes them.
+// The files of one program, as for `indurop plc watch`.
 struct PlcFiles {
   std::vector<std::string> files;
   std::vector<std::string> glb_files;
@@ -25,22 +26,22 @@ struct PlcFiles {
   std::string space;
 };
 
-// Of words "[NAME[:NAMESPACE]=]FILE[,FILE]...", one for each program; files that end in .glb are not compiled but used.
-// Each program has the name of its module. Errors: one without a file, two of a name.
+// Parses words "[NAME[:NAMESPACE]=]FILE[,FILE]...", one for each program; files that end in .glb are not compiled but
+// used. Each program has the name of its module. Errors: a program without a file, two of the same name.
 Result<std::vector<PlcFiles>, Failure> plc_programs(const std::vector<std::string>& words);
 
 class PlcPictures {
  public:
-  // Their names are different.
+  // The names of the programs must differ.
   explicit PlcPictures(const std::vector<PlcFiles>& programs);
   PlcPictures(const PlcPictures&) = delete;
   PlcPictures& operator=(const PlcPictures&) = delete;
   ~PlcPictures();
 
-  // What is to be drawn of `program`, or, if it is empty, of the first one that the node runs. Errors: there is none of
-  // that name; its files have errors; the node does not run it, or it was built without --watch.
+  // Returns the drawings of `program`, or, if it is empty, of the first one that the node runs. Errors: there is none
+  // of that name; its files have errors; the node does not run it, or it was built without --watch.
   Result<base::Json, Failure> pictures(const std::string& node, const std::string& program);
-  // What changes in them. Errors: likewise.
+  // Returns the values that change in them. The same errors.
   Result<base::Json, Failure> live(const std::string& node, const std::string& program);
 
  private:

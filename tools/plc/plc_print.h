@@ -9,7 +9,7 @@
 
 namespace indurop::tools {
 
-// Adds the subcommand; once it was parsed, `chosen` is what to do.
+// Adds the subcommand; after it was parsed, `chosen` is the action to run.
 void add_plc_print(base::Options& app, const std::shared_ptr<Action>& chosen);
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a new version of a PLC program means for the values that the last one retained.
+// Compares a new version of a PLC program with the values that the last one retained.
 
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace indurop::tools {
 
-// Warnings: retained variables of the .glb file as it is, which `now`, that will replace it, has not or has with
-// another type. `others` are the .glb files both use. None if there is no such file.
+// Returns warnings: retained variables of the existing .glb file that `now`, the text that will replace it, does not
+// have or has with another type. `others` are the .glb files that both use. None if there is no such file.
 [[nodiscard]] std::vector<base::Diagnostic> retained_changes(const std::filesystem::path& glb, const std::string& now,
                                                              const std::vector<std::string>& others);
 

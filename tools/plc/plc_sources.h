@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arguments that say which PLC program is meant, and how it is read: the same for all verbs that compile it.
+// The arguments that select a PLC program and how it is read: the same for all verbs that compile it.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace indurop::tools {
 
-// --dialect alone. `dialect` must live as long as the options.
+// Adds --dialect only. `dialect` must live as long as the options.
 void add_plc_dialect(base::Options& app, std::optional<plc::Dialect>& dialect);
 
 // `request` must live as long as the options.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The code of a running PLC program with its values: power in networks, active steps, values beside lines of text.
+// The code of a running PLC program with its values: power in networks, active steps, values next to lines of text.
 
 #pragma once
 
@@ -16,30 +16,30 @@
 
 namespace indurop::tools {
 
-// Which part of it.
+// Selects a part of the program.
 struct ViewChoice {
   std::string pou;       // empty: all programs
   std::string instance;  // "main.motor"; empty: the first of the POU
   int rung = 0;          // 0: all
 };
 
-// Code that is text, not a drawing.
+// Returns true if the code is text, not a drawing.
 bool is_text(const plc::LiveBody& body);
-// What stands before its first statement.
+// Returns the indentation of its first statement.
 std::string first_indent(const plc::LiveBody& body);
 
 class PlcView {
  public:
   PlcView(Context& context, const plc::WatchPlan& plan, std::vector<plc::LiveBody> bodies, ViewChoice choice);
 
-  // Finds what is to be shown and attaches to the node.
+  // Finds the selected part and attaches to the node.
   Result<void, Failure> open();
   void sample() { source_->sample(context_, 0, SIZE_MAX); }
 
   [[nodiscard]] std::string heading() const;
   [[nodiscard]] std::vector<std::string> lines() const;
 
-  // For other programs: the pictures, once, and what changes in them, in the same order.
+  // For other programs: the drawings, which are constant, and the values that change in them, in the same order.
   [[nodiscard]] JsonValue pictures() const;
   [[nodiscard]] JsonValue live() const;
 
@@ -48,8 +48,8 @@ class PlcView {
   struct Shown {
     const plc::LiveBody* body = nullptr;
     std::string title;        // "main.motor"
-    std::string inside;       // of the program: "MOTOR", "" for itself
-    std::size_t program = 0;  // of the plan
+    std::string inside;       // POU in the program: "MOTOR", "" for the program itself
+    std::size_t program = 0;  // index in the plan
   };
   Result<void, Failure> choose();
   [[nodiscard]] std::string title_of(std::size_t program, const std::string& name) const;
@@ -62,7 +62,7 @@ class PlcView {
   [[nodiscard]] std::span<const std::uint8_t> told(const Shown& shown) const;
   [[nodiscard]] const plc::WatchedVariable* find(const Shown& shown, const std::string& path) const;
   [[nodiscard]] bool flag(const Shown& shown, const std::string& path, std::size_t index) const;
-  // The value of a variable of the instance, else of a shared one; "" if there is none.
+  // Returns the value of a variable of the instance, else of a shared one; "" if there is none.
   [[nodiscard]] std::string value(const Shown& shown, const std::string& path) const;
   [[nodiscard]] std::string shared_value(const std::string& name) const;
   [[nodiscard]] std::string output_value(const Shown& shown, const plc::network::Source& source) const;
@@ -83,7 +83,7 @@ class PlcView {
   ViewChoice choice_;
   std::vector<Shown> shown_;
   std::string others_;                             // instances of the POU that are not shown
-  std::vector<std::size_t> values_of_;             // by program of the plan: the value with what it tells
+  std::vector<std::size_t> values_of_;             // by program of the plan: the value with its watched data
   std::map<std::string, std::size_t> shared_;      // by name in capitals
   std::map<std::string, const plc::Type*> types_;  // of shared variables
   std::vector<std::map<std::string, const plc::WatchedVariable*>> paths_;  // by program

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop plc watch: a running ladder with its power flow.
+// indurop plc watch: a running ladder program with its power flow.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::tools {
 
-// Adds the subcommand; once it was parsed, `chosen` is what to do.
+// Adds the subcommand; after it was parsed, `chosen` is the action to run.
 void add_plc_watch(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen);
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets of parameters under a name, as files of JSON in the state folder of a node: people may read, copy and keep them.
+// Named sets of parameters, as JSON files in the state folder of a node that users may read, copy and keep.
 
 #pragma once
 
@@ -25,18 +25,18 @@ struct Recipe {
   std::vector<std::pair<std::string, base::Json>> values;
 };
 
-// What is wrong with a name, else nothing: letters, digits, '-', '_'; it becomes the name of a file.
+// Returns what is wrong with a name, else an empty text. A name has letters, digits, '-', '_'; it becomes a file name.
 std::string wrong_recipe_name(std::string_view name);
 std::filesystem::path recipe_folder(const std::string& node);
 
-// By name. What is no recipe is left out.
+// Returns them sorted by name, without files that are not recipes.
 std::vector<Recipe> list_recipes(const std::string& node);
 Result<Recipe, base::Problem> read_recipe(const std::string& node, const std::string& name);
-// Replaces an older one of that name, in one step.
+// Atomically replaces an older one of that name.
 Result<void, base::Problem> write_recipe(const std::string& node, const Recipe& recipe);
 Result<void, base::Problem> remove_recipe(const std::string& node, const std::string& name);
 
-// Without its values, for lists.
+// The recipe without its values, for lists.
 base::Json summary_of(const Recipe& recipe);
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recipes and the values of a node: taken, compared, and loaded in one tick.
+// Recipes and the values of a node: saved, compared, and loaded in one tick.
 
 #pragma once
 
@@ -13,22 +13,22 @@
 
 namespace indurop::tools {
 
-// The values of variables, parts or globs; of none, all parameters: variables whose declaration has a value. The exit
-// code, after an error message for each that is wrong.
+// Adds the values of variables, parts or globs; if there are no names, of all parameters: variables whose declaration
+// has a value. Returns the exit code, after an error message for each wrong name.
 int take_values(Context& context, const vars::Store& store, const std::vector<std::string>& names, Recipe& to);
 
 struct Difference {
   std::string name;
   base::Json recipe;
-  base::Json now;  // null: there is no such variable any more
+  base::Json now;  // null: the variable does not exist any more
   bool same = false;
 };
 // In the order of the recipe.
 std::vector<Difference> compare(const vars::Store& store, const Recipe& recipe);
 
-// All of them in one tick of the node `context.node`, or none: types, ranges and forces are looked at before, and every
-// value that is wrong is an error message. Of a node that does not run they wait for its next start: `tick` is empty
-// then. `store` is open to write. The exit code.
+// Sets all values in one tick of the node `context.node`, or none: types, ranges and forces are checked before, with an
+// error message for each wrong value. If the node does not run, the values wait for its next start and `tick` is empty.
+// `store` is open for writing. Returns the exit code.
 int load_values(Context& context, vars::Store& store, const Recipe& recipe, std::optional<std::uint64_t>& tick);
 
 }  // namespace indurop::tools

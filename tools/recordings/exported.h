@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an export of a recording makes: a text, and how much it tells.
+// The result of exporting a recording: a text, and the amount of data.
 
 #pragma once
 
@@ -12,7 +12,7 @@ namespace indurop::tools {
 struct Exported {
   std::string text;
   std::uint64_t count = 0;           // rows, runs
-  std::vector<std::string> damages;  // that were passed over
+  std::vector<std::string> damages;  // damage in the file that was skipped
 };
 
 }  // namespace indurop::tools

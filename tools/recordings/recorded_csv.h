@@ -17,11 +17,11 @@ namespace indurop::tools {
 
 struct CsvWish {
   std::vector<std::string> names;  // globs of channels; none: all
-  std::int64_t every_ns = 0;       // a row each so much time; 0: whenever something changed
+  std::int64_t every_ns = 0;       // interval of the rows; 0: a row whenever a value changed
   bool units = false;
 };
 
-// Errors: no recording; a name that is not in it.
+// Errors: not a recording; a name that is not in it.
 Result<Exported, base::Problem> recorded_csv(const std::filesystem::path& file, const CsvWish& wish);
 
 }  // namespace indurop::tools

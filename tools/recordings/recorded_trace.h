@@ -12,7 +12,8 @@
 
 namespace indurop::tools {
 
-// One process for each node, one track for each module; times relative to the first run. Errors: no recording of runs.
+// One process for each node, one track for each module; times relative to the first run. Errors: not a recording of
+// runs.
 Result<Exported, base::Problem> recorded_trace(const std::filesystem::path& file);
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop recording cut: a part of a recording as a recording of its own.
+// indurop recording cut: saves a part of a recording as a separate recording.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::tools {
 
-// Adds the subcommand; once it was parsed, `chosen` is what to do.
+// Adds the subcommand; after it was parsed, `chosen` is the action to run.
 void add_recording_cut(base::Options& app, const std::shared_ptr<Action>& chosen);
 
 }  // namespace indurop::tools

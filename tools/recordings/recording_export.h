@@ -16,15 +16,15 @@ namespace indurop::tools {
 struct ExportWish {
   std::filesystem::path file;
   std::vector<std::string> names;  // with csv: variables, or globs; none: all
-  std::string csv;                 // files; empty: none
+  std::string csv;                 // file names; empty: none
   std::string trace;
-  std::int64_t every_ns = 0;  // with csv: a row each so much time; 0: whenever something changed
+  std::int64_t every_ns = 0;  // with csv: interval of the rows; 0: a row whenever a value changed
   bool units = false;
 };
 // Returns the exit code.
 int export_recording(Context& context, const ExportWish& wish);
 
-// Adds the subcommand; once it was parsed, `chosen` is what to do.
+// Adds the subcommand; after it was parsed, `chosen` is the action to run.
 void add_recording_export(base::Options& app, const std::shared_ptr<Action>& chosen);
 
 }  // namespace indurop::tools

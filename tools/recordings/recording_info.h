@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop recording info: what a recording holds.
+// indurop recording info: the contents of a recording.
 
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace indurop::tools {
 
-// What the recording holds, as context.format says. Returns the exit code.
+// Prints the contents of the recording in context.format. Returns the exit code.
 int show_recording(Context& context, const std::filesystem::path& file);
 
-// Adds the subcommand; once it was parsed, `chosen` is what to do.
+// Adds the subcommand; after it was parsed, `chosen` is the action to run.
 void add_recording_info(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen);
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop recording join: the recordings of a plant's boards become one.
+// indurop recording join: joins the recordings of a plant's boards in one.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::tools {
 
-// Adds the subcommand; once it was parsed, `chosen` is what to do.
+// Adds the subcommand; after it was parsed, `chosen` is the action to run.
 void add_recording_join(base::Options& app, const std::shared_ptr<Action>& chosen);
 
 }  // namespace indurop::tools

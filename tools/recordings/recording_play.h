@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop recording play: recorded values are written into a running node, in time.
+// indurop recording play: writes recorded values into a running node at the recorded times.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace indurop::tools {
 
-// Adds the subcommand; once it was parsed, `chosen` is what to do.
+// Adds the subcommand; after it was parsed, `chosen` is the action to run.
 void add_recording_play(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen);
 
 }  // namespace indurop::tools

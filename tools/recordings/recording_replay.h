@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording's runs once more by indurop-node, and a picture of what differs.
+// Replays the runs of a recording with indurop-node, and makes a picture of the differences.
 
 #pragma once
 
@@ -13,13 +13,14 @@ namespace indurop::tools {
 
 struct ReplayWish {
   std::filesystem::path file;
-  std::filesystem::path config;  // empty: that of the recording
+  std::filesystem::path config;  // empty: the configuration in the recording
   std::string node;
-  std::string board;              // of a recording of several
-  std::vector<std::string> with;  // module files that take the place of those of the configuration
-  std::filesystem::path output;   // what the modules leave now; empty: not kept
+  std::string board;              // board to replay, if the recording has several
+  std::vector<std::string> with;  // module files that replace those of the configuration
+  std::filesystem::path output;   // output of the replayed modules; empty: not kept
   std::string svg;                // empty: no picture
-  bool comes_back = false;        // else this program becomes the node, where nothing is to be done behind it
+  bool comes_back = false;        // return afterwards; else this program becomes the node, if nothing is to be done
+                                  // after it
 };
 
 // Returns the exit code.

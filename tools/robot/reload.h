@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Has a robot read its jobs anew.
+// Makes a robot read its jobs again.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::tools {
 
-// The exit code.
+// Returns the exit code.
 int reload_jobs(Context& context, const RobotChoice& choice);
 
 }  // namespace indurop::tools

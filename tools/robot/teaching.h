@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of a robot's files: shown, and taught from where the robot stands.
+// Points in a robot's files: lists them, and teaches them from the robot's current position.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace indurop::tools {
 
-// The exit code of both, after messages.
+// Both return the exit code, after messages.
 int show_points(Context& context, const RobotChoice& choice);
 int teach_point(Context& context, const RobotChoice& choice, const robot::TeachOrder& order);
 

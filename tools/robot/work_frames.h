@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work frames of a robot module's jobs, for those who show robots and know nothing of their files.
+// Work frames in the jobs of a robot module, for programs that show robots without reading their files.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace indurop::tools {
 
-// Their names; none if its files cannot be read.
+// Returns their names; none if the files cannot be read.
 std::vector<std::string> work_frames_of(const config::Config& config, const std::string& module);
 
 }  // namespace indurop::tools

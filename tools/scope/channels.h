@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scope draws and where its numbers are: channels by their texts, as variables, parts, globs and expressions,
-// and the numbers in shared memory that they are made of.
+// The channels of a scope and their inputs: channels given as variables, parts, globs and expressions, and the numbers
+// in shared memory from which they are computed.
 
 #pragma once
 
@@ -22,24 +22,24 @@ namespace indurop::tools {
 
 inline constexpr std::size_t kMostScopeLines = 64;
 
-// A number of a variable.
+// A number that is part of a variable.
 struct ScopeInput {
   std::uint32_t variable = 0;  // index in the schema
   std::uint32_t offset = 0;
   schema::Base base{};
 };
-// The number in the variable's bytes.
+// Reads the number from the variable's bytes.
 double number_of(const ScopeInput& input, const std::uint8_t* bytes) noexcept;
 
 struct ScopeLine {
   std::string name;  // "joints[1]"
   Formula formula;
 };
-// Lines that are drawn together: the elements of an array, or one.
+// Lines that are drawn together: the elements of an array, or a single one.
 struct ScopeChannel {
   std::string name;
   std::string unit;
-  std::vector<std::string> words;  // of an enumeration: its names by number
+  std::vector<std::string> words;  // for an enumeration: its names by number
   bool yes_no = false;
   std::vector<ScopeLine> lines;
 };
@@ -47,11 +47,11 @@ struct ScopeChannel {
 struct ScopePlan {
   std::vector<ScopeInput> inputs;
   std::vector<ScopeChannel> channels;
-  std::optional<Trigger> trigger;  // none: at once
+  std::optional<Trigger> trigger;  // none: starts at once
 };
 
-// `texts`: names, parts, globs, expressions, each with a name of its own if it is "NAME = EXPRESSION".
-// Errors: what cannot be a channel (text; more than kMostScopeLines lines) or is not understood.
+// `texts`: names, parts, globs, expressions; "NAME = EXPRESSION" also names the channel. Errors: what cannot be a
+// channel (text; more than kMostScopeLines lines) or cannot be parsed.
 Result<ScopePlan, base::Problem> plan_scope(const schema::Schema& schema, const std::vector<std::string>& texts,
                                             std::string_view trigger);
 

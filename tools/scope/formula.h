@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small expressions over variables, as one channel of a scope or its trigger: "speed > 100 and not stop",
-// "abs(target - actual)". Values are doubles; what is true is 1. Knows no variables: the caller finds them by name.
+// Small expressions over variables, for a channel of a scope or its trigger: "speed > 100 and not stop", "abs(target -
+// actual)". Values are doubles; true is 1. Does not access variables: the caller finds them by name.
 
 #pragma once
 
@@ -18,22 +18,22 @@
 
 namespace indurop::tools {
 
-// What a name stands for.
+// The input that a name refers to.
 struct Operand {
   std::size_t index = 0;  // among the inputs of value()
   std::string unit;
-  const std::vector<schema::Enumerator>* enumerators = nullptr;  // of an enumeration; lives while parse() runs
+  const std::vector<schema::Enumerator>* enumerators = nullptr;  // for an enumeration; must live while parse() runs
 };
 using FindOperand = std::function<Result<Operand, base::Problem>(std::string_view name)>;
 
 class Formula {
  public:
-  // Errors: what is wrong and where (in the text); two units that do not go together; whatever `find` says.
+  // Errors: what is wrong and where (in the text); two incompatible units; errors of `find`.
   static Result<Formula, base::Problem> parse(std::string_view text, const FindOperand& find);
-  // Only this input.
+  // A formula that is this input only.
   static Formula of(const Operand& operand);
 
-  // NaN if a value is needed that is NaN; a comparison with NaN is false.
+  // Returns NaN if a value that is needed is NaN; a comparison with NaN is false.
   [[nodiscard]] double value(std::span<const double> inputs) const;
   [[nodiscard]] const std::string& unit() const noexcept { return unit_; }
 
@@ -69,7 +69,7 @@ class Formula {
   };
   static double two(Op op, double a, double b);
 
-  std::vector<Step> steps_;  // in the order of a stack
+  std::vector<Step> steps_;  // in postfix order, evaluated on a stack
   std::string unit_;
 };
 

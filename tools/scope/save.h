@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scope's picture for people and programs: chart, CSV as `indurop watch -o csv` has it, JSON, MCAP.
+// Saves the result of a scope: chart, CSV as with `indurop watch -o csv`, JSON, MCAP.
 
 #pragma once
 
@@ -18,9 +18,9 @@ namespace indurop::tools {
 // For charts; the trigger is at 0 s.
 Recording recording_of(const Capture& capture);
 std::string csv_of(const Capture& capture);
-// Values that are not known are null.
+// Unknown values are null.
 base::Json json_of(const Capture& capture);
-// A message per tick for each line. Errors: the file is there already, or cannot be written.
+// Writes one message per tick and line. Errors: the file exists already, or cannot be written.
 Result<void, base::Problem> save_mcap(const std::filesystem::path& path, const Capture& capture,
                                       const std::string& node);
 // "'speed > 100' at tick 1200, 100 ticks before and 400 after, every 1 ms"

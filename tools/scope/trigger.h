@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a scope begins: an expression that becomes true, or one that "rises", "falls" or "changes".
+// The trigger of a scope: an expression that becomes true, or one that "rises", "falls" or "changes".
 
 #pragma once
 
@@ -15,11 +15,11 @@ namespace indurop::tools {
 
 class Trigger {
  public:
-  // "PLC_ROBOT::I0 rises": from 0 to another number. "falls": the other way. "speed changes". "speed > 100": becomes
+  // "PLC_ROBOT::I0 rises": from 0 to another number. "falls": the reverse. "speed changes". "speed > 100": becomes
   // true. Errors: those of Formula::parse().
   static Result<Trigger, base::Problem> parse(std::string_view text, const FindOperand& find);
 
-  // The next sample; true if it is the one that is waited for. The first one never is.
+  // Evaluates the next sample; returns true if the trigger fires. It never fires at the first sample.
   bool look(std::span<const double> inputs);
 
  private:

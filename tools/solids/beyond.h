@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much larger solids are than the surface that they are around.
+// Measures how far solids extend beyond the surface that they cover.
 
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace indurop::solids {
 
-// Whether a solid holds a point, or nearly: up to `slack` m outside.
+// Returns whether a point is in a solid, or up to `slack` m outside.
 bool holds(const robot::Solid& solid, const Vec3& point, double slack = 0) noexcept;
-// The same of a point in the directions of the solid, seen from its middle.
+// The same for a point given in the directions of the solid, relative to its centre.
 inline bool reaches(const robot::Solid& solid, const Vec3& there, double slack = 0) noexcept {
   switch (solid.kind) {
     case robot::SolidKind::Box:
@@ -25,17 +25,18 @@ inline bool reaches(const robot::Solid& solid, const Vec3& there, double slack =
   }
   return there.norm() <= solid.half.x() + slack;
 }
-// On the skin of a solid, its corners and rims among them.
+// Points on the surface of a solid, including its corners and rims.
 std::vector<Vec3> skin_of(const robot::Solid& solid);
-// m from a point to the nearest of a surface.
+// Distance in m from a point to the nearest point of a surface.
 double distance_to(const Surface& surface, const Vec3& point);
-// Whether a closed surface is around a point (A. Van Oosterom and J. Strackee, "The solid angle of a plane triangle",
-// 1983).
+// Returns whether a closed surface encloses a point (A. Van Oosterom and J. Strackee, "The solid angle of a plane
+// triangle", 1983).
 bool inside_of(const Surface& surface, const Vec3& point);
 
-// m that the skin of each solid is from the surface and what it encloses at most, where no other solid hides it.
+// Maximum distance in m of each solid's surface from the covered surface and its interior, where no other solid hides
+// it.
 std::vector<double> each_beyond(const std::vector<robot::Solid>& solids, const Surface& surface);
-// m, of all of them together.
+// The maximum in m over all of them.
 double beyond(const std::vector<robot::Solid>& solids, const Surface& surface);
 
 }  // namespace indurop::solids

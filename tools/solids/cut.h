@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface cut by a plane. Each part gets a lid where the plane went through: so whatever is inside of a part of a
-// closed surface lies between points of it along any line, and a solid around its corners holds it.
+// Cuts a surface by a plane. Each part gets a lid in the plane, so that every point inside a part of a closed surface
+// is between points of the part along any line, and a solid around its corners contains it.
 
 #pragma once
 
@@ -12,7 +12,7 @@ namespace indurop::solids {
 
 struct Plane {
   Vec3 normal = Vec3::UnitX();  // of length 1
-  double at = 0;                // m along it
+  double at = 0;                // m along the normal
 };
 
 struct Parts {
@@ -20,13 +20,13 @@ struct Parts {
 };
 Parts cut(const Surface& surface, const Plane& plane);
 
-// The corners that the two parts would have.
+// The corners of the two parts.
 struct PartCorners {
   std::vector<Vec3> below, above;
 };
 PartCorners corners_after(const Surface& surface, const Plane& plane);
 
-// Of all triangles, one after the other.
+// The corners of all triangles, one after the other.
 std::vector<Vec3> corners_of(const Surface& surface);
 
 }  // namespace indurop::solids

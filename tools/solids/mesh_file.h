@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the file is that URDF's <mesh filename="..."> means.
+// Finds the file of URDF's <mesh filename="...">.
 
 #pragma once
 
@@ -13,11 +13,12 @@
 
 namespace indurop::solids {
 
-// Folders of packages by name.
+// Folders of packages, by name of the package.
 using Packages = std::map<std::string, std::filesystem::path>;
 
-// `package://NAME/...` (also model://) is looked for in `packages`, else in the folders around `urdf` that are called
-// NAME or have a folder NAME in them; another path begins in the folder of `urdf`. Errors: what was looked for.
+// `package://NAME/...` (also model://) is searched for in `packages`, else in the parent folders of `urdf` that are
+// called NAME or contain a folder NAME; any other path is relative to the folder of `urdf`. Errors: the paths that were
+// tried.
 Result<std::filesystem::path, base::Problem> mesh_file(const std::string& uri, const std::filesystem::path& urdf,
                                                        const Packages& packages);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes with the solids around them, seen from three sides.
+// Draws meshes with the solids around them, seen from three sides.
 
 #pragma once
 
@@ -17,7 +17,7 @@ struct DrawnMesh {
   std::vector<robot::Solid> solids;
 };
 
-// An SVG document, a row for each.
+// Returns an SVG document with one row for each mesh.
 std::string draw(const std::vector<DrawnMesh>& meshes);
 
 }  // namespace indurop::solids

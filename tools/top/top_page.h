@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `indurop top` shows, as lines: nodes, modules by load, what happened last. Knows no terminal.
+// The lines that `indurop top` shows: nodes, modules by load, latest events. Independent of the terminal.
 
 #pragma once
 
@@ -28,11 +28,11 @@ TopOrder next_order(TopOrder order) noexcept;
 const char* name_of(TopOrder order) noexcept;
 
 struct TopEvent {
-  std::int64_t time_ns = 0;  // of the node
+  std::int64_t time_ns = 0;  // on the node's clock
   std::string text;
 };
 
-// What was seen of a node at one time.
+// A sample of a node's status at one time.
 struct TopSample {
   NodeReport report;
   struct Module {
@@ -46,30 +46,30 @@ struct TopSample {
     std::int64_t max_ns = 0;
     std::int64_t jitter_p99_ns = 0;
     std::string fault;
-    double load = 0;  // share of a core since the sample before; of the first one: by the mean
+    double load = 0;  // share of a core since the previous sample; in the first one the mean
   };
   std::vector<Module> modules;
-  std::vector<TopEvent> events;  // overruns, orders, what modules printed, newest last
+  std::vector<TopEvent> events;  // overruns, commands, output of modules; newest last
   std::vector<std::string> troubles;
   alarms::AlarmCounts alarms;
   std::size_t forces = 0;
-  std::size_t stale = 0;  // variables of other boards that are not valid
+  std::size_t stale = 0;  // number of variables of other boards that are not valid
   std::int64_t at_ns = 0;
 };
 
-// `before` may be empty: no sample of this run.
+// `before` may be null: there is no sample of this run yet.
 TopSample take_sample(const std::string& node, const RunView& run, const TopSample* before);
 
 struct TopLook {
-  std::vector<std::string> nodes;  // all that run
+  std::vector<std::string> nodes;  // all running nodes
   TopOrder order = TopOrder::Load;
-  std::size_t first = 0;  // module
+  std::size_t first = 0;  // index of the first module shown
   bool paused = false;
 };
 
-// As many lines as `rows`, each at most `columns` wide; the last one says the keys.
+// Returns `rows` lines, each at most `columns` wide; the last one lists the keys.
 std::vector<TopLine> top_page(const TopSample& sample, const TopLook& look, int columns, int rows);
-// That no node runs.
+// Returns the page that no node runs.
 std::vector<TopLine> top_nothing(const std::string& why, int columns, int rows);
 
 }  // namespace indurop::tools

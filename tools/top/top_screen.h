@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terminal of `indurop top`: the one place that includes ncurses. Put back to normal at the end.
+// The terminal of `indurop top`: the only place that includes ncurses. Restores the terminal at the end.
 
 #pragma once
 
@@ -19,7 +19,7 @@ class TopScreen {
   [[nodiscard]] Extent extent() const;
   void paint(const std::vector<TopLine>& lines);
   enum class Key { None, Quit, Node, Sort, Pause, Up, Down, PageUp, PageDown, Other };
-  // The next key; waits at most so long. A new size of the terminal is one, too.
+  // Returns the next key; waits at most this long. A change of the terminal's size also counts as a key.
   Key key(int wait_ms);
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NAME=VALUE as the arguments of set and force: all of them found good, or none used.
+// NAME=VALUE arguments of set and force: used only if all of them are valid.
 
 #pragma once
 
@@ -13,8 +13,8 @@ namespace indurop::tools {
 
 using operate::Assignment;
 
-// "a=1" "b=2", or "a" "1": types, array bounds and declared ranges are checked. A failure comes after an error message
-// for each that is wrong, which names `verb`.
+// Parses "a=1" "b=2", or "a" "1": checks types, array bounds and declared ranges. Before a failure an error message is
+// printed for each wrong one, which names `verb`.
 Result<std::vector<Assignment>, Failure> read_assignments(Context& context, const vars::Store& store, const char* verb,
                                                           const std::vector<std::string>& words);
 

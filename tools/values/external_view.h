@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tools of others see of a node, as it shows it in shared memory.
+// The view of a node that third-party tools have, as the node shows it in shared memory.
 
 #pragma once
 
@@ -26,7 +26,7 @@ struct ExternalView {
   std::int64_t cycle_max_ns = 0;
 };
 
-// Empty if the node shows nothing to tools of others, or its file makes no sense.
+// Returns nothing if the node shows nothing to third-party tools, or its file is invalid.
 std::optional<ExternalView> view_external(const std::string& node);
 std::vector<std::string> external_lines(const ExternalView& view, const Output& output);
 JsonValue json_of(const ExternalView& view);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which modules write and read each variable, from the module files of the configuration a node runs: no question is
-// put to the node.
+// The modules that write and read each variable, from the module files of the configuration that a node runs; the node
+// itself is not asked.
 
 #pragma once
 
@@ -13,7 +13,7 @@ namespace indurop::tools {
 
 using KnownUses = std::map<std::string, config::VariableUse>;
 
-// Of all boards of a plant, "control@sensor". Empty if the files cannot be read. Takes as long as reading them does.
+// For all boards of a plant, as "control@sensor". Empty if the files cannot be read. Takes as long as reading them.
 KnownUses known_uses(const std::string& node);
 
 }  // namespace indurop::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board's mirror as its node shows it in shared memory: the other boards, what comes from them and how old it is.
+// A board's mirror as its node shows it in shared memory: the other boards, their variables and the age of the values.
 
 #pragma once
 
@@ -18,7 +18,7 @@ struct PeerView {
   std::string state;
   std::string problem;
   std::uint32_t wanted = 0;
-  std::int64_t heard_ns = 0;  // ago; negative: never
+  std::int64_t heard_ns = 0;  // time since the last message; negative: never
   std::uint64_t frames = 0;
   std::uint64_t lost_updates = 0;
   std::uint64_t refused = 0;
@@ -26,10 +26,10 @@ struct PeerView {
   std::int64_t delay_ns = 0;
   std::uint64_t tick = 0;
   bool clock_known = false;
-  std::int64_t clock_offset_ns = 0;  // own clock minus its
+  std::int64_t clock_offset_ns = 0;  // own clock minus that of the other board
   std::int64_t clock_bound_ns = 0;
   bool clock_synchronised = false;
-  std::int64_t epoch_wall_ns = 0;  // of its tick 0
+  std::int64_t epoch_wall_ns = 0;  // time of its tick 0
 };
 
 struct MirrorView {
@@ -52,10 +52,9 @@ struct MirrorView {
   std::vector<mirror::MirroredVariable> variables;
 };
 
-// Empty if the node is no board of a plant, or its file makes no sense.
+// Returns nothing if the node is not a board of a plant, or its file is invalid.
 std::optional<MirrorView> view_mirror(const std::string& node);
-// Of these variables, those of boards that were not heard just now: for each such board why its values are old, and
-// what they are.
+// For each board in these variables that is not being received: returns why its values are old, and which ones.
 std::vector<std::string> explain_old(const MirrorView& view, const std::set<std::string>& variables);
 std::vector<std::string> mirror_lines(const MirrorView& view, const Output& output);
 JsonValue json_of(const std::vector<mirror::MirroredVariable>& variables);

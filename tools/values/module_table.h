@@ -10,9 +10,9 @@
 
 namespace indurop::tools {
 
-// `alive`: the node runs; else the states are the last ones.
+// `alive`: the node runs; else the states are the last known ones.
 Table module_table(const RunView& run, bool alive);
-// "SIGSEGV at address 0x0 (tick 12)"; empty: none.
+// Returns "SIGSEGV at address 0x0 (tick 12)"; empty: no fault.
 std::string fault_text(const scheduler::ModuleRecord& module);
 
 }  // namespace indurop::tools

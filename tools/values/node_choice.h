@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which node a verb talks to, and opening its shared memory with messages that say what to do.
+// Chooses the node for a verb, and opens its shared memory with messages that say what to do.
 
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace indurop::tools {
 
-// `asked` (--node), else $INDUROP_NODE; else of the nodes that run "local" or the only one; if none runs, of those that
-// left values behind. A node that is just starting is waited for.
+// Returns `asked` (--node), else $INDUROP_NODE; else of the running nodes "local" or the only one; if none runs, of
+// those whose values remain. Waits for a node that is just starting.
 Result<std::string, Failure> choose_node(const std::string& asked);
 
-// The store of the chosen node, or with --remote of the boards in the network; `context.values` is then its source.
-// `names`: those that are wanted; silent boards are not waited for once they are known.
+// Opens the store of the chosen node, or with --remote that of the boards in the network; `context.values` is then its
+// source. `names`: the requested ones; once they are known, silent boards are not waited for.
 Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode, const std::vector<std::string>& names = {});
 
 // The chosen node's run block.
@@ -29,10 +29,10 @@ struct ChosenRun {
 };
 Result<ChosenRun, Failure> open_run(const std::string& asked);
 
-// "not running, last seen 3.2 s ago", for a store whose node is gone; empty if it runs.
+// Returns "not running, last seen 3.2 s ago", for a store whose node is gone; empty if it runs.
 std::string store_absence(const std::string& node, const vars::BlockHeader& header);
 
-// Text and exit code for an error met when opening a node's memory.
+// Returns text and exit code for an error of opening a node's memory.
 std::string explain_open_error(const Error& error, const std::string& node, bool for_writing);
 int exit_code_of(const Error& error);
 

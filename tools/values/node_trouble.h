@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with a node at this moment: what was wrong before and is over does not count.
+// Finds what is wrong with a node at this moment; past problems do not count.
 
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace indurop::tools {
 
-// All modules of a node that runs; nothing if it does not, or is only starting.
+// Returns all modules of a running node; nothing if it does not run, or is only starting.
 std::optional<std::vector<alarms::ModuleNow>> modules_now(const RunView& run);
 std::optional<std::vector<alarms::ModuleNow>> modules_now(const std::string& node);
 
-// Modules that do not do their work, and other boards that are not there, in words.
+// Describes the modules that do not work, and other boards that are missing.
 std::vector<std::string> trouble_now(const RunView& run, const std::optional<MirrorView>& mirror);
 
 }  // namespace indurop::tools

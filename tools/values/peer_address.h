@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The addresses of machines given by name. Name servers may take many seconds to answer, or not to: no caller waits
-// longer than it wants to.
+// Resolves the addresses of machines given by name. Name servers may take many seconds to answer, or not answer at all:
+// no caller waits longer than its deadline.
 
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace indurop::tools {
 
-// `peers` are NAME or NAME:PORT; the same with addresses instead of names. Asks for all at once. Errors: no machine has
-// such a name; nobody has answered until `deadline`.
+// `peers` are NAME or NAME:PORT; returns the same with addresses instead of names. Resolves all at once. Errors: no
+// machine has such a name; no answer until `deadline`.
 Result<std::vector<std::string>, Failure> peer_addresses(const std::vector<std::string>& peers, rt::MonoTime deadline);
 
 }  // namespace indurop::tools

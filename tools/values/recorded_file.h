@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings of this host, and the numbers in one over time: for whoever draws them.
+// Recordings on this host, and the numbers in one over time, for programs that draw them.
 
 #pragma once
 
@@ -18,13 +18,13 @@ struct RecordingFile {
   std::string name;  // "cell~crash.mcap" of a black box, "run.mcap" of a folder of recordings
   std::filesystem::path path;
   std::string node;
-  std::string reason;  // why it was recorded; empty: somebody wanted it
+  std::string reason;  // why it was recorded; empty: a user requested it
   bool black_box = false;
   std::uint64_t bytes = 0;
-  std::int64_t wall_ns = 0;  // when it was written last
+  std::int64_t wall_ns = 0;  // time of the last write
 };
 
-// Black boxes of all nodes, and what lies in `folder` (may be empty); the newest first.
+// Returns the black boxes of all nodes, and the recordings in `folder` (may be empty); the newest first.
 std::vector<RecordingFile> list_recordings(const std::filesystem::path& folder);
 
 struct RecordedChannel {
@@ -38,22 +38,22 @@ struct RecordedContents {
   bool complete = false;
   std::vector<RecordedChannel> channels;
 };
-// Errors: no recording; what is damaged inside is passed over.
+// Errors: not a recording; damaged parts in it are skipped.
 Result<RecordedContents, base::Problem> read_contents_of(const std::filesystem::path& path);
 
 struct RecordedWish {
-  std::vector<std::string> names;  // numbers
+  std::vector<std::string> names;  // names of numbers
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;  // 0: the end
   std::size_t points = 1000;
 };
-// At `points` times, evenly from begin to end: what each number was then. NaN: not known yet.
+// The value of each number at `points` times, evenly spaced from begin to end. NaN: not known yet.
 struct RecordedValues {
   std::int64_t begin_ns = 0;
   std::int64_t end_ns = 0;
   std::vector<std::vector<double>> lines;
 };
-// Errors: no recording; a number that is not in it.
+// Errors: not a recording; a number that is not in it.
 Result<RecordedValues, base::Problem> read_values_of(const std::filesystem::path& path, const RecordedWish& wish);
 
 }  // namespace indurop::tools

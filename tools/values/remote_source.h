@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables of boards anywhere in the network as a store like that of a node here: a thread fills a private one with
-// what the boards show (mirror/remote/remote_plane.h), so that verbs read both alike. Leaves nothing behind in
+// Variables of boards anywhere in the network as a store like that of a local node: a thread writes a private store
+// with what the boards show (mirror/remote/remote_plane.h), so that verbs read both in the same way. Leaves nothing in
 // /dev/shm.
 
 #pragma once
@@ -23,22 +23,23 @@
 
 namespace indurop::tools {
 
-// A value on its way to a board.
+// A value being sent to a board.
 struct RemoteOrder {
   std::string variable;
   std::vector<std::uint8_t> value;
   bool sent = false;
   int repeats = 0;
-  std::int64_t next_ns = 0;  // to be sent then
-  bool shown = false;        // the board has said something since
-  bool forbidden = false;    // by the keys that were given
+  std::int64_t next_ns = 0;  // time to send it next
+  bool shown = false;        // the board has reported its value since
+  bool forbidden = false;    // by the given keys
   std::vector<std::uint8_t> answer;
 };
 
 class RemoteSource final : public ValueSource {
  public:
-  // Joins the network and looks who shows what, at most so long; less if all boards were heard, or, should boards be
-  // silent, once `names` are known. `notes` are for people: boards that were not heard.
+  // Joins the network and discovers the boards' variables for at most `wait_ns`; less if all boards were discovered,
+  // or, even if boards are silent, once `names` are known. `notes` are messages for people: boards that were not
+  // discovered.
   static Result<std::unique_ptr<RemoteSource>, Failure> open(const dds::NetworkSettings& network, std::int64_t wait_ns,
                                                              const std::vector<std::string>& names,
                                                              std::vector<std::string>& notes);
@@ -46,13 +47,13 @@ class RemoteSource final : public ValueSource {
 
   Result<vars::Store> attach() override;
   [[nodiscard]] std::uint64_t generation() const override { return generation_.load(); }
-  std::string absence(const vars::Store* store) override;  // "not heard: control", empty if all boards are
+  std::string absence(const vars::Store* store) override;  // "not heard: control", empty if all boards are received
   [[nodiscard]] bool here() const override { return false; }
   [[nodiscard]] std::string title() const override { return title_; }  // "plant cell", "DDS domain 0"
   [[nodiscard]] std::string whose() const override { return title_; }
   [[nodiscard]] std::string gone(const std::string& absence) const override { return title_ + ": " + absence; }
   [[nodiscard]] std::string back() const override { return title_ + ": all boards are heard again"; }
-  // Boards take whole variables. Waits until the board shows what it has then.
+  // Boards accept whole variables only. Waits until the board shows the value that it has then.
   Result<void, Failure> set(vars::Store& store, const std::string& name, const vars::DirectoryEntry& entry,
                             const schema::Place& place, std::span<const std::uint8_t> bytes) override;
   std::string prefer(const std::string& pattern, const std::string& board) override;
@@ -64,9 +65,9 @@ class RemoteSource final : public ValueSource {
  private:
   struct Known {
     schema::Variable declared;
-    std::map<std::string, bool> boards;  // that show it, and whether they let it be set
+    std::map<std::string, bool> boards;  // boards that show it, and whether they allow it to be set
     std::string owner;
-    bool chosen = false;  // the owner, by the user
+    bool chosen = false;  // the user chose the owner
   };
   RemoteSource(std::unique_ptr<mirror::RemotePlane> plane, std::int64_t wait_ns)
       : plane_(std::move(plane)), wait_ns_(wait_ns) {}
@@ -80,13 +81,13 @@ class RemoteSource final : public ValueSource {
   Status renew_store();
   void value_came(const std::string& variable, const std::string& board, std::span<const std::uint8_t> value);
 
-  std::unique_ptr<mirror::RemotePlane> plane_;  // the feeding thread's once it runs
+  std::unique_ptr<mirror::RemotePlane> plane_;  // used only by the thread that writes, once it runs
   std::int64_t wait_ns_;
   std::string title_;
   std::atomic<std::uint64_t> generation_{0};
-  std::map<std::string, std::string> silent_;  // variable -> board that was not heard when it was opened
+  std::map<std::string, std::string> silent_;  // variable -> board that was not discovered when it was opened
 
-  mutable std::mutex mutex_;  // all below
+  mutable std::mutex mutex_;  // protects all members below
   std::condition_variable news_;
   std::uint64_t plane_generation_ = 0;
   std::map<std::string, Known> variables_;
@@ -96,8 +97,8 @@ class RemoteSource final : public ValueSource {
   std::set<std::string> arrived_;
   std::set<std::string> forbidden_;
   std::optional<RemoteOrder> order_;
-  std::optional<vars::Store> store_;  // filled
-  std::optional<vars::Store> view_;   // not handed out yet
+  std::optional<vars::Store> store_;  // the one that is written
+  std::optional<vars::Store> view_;   // not returned by attach() yet
   std::uint64_t stores_ = 0;
   std::atomic<bool> stop_{false};
   std::thread thread_;

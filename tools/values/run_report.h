@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run block says about the node as a whole, for `status` and `nodes`.
+// The status of a node as a whole, from its run block, for `status` and `nodes`.
 
 #pragma once
 
@@ -16,7 +16,7 @@ inline constexpr const char* kHung = "hung";
 struct NodeReport {
   std::string node;
   bool alive = false;
-  std::string state;  // "running", "hung" if its process does nothing any more, "killed" after a kill
+  std::string state;  // "running", "hung" if its process does not continue, "killed" after a kill
   std::int32_t pid = 0;
   std::string config_file;
   std::string deployment;  // empty: none
@@ -27,23 +27,23 @@ struct NodeReport {
   std::uint64_t lost_ticks = 0;
   std::int64_t uptime_ns = 0;  // since tick 0; 0 if unknown or not running
   std::uint32_t modules = 0;
-  std::uint64_t overruns = 0;  // of all modules
+  std::uint64_t overruns = 0;  // sum over all modules
   std::uint64_t faults = 0;
   scheduler::Obtained rt{};
-  std::vector<std::string> same_core;  // other real-time nodes of this host with their tick on this one's core
+  std::vector<std::string> same_core;  // other real-time nodes of this host that run their tick on the same core
   scheduler::Summary lateness;
-  std::string owner;     // user whose store it is; empty: of another machine
-  bool foreign = false;  // who is not this one
+  std::string owner;     // user who owns the store; empty: of another machine
+  bool foreign = false;  // the owner is another user
   [[nodiscard]] bool hung() const { return state == kHung; }
 };
 
-// From what lies in shared memory under the report's name.
+// Sets the owner from the files in shared memory under the report's name.
 void set_owner(NodeReport& report);
 
 NodeReport report_of(const std::string& node, const RunView& run);
-// Two or three lines: state, figures, real-time rights.
+// Returns two or three lines: state, key values, real-time rights.
 std::vector<std::string> header_lines(const NodeReport& report, const Output& output);
-// "FIFO 90 on core 1, memory locked" or "no FIFO, ...".
+// Returns "FIFO 90 on core 1, memory locked" or "no FIFO, ...".
 std::string rt_text(const scheduler::Obtained& rt);
 JsonValue json_of(const NodeReport& report);
 

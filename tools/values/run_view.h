@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run block of a node, mapped read-only and checked before anything in it is believed: looking can neither disturb
-// the node nor be crashed by a damaged file.
+// The run block of a node, mapped read-only and checked before it is used: reading can neither disturb the node nor
+// crash on a damaged file.
 
 #pragma once
 
@@ -42,7 +42,7 @@ struct OverrunSample {
   bool started = false;
 };
 
-// What a module printed with irp::printf, or the node itself.
+// A message that a module printed with irp::printf, or the node itself.
 struct MessageSample {
   std::string who;  // "node": the node
   std::int64_t time_ns = 0;
@@ -54,31 +54,32 @@ class RunView {
   // Errors: NotFound, PermissionDenied, Corrupt (no run block, or offsets that lead outside the file),
   // VersionMismatch (another version of InduRoP), Busy (the node is still building it).
   static Result<RunView> open(const std::string& node, vars::Mode mode = vars::Mode::ReadOnly);
-  // Of a node elsewhere, as it was at `now_ns` of its CLOCK_MONOTONIC. Errors: Corrupt, VersionMismatch.
+  // The run block of a remote node at `now_ns` of its CLOCK_MONOTONIC. Errors: Corrupt, VersionMismatch.
   static Result<RunView> from_image(std::string_view bytes, bool alive, std::int64_t now_ns);
 
   [[nodiscard]] const scheduler::RunBlock& block() const noexcept { return *block_; }
   [[nodiscard]] std::uint64_t size() const noexcept { return checked_.total; }  // bytes of the block
   [[nodiscard]] std::uint32_t module_count() const noexcept { return checked_.module_count; }
   [[nodiscard]] const scheduler::ModuleRecord& module(std::uint32_t index) const noexcept;
-  // Opened read-write: to place orders in (scheduler/module_command.h), nothing else.
+  // Needs a block opened read-write: to place commands in (scheduler/module_command.h), nothing else.
   [[nodiscard]] scheduler::ModuleRecord& module_to_command(std::uint32_t index) noexcept;
-  // Name for an index found in a log; "?" if it leads nowhere.
+  // Returns the name for an index found in a log; "?" if it is invalid.
   [[nodiscard]] std::string module_name(std::int64_t index) const;
-  // The run of the process that holds the node's lock.
+  // Returns true if this is the run of the process that holds the node's lock.
   [[nodiscard]] bool node_alive() const;
-  [[nodiscard]] bool here() const noexcept { return !elsewhere_; }  // a node of this machine
+  [[nodiscard]] bool here() const noexcept { return !elsewhere_; }  // true for a node of this machine
   [[nodiscard]] std::int64_t now_ns() const noexcept;               // CLOCK_MONOTONIC of its machine
 
-  // The newest `most` complete entries of the two logs, oldest first; entries overwritten meanwhile are left out.
+  // Returns the newest `most` complete entries of the two logs, oldest first; entries overwritten meanwhile are left
+  // out.
   [[nodiscard]] std::vector<SlotSample> slot_log(std::uint64_t most) const;
   [[nodiscard]] std::vector<OverrunSample> overrun_log(std::uint64_t most) const;
-  // The newest `most` messages of all modules and of the node, oldest first; of each the newest 64 are kept, of all
-  // of an image none. What is printed meanwhile is left out.
+  // Returns the newest `most` messages of all modules and of the node, oldest first; the newest 64 of each are kept,
+  // none in an image. Messages printed meanwhile are left out.
   [[nodiscard]] std::vector<MessageSample> messages(std::size_t most) const;
 
  private:
-  // What was checked, so that nobody can change it under us afterwards.
+  // The checked pointers and sizes, so that no process can change them afterwards.
   struct Checked {
     const scheduler::ModuleRecord* modules = nullptr;
     const scheduler::SlotEntry* slots = nullptr;
@@ -99,13 +100,13 @@ class RunView {
   static bool check(const scheduler::RunBlock& block, std::uint64_t file_size, Checked& out) noexcept;
 
   std::shared_ptr<void> memory_;
-  std::string node_;  // empty: elsewhere
+  std::string node_;  // empty: remote
   const scheduler::RunBlock* block_;
   Checked checked_;
   std::optional<Elsewhere> elsewhere_;
 };
 
-// Text of a fixed char array, NUL or not.
+// Returns the text in a char array of fixed size, terminated by NUL or not.
 template <std::size_t N>
 std::string fixed_text(const char (&text)[N]) {
   const std::string_view whole(text, N);

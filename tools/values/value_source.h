@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where values come from: a node of this machine, or boards anywhere in the network. Knows nothing of a command line.
+// The source of values: a node of this machine, or boards anywhere in the network. Independent of the command line.
 
 #pragma once
 
@@ -21,12 +21,12 @@ class ValueSource {
   ValueSource& operator=(const ValueSource&) = delete;
   virtual ~ValueSource() = default;
 
-  // The present store. Another generation() than after this, or a store that has retired: attach again.
+  // Returns the current store. If generation() changes afterwards, or the store has retired: attach again.
   virtual Result<vars::Store> attach() = 0;
   [[nodiscard]] virtual std::uint64_t generation() const = 0;
 
-  // Why values are old: "not running, last seen 3.2 s ago", "not heard: control"; empty if all is well. `store`: the
-  // one that was attached last, null if the next one could not be.
+  // Returns why values are old: "not running, last seen 3.2 s ago", "not heard: control"; empty if they are not.
+  // `store`: the one that was attached last, null if the next one could not be attached.
   virtual std::string absence(const vars::Store* store) = 0;
 
   [[nodiscard]] virtual bool here() const = 0;          // in memory of this machine
@@ -39,17 +39,17 @@ class ValueSource {
   virtual Result<void, Failure> set(vars::Store& store, const std::string& name, const vars::DirectoryEntry& entry,
                                     const schema::Place& place, std::span<const std::uint8_t> bytes) = 0;
 
-  // NAME@BOARD: of variables that several boards show, those whose names match are this board's from now on. Returns
-  // why that cannot be, else nothing.
+  // NAME@BOARD: for variables that several boards show, uses this board for names that match from now on. Returns why
+  // that is impossible, else an empty text.
   virtual std::string prefer(const std::string& pattern, const std::string& board) = 0;
-  // Board whose value of the variable is shown; empty: none.
+  // Returns the board from which the variable's value comes; empty: none.
   [[nodiscard]] virtual std::string owner(const std::string& variable) const = 0;
-  // Board that has the variable and is not heard; empty: none is known. `name` as the user wrote it, with or without
-  // its namespaces.
+  // Returns the board that has the variable and is not being received; empty: none is known. `name` as the user wrote
+  // it, with or without its namespaces.
   [[nodiscard]] virtual std::string silent_owner(const std::string& name) const = 0;
-  // Waits until each of these has a value, at most so long as it may. Returns those without.
+  // Waits until each of these has a value, up to the time limit. Returns those without a value.
   virtual std::vector<std::string> follow(const std::set<std::string>& variables) = 0;
-  // The keys that were given do not let this variable be read; known once it is followed.
+  // Returns true if the given keys do not permit reading this variable; known once it is followed.
   [[nodiscard]] virtual bool forbidden(const std::string& /*variable*/) const { return false; }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables and parts of them as a verb's arguments name them, their values, and what a declared range allows.
+// Variables and parts of them as arguments of a verb, their values, and their declared ranges.
 
 #pragma once
 
@@ -17,21 +17,22 @@ namespace indurop::tools {
 
 using operate::Item;
 
-// Items for names (exact parts) and globs, in the order given, no item twice. The exit code, after an error message for
-// each name that is nothing, or of a board that is silent.
-// Those of boards in the network have a value then, if it comes in time, or are named in a message.
+// Finds the items for names (exact parts) and globs, in the given order, no item twice. Returns the exit code, after an
+// error message for each name without a match, or of a silent board. Items of boards in the network have a value
+// afterwards, if it comes in time, or are named in a message.
 enum class Values { Needed, NotNeeded };
 int select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
                  std::vector<Item>& items, Values values = Values::Needed);
 using schema::is_glob;
 
-// Value for JSON and CSV.
+// Returns the value for JSON and CSV.
 JsonValue raw_value(const schema::Type& type, std::span<const std::uint8_t> bytes);
 
-// "0..10", "0.." without maximum, "" without range.
+// Returns "0..10", "0.." without maximum, "" without range.
 std::string range_text(const std::optional<schema::Range>& range);
 
-// The options of a verb that prints a table of items it is given, here or of boards in the network; their names.
+// Adds the options of a verb that prints a table of given items, local or of boards in the network; returns their
+// names.
 std::shared_ptr<const std::vector<std::string>> add_items_to_show(base::Options& app, Context& context);
 
 }  // namespace indurop::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values a watch looks at: attached read-only, read in one batch per round, attached again when the node comes
-// back with another store. The last values stay while there is no node.
+// The values that a watch follows: attached read-only, read in one batch per round, attached again when the node
+// returns with another store. The last values remain while there is no node.
 
 #pragma once
 
@@ -18,26 +18,26 @@ struct WatchedValue {
   Item item;
   std::vector<std::uint8_t> bytes;
   bool changed = true;  // in the last round
-  bool known = false;   // read at least once from the store that is attached
-  bool gone = false;    // the node that came back does not have it
+  bool known = false;   // read at least once from the attached store
+  bool gone = false;    // the node that returned does not have it
 };
 
 class WatchSource {
  public:
   WatchSource(std::string node, std::vector<std::string> names) : node_(std::move(node)), names_(std::move(names)) {}
 
-  // First attach; `context.values` is then where the values come from.
+  // Attaches for the first time; `context.values` is then the source of the values.
   Result<void, Failure> open(Context& context);
 
-  // One round for values [first, first + count). Attaches again if the store was replaced.
+  // Reads values [first, first + count). Attaches again if the store was replaced.
   void sample(Context& context, std::size_t first, std::size_t count);
 
   [[nodiscard]] std::span<const WatchedValue> values() const noexcept { return values_; }
   [[nodiscard]] const std::string& node() const noexcept { return node_; }
   [[nodiscard]] bool alive() const noexcept { return absence_.empty(); }
-  // "not running, last seen 3.2 s ago", empty while the node runs.
+  // Returns "not running, last seen 3.2 s ago", empty while the node runs.
   [[nodiscard]] const std::string& absence() const noexcept { return absence_; }
-  // How often the store was replaced since open().
+  // Number of times the store was replaced since open().
   [[nodiscard]] std::uint64_t reconnects() const noexcept { return reconnects_; }
 
  private:
@@ -52,7 +52,8 @@ class WatchSource {
   std::uint64_t reconnects_ = 0;
 };
 
-// Names of a watch list: one per line, blank lines and # comments left out. False after an error message.
+// Reads the names of a watch list: one per line, without blank lines and # comments. Returns false after an error
+// message.
 bool read_watch_list(Context& context, const std::string& file, std::vector<std::string>& names);
 
 }  // namespace indurop::tools

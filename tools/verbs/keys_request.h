@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of `indurop keys` have in common.
+// Shared by the parts of `indurop keys`.
 
 #pragma once
 
@@ -17,21 +17,21 @@ inline constexpr int kMostDays = 36500;
 
 struct KeysRequest {
   std::string folder;               // --dir
-  std::string plant = "plant.xml";  // of init
-  std::vector<std::string> boards;  // of add, renew, revoke
-  std::string tool;                 // of add
-  std::string viewer;               // likewise
-  std::string deployer;             // likewise
+  std::string plant = "plant.xml";  // for init
+  std::vector<std::string> boards;  // for add, renew, revoke
+  std::string tool;                 // for add
+  std::string viewer;               // for add
+  std::string deployer;             // for add
   std::vector<std::string> read;    // patterns of variables
   std::vector<std::string> write;
   int days = kDefaultDays;
-  bool finish = false;  // of rotate
+  bool finish = false;  // for rotate
 };
 
 keys::Instant until(const KeysRequest& request);
-// --dir, else what the manifest here says, else "keys".
+// Returns the folder of --dir, else the one in the manifest in the current folder, else "keys".
 keys::PlantKeys keys_of(const KeysRequest& request);
-// Keys must be there, and for changes the authority's private one.
+// Checks that the keys exist, and for changes the authority's private key.
 bool usable(Context& context, const keys::PlantKeys& keys);
 
 int init_keys(Context& context, const KeysRequest& request);
