@@ -33,14 +33,14 @@ bool sound(std::string_view token) {
          std::all_of(token.begin(), token.end(), allowed);
 }
 
-// Takes the first word off, and the blanks behind it.
+// Removes the first word and the blanks after it from `text`; returns the word.
 std::string_view next_word(std::string_view& text) {
   const std::string_view word = text.substr(0, text.find_first_of(" \t"));
   text = base::trimmed(text.substr(word.size()));
   return word;
 }
 
-// Addresses and name of this machine.
+// Returns addresses and name of this machine.
 std::vector<std::string> own_names() {
   std::vector<std::string> names;
   std::array<char, 256> host{};

@@ -63,7 +63,7 @@ Client ClientAuthority::identify(const std::string& certificate) const {
   if (!list.empty() && keys::is_revoked(certificate, list)) {
     return {facts->common_name, Role::Unknown, fmt::format("the certificate of {} was revoked", facts->common_name)};
   }
-  // Other authorities say nothing about what somebody may do: whoever they know counts like a token.
+  // Certificates of other authorities define no role: their clients have the rights of one with a token.
   const auto role = keys::plant_role(*facts);
   const bool writes = !keys::is_plant_certificate(*facts) || role == keys::Role::Deployer;
   return {facts->common_name, writes ? Role::Writer : Role::Reader, {}};

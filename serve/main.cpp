@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `indurop-serve`: boards of this host over HTTP and WebSocket. Only looks at a node's memory unless --write.
+// `indurop-serve`: boards of this host over HTTP and WebSocket. Only reads a node's memory unless --write is given.
 
 #include <fmt/format.h>
 

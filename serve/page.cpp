@@ -91,7 +91,7 @@ Reply Page::answer(std::string_view path) const {
     return not_found();
   }
   const std::string_view name = path == "/" ? "index.html" : path.substr(1);
-  // Links may not lead out of the folder either.
+  // Links must not lead out of the folder either.
   std::error_code error;
   const auto root = std::filesystem::canonical(folder_, error);
   const auto file = error ? std::filesystem::path() : std::filesystem::canonical(root / name, error);

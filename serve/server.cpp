@@ -85,8 +85,8 @@ void Server::note_refused(const Request& request, const std::string& why, std::u
   entry.action = "refused";
   entry.what = request.path;
   entry.outcome = count > 1 ? fmt::format("{} ({} times)", why, count) : why;
-  // Not by this thread, which must not wait for a disk. What is lost if too much waits already is told with the next
-  // one.
+  // Not on this thread, which must not wait for a disk. An entry that is lost because too many jobs wait is reported
+  // with the next one.
   (void)holds_.worker.add([this, entry = std::move(entry)] { (void)audit_.note(entry); });
 }
 
@@ -238,7 +238,7 @@ std::unique_ptr<Visitor> Server::receive(const Request& request, Line& line) {
 
 void Server::announce() const {
   const GateSettings& gate = gate_.settings();
-  // A token that is in no file can be had from here only.
+  // A token that is in no file can be obtained from this output only.
   const bool told = !gate.tokens.empty() && options_.token_file.empty();
   fmt::print("{}://{}:{}/{}\n", gate.tls ? "https" : "http", options_.bind, door_->port(),
              told ? "#token=" + gate.tokens.front().value : "");
@@ -263,7 +263,7 @@ int Server::run() {
   announce();
   tools::be_gentle(options_.node);
   sampling_ = std::make_unique<Door::Alarm>(*door_, [this] { hub_.run(rt::now_ns()); });
-  // Also what makes a signal noticed that came while nothing else happened.
+  // Also ensures that a signal is noticed when nothing else happens.
   constexpr std::int64_t kLookNs = 500'000'000;
   std::unique_ptr<Door::Alarm> looking;
   if (options_.plant) {

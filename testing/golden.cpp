@@ -35,7 +35,7 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-// What differs between two lines of the same tick, by the name of the column.
+// Returns the difference between two lines of the same tick, with the name of the column.
 std::string difference(const std::string& is, const std::string& was, const std::vector<std::string>& names) {
   const auto now = fields_of(is);
   const auto before = fields_of(was);

@@ -28,7 +28,7 @@ constexpr const char* kProgram = "indurop-node";
 constexpr std::chrono::microseconds kLook{20};
 constexpr std::chrono::seconds kEnd{5};
 
-// Beside this library: bin/ of the build tree or of the installation it is part of. Else along PATH.
+// Searches in bin/ of the build tree or of the installation that this library belongs to, then in PATH.
 std::filesystem::path find_program() {
   Dl_info info{};
   std::error_code error;
@@ -84,7 +84,7 @@ NodeProcess::~NodeProcess() {
 
 void NodeProcess::end() noexcept {
   if (commands_ >= 0) {
-    ::close(commands_);  // the end of its input is the end of it
+    ::close(commands_);  // it ends at the end of its input
   }
   const rt::MonoTime give_up = rt::MonoClock::now() + kEnd;
   while (!has_ended()) {
@@ -113,7 +113,7 @@ std::int64_t NodeProcess::basic_period_ns() const noexcept {
   return shortest;
 }
 
-// The boards of a plant are all there when it says that it stands.
+// The boards of a plant are all present when it reports that it has stopped before tick 0.
 void NodeProcess::find_boards() {
   if (plant_ && printed().find("tick 0, ") == std::string::npos) {
     return;
@@ -131,7 +131,7 @@ void NodeProcess::find_boards() {
   std::sort(boards_.begin(), boards_.end(), [](const Board& a, const Board& b) { return a.name < b.name; });
 }
 
-// A board that a script had killed and that is there again has new memory.
+// A board that was killed by a script and has returned has new memory.
 void NodeProcess::look_for_returned() {
   for (Board& board : boards_) {
     const pid_t pid = vars::running_node(board.node);
@@ -147,7 +147,7 @@ void NodeProcess::look_for_returned() {
   }
 }
 
-// Just before the next tick of all that run.
+// Returns true if all running boards have stopped just before the next tick.
 bool NodeProcess::stands() const {
   std::int64_t epoch = boards_[0].run().epoch_ns;
   for (const Board& board : boards_) {
@@ -182,7 +182,7 @@ void NodeProcess::fail(const std::string& what) const {
                                                       said.substr(said.size() - std::min(said.size(), kLast))));
 }
 
-// Just before the next tick begins: whatever belongs to the last one is done.
+// Waits until it has stopped just before the next tick: everything of the last tick is done.
 void NodeProcess::wait_until_it_stands() {
   const rt::MonoTime give_up = rt::MonoClock::now() + patience_;
   for (;;) {

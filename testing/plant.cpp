@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <indurop/testing.h>: a plant as its tests see it, made of a node process, its store and its run block.
+// <indurop/testing.h>: a plant under test, made of a node process, its store and its run block.
 
 #include <fmt/format.h>
 #include <indurop/irp.h>
@@ -75,11 +75,11 @@ struct Plant::Impl {
              settings.patience) {
     attach();
     if (node.boards().size() == 1) {
-      (void)irp::attach(node.boards()[0].node.c_str());  // what this program uses and the node lacks is said on stderr
+      (void)irp::attach(node.boards()[0].node.c_str());  // prints to stderr what this program uses and the node lacks
     }
   }
 
-  // To all boards, again to those that were started again.
+  // Attaches to all boards, and again to those that were restarted.
   void attach() {
     stores.resize(node.boards().size());
     starts.resize(node.boards().size());
@@ -97,7 +97,7 @@ struct Plant::Impl {
     }
   }
 
-  // The boards something is wanted of, "torque@control"; all, if it does not say.
+  // Returns the boards that are addressed, "torque@control"; all, if none is named.
   [[nodiscard]] std::vector<std::size_t> boards_of(std::string_view& text) const {
     const auto& boards = node.boards();
     const auto at = text.find('@');
@@ -155,7 +155,7 @@ struct Plant::Impl {
     return bytes;
   }
 
-  // As `indurop set` and `force` do it.
+  // Checks the range as `indurop set` and `force` do.
   static void check_range(const Part& part, std::string_view name, std::span<const std::uint8_t> bytes) {
     constexpr double kUnlimited = std::numeric_limits<double>::infinity();
     std::string message;
@@ -203,7 +203,7 @@ struct Plant::Impl {
   std::string name;
   indurop::testing::NodeProcess node;
   std::vector<std::unique_ptr<vars::Store>> stores;  // by board
-  std::vector<std::uint64_t> starts;                 // of the board that each is attached to
+  std::vector<std::uint64_t> starts;                 // start count of the board to which each is attached
   indurop::testing::Trace trace;
 };
 
@@ -368,7 +368,7 @@ void Plant::kill(std::string_view module) {
   }
   const std::uint64_t started = vars::process_start_time(pid);
   ::kill(pid, SIGKILL);
-  while (vars::process_alive(pid, started)) {  // its node looks for that before time goes on
+  while (vars::process_alive(pid, started)) {  // the node checks that before it lets time continue
     std::this_thread::sleep_for(1ms);
   }
 }

@@ -16,7 +16,7 @@ void AlarmDesk::look(std::vector<std::string> boards) {
 }
 
 void AlarmDesk::look_now(const std::vector<std::string>& boards) {
-  constexpr std::uint64_t kIdleRounds = 10;  // a board without alarms is looked at every second
+  constexpr std::uint64_t kIdleRounds = 10;  // a board without alarms is checked every second
   ++round_;
   for (const std::string& board : boards) {
     auto& watch = watches_[board];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about alarms: how they stand, what happened, and what people do about them.
+// Answers about alarms: their status, their history, and what operators do about them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,7 +21,7 @@ std::vector<alarms::DeclaredAlarm> declared_of(const Board& board) {
   return board.store() != nullptr ? alarms::declared_alarms(*board.store()) : std::vector<alarms::DeclaredAlarm>();
 }
 
-// What a body asks for, or what is wrong with it.
+// Parses a body, or returns what is wrong with it.
 Result<alarms::AlarmOrder, std::string> read_order(const Call& call, alarms::AlarmEvent what) {
   const auto json = base::Json::parse(call.request->body);
   if (!json || !json->is_object()) {
@@ -52,7 +52,7 @@ RemoteOrder::What remote_word_of(alarms::AlarmEvent what) {
                                                   : RemoteOrder::What::UnshelveAlarms;
 }
 
-// The alarms that it was done to, or the reply that says why not.
+// Returns the alarms that were changed, or the reply that says why none was.
 Result<base::Json, Reply> done_remotely(Write& write, const Call& call, const Board& board,
                                         const alarms::AlarmOrder& order) {
   const auto done = call.plant->order(board.name(), {remote_word_of(order.what), order.names, order.for_ns,
@@ -103,7 +103,7 @@ Reply carry_out(Api& api, const Call& call, alarms::AlarmEvent what, const char*
   return write.done(body);
 }
 
-// What its agent says, or why it says nothing.
+// Returns the report of the board's agent, or the reply that says why there is none.
 Result<base::Json, Reply> told_by(const Call& call, const Board& board) {
   const auto texts = call.plant->texts("alarms", {board.name()});
   const auto text = texts.find(board.name());

@@ -31,7 +31,7 @@ std::uint64_t number_of(const base::Json& row, const char* what) {
   return row[what].natural().value_or(0);
 }
 
-// Of another host: what its agent says, and where it is.
+// Adds, for a board of another host, the report of its agent, and its location.
 void add_far(base::Json& out, const Board& board) {
   if (board.remote() == nullptr) {
     return;

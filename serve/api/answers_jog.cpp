@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about robots that are moved by hand from afar.
+// Answers about remote jogging of robots.
 #include <utility>
 
 #include "operate/set.h"

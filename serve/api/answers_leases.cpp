@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about forces that end with their client, and about the lock that keeps a board from being written to.
+// Answers about forces that end with their client, and about a board's write lock.
 #include "operate/set.h"
 #include "serve/api/answers.h"
 #include "serve/api/write.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What several answers have in common.
+// Functions that several answers share.
 #include <fmt/format.h>
 
 #include <charconv>

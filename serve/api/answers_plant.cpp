@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about boards elsewhere, by what their agents say, and orders to all of them.
+// Answers about boards of the network, from the reports of their agents, and commands to all of them.
 #include <sys/mman.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Said {
   std::vector<std::string> lines;
 };
 
-// In a process of its own, for this one listens to the same domain already.
+// Runs in a separate process, because this one already uses the same DDS domain.
 Said roll_back(const deploy::LinkSettings& link, const std::string& id, const std::string& plant) {
   std::vector<std::string> words{base::program_folder() / "indurop", "--color", "never", "rollback", id};
   if (!plant.empty()) {
@@ -40,7 +40,7 @@ Said roll_back(const deploy::LinkSettings& link, const std::string& id, const st
   return {*code, base::lines_of(text ? *text : std::string())};
 }
 
-// A whole id, as history has them: it is the name of what is asked of boards.
+// Returns true if the text is a full id, as the history has them: it becomes part of the name requested from boards.
 bool is_id(const std::string& text) {
   constexpr std::size_t kDigits = 64;
   return text.size() == kDigits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -90,7 +90,7 @@ Reply plant_rollback(Api& api, const Call& call) {
   const Said said = roll_back(*call.link, id, plant);
   if (said.code != kOk) {
     std::vector<std::string> why = said.lines;
-    std::reverse(why.begin(), why.end());  // what became of it is said last
+    std::reverse(why.begin(), why.end());  // the result is printed last
     return why.empty() ? write.failed(status::kConflict, "it was not rolled back")
                        : write.failed(said.code == kUnreachable ? status::kNoAnswer : status::kConflict, why);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about the PLC program: what is to be drawn, and what changes in it.
+// Answers about the PLC program: its drawings, and the values that change in them.
 #include <utility>
 
 #include "base/exit_code.h"

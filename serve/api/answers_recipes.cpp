@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about recipes: sets of parameters, compared with what is, and loaded in one tick.
+// Answers about recipes: sets of parameters, compared with the current values, and loaded in one tick.
 #include "rt/clock.h"
 #include "serve/api/answers.h"
 #include "serve/api/write.h"
@@ -13,7 +13,7 @@ std::string recipe_in(const Call& call) {
   return call.part.find("name")->second;
 }
 
-// Values to write, or the reply that says why not.
+// The values to write, or the reply that says why not.
 struct Body {
   std::vector<std::string> names;
   std::string comment;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about recordings: which there are, what is in one, and its numbers over time.
+// Answers about recordings: the list, the contents of one, and its numbers over time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ base::Json json_of(const tools::RecordingFile& file) {
   return out;
 }
 
-// Only what is listed can be opened, whatever the path says.
+// Only files that are listed can be opened, whatever the path is.
 Result<tools::RecordingFile, Reply> file_of(const Api& api, const Call& call) {
   const std::string& name = call.part.find("name")->second;
   const auto all = tools::list_recordings(api.facts().recordings);

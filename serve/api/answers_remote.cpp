@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about a board of another host that are not of its values: its agent is asked, or told.
+// Answers about a board of another host, except those about its values: by a request or command to its agent.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,12 +18,12 @@ namespace {
 
 using RemoteOrder = tools::PlantWatch::RemoteOrder;
 
-// One order is one line for each value: what has more would be another order.
+// A command has one line for each value: a text of several lines would be a different command.
 bool one_line(const std::string& text) {
   return std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
 }
 
-// Begins, lets the board do it, and notes what became of that.
+// Begins the write, sends the command to the board, and logs the result.
 Reply give(Write& write, const Call& call, const Board& board, RemoteOrder order, base::Json body) {
   if (!one_line(order.reason) || !std::all_of(order.lines.begin(), order.lines.end(), one_line)) {
     return write.failed(status::kWrongValue, "names, values and reasons for a board of another host are one line each");
@@ -84,7 +84,7 @@ Reply command(Api& api, const Call& call, RemoteOrder::What what, std::string wo
   return give(write, call, **found, RemoteOrder{what, {module}, 0, {}, {}}, std::move(body));
 }
 
-// How the node does comes from its agent; the answer is that of a board here.
+// Gets the run block from the agent, then answers as for a board of this host.
 Reply shown(Api& api, const Call& call, Reply (*answer)(Api& api, const Call& call)) {
   const auto found = board_of(call);
   if (!found) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arms of a board: the descriptions its robot modules were given.
+// Answers about the robot arms of a board: the URDF files of its robot modules.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

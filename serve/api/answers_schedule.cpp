@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about the schedule: what is planned, what ran when, how exactly.
+// Answers about the schedule: the plan, the runs, and their timing.
 #include <fmt/format.h>
 
 #include "config/plan/plan.h"
@@ -17,7 +17,7 @@ struct Ran {
   const Board* board;
   tools::RunView run;
 };
-// The board of a call, with what its node left of its run; or the refusal.
+// Returns the board of a call with its node's run block; or the refusal.
 Result<Ran, Reply> ran_of(const Call& call) {
   const auto found = board_of(call);
   if (!found) {
@@ -33,7 +33,7 @@ Reply wrong_count() {
   return refusal(status::kBadRequest, fmt::format("count is a number of 1 to {}, after one of 0 on", kMostSamples));
 }
 
-// The plan of a file as JSON, or why there is none.
+// Returns the plan of a file as JSON, or why there is none.
 std::pair<base::Json, std::string> plan_of(const std::string& file) {
   const config::CheckOptions options{.files = false, .adjust = true};
   if (config::is_plant_file(file)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scope's picture: the answer comes when something triggered it, or after a while without one.
+// The answer with a scope's capture: it is sent after the trigger, or after a while without one.
 #include <string>
 #include <utility>
 
@@ -18,7 +18,7 @@ constexpr std::uint64_t kMostRows = 20'000;
 constexpr std::uint64_t kUsualPatienceMs = 2000;
 constexpr std::uint64_t kMostPatienceMs = 10'000;
 constexpr std::int64_t kMsNs = 1'000'000;
-constexpr std::int64_t kLongestRestNs = 60'000'000'000;  // for what comes after the trigger
+constexpr std::int64_t kLongestRestNs = 60'000'000'000;  // maximum time after the trigger
 
 struct Wanted {
   tools::ScopeOrder order;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers that change something: values, forces, modules. The store is opened to write for that moment only.
+// Answers that change something: values, forces, modules. The store is open for writing only during the write.
 #include <fmt/format.h>
 
 #include <utility>
@@ -18,7 +18,7 @@
 namespace indurop::serve::answers {
 namespace {
 
-// All values found good, or what is wrong with each that is not.
+// Returns all values if they are valid, else what is wrong with each that is not.
 Result<std::vector<operate::Assignment>, operate::Refusal> check_values(const vars::Store& store, const Wish& wish) {
   std::vector<operate::Assignment> all;
   operate::Refusal wrong;

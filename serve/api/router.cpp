@@ -8,7 +8,7 @@
 namespace indurop::serve {
 namespace {
 
-// Takes the next part of a path off its front, without the slash.
+// Removes the next part of a path, without the slash, and returns it.
 std::string_view take_part(std::string_view& path) {
   path.remove_prefix(path.starts_with('/') ? 1 : 0);
   const std::string_view part = path.substr(0, path.find('/'));

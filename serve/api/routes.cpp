@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of all that can be asked: protocols, methods, paths, what one has to be allowed for them,
-// and how it is answered about a board of another host.
+// The table of all routes: protocols, methods, paths, the right each needs, and how it is answered for a board of
+// another host.
 #include <array>
 
 #include "serve/api/answers.h"
@@ -8,7 +8,7 @@
 
 namespace indurop::serve {
 
-// Long: it is a table.
+// Long, because it is a table.
 std::span<const Route> all_routes() {
   constexpr Method kGet = Method::Get;
   constexpr Method kPost = Method::Post;
@@ -87,7 +87,7 @@ std::span<const Route> all_routes() {
       Route{kGet, "/api/v1/stream", kRead, Pace::Stream, nullptr, kHereOnly, kStream},
       Route{kGet, "/{any...}", kRead, Pace::Stream, nullptr, kHereOnly, kFoxglove},
       Route{kGet, "/{any...}", kRead, Pace::Stream, nullptr, kHereOnly, kFoxgloveSdk},
-      // The page itself is no secret.
+      // The page itself needs no right.
       Route{kGet, "/{file...}", Right::Open, Pace::Page, nullptr, kHereOnly},
   };
   return kRoutes;

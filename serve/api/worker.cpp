@@ -7,11 +7,11 @@
 namespace indurop::serve {
 
 Worker::Worker() {
-  // Signals are for the door's thread.
+  // Signals are handled by the door's thread.
   sigset_t all;
   sigset_t before;
   sigfillset(&all);
-  // The kernel kills a process whose thread blocks a fault of its own; that of a block that was cut is survived.
+  // The kernel kills a process whose thread blocks a fault that it causes; a SIGBUS from a truncated block is survived.
   sigdelset(&all, SIGBUS);
   pthread_sigmask(SIG_BLOCK, &all, &before);
   thread_ = std::thread([this] { work(); });

@@ -69,7 +69,7 @@ Reply Write::failed(const operate::Refusal& refusal) {
 
 void Write::note_failure(const std::string& why) {
   entry_.outcome = why;
-  static_cast<void>(api_->audit().note(entry_));  // nothing was written, so there is nothing to hide
+  static_cast<void>(api_->audit().note(entry_));  // nothing was written, so a missing log entry hides nothing
 }
 
 Reply Write::failed_with(int exit_code) {
@@ -89,7 +89,7 @@ std::optional<Reply> Write::begin() {
 
 Reply Write::done(const base::Json& body) {
   entry_.outcome = "done";
-  static_cast<void>(api_->audit().note(entry_));  // that it was begun is noted already
+  static_cast<void>(api_->audit().note(entry_));  // its begin is logged already
   return json_reply(body);
 }
 

@@ -14,7 +14,7 @@
 namespace indurop::serve {
 namespace {
 
-// One for each store that any board has attached: a name may be on this host now and on another one then.
+// A number for each store that any board attaches: a name may be on this host at one time and on another one later.
 std::uint64_t next_attachment() {
   static std::atomic<std::uint64_t> last{0};
   return ++last;

@@ -10,7 +10,7 @@
 namespace indurop::serve {
 namespace {
 
-constexpr std::int64_t kLearnAgainNs = 2'000'000'000;  // of boards that have nothing to say yet
+constexpr std::int64_t kLearnAgainNs = 2'000'000'000;  // for boards without variables so far
 
 bool runs_here(const std::string& name) {
   return vars::running_node(name) > 0;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
 
-// `runs`: the node; of one that has ended only what happened before counts.
+// `runs`: the node runs; if it has ended, only earlier problems count.
 void add_module(std::vector<Trouble>& all, const scheduler::ModuleRecord& module, bool runs) {
   const std::string name = tools::fixed_text(module.name);
   const auto kind = static_cast<scheduler::FaultKind>(module.fault_kind.load(std::memory_order_acquire));

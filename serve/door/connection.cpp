@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a connection does that speaks HTTP.
+// The part of a connection that handles HTTP.
 #include "serve/door/connection.h"
 
 #include <poll.h>
@@ -11,13 +11,13 @@ namespace indurop::serve {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kHeadNs = 10 * kSecond;  // from its beginning to its end, TLS included
+constexpr std::int64_t kHeadNs = 10 * kSecond;  // for the whole head, including TLS
 constexpr std::int64_t kIdleNs = 60 * kSecond;  // between two requests
 constexpr std::int64_t kBodyNs = 8 * kSecond;
-constexpr std::int64_t kAnswerNs = 3600 * kSecond;  // orders to a plant may take long
+constexpr std::int64_t kAnswerNs = 3600 * kSecond;  // commands to a plant may take long
 constexpr std::int64_t kSendNs = 30 * kSecond;      // without any progress
 constexpr std::int64_t kClosingNs = 2 * kSecond;
-constexpr std::size_t kMostPieces = 64;  // read at once; then the others have their turn
+constexpr std::size_t kMostPieces = 64;  // read at once; then other connections are served
 
 }  // namespace
 
@@ -38,7 +38,8 @@ short Connection::events() const {
   return static_cast<short>((input_ended_ ? 0 : POLLIN) | (sends ? POLLOUT : 0));
 }
 
-// Who waits in this phase for something may be ended in favour of others: not who is answered or has a stream.
+// A connection that waits for input in this phase may be ended in favour of others; one that is being answered or has a
+// stream may not.
 void Connection::enter(Phase phase, std::int64_t lasts_ns, std::int64_t now_ns) {
   phase_ = phase;
   deadline_ns_ = now_ns + lasts_ns;
@@ -80,7 +81,7 @@ bool Connection::receive(std::int64_t now_ns) {
   return true;
 }
 
-// Does what can be done with what has come.
+// Processes the input received so far.
 bool Connection::go_on(std::int64_t now_ns) {
   switch (phase_) {
     case Phase::Head:
@@ -98,7 +99,7 @@ bool Connection::go_on(std::int64_t now_ns) {
       if (close_) {
         input_.clear();
       }
-      return input_.size() <= kMostHead;  // of further requests, which have to wait
+      return input_.size() <= kMostHead;  // further requests, which have to wait
   }
   return false;
 }
@@ -107,7 +108,7 @@ void Connection::read_certificate() {
   if (!std::exchange(certificate_read_, true)) {
     certificate_ = wire_.certificate();
   }
-  // Asked each time: it may have been revoked meanwhile.
+  // Checked for each request: it may have been revoked meanwhile.
   request_.certificate = certificate_.empty() ? Client{} : common_.house->identify(certificate_);
 }
 
@@ -204,7 +205,7 @@ bool Connection::flush(std::int64_t now_ns) {
     if (output_.empty() && message_ == nullptr && !next_message()) {
       return sent_all(now_ns);
     }
-    // A frame that was begun goes first: a control frame must not come into the middle of it.
+    // A frame that was begun is sent first: a control frame must not be inserted into it.
     const bool frame = message_ != nullptr && (message_sent_ > 0 || output_.empty());
     const std::string_view rest = frame ? rest_of_message() : std::string_view(output_).substr(sent_);
     std::size_t taken = 0;
@@ -242,7 +243,7 @@ bool Connection::sent_all(std::int64_t now_ns) {
   if (input_ended_) {
     return false;
   }
-  // The client ends: who closes while something comes in takes back what was just sent.
+  // The client closes first: closing while input arrives would discard the data that was just sent.
   wire_.finish();
   enter(Phase::Closing, kClosingNs, now_ns);
   input_.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a connection does that becomes, and is, a WebSocket.
+// The part of a connection that handles the WebSocket and the change to it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,12 +11,12 @@ namespace indurop::serve {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
-// A client that is silent for the first time is asked whether it lives, after the second it is closed.
+// A client that is silent for the first time gets a ping, for the second time it is closed.
 constexpr std::int64_t kPingNs = 15 * kSecond;
 constexpr std::int64_t kSilentNs = 30 * kSecond;
 constexpr std::int64_t kClosingNs = 2 * kSecond;
-constexpr std::size_t kMostOutput = 64U << 10;  // control frames that wait
-// One stream of so many is kept for clients with a token or certificate.
+constexpr std::size_t kMostOutput = 64U << 10;  // waiting control frames
+// One of this many streams is reserved for clients with a token or certificate.
 constexpr std::size_t kReserve = 8;
 
 }  // namespace
@@ -75,7 +75,7 @@ bool Connection::hear(std::int64_t now_ns) {
   const std::string bytes = std::exchange(input_, {});
   const int code = frames_.feed(bytes, [this](FrameKind kind, const std::string& data) { return heard(kind, data); });
   if (output_.size() > kMostOutput) {
-    return false;  // it asks and asks and takes no answer
+    return false;  // it keeps sending pings without reading the answers
   }
   return code == 0 || close_stream(code, now_ns);
 }
@@ -103,7 +103,7 @@ int Connection::heard(FrameKind kind, const std::string& data) {
   }
 }
 
-// The next frame, if there is any and the stream goes on.
+// Takes the next frame, if there is one and the stream is open.
 bool Connection::next_message() {
   if (phase_ != Phase::Stream || !asked_) {
     return false;
@@ -126,7 +126,7 @@ std::string_view Connection::rest_of_message() const {
   return {reinterpret_cast<const char*>(message_->bytes.data()) + at, message_->bytes.size() - at};
 }
 
-// What waits is left out; a frame that was begun is ended first.
+// Discards waiting messages; a frame that was begun is completed first.
 bool Connection::close_stream(int code, std::int64_t now_ns) {
   output_ += close_frame(code);
   if (message_ != nullptr && message_sent_ == 0) {
@@ -142,7 +142,7 @@ bool Connection::stream_on_time(std::int64_t now_ns) {
     return false;
   }
   deadline_ns_ = now_ns + kPingNs;
-  // What counted at the beginning may have been revoked.
+  // The token or certificate that was valid at the beginning may have been revoked.
   read_certificate();
   if (common_.house->refuse(request_)) {
     return close_stream(close_code::kNotAllowed, now_ns);

@@ -21,20 +21,20 @@
 namespace indurop::serve {
 namespace {
 
-// Connections beside those of streams, and how many of all one address may have.
+// Connections in addition to those of streams, and the maximum for one address.
 constexpr std::size_t kMostRequests = 192;
 constexpr std::size_t kMostOfOne = 64;
 constexpr std::size_t kSpareFiles = 64;
 constexpr int kAcceptedAtOnce = 16;
 constexpr std::int64_t kNsPerMs = 1'000'000;
-constexpr std::int64_t kNoFilesNs = 100 * kNsPerMs;  // until it is tried again
+constexpr std::int64_t kNoFilesNs = 100 * kNsPerMs;  // time until the next attempt
 
 std::int64_t now() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
-// Files for so many connections, as far as this process may have them.
+// Raises the limit of open files for this many connections, as far as this process may.
 void want_files(std::size_t most) {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < most + kSpareFiles) {
@@ -76,7 +76,7 @@ struct Door::Impl {
   std::multimap<std::int64_t, Alarm::State*> alarms;
   std::int64_t listens_again_ns = 0;
   std::mutex lock;
-  std::vector<std::pair<Ticket, Reply>> replies;  // of other threads
+  std::vector<std::pair<Ticket, Reply>> replies;  // from other threads
 };
 
 Door::Alarm::Alarm(Door& door, std::function<void()> ring) : state_(std::make_unique<State>()) {
@@ -136,7 +136,7 @@ void Door::reply(Ticket ticket, Reply reply) {
   (void)!::write(impl_->wake.get(), &one, sizeof one);
 }
 
-// Until the first alarm or the first connection whose time is over.
+// Returns the time until the first alarm or the first deadline of a connection.
 int Door::Impl::patience_ms() const {
   std::int64_t first = alarms.empty() ? std::numeric_limits<std::int64_t>::max() : alarms.begin()->first;
   for (const auto& [id, connection] : connections) {
@@ -190,7 +190,7 @@ void Door::Impl::end_late() {
                 [at](const auto& one) { return one.second->deadline_ns() <= at && !one.second->on_time(at); });
 }
 
-// Those that are due now; what they set anew is for a later turn.
+// Calls the alarms that are due now; those that they set again are called in a later round.
 void Door::Impl::ring_alarms() {
   const std::int64_t at = now();
   std::vector<Alarm::State*> due;
@@ -211,7 +211,7 @@ void Door::Impl::let_in() {
   for (int i = 0; i < kAcceptedAtOnce; ++i) {
     auto taken = listener.take();
     if (!taken) {
-      // Without this the loop would turn and turn for a connection that cannot be had.
+      // Without this the loop would spin while a connection cannot be accepted.
       listens_again_ns = taken.error().sys_errno != 0 ? now() + kNoFilesNs : 0;
       return;
     }

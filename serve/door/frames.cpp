@@ -14,7 +14,7 @@ constexpr unsigned kOpcode = 0x0f;
 constexpr unsigned kMasked = 0x80;
 constexpr unsigned kLength = 0x7f;
 constexpr unsigned kLength16 = 126;  // the length follows in 2 bytes
-constexpr unsigned kLength64 = 127;  // in 8
+constexpr unsigned kLength64 = 127;  // the length follows in 8 bytes
 constexpr std::size_t kMaskSize = 4;
 constexpr std::uint64_t kMost16 = 0xffff;
 constexpr unsigned kByteBits = 8;
@@ -65,7 +65,7 @@ int FrameReader::feed(std::string_view bytes, const Take& take) {
   return 0;
 }
 
-// One more byte of the header has come. What is wrong is refused as early as it shows.
+// Processes another byte of the header. Errors are refused as early as possible.
 int FrameReader::read_header() {
   if (header_.size() < 2) {
     return 0;
@@ -99,7 +99,7 @@ int FrameReader::begin_frame(unsigned first, unsigned second) {
       opcode <= static_cast<unsigned>(FrameKind::Binary) ||
       (opcode >= static_cast<unsigned>(FrameKind::Close) && opcode <= static_cast<unsigned>(FrameKind::Pong));
   final_ = (first & kFinal) != 0;
-  // A client has to mask what it sends, so that nothing on the way takes it for a request.
+  // A client has to mask what it sends, so that no proxy mistakes it for a request.
   if (!known || (first & kReserved) != 0 || (second & kMasked) == 0) {
     return close_code::kProtocol;
   }
@@ -112,7 +112,7 @@ int FrameReader::begin_frame(unsigned first, unsigned second) {
     return close_code::kProtocol;
   }
   if (kind_ == FrameKind::Binary) {
-    return close_code::kNotUnderstood;  // clients speak text
+    return close_code::kNotUnderstood;  // clients send text only
   }
   message_kind_ = kind_ == FrameKind::More ? message_kind_ : kind_;
   in_message_ = true;

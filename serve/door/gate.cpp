@@ -19,7 +19,7 @@ std::string lower(std::string_view text) {
 constexpr std::string_view kBearer = "Bearer ";
 constexpr std::string_view kTokenProtocol = "indurop.token.";
 
-// The token as it was sent, in a header or, by the WebSocket of a browser, as a subprotocol. Empty: none.
+// Returns the token in a header or, for the WebSocket of a browser, in a subprotocol. Empty: none.
 std::string_view sent_token(const Request& request) {
   const std::string_view header = request.authorization;
   if (header.starts_with(kBearer)) {
@@ -52,7 +52,7 @@ bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept {
   return difference == 0;
 }
 
-// "[::1]:8080" -> "::1", "LocalHost:8080" -> "localhost".
+// Converts "[::1]:8080" to "::1", "LocalHost:8080" to "localhost".
 std::string host_name(std::string_view host) {
   constexpr std::size_t kLongestPort = 5;
   const auto end = host.starts_with('[') ? host.find(']') : host.find(':');
@@ -79,7 +79,8 @@ Client Gate::client_of(const Request& request) const {
     return request.certificate;
   }
   Client client{{}, Role::Unknown, "the token is wrong"};
-  for (const Token& token : settings_.tokens) {  // all of them: the time does not tell which
+  for (const Token& token : settings_.tokens) {  // checks all of them, so that the time does not reveal which one
+                                                 // matches
     if (equal_in_constant_time(token.value, sent)) {
       client = {token.name, token.role, {}};
     }

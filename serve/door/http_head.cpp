@@ -18,7 +18,7 @@ constexpr std::size_t kMostFields = 100;
 constexpr std::string_view kEnd = "\r\n";
 constexpr std::string_view kHeadEnd = "\r\n\r\n";
 
-// Fields that may stand there once only: with two of them it is not clear which one counts.
+// Fields that may occur once only: with two of them it is ambiguous which one counts.
 constexpr std::array kOnce{"host",
                            "origin",
                            "authorization",
@@ -38,7 +38,7 @@ bool equal_but_case(std::string_view a, std::string_view b) {
                     [](char x, char y) { return lower_letter(x) == lower_letter(y); });
 }
 
-// A character of a method or of a field's name.
+// Returns true for a character of a method or of a field's name.
 bool is_token(unsigned char c) {
   constexpr std::string_view kMarks = "!#$%&'*+-.^_`|~";
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
@@ -65,7 +65,7 @@ int digit_of(char c) {
                                 : -1;
 }
 
-// "%3A" becomes ":", in a query "+" a blank; nothing if it is no such text.
+// Decodes "%3A" to ":", and in a query "+" to a blank; returns nothing if the text is invalid.
 std::optional<std::string> decoded(std::string_view text, bool query) {
   constexpr int kBase = 16;
   std::string out;
@@ -141,7 +141,7 @@ std::optional<Reply> read_field(std::string_view line, Head& head) {
   if (colon == std::string_view::npos || !all_token(name)) {
     return bad("a header is NAME: value, on one line");
   }
-  // At its ends, too: a line feed there is the end of the line to other readers.
+  // Also at both ends: other readers interpret a line feed there as the end of the line.
   if (!std::all_of(line.begin(), line.end(), [](unsigned char c) { return c == ' ' || c == '\t' || is_visible(c); })) {
     return bad("a header has a control character");
   }

@@ -16,7 +16,7 @@
 namespace indurop::serve {
 namespace {
 
-// What of a stream may lie in the kernel for a client that does not read: a few frames, not megabytes of old ones.
+// Bytes of a stream that the kernel buffers for a client that does not read: a few frames, not megabytes of old ones.
 constexpr int kSendBytes = 128 << 10;
 
 struct FreeAddresses {

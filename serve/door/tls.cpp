@@ -10,12 +10,12 @@
 namespace indurop::serve {
 namespace {
 
-// A key with a password is refused, there is nobody to ask.
+// A key with a password is refused, because there is no user to enter it.
 int no_password(char* /*into*/, int /*size*/, int /*writing*/, void* /*context*/) {
   return -1;
 }
 
-// Only HTTP/1.1 is spoken; a client that offers nothing of it is spoken to all the same.
+// Only HTTP/1.1 is supported; a client that does not offer it is served with it all the same.
 int choose_protocol(SSL* /*connection*/, const unsigned char** chosen, unsigned char* length,
                     const unsigned char* offered, unsigned offered_length, void* /*context*/) {
   static constexpr std::array<unsigned char, 9> kOurs{8, 'h', 't', 't', 'p', '/', '1', '.', '1'};
@@ -34,7 +34,7 @@ Result<TlsContext, base::Problem> open_tls(const std::filesystem::path& certific
     return base::Problem{"libssl cannot start"};
   }
   SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION);
-  // Sessions are not resumed: who comes again shows the certificate again, which may have been revoked.
+  // Sessions are not resumed: a client that returns presents its certificate again, which may have been revoked.
   SSL_CTX_set_options(context.get(), SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION | SSL_OP_NO_TICKET |
                                          SSL_OP_CIPHER_SERVER_PREFERENCE);
   SSL_CTX_set_session_cache_mode(context.get(), SSL_SESS_CACHE_OFF);

@@ -40,7 +40,7 @@ Wire::State Wire::after_tls(int result) {
   if (error == SSL_ERROR_WANT_READ || error == SSL_ERROR_WANT_WRITE) {
     return State::Later;
   }
-  broken_ = broken_ || error != SSL_ERROR_ZERO_RETURN;  // nothing can be said any more
+  broken_ = broken_ || error != SSL_ERROR_ZERO_RETURN;  // nothing can be sent any more
   return State::Ended;
 }
 

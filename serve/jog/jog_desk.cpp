@@ -24,10 +24,11 @@ using base::Problem;
 constexpr double kMost = 100;  // %
 constexpr int kWorkFrame = 3;  // ROBOT_JOG.eFrame
 
-// ROBOT_JOG.eFrame. A word that is none of the first three is a work frame, which the robot knows or refuses.
+// Converts to ROBOT_JOG.eFrame. Any word other than the first three is a work frame, which the robot accepts or
+// rejects.
 Result<int, Problem> number_of(const std::string& frame) {
   constexpr std::array<std::string_view, 3> kWords{"axes", "base", "tool"};
-  constexpr std::size_t kLongest = 31;  // of ROBOT_JOG.frame
+  constexpr std::size_t kLongest = 31;  // size of ROBOT_JOG.frame
   const auto usual = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
   if (frame.empty() || frame.size() > kLongest || !std::all_of(frame.begin(), frame.end(), usual)) {
     return Problem{"frame is axes, base, tool or the name of a work frame"};
@@ -83,7 +84,7 @@ struct JogDesk::Hand {
   std::uint32_t beat = 0;
   std::int64_t until_ns = 0;  // CLOCK_MONOTONIC
 
-  // False: it cannot be written.
+  // Returns false if it cannot be written.
   bool write(const std::string& text) {
     std::vector<std::uint8_t> bytes(place.type.size());
     std::string message;

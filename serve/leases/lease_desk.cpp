@@ -9,7 +9,7 @@
 namespace indurop::serve {
 namespace {
 
-// The variables anew, in a store that was opened anew. False if the board is another one by now.
+// Finds the variables again in a store that was reopened. Returns false if the board has changed meanwhile.
 template <class Held>
 bool bind(Held& held, const vars::Store& store) {
   const vars::BlockHeader& header = store.header();

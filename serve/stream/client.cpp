@@ -9,7 +9,7 @@
 namespace indurop::serve {
 namespace {
 
-// Answers a client has not taken: more, and it only talks.
+// Maximum answers that wait for a client: one with more only sends and does not read.
 constexpr std::size_t kMostAnswers = 256;
 constexpr int kTooManyAnswers = 1008;
 
@@ -82,7 +82,7 @@ void StreamClient::sampled(const Feed& feed) {
     if (subscription.feed.get() != &feed) {
       continue;
     }
-    // Of the first frame after subscribing only the newest counts.
+    // Before the first frame after subscribing was sent, replaced samples are not counted.
     if (subscription.waiting && subscription.sent_seq != 0) {
       ++subscription.untold;
       ++subscription.dropped;

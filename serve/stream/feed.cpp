@@ -34,7 +34,7 @@ void Feed::find_items(const vars::Store& store) {
     }
     std::move(found.begin(), found.end(), std::back_inserter(items_));
   }
-  if (names_.size() > 1) {  // what several globs name is sent once
+  if (names_.size() > 1) {  // a variable that several globs match is sent once
     std::vector<tools::Item> once;
     std::map<std::string, bool, std::less<>> seen;
     for (tools::Item& item : items_) {

@@ -13,12 +13,12 @@ namespace indurop::serve {
 namespace {
 
 constexpr std::size_t kMostSubscriptions = 5000;
-// Words a client has not taken: more, and it only talks.
+// Maximum messages that wait for a client: one with more only sends and does not read.
 constexpr std::size_t kMostWords = 256;
 constexpr int kTooManyWords = 1008;
 constexpr std::int64_t kTellEveryNs = 1'000'000'000;
 
-// What is wanted of a board, or all it has; no item twice.
+// Returns the requested items of a board, or all it has; no item twice.
 std::vector<tools::Item> items_of(const Board& board, const std::vector<std::string>& names) {
   std::vector<tools::Item> all;
   std::vector<std::string> ignored;  // another board may have it
@@ -130,7 +130,7 @@ int FoxgloveClient::heard(std::string_view text) {
 void FoxgloveClient::subscribe(std::uint32_t id, std::uint32_t channel) {
   const auto wanted = channels_.find(channel);
   if (wanted == channels_.end()) {
-    return;  // it has just been withdrawn
+    return;  // it was withdrawn just before
   }
   if (subscriptions_.contains(id) || subscriptions_.size() >= kMostSubscriptions) {
     say(foxglove::warning(fmt::format("subscription {} is refused: {}", id,

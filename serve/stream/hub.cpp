@@ -14,7 +14,7 @@
 namespace indurop::serve {
 namespace {
 
-// A board of another host, whose node may not run.
+// Returns true for a board of another host that is being received; its node may not run.
 bool is_heard(const Board& board) {
   return board.remote() != nullptr && board.remote()->said().heard;
 }

@@ -6,7 +6,7 @@
 namespace indurop::serve {
 namespace {
 
-// What is wrong with the members of a subscription, else nothing.
+// Returns what is wrong with the members of a subscription, else an empty text.
 std::string read_subscription(const base::Json& json, ClientWord& word) {
   if (json.find("board") != nullptr && !base::read(json, "board", word.board)) {
     return "board is a name";

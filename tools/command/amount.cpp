@@ -20,7 +20,7 @@ constexpr std::array<std::pair<std::string_view, std::uint64_t>, 5> kUnits{{{"kB
                                                                             {"GB", kThousand* kThousand* kThousand},
                                                                             {"MiB", std::uint64_t{1} << 20U},
                                                                             {"GiB", std::uint64_t{1} << 30U}}};
-constexpr std::uint64_t kLeastBytes = 100 * kThousand;  // what stands before the first run has to fit
+constexpr std::uint64_t kLeastBytes = 100 * kThousand;  // the data in front of the first run has to fit
 constexpr double kMostBytes = 1e18;
 
 }  // namespace

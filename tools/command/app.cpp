@@ -76,7 +76,7 @@ int unknown_verb(Context& context, const std::string& word) {
   return kUsage;
 }
 
-// `indurop --node a status` means `indurop status --node a`. Returns the index of the verb.
+// `indurop --node a status` is the same as `indurop status --node a`. Returns the index of the verb.
 std::size_t verb_position(const std::vector<std::string>& arguments) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& word = arguments[i];
@@ -99,7 +99,7 @@ void add_common_options(base::Options& app, ColorWhen& color, bool& quiet) {
   app.version(fmt::format("indurop {}", INDUROP_VERSION));
 }
 
-// Whoever reads JSON gets an object, also of what failed before there was anything to print.
+// A program that reads JSON gets an object, also for a failure before anything was printed.
 void print_failure(Context& context, int code) {
   const auto known =
       std::find_if(kExitCodes.begin(), kExitCodes.end(), [code](const ExitCode& each) { return each.value == code; });
@@ -121,7 +121,7 @@ int finish(Context& context, int code) {
   return interrupted() ? interrupt_code() : code;
 }
 
-// A verb with all its options; what they set lives as long as this.
+// A verb with all its options; the values that they set live as long as this.
 struct Declared {
   Declared(const Verb& verb, Context& context)
       : options(std::string("indurop ") + verb.name, verb.summary), action(verb.declare(options, context)) {
@@ -151,7 +151,7 @@ int run_verb(Context& context, const Verb& verb, std::vector<std::string> argume
   return finish(context, declared.action(context));
 }
 
-// The whole program, as man pages and completion have it.
+// Returns the description of the whole program, for man pages and completion.
 base::CommandText program_text() {
   base::Options line("indurop", kPurpose);
   line.version(INDUROP_VERSION);
@@ -174,7 +174,7 @@ base::CommandText program_text() {
   return program;
 }
 
-// --help-format FORM: what packages install.
+// Prints the page of --help-format FORM, which packages install.
 int print_page(Context& context, const std::string& form) {
   const auto page = base::page_of(program_text(), form);
   if (!page) {

@@ -29,15 +29,15 @@ void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = &on_signal;
   sigemptyset(&action.sa_mask);
-  // Several may come at once, one for each thread of a parent that is killed.
+  // Several signals may come at once, one for each thread of a parent that is killed.
   sigaction(SIGTERM, &action, nullptr);
-  // After the first one the default is back: a second Ctrl-C always ends the program.
+  // After the first one the default is restored: a second Ctrl-C always ends the program.
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
   struct sigaction ignore {};
   ignore.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &ignore, nullptr);
-  sigaction(SIGXFSZ, &ignore, nullptr);  // a write beyond the limit of file sizes fails, and somebody says so
+  sigaction(SIGXFSZ, &ignore, nullptr);  // a write beyond the file size limit then fails, and the failure is reported
 }
 
 EndsAtOnce::EndsAtOnce() noexcept {
@@ -45,7 +45,7 @@ EndsAtOnce::EndsAtOnce() noexcept {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   if (caught != 0) {
-    std::raise(caught);  // it came before
+    std::raise(caught);  // it came earlier
   }
 }
 
@@ -66,7 +66,7 @@ void take_interrupt() noexcept {
 }
 
 Woken wait_until(std::int64_t deadline_ns, int fd) noexcept {
-  // Signals are let in only inside ppoll, so one that comes between the test and the sleep is not lost.
+  // Signals are unblocked only inside ppoll, so one that comes between the test and the sleep is not lost.
   sigset_t ours;
   sigset_t before;
   sigemptyset(&ours);

@@ -71,8 +71,8 @@ std::string painted(bool color, Style style, std::string_view text) {
 constexpr std::array kOurStyles{Style::Bold, Style::Dim, Style::Good, Style::Warn, Style::Bad, Style::Accent};
 constexpr std::array<std::string_view, 4> kOfScreen{"\x1b[?25l", "\x1b[?25h", "\x1b[H\x1b[J", "\x1b[J"};
 
-// How long the escape sequence at the beginning is, if it is one of ours: of paint(), or of Screen, which writes its
-// own at the beginning of a line.
+// Returns the length of the escape sequence at the beginning if it is one of this program: of paint(), or of Screen,
+// which writes its own at the beginning of a line.
 std::size_t length_of_ours(std::string_view text, bool line_begins) {
   for (const Style style : kOurStyles) {
     if (const std::string_view code = code_of(style); text.starts_with(code)) {
@@ -94,7 +94,7 @@ std::size_t length_of_ours(std::string_view text, bool line_begins) {
   return line_begins && text.starts_with("\x1b[") && up != std::string_view::npos && text[up] == 'A' ? up + 1 : 0;
 }
 
-// Whatever others wrote moves no cursor: all that is printed on a terminal goes through here.
+// Makes text of others harmless, so that it cannot move the cursor: all output to a terminal passes through this.
 std::string harmless(std::string_view text, std::string_view kept) {
   std::string out;
   bool line_begins = true;
@@ -113,7 +113,7 @@ std::string harmless(std::string_view text, std::string_view kept) {
   return out;
 }
 
-// 0 or errno.
+// Returns 0 or errno.
 int write_all(int fd, std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = ::write(fd, text.data(), text.size());
@@ -160,7 +160,7 @@ void Output::send(std::string_view text) {
   }
   flush();
   static_cast<void>(
-      write_all(STDERR_FILENO, harmless(text, "\n\t") + '\n'));  // nowhere left to say that stderr is broken
+      write_all(STDERR_FILENO, harmless(text, "\n\t") + '\n'));  // there is no place to report that stderr is broken
 }
 
 void Output::keep(std::string_view text) {

@@ -19,7 +19,7 @@ const config::Property* property(const config::Module& module, std::string_view 
   return found == module.properties.end() ? nullptr : &*found;
 }
 
-// Modules that link libindurop-robot.a take what reads URDF from elsewhere.
+// Modules that link libindurop-robot.a import the URDF parser from another library.
 bool reads_urdf(const schema::ModuleFile& file) {
   const std::string name = "_ZN4urdf9parseURDF";
   const auto found = std::lower_bound(file.imports.begin(), file.imports.end(), name);
@@ -41,7 +41,8 @@ robot::FileNames files_of(const config::Config& config, const config::Module& mo
   return names;
 }
 
-// A name that the robot task does not know is the module's own, unless it is nearly one of those it knows.
+// Warns of misspelled properties: a name that the robot task does not know is the module's own, unless it is similar to
+// a known one.
 void warn_of_names(const config::Config& config, const config::Module& module, std::vector<base::Diagnostic>& all) {
   for (const config::Property& one : module.properties) {
     const auto& known = robot::setting_names();
@@ -59,7 +60,7 @@ bool is_number(const schema::Type& type) {
          type.base != Base::Enum;
 }
 
-// Shared variables that jobs name and no module of the board declares; the node would not start.
+// Finds shared variables that jobs name and no module of the board declares; the node would not start.
 void check_variables(const robot::Findings& found, const schema::Schema& schema, std::vector<base::Diagnostic>& all) {
   for (const robot::NamedVariable& one : found.variables) {
     std::string message;

@@ -48,7 +48,7 @@ char Screen::key() {
     return 0;
   }
   if (::read(STDIN_FILENO, &c, 1) <= 0) {
-    keys_ = false;  // closed: do not wake up for it again
+    keys_ = false;  // closed: stop polling it
     tcsetattr(STDIN_FILENO, TCSANOW, &before_);
     return 0;
   }

@@ -53,7 +53,7 @@ std::vector<std::size_t> Table::widths(const Output& output) const {
 std::string Table::row_text(const std::vector<Cell>& row, const std::vector<std::size_t>& widths,
                             const Output& output) const {
   std::string out;
-  std::string gap;  // written only when something follows, so no line ends in spaces
+  std::string gap;  // written only when text follows, so no line ends in spaces
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     if (widths[c] == 0) {
       continue;

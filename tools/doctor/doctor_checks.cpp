@@ -98,7 +98,7 @@ Finding locked_memory() {
   const std::string text = limit.rlim_cur == RLIM_INFINITY ? "unlimited" : human_bytes(limit.rlim_cur);
   const bool allowed = rt::lock_memory().ok();
   munlockall();
-  // A node needs up to 20 MiB; this program less.
+  // A node needs up to 20 MiB; this program needs less.
   constexpr rlim_t kEnough = 64U << 20U;
   if (allowed && (limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= kEnough || geteuid() == 0)) {
     return {"locked-memory", Grade::Ok, "mlockall works, limit " + text, ""};

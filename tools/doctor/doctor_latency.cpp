@@ -30,7 +30,7 @@ LatencyResult measure_latency(const LatencyTest& test) {
       if (++rounds > kWarmUp) {
         scheduler::add_sample(lateness, now - next);
       }
-      next += period * ((now - next) / period + 1);  // skipped periods stay skipped
+      next += period * ((now - next) / period + 1);  // skipped periods are not made up for
     }
   };
   const auto idle = rt::ShortIdle::hold();  // as the node does; refused without the right

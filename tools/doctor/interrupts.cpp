@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using Counts = std::map<int, std::map<int, std::uint64_t>>;  // by interrupt and core
 
 struct Device {
-  std::string name;  // "disk vda"
+  std::string name;  // for example "disk vda"
   bool disk = false;
 };
 
@@ -40,7 +40,7 @@ std::optional<int> number_in(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-// "0-2,4"; what is no list of cores holds none.
+// Returns whether a list such as "0-2,4" contains the core; an invalid list contains none.
 bool list_holds(const std::string& list, int core) {
   std::istringstream in(list);
   for (std::string range; std::getline(in, range, ',');) {
@@ -54,7 +54,7 @@ bool list_holds(const std::string& list, int core) {
   return false;
 }
 
-// Of the device itself or of what it hangs on: a network card of virtio has those of its PCI function.
+// Returns the interrupts of the device itself or of its parent: a virtio network card has those of its PCI function.
 std::set<int> interrupts_of(const fs::path& device, const fs::path& root) {
   std::error_code error;
   const fs::path top = fs::weakly_canonical(root, error) / "sys/devices";
@@ -88,7 +88,7 @@ std::map<int, Device> devices_by_interrupt(const fs::path& root) {
   return found;
 }
 
-// Times that an interrupt fired, by number and core. The columns are the cores that are on.
+// Returns how often each interrupt fired, by number and core. The columns are the cores that are online.
 Counts fired(const fs::path& root) {
   Counts counts;
   std::ifstream in(root / "proc/interrupts");
@@ -112,7 +112,7 @@ Counts fired(const fs::path& root) {
   return counts;
 }
 
-// Of all cores and interrupts of a device, by its name.
+// Returns the sum over all cores and interrupts of each device, by device name.
 std::map<std::string, std::uint64_t> totals(const std::map<int, Device>& devices, const Counts& counts) {
   std::map<std::string, std::uint64_t> sums;
   for (const auto& [number, device] : devices) {
@@ -127,7 +127,7 @@ std::map<std::string, std::uint64_t> totals(const std::map<int, Device>& devices
 
 }  // namespace
 
-// The kernel looks first whether this interrupt may be moved at all, then at what is written, which is no mask here.
+// The kernel first checks whether this interrupt may be moved, then parses the value, which is not a mask in this case.
 Movable can_move_interrupt(int number) {
   const base::Descriptor out(::open(fmt::format("/proc/irq/{}/smp_affinity", number).c_str(), O_WRONLY | O_CLOEXEC));
   if (out.get() < 0) {
@@ -140,7 +140,7 @@ Movable can_move_interrupt(int number) {
 
 Finding examine_interrupts(const std::vector<int>& cores, const fs::path& root,
                            const std::function<Movable(int)>& movable) {
-  constexpr std::uint64_t kNoticeable = 100;  // a device has others, of its configuration, that hardly ever fire
+  constexpr std::uint64_t kNoticeable = 100;  // a device has further interrupts, for configuration, that rarely fire
   const auto devices = devices_by_interrupt(root);
   const Counts all = fired(root);
   const auto sums = totals(devices, all);

@@ -35,7 +35,7 @@ std::string setting_in(const fs::path& root, const std::string& file) {
   return line;
 }
 
-// Of "always [madvise] never" the word in brackets.
+// Returns the word in brackets of "always [madvise] never".
 std::string chosen(const std::string& line) {
   const std::size_t begin = line.find('[');
   const std::size_t end = line.find(']');
@@ -52,7 +52,7 @@ std::vector<std::string> folders(const fs::path& root, const std::string& in) {
   return found;
 }
 
-// "0-2,4" of all cores but this one.
+// Returns all cores but this one as "0-2,4".
 std::string all_but(int core, const std::vector<int>& cores) {
   std::vector<int> others;
   std::copy_if(cores.begin(), cores.end(), std::back_inserter(others), [core](int one) { return one != core; });
@@ -69,7 +69,7 @@ std::string all_but(int core, const std::vector<int>& cores) {
   return text;
 }
 
-// A mask as /proc writes it: groups of eight digits, the highest first.
+// Returns a mask in the format of /proc: groups of eight digits, the highest first.
 std::string mask_of_all_but(int core, const std::vector<int>& cores) {
   const int words = (cores.empty() ? 0 : cores.back()) / 32 + 1;
   std::vector<std::uint32_t> bits(static_cast<std::size_t>(words));
@@ -114,7 +114,7 @@ class Examination {
   }
 
  private:
-  // Of this machine, or of the copy of one.
+  // Cores of this machine, or of the copy of one.
   [[nodiscard]] std::vector<int> present_cores() const {
     std::vector<int> cores;
     for (const std::string& cpu : folders(root_, "/sys/devices/system/cpu")) {
@@ -134,7 +134,7 @@ class Examination {
     }
   }
 
-  // The node's core does nothing else.
+  // Adds the settings that keep the node's core free of other work.
   void keep_free() {
     const std::string others = all_but(core_, cores_);
     const std::string mask = mask_of_all_but(core_, cores_);
@@ -149,7 +149,7 @@ class Examination {
     for (const std::string& irq : folders(root_, "/proc/irq")) {
       const std::string file = irq + "/smp_affinity";
       const std::string now = setting_in(root_, file);
-      // Only what can come to this core: what is elsewhere stays there.
+      // Only interrupts that can reach this core; those of other cores remain there.
       if (!now.empty() && reaches_core(now)) {
         tuning_.settings.push_back({file, now, mask, "device interrupts come to the other cores"});
       }
@@ -200,7 +200,7 @@ class Examination {
   Tuning tuning_;
 };
 
-// Why the kernel refused; empty: it did not.
+// Returns why the kernel refused; empty: it accepted.
 std::string write_setting(const fs::path& root, const std::string& file, const std::string& value) {
   const base::Descriptor out(::open(below(root, file).c_str(), O_WRONLY | O_CLOEXEC | O_TRUNC));
   if (out.get() < 0 || ::write(out.get(), value.data(), value.size()) != static_cast<ssize_t>(value.size())) {
@@ -218,7 +218,7 @@ struct Kept {
   std::string value;
 };
 
-// What was there before, of this boot; empty without a record, or with that of another boot.
+// Returns the previous values recorded since this boot; empty without a record, or with one of an earlier boot.
 std::vector<Kept> kept_in(const fs::path& record, const fs::path& root) {
   std::vector<Kept> kept;
   const auto text = base::read_file(record);

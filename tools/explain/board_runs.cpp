@@ -42,7 +42,7 @@ void BoardRuns::end(std::uint32_t module, const tape::RunTail& tail, std::int64_
   run.tail.release_ns += shift_ns;
   run.tail.start_ns += shift_ns;
   run.tail.end_ns += shift_ns;
-  // What changed in runs that were not read is not known.
+  // Changes in runs that were not read are unknown.
   if (one.next && *one.next != tail.number) {
     std::fill(run.before.begin(), run.before.end(), 0);
     std::fill(run.behind.begin(), run.behind.end(), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What module.xml and plant.xml say: who writes what, who waits for whom.
+// Facts from module.xml and plant.xml: who writes what, who waits for whom.
 
 #include <algorithm>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 
 using explain::Facts;
 
-// What one board's modules are, as far as it was not known from a run.
+// Adds the properties of one board's modules, unless they are known from a run.
 void add_modules(const config::Config& config, const config::CheckResult& check, bool known, Facts& facts) {
   for (const config::Module& module : config.modules) {
     const auto found = std::find_if(facts.modules.begin(), facts.modules.end(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the shared memory of a node of this machine says.
+// Facts from the shared memory of a node of this machine.
 
 #include <algorithm>
 #include <limits>
@@ -28,7 +28,7 @@ void add_mirror(const std::string& node, Facts& facts) {
   }
 }
 
-// Which variable a force is on, and for how long.
+// Adds which variables are forced, and for how long.
 void add_forces(const vars::Store& store, Facts& facts) {
   for (const vars::Force& force : store.forces()) {
     const std::string& name = store.schema().variables[force.variable->schema_index].name;
@@ -41,7 +41,7 @@ void add_forces(const vars::Store& store, Facts& facts) {
   }
 }
 
-// What the tape says of the variable, and which runs ended by a fault.
+// Adds changes of the variable from the tape, and the runs that ended by a fault.
 void add_tape(const std::string& node, const vars::Store& store, const std::string& variable, Facts& facts) {
   auto follower = tape::Follower::open(node, true);
   if (!follower || follower->header().layout_hash != store.header().layout_hash) {

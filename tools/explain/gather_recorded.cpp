@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a recording says: runs, values of one variable, and the facts beside them.
+// Facts from a recording: runs, values of one variable, and the additional facts.
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ namespace {
 using base::Problem;
 using explain::Facts;
 
-// Of one of the nodes that a recording tells of.
+// Facts of one of the nodes in a recording.
 class Recorded {
  public:
   Recorded(recording::McapReader reader, std::size_t source, std::string variable)
@@ -56,7 +56,7 @@ class Recorded {
     return facts_.basic_period_ns > 0;
   }
 
-  // Written when the recording was closed; one that was not has none.
+  // Reads what was written when the recording was closed; one that was not closed does not have it.
   void about_its_end() {
     for (const auto& index : reader_.contents().attachments) {
       const bool own = index.name == about_.prefix + std::string(explain::kFactsFile);
@@ -103,7 +103,7 @@ class Recorded {
     }
   }
 
-  // Runs are numbered: those between two neighbours took place.
+  // Runs are numbered: gaps between two neighbours are runs that took place but are missing.
   void note_hole(std::uint32_t module, const tape::RunTail& tail) {
     const auto [last, first] = last_runs_.try_emplace(module, tail);
     if (!first && tail.number > last->second.number + 1 && module < facts_.modules.size()) {
@@ -123,7 +123,7 @@ class Recorded {
         {variable_, words.module < facts_.modules.size() ? facts_.modules[words.module].name : "", 0, time});
   }
 
-  // Rings of modules that run on events, and that of those outside, may hold all from the start while others do not.
+  // Rings of event-driven modules and of external writers may hold everything from the start while others do not.
   [[nodiscard]] bool from_the_start() const {
     return std::all_of(first_numbers_.begin(), first_numbers_.end(), [&](const auto& first) {
       const bool periodic = first.first < facts_.modules.size() && facts_.modules[first.first].operation != "sporadic";
@@ -140,7 +140,7 @@ class Recorded {
     }
     facts_.first_tick = from_the_start() ? 0 : first + 1;
     facts_.closed = complete_;
-    // Those at the begin of a recording that was not closed are too old.
+    // Facts from the begin of a recording that was not closed are too old.
     if (facts_.tick <= last_tick_) {
       facts_.tick = last_tick_ + 1;
       facts_.now_ns = facts_.runs.back().end_ns;
@@ -158,7 +158,7 @@ class Recorded {
   std::string config_;
   Facts facts_;
   std::map<std::uint32_t, std::uint64_t> first_numbers_;  // of runs, by module
-  std::map<std::uint32_t, tape::RunTail> last_runs_;      // likewise
+  std::map<std::uint32_t, tape::RunTail> last_runs_;      // by module
   std::uint64_t last_tick_ = 0;
   bool complete_ = false;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `indurop-iceoryx`: publishes values of a node as iceoryx topics. Only reads the node's memory; whatever happens to
-// this program, to RouDi or to those who subscribe, the node does not notice.
+// this program, to RouDi or to subscribers does not affect the node.
 
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -27,7 +27,7 @@ Needs iceoryx's daemon: iox-roudi. Waits for it and survives its restart.
   indurop-iceoryx --node cell 'knu::*'
 )";
 
-// Says what iceoryx cannot take; true if it can take all.
+// Reports variables that iceoryx cannot publish; returns true if there are none.
 bool publishable(tools::Context& context, const tools::WatchSource& source) {
   bool fine = true;
   for (const auto& value : source.values()) {
@@ -49,13 +49,13 @@ bool publishable(tools::Context& context, const tools::WatchSource& source) {
   return fine;
 }
 
-// A second gateway of the same node would throw the first out of RouDi. The lock ends with the last process of a
-// gateway: for what is left of one that was killed it waits.
+// A second gateway of the same node would disconnect the first from RouDi. The lock ends with the last process of a
+// gateway: this waits for the remaining processes of one that was killed.
 bool only_one(tools::Context& context, const std::string& node) {
   const int fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const std::string name = "indurop-iceoryx-" + node;  // after a zero: a name that is not a file
+  const std::string name = "indurop-iceoryx-" + node;  // after a zero: an abstract name, not a file
   std::memcpy(address.sun_path + 1, name.data(), name.size());
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
   constexpr std::int64_t kSecond = 1'000'000'000;
@@ -67,7 +67,7 @@ bool only_one(tools::Context& context, const std::string& node) {
     }
     tools::wait_until(rt::now_ns() + kSecond / 10);
   }
-  return true;  // the socket stays open to the end
+  return true;  // the socket stays open until the end
 }
 
 int run(tools::Context& context, std::vector<std::string> names, int hz) {

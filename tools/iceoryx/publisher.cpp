@@ -30,7 +30,7 @@ IdString_t id(const std::string& text) {
 
 iox::popo::PublisherOptions keep_last_value() {
   iox::popo::PublisherOptions options;
-  options.historyCapacity = 1;  // who comes later gets the last value
+  options.historyCapacity = 1;  // later subscribers get the last value
   return options;
 }
 
@@ -40,7 +40,7 @@ class Topic {
       : type_hash_(value.item.entry->type_hash),
         publisher_(ServiceDescription(IdString_t("InduRoP"), id(node), id(value.item.name)), keep_last_value()) {}
 
-  // False if iceoryx has no memory left; the value is then tried again in the next round.
+  // Returns false if iceoryx has no memory left; the value is then tried again in the next round.
   bool publish_if_new(tools::Context& context, const WatchedValue& value) {
     if (stopped_ || value.gone || !value.known || (published_ && value.bytes == last_)) {
       return true;
@@ -90,7 +90,7 @@ std::size_t longest_name() noexcept {
 
 int publish(tools::Context& context, tools::WatchSource& source, int hz) {
   alarm(kStuckSeconds);
-  // iceoryx changes the umask back and forth in several threads; all of them shall find the same.
+  // iceoryx changes and restores the umask in several threads; all of them have to find the same value.
   umask(0007);
   iox::log::LogManager::GetLogManager().SetDefaultLogLevel(iox::log::LogLevel::kError,
                                                            iox::log::LogLevelOutput::kHideLogLevel);

@@ -12,7 +12,7 @@
 namespace indurop::iceoryx {
 namespace {
 
-// Where every client of iceoryx 2 sends its requests on Linux.
+// The socket to which every client of iceoryx 2 sends its requests on Linux.
 constexpr char kSocket[] = "/tmp/roudi";
 
 }  // namespace
@@ -30,11 +30,11 @@ Roudi find_roudi() noexcept {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   std::memcpy(address.sun_path, kSocket, sizeof kSocket);
-  // The file of a RouDi that was killed is still there, but nobody takes what is sent to it.
+  // The socket file of a RouDi that was killed still exists, but no process receives from it.
   if (connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
     found.state = Roudi::State::There;
     found.inode = info.st_ino;
-    // Of the bind(): later changes of rights and the like must not look like another RouDi.
+    // Time of the bind(): later changes of permissions and the like must not look like another RouDi.
     found.since_ns = std::int64_t{info.st_mtim.tv_sec} * 1'000'000'000 + info.st_mtim.tv_nsec;
   } else if (errno == EACCES || errno == EPERM) {
     found.state = Roudi::State::NoPermission;

@@ -23,7 +23,7 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kLookEvery = kSecond / 10;
 constexpr std::int64_t kPauseAfterDeath = kSecond;
-// So many processes in a row that iceoryx ended soon after their start: it will not get better.
+// After this many processes in a row that iceoryx ended soon after their start, it gives up.
 constexpr int kHopeless = 3;
 constexpr std::int64_t kSoon = 5 * kSecond;
 
@@ -83,7 +83,7 @@ class Supervisor {
       started_ns_ = rt::now_ns();
       return;
     }
-    // An orderly end also without the parent: a killed publisher may leave a lock in RouDi's memory.
+    // Ends cleanly even without the parent: a killed publisher may leave a lock in RouDi's memory.
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     std::exit(getppid() == parent ? publish(context_, source_, hz_) : kOk);
   }
@@ -98,7 +98,7 @@ class Supervisor {
     if (find_roudi() == roudi_) {
       return;
     }
-    // What it works on now nobody else sees, and there is no RouDi to say goodbye to.
+    // No other process uses its data any more, and there is no RouDi to unregister from.
     kill(worker_, SIGKILL);
     waitpid(worker_, nullptr, 0);
     worker_ = -1;
@@ -144,7 +144,7 @@ class Supervisor {
       return;
     }
     kill(worker_, SIGTERM);
-    // It ends itself if iceoryx hangs; the time on top is for a machine that is busy.
+    // It ends itself if iceoryx hangs; the additional time is for a busy machine.
     const std::int64_t deadline = rt::now_ns() + (kStuckSeconds + 2) * kSecond;
     while (waitpid(worker_, nullptr, WNOHANG) == 0) {
       if (rt::now_ns() > deadline) {
@@ -161,7 +161,7 @@ class Supervisor {
   tools::WatchSource& source_;
   int hz_;
   pid_t worker_ = -1;
-  Roudi roudi_;  // the one the worker uses
+  Roudi roudi_;  // the one that the worker uses
   Roudi::State told_ = Roudi::State::There;
   std::int64_t started_ns_ = 0;
   std::int64_t not_before_ = 0;

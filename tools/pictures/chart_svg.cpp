@@ -25,7 +25,7 @@ constexpr double kPanel = 150;
 constexpr double kGap = 10;
 constexpr std::size_t kColors = 8;
 
-// Where a value is on the picture.
+// Maps a value to its position on the picture.
 struct Scale {
   double from, to, begin, length;
   [[nodiscard]] double at(double value) const { return begin + (value - from) / (to - from) * length; }
@@ -35,7 +35,7 @@ std::string plain(double value) {
   return fmt::format("{:g}", std::abs(value) < 1e-12 ? 0.0 : value);
 }
 
-// Of all samples in one column of the picture the first, the smallest, the largest and the last are drawn.
+// For each column of the picture draws the first, the minimum, the maximum and the last of its samples.
 std::string path(const std::vector<double>& time, const std::vector<double>& line, const Scale& x, const Scale& y) {
   std::string out;
   bool pen = false;
@@ -47,7 +47,7 @@ std::string path(const std::vector<double>& time, const std::vector<double>& lin
     }
     const double column = std::floor(x.at(time[i]));
     std::size_t end = i;
-    std::array<std::size_t, 4> kept{i, i, i, i};  // first, smallest, largest, last
+    std::array<std::size_t, 4> kept{i, i, i, i};  // first, minimum, maximum, last
     while (end < line.size() && std::floor(x.at(time[end])) == column && !std::isnan(line[end])) {
       kept[1] = line[end] < line[kept[1]] ? end : kept[1];
       kept[2] = line[end] > line[kept[2]] ? end : kept[2];
@@ -65,7 +65,7 @@ std::string path(const std::vector<double>& time, const std::vector<double>& lin
   return out;
 }
 
-// Stretches of one value: a bar for what is on, its value or word inside if there is room.
+// Draws stretches of one value: a bar for what is on, with its value or word inside if there is room.
 void lane(const Recording& recording, const Series& series, const Scale& x, double top, base::SvgPart& out) {
   const std::vector<double>& line = series.lines.front();
   const double base = top + kLane - 6;
@@ -140,7 +140,7 @@ std::string style() {
   return out;
 }
 
-// Left of a panel there are numbers as well.
+// Names of panels are shorter, because numbers are on their left as well.
 std::string name_of(const Series& series) {
   const std::size_t most = series.steps ? 30 : 24;
   return series.name.size() <= most ? series.name : "..." + series.name.substr(series.name.size() - most + 3);

@@ -24,7 +24,7 @@ struct Row {
   const Series* series;
 };
 
-// The last value of each stretch of time; NaN where there is none.
+// Returns the last value of each interval of time; NaN where there is none.
 std::vector<double> squeeze(const std::vector<double>& time, const std::vector<double>& line, std::size_t width) {
   std::vector<double> out(width, std::nan(""));
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -68,7 +68,7 @@ std::string draw(const Row& row, const std::vector<double>& time, std::size_t wi
                       : value_text(*row.series, low) + " .. " + value_text(*row.series, high));
 }
 
-// Begin and end; in between '^' below what triggered it.
+// Returns the time axis: begin and end; '^' marks the trigger.
 std::string axis(const Recording& recording, std::size_t width) {
   const double begin = recording.time_s.front();
   const double end = recording.time_s.back();

@@ -14,7 +14,8 @@ namespace {
 
 using scheduler::Histogram;
 
-// `share` of `width` places, in eighths if the terminal can show them; something for every count above 0.
+// Returns a bar for `share` of `width` characters, in eighths if the terminal can show them; not empty for a share
+// above 0.
 std::string bar(double share, std::size_t width, bool unicode) {
   if (!unicode) {
     std::string plain(static_cast<std::size_t>(std::ceil(share * static_cast<double>(width))), '#');

@@ -20,13 +20,13 @@ constexpr double kHead = 56;
 constexpr double kPanel = 250;
 constexpr double kLeft = 70;
 constexpr double kRight = 24;
-constexpr double kTop = 66;     // of the plot inside its panel
+constexpr double kTop = 66;     // above the plot, inside its panel
 constexpr double kBottom = 40;  // below the plot
 constexpr double kPlotWidth = kWidth - kLeft - kRight;
 constexpr double kPlotHeight = kPanel - kTop - kBottom;
 constexpr std::size_t kMostBars = 90;
 
-// Maps a positive range to places on the picture by its logarithm.
+// Maps a positive range logarithmically to positions on the picture.
 class LogScale {
  public:
   LogScale(double from, double to, double begin, double length)
@@ -51,7 +51,7 @@ double positive(std::uint64_t ns) {
   return std::max(0.5, static_cast<double>(ns));
 }
 
-// 1, 2, 5, 10 ... between the ends; only powers of ten if there are many.
+// Returns 1, 2, 5, 10 ... between the ends; only powers of ten if there would be many.
 std::vector<double> tick_values(double from, double to, bool dense) {
   std::vector<double> out;
   for (int power = static_cast<int>(std::floor(std::log10(from))); std::pow(10.0, power) <= to; ++power) {
@@ -81,7 +81,7 @@ void markers(const scheduler::Summary& summary, const LogScale& x, double top, b
   const std::array<Marker, 4> all{
       {{"p50", summary.p50}, {"p99", summary.p99}, {"p99.9", summary.p99_9}, {"max", summary.max}}};
   constexpr double kLabelWidth = 92;
-  // Labels that would touch go one line higher.
+  // Labels that would touch are placed one line higher.
   std::array<double, 3> busy_until{};
   busy_until.fill(-1e9);
   for (const Marker& marker : all) {

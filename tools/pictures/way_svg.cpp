@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kWayLeft = 64;    // for the numbers of the upward axis
 constexpr double kWayTop = 34;     // for the name
-constexpr double kWayBottom = 34;  // for the numbers of the other
+constexpr double kWayBottom = 34;  // for the numbers of the other axis
 constexpr double kApart = 30;      // between the views
 constexpr double kEndRadius = 4;
 
@@ -45,7 +45,8 @@ struct View {
   const std::vector<double>& up;
 };
 
-// Where values are on the picture: the middle of the way in the middle of the view, one scale for both directions.
+// Maps values to positions on the picture: the middle of the path is in the middle of the view, one scale for both
+// directions.
 struct Frame {
   double left, top, width, height, per_unit;
   Extent across, up;
@@ -83,7 +84,7 @@ void draw(const View& view, const Frame& frame, const std::string& name, base::S
     if (way.empty()) {
       ends = {x, y, x, y};
     } else if (base::svg_number(x) == base::svg_number(ends[2]) && base::svg_number(y) == base::svg_number(ends[3])) {
-      continue;  // it stands
+      continue;  // it does not move
     }
     way += fmt::format("{}{} {}", way.empty() ? "M" : "L", base::svg_number(x), base::svg_number(y));
     ends[2] = x;

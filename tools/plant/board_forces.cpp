@@ -16,10 +16,10 @@ namespace indurop::tools {
 namespace {
 
 constexpr std::int64_t kForcePatienceNs = 5'000'000'000;
-// An agent may need a moment to hear of a renewal.
+// An agent may need a moment to receive a renewal.
 constexpr std::int64_t kRemoteLeaseNs = 5'000'000'000;
 
-// Commands to one board, one after the other.
+// Sends commands to one board, one after the other.
 class Orders {
  public:
   Orders(Context& context, BoardForces& options) : context_(context), options_(options) {}

@@ -10,7 +10,7 @@
 namespace indurop::tools {
 namespace {
 
-// Nothing: it is not what an agent of this version says.
+// Returns nothing if the text is not in the format of this version's agents.
 std::optional<std::vector<PastDeployment>> history_in(const std::string& text) {
   const base::Json whole = base::Json::parse(text).value_or(base::Json());
   if (!whole["history"].is_array()) {

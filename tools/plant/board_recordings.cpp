@@ -20,10 +20,10 @@ namespace {
 
 using deploy::Outcome;
 
-constexpr std::chrono::seconds kHear{3};    // agents speak twice a second
+constexpr std::chrono::seconds kHear{3};    // agents report twice a second
 constexpr std::chrono::seconds kRepeat{4};  // boards wait for 15 s
 constexpr std::chrono::seconds kPatience{5};
-constexpr std::chrono::seconds kLastWords{20};  // a recorder writes what it has
+constexpr std::chrono::seconds kLastWords{20};  // a recorder has to write the rest of its data
 
 std::uint64_t bytes_of(const std::string& list, const std::string& name) {
   const base::Json whole = base::Json::parse(list).value_or(base::Json());
@@ -87,7 +87,7 @@ void BoardRecordings::go_on() {
   thread_ = std::jthread([this](const std::stop_token& stop) { repeat(stop); });
 }
 
-// What does not answer now may do so later; what has ended tells of it at the end.
+// A board that does not answer now may do so later; one that has ended is reported at the end.
 void BoardRecordings::repeat(const std::stop_token& stop) {
   std::mutex mutex;
   std::condition_variable_any wake;
@@ -135,7 +135,7 @@ std::string BoardRecordings::end(const One& one) {
   }
 }
 
-// Who is there now.
+// Updates which boards are present.
 void BoardRecordings::refresh() {
   std::vector<std::string> boards;
   for (const One& one : all_) {
@@ -188,7 +188,7 @@ std::pair<std::vector<std::filesystem::path>, std::vector<std::string>> BoardRec
 
 void BoardRecordings::drop() {
   for (const One& one : all_) {
-    (void)give(one, deploy::Action::DropRecord, kPatience);  // else the next recording there drops it
+    (void)give(one, deploy::Action::DropRecord, kPatience);  // if it fails, the next recording there deletes it
   }
 }
 

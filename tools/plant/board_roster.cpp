@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kLookNs = 20'000'000;
 constexpr std::int64_t kQuietNs = 300'000'000;
-constexpr std::int64_t kSilentNs = 1'500'000'000;  // agents speak twice a second
+constexpr std::int64_t kSilentNs = 1'500'000'000;  // agents report twice a second
 
 }  // namespace
 
@@ -33,7 +33,7 @@ std::string keys_hint(const deploy::LinkSettings& settings) {
   if (!settings.network.security.on()) {
     return "; boards that have keys speak only to who has keys of their plant: --keys DIR";
   }
-  // Whose side refuses, and says why, is decided by chance.
+  // Which of the two sides refuses, and gives the reason, is random.
   const std::string refusal = dds::last_refusal();
   return "; only boards with keys of the same plant are heard with --keys" + (refusal.empty() ? "" : ": " + refusal);
 }

@@ -17,7 +17,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kHearNs = 3'000'000'000;  // agents speak twice a second
+constexpr std::int64_t kHearNs = 3'000'000'000;  // agents report twice a second
 
 std::vector<ForceView> forces_in(const JsonValue& head) {
   std::vector<ForceView> forces;

@@ -30,7 +30,7 @@ Style style_of(deploy::NodeCondition condition) {
   return Style::Warn;
 }
 
-// What is said of a deployment that was taken back is past for a board that runs another one well.
+// A message about a deployment that was rolled back is outdated for a board that runs another one well.
 Style style_of_message(const deploy::BoardReport& board) {
   const bool well = board.phase == deploy::Phase::Steady && board.node == deploy::NodeCondition::Running;
   return !well ? Style::Bad : board.proposed != board.current ? Style::Dim : Style::Warn;

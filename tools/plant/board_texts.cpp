@@ -16,14 +16,14 @@ constexpr std::uint64_t kLargest = 64U << 20U;
 
 struct Text {
   std::string text;
-  std::int64_t ask_ns = 0;  // again, if nothing has come until then
+  std::int64_t ask_ns = 0;  // time of the next request, if nothing was received by then
   bool whole = false;
   bool missing = false;
   [[nodiscard]] bool done() const noexcept { return whole || missing; }
 };
 
-// A text may have changed since it was asked for before: only the pieces of one answer belong together, and they come
-// in order. The last piece is the one that is not full.
+// A text may have changed since the previous request: only the pieces of one answer belong together, and they come in
+// order. The last piece is the one that is not full.
 void take(Text& text, const deploy::BlobChunk& chunk, std::int64_t now) {
   if (chunk.offset == 0) {
     text.text.clear();
@@ -48,7 +48,7 @@ std::map<std::uint64_t, std::string> fetch_texts(deploy::DeployLink& link, std::
   const auto all_done = [&] {
     return std::all_of(texts.begin(), texts.end(), [](const auto& entry) { return entry.second.done(); });
   };
-  // An answer to a question before that came late tells what was then.
+  // A late answer to an earlier request would have an old text.
   (void)link.take_chunks();
   const std::int64_t end = rt::now_ns() + kPatienceNs;
   while (!all_done() && !interrupted() && rt::now_ns() < end) {

@@ -18,7 +18,7 @@ using config::User;
 namespace {
 
 constexpr std::size_t kMostChains = 50;
-constexpr std::size_t kLongest = 16;  // modules
+constexpr std::size_t kLongest = 16;  // maximum number of modules
 
 }  // namespace
 
@@ -109,7 +109,7 @@ void Chains::measured(Node one, Nanos execution) {
   }
 }
 
-// The tick's own way to the first module comes before all of them.
+// The tick's own latency until the first module precedes all of them.
 void Chains::measured_start(std::size_t board, Nanos basic_period, Nanos late) {
   std::vector<config::Timed>& all = timed_[board];
   all.insert(all.begin(), {basic_period, Nanos{}, late, all.empty() ? 0 : all.front().core});

@@ -23,7 +23,7 @@ Cell duration(base::Nanos value) {
   return {value > base::Nanos::zero() ? base::format_duration(value) : "", value.count()};
 }
 
-// Runs of periodic modules in a second.
+// Returns the number of runs of periodic modules in a second.
 double runs_per_second(const config::Config& config, const config::CheckResult& check) {
   double runs = 0;
   for (const std::size_t i : check.periodic) {
@@ -87,7 +87,7 @@ class View {
     return table;
   }
 
-  // All shared variables, whether they travel or not.
+  // All shared variables, sent between boards or not.
   [[nodiscard]] Table variables() const {
     Table table({{"VARIABLE", "name"}, {"TYPE", "type"}, {"WRITTEN BY", "writers"}, {"READ BY", "readers"}});
     for (const auto& [name, users] : uses_.variables()) {

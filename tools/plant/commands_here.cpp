@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands about modules of a node of this machine, through its run block.
+// Commands to modules of a node of this machine, through its run block.
 #include <fmt/format.h>
 
 #include "base/user_name.h"
@@ -21,7 +21,7 @@ using scheduler::ModuleCommand;
 
 constexpr std::int64_t kLookNs = 2'000'000;
 
-// The module's record; null after an error message.
+// Returns the module's record; null after an error message.
 scheduler::ModuleRecord* find_module(Context& context, RunView& run, const std::string& node,
                                      const std::string& module) {
   std::vector<std::string> names;
@@ -74,7 +74,7 @@ void note(const Context& context, const std::string& node, const RunView& run, M
   operate::note(
       node,
       {simulated != 0 ? simulated : rt::now_ns(), 0, context.who, context.from, action, module, {}, 0, context.reason});
-  if (context.who.empty()) {  // what comes over HTTP is in the audit log already
+  if (context.who.empty()) {  // requests by HTTP are in the server's audit log already
     (void)append_audit(usual_audit_file(),
                        {rt::wall_ns(), base::user_name(), "", node, action, module, "done", context.reason});
   }

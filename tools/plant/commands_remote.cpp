@@ -57,7 +57,7 @@ int conclude(Context& context, ModuleCommand what, const CommandTarget& target, 
   return kFailed;
 }
 
-// Names the boards that are not there, or are there twice; fails then.
+// Fails if boards are missing or have the same name, and names them.
 Result<void, Failure> all_there(Context& context, const BoardRoster& roster, const std::vector<CommandTarget>& targets,
                                 const std::string& keys) {
   std::vector<std::string> heard;

@@ -20,7 +20,7 @@ using base::Json;
 constexpr std::uint64_t kMostBytes = 60'000;
 constexpr std::size_t kMostLines = 2000;
 constexpr std::size_t kAround = 3;
-constexpr std::size_t kMostTexts = 20;  // that are asked for
+constexpr std::size_t kMostTexts = 20;  // maximum number of texts that are requested
 
 class Packages {
  public:
@@ -47,7 +47,7 @@ bool is_text(const std::string& bytes) {
   return bytes.find('\0') == std::string::npos;
 }
 
-// For each line of `a` and `b` whether it is in the longest sequence of lines that both have.
+// Marks the lines of `a` and `b` that belong to their longest common subsequence.
 struct Common {
   std::vector<bool> of_a;
   std::vector<bool> of_b;

@@ -17,7 +17,7 @@ void HeardBoards::refresh(const std::string& only) {
 }
 
 Result<HeardBoards, Failure> hear_boards(Context& context, deploy::LinkSettings& link, const std::string& only) {
-  constexpr std::int64_t kHearNs = 3'000'000'000;  // agents speak twice a second
+  constexpr std::int64_t kHearNs = 3'000'000'000;  // agents report twice a second
   HeardBoards boards{open_link(context, link), {}, {}};
   if (boards.link == nullptr) {
     return Failure{kUnreachable, {}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program that keeps looking at boards asks of one of them, and orders.
+// The requests and commands of PlantWatch to one board.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,7 +13,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kToldNs = 1'200'000'000;  // boards speak twice a second
+constexpr std::int64_t kToldNs = 1'200'000'000;  // boards report twice a second
 constexpr std::int64_t kPatienceNs = 5'000'000'000;
 
 deploy::Action action_of(PlantWatch::RemoteOrder::What what) {
@@ -99,7 +99,7 @@ Result<std::string, Failure> PlantWatch::order(const std::string& board, const R
   look();
   const BoardRoster::Entry* entry = roster_.find(board);
   if (entry != nullptr && entry->report.plant.empty()) {
-    // An order names the plant, and a deployment of just now may not have been told yet.
+    // A command names the plant, and a recent deployment may not have been reported yet.
     roster_.gather(*link_, kToldNs, [&] {
       const BoardRoster::Entry* const now = roster_.find(board);
       return now == nullptr || !now->report.plant.empty();

@@ -15,9 +15,9 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kStatusHearNs = 1'500'000'000;  // agents speak twice a second
+constexpr std::int64_t kStatusHearNs = 1'500'000'000;  // agents report twice a second
 
-// What an agent says; nothing if it is not what one of this version says.
+// Parses an agent's answer; returns nothing if it is not in the format of this version.
 std::optional<std::vector<mirror::MirroredVariable>> variables_in(const std::string& text) {
   const JsonValue whole = JsonValue::parse(text).value_or(JsonValue());
   const JsonValue* list = whole.find("variables");
@@ -44,7 +44,7 @@ std::vector<std::uint64_t> agents_of(const BoardRoster& roster) {
   return agents;
 }
 
-// Nodes that do not run although they should, and alarms: "board control: module Robot is stopped".
+// Returns nodes that do not run although they should, and alarms: "board control: module Robot is stopped".
 std::vector<std::string> trouble_of(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster) {
   const auto texts = fetch_texts(link, self, deploy::kAlarmsBlob, agents_of(roster));
   std::vector<std::string> all;

@@ -16,7 +16,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kHearNs = 1'500'000'000;  // agents speak twice a second
+constexpr std::int64_t kHearNs = 1'500'000'000;  // agents report twice a second
 constexpr std::int64_t kLateNs = 3'000'000'000;
 
 }  // namespace

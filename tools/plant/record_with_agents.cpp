@@ -21,13 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHere = "this.host.mcap";  // no board is called so: names have no dots
+constexpr const char* kHere = "this.host.mcap";  // no board has this name: board names have no dots
 
 bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// `nobody_has` loses the names that a board has.
+// Removes from `nobody_has` the names that a board has.
 int begin(Context& context, const RemoteWish& wish, const deploy::LinkSettings& link, BoardRecordings& recordings,
           std::vector<std::string>& nobody_has) {
   std::vector<std::string> boards;
@@ -67,7 +67,7 @@ void wait(std::int64_t duration_ns) {
 
 int join(Context& context, const RemoteWish& wish, BoardRecordings& recordings, const fs::path& parts) {
   const int interrupt = interrupted() ? interrupt_code() : kOk;
-  take_interrupt();  // it has ended the recording, and is not to end this
+  take_interrupt();  // it ended the recording, and must not end what follows
   int code = tell(context, recordings.end());
   auto [files, problems] = recordings.fetch(parts);
   code = std::max(code, tell(context, problems));

@@ -19,11 +19,11 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kWantedNs = 5'000'000'000;        // as long as nobody asks again
-constexpr std::int64_t kUnwantedNs = 5'000'000'000;      // to know whether its node runs
-constexpr std::int64_t kEveryNs = 250'000'000;           // at best
-constexpr std::int64_t kMostBytesPerSecond = 512 << 10;  // of one board
-constexpr std::int64_t kLateNs = 1'000'000'000;          // added by the way from there
+constexpr std::int64_t kWantedNs = 5'000'000'000;        // after the last request
+constexpr std::int64_t kUnwantedNs = 5'000'000'000;      // interval to find out whether its node runs
+constexpr std::int64_t kEveryNs = 250'000'000;           // minimum interval
+constexpr std::int64_t kMostBytesPerSecond = 512 << 10;  // maximum of one board
+constexpr std::int64_t kLateNs = 1'000'000'000;          // added for the transmission
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 
 std::uint64_t next_store() {
@@ -31,7 +31,7 @@ std::uint64_t next_store() {
   return ++stores;
 }
 
-// The line of JSON in front, and what is behind it.
+// Splits the text into the line of JSON at its begin and the rest.
 std::optional<std::pair<base::Json, std::string_view>> parts_of(std::string_view text) {
   const auto line = text.find('\n');
   auto head = base::Json::parse(std::string(text.substr(0, line)));
@@ -48,7 +48,7 @@ std::int64_t confirmed_by(std::int64_t freshness, std::int64_t now_ns) {
   return freshness >= 0 ? now_ns - freshness : -(now_ns + freshness);
 }
 
-// What is forced to what, without for how long.
+// Returns the forced names with their values, without the remaining times.
 std::string held_by(const base::Json& told) {
   std::string all;
   for (const base::Json& one : told.values()) {
@@ -98,7 +98,7 @@ bool RemoteBoard::take_variables(std::string_view text) {
     size += std::min<std::uint64_t>(variable.type.size(), deploy::BoardValues::kMostBytes + 1);
   }
   if (size > deploy::BoardValues::kMostBytes) {
-    return false;  // no agent says so much
+    return false;  // no agent reports that much
   }
   const std::string name = remote_store_prefix() + std::to_string(next_store());
   auto fresh = vars::Store::create(name, *schema);
@@ -110,7 +110,7 @@ bool RemoteBoard::take_variables(std::string_view text) {
     auto attached = vars::Store::attach(name, vars::Mode::ReadOnly);
     view = attached ? std::optional(std::move(attached).value()) : std::nullopt;
   }
-  (void)vars::remove_shm_file(vars::block_file(name));  // only this process has it
+  (void)vars::remove_shm_file(vars::block_file(name));  // only this process uses it
   const std::lock_guard<std::mutex> guard(mutex_);
   store_ = std::move(fresh).value();
   views_ = std::move(views);
@@ -161,7 +161,7 @@ RemoteBoard::Taken RemoteBoard::take_values(std::string_view text, std::int64_t 
   return Taken::Yes;
 }
 
-// Forces of the board hold the same parts here, so that readers see them.
+// Forces the same parts in the local store, so that readers see the forces of the board.
 void RemoteBoard::hold(const base::Json& forces) {
   for (const base::Json& one : forces.values()) {
     std::string name;
@@ -203,7 +203,7 @@ void RemoteBoard::look_at(const base::Json& row) {
   said_.row = row;
   said_.heard = row["heard"].boolean().value_or(false);
   const std::string state = row["state"].text().value_or("");
-  // A node that was started by hand is none of its agent's.
+  // An agent does not control a node that was started by hand; its values show that it runs.
   said_.running = said_.heard && (state == "running" || (said_.values && node_runs_));
   said_.state = !said_.heard    ? fmt::format("not heard, last {} ago", human_age(row["age_ns"].integer().value_or(0)))
                 : said_.running ? "running"

@@ -21,7 +21,7 @@ namespace {
 using deploy::PlantTransaction;
 using Verdict = PlantTransaction::Verdict;
 
-constexpr std::chrono::milliseconds kSay{500};  // the boards take a deployer that is silent for long for dead
+constexpr std::chrono::milliseconds kSay{500};  // the boards consider a deployer that is silent for long as dead
 constexpr std::int64_t kLookNs = 20'000'000;
 constexpr std::chrono::seconds kProgress{1};
 
@@ -112,7 +112,7 @@ class Run {
     }
   }
 
-  // A line per board whenever its phase changes, and once a second while it fetches.
+  // Prints a line per board whenever its phase changes, and once a second while it fetches files.
   void show(rt::MonoTime now) {
     for (const auto& [board, report] : transaction_.reports()) {
       if (report.deployer != deployment_.order.deployer) {
@@ -240,7 +240,7 @@ Result<std::string, base::Problem> read_deploy_key(Context& context, const std::
     return std::string{};
   }
   std::error_code ignored;
-  const std::filesystem::path own = folder / "deploy.key";  // of the deployer's folder
+  const std::filesystem::path own = folder / "deploy.key";  // in the deployer's folder
   const std::filesystem::path file =
       std::filesystem::exists(own, ignored) ? own : keys::PlantKeys(folder).deployer() / "deploy.key";
   const auto text = base::read_file(file);
@@ -262,7 +262,7 @@ std::uint64_t next_generation(const BoardRoster& roster) {
   for (const auto& [key, entry] : roster.all()) {
     last = std::max(last, entry.report.generation);
   }
-  // Not below the clock: a board that was away for long must not come back with a higher number than all others.
+  // Not below the clock: a board that was absent for long must not return with a higher number than all others.
   return std::max(last + 1, static_cast<std::uint64_t>(rt::wall_ns() / rt::kNanosPerSecond));
 }
 

@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::int64_t kStartPollNs = 20'000'000;
 
-// As the node itself finds its name.
+// Returns the node's name, determined in the same way as by the node itself.
 std::string name_of(const config::RunOptions& options) {
   if (!options.node.empty()) {
     return options.node;
@@ -47,7 +47,7 @@ bool runs(const std::string& node, pid_t pid) {
   return run.ok() && run->block().node_pid.load() == pid && run->block().state.load() == scheduler::NodeState::Running;
 }
 
-// The node ended before it ran: what it said, and its exit code.
+// The node ended before its modules ran: prints its output, returns its exit code.
 int tell_end(Context& context, const std::string& node, const std::filesystem::path& log, int status) {
   if (const auto text = base::read_file(log); text.ok()) {
     context.out.message_line(std::string_view(*text).substr(0, text->find_last_not_of('\n') + 1));

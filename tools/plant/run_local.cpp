@@ -22,21 +22,21 @@ namespace indurop::tools {
 namespace {
 
 constexpr std::int64_t kEndPollNs = 20'000'000;
-constexpr std::int64_t kEndGraceNs = 10'000'000'000;  // a node gives its own modules and processes a few seconds
+constexpr std::int64_t kEndGraceNs = 10'000'000'000;  // a node gives its own modules and processes a few seconds to end
 
 struct Child {
   std::string board;
   pid_t pid = -1;
 };
 
-// "r.json" of board "left" is "r.left.json".
+// Returns "r.left.json" for "r.json" and board "left".
 std::string file_of(const std::filesystem::path& file, const std::string& board) {
   auto named = file;
   named.replace_extension("." + board + file.extension().string());
   return named.string();
 }
 
-// `core` is of boards that name none, unless the user did.
+// `core` is for boards that name none, unless the user did.
 std::vector<std::string> command(const std::filesystem::path& program, const config::Board& board, int core,
                                  config::RunOptions options) {
   options.board = board.name;
@@ -59,7 +59,7 @@ Result<pid_t> launch(std::vector<std::string> words) {
   const std::string program = words[0];
   return base::spawn({.words = std::move(words),
                       .program = program,
-                      .group = base::Launch::Group::Own,  // Ctrl-C reaches us alone; we end the boards
+                      .group = base::Launch::Group::Own,  // Ctrl-C reaches only this program, which ends the boards
                       .fresh_signals = true,
                       .ends_with_us = SIGTERM});
 }
@@ -110,8 +110,8 @@ class Plant {
     return std::count_if(children_.begin(), children_.end(), [](const Child& child) { return child.pid > 0; });
   }
 
-  // Boards that ended since: the first exit code that is not 0. One that was killed is like a board without power, the
-  // others go on.
+  // Collects boards that have ended: returns the first exit code that is not 0. One that was killed is treated like a
+  // board without power: the others continue.
   int collect(bool tell) {
     int code = kOk;
     for (Child& child : children_) {

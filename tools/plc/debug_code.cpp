@@ -20,7 +20,7 @@ namespace {
 
 using Line = plc::DebugTable::Line;
 
-// "POU main, rung 3" of "POU main, rung 3, contact start".
+// Returns "POU main, rung 3" for "POU main, rung 3, contact start".
 std::string drawn_line(const std::string& within) {
   const std::size_t first = within.find(", ");
   const std::size_t second = first == std::string::npos ? first : within.find(", ", first + 2);
@@ -46,7 +46,7 @@ bool is_of_file(const Line& line, const std::string& file) {
          (file.empty() || *line.at.file == file || std::filesystem::path(*line.at.file).filename() == file);
 }
 
-// How far below the wanted line it stands; nothing if it is none of what was asked for.
+// Returns the distance from the requested line down to this one; nothing if it does not match the request.
 std::optional<int> distance(const Line& line, const std::string& what, const std::string& file) {
   const std::size_t colon = what.rfind(':');
   const auto number = number_in(colon == std::string::npos ? what : what.substr(colon + 1));
@@ -126,7 +126,7 @@ std::optional<DebugCode::Breakpoint> DebugCode::find(const std::string& what, co
         nearest = far;
         out = Breakpoint{what, line(module.debug, i), {}};
       }
-      // The first statement of the line in each body.
+      // Only the first statement of the line in each body.
       auto& numbers = out->numbers[module.name];
       const bool known = std::any_of(numbers.begin(), numbers.end(),
                                      [&](std::uint32_t one) { return lines[one].pou == lines[i].pou; });

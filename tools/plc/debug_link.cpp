@@ -11,13 +11,13 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::uint32_t kLongest = 256U << 20U;  // of a message
+constexpr std::uint32_t kLongest = 256U << 20U;  // maximum size of a message
 
 bool receive(int socket, void* to, std::size_t size) {
   return size == 0 || ::recv(socket, to, size, MSG_WAITALL) == static_cast<ssize_t>(size);
 }
 
-// Takes the parts of a message one after the other.
+// Reads the parts of a message one after the other.
 class Parts {
  public:
   explicit Parts(const std::string& text) : rest_(text) {}

@@ -75,7 +75,7 @@ int DebugSession::run() {
       context_.out.note(met ? "the simulation has ended" : "the simulation has ended before the program ran");
       return base::exit_code_of(status);
     }
-    if (interrupted()) {  // and no module runs
+    if (interrupted()) {  // interrupted, and no module runs
       return interrupt_code();
     }
   }
@@ -119,7 +119,8 @@ void DebugSession::begin_of_scan(const DebugStop& stop) {
   go_on(stand ? DebugMode::Into : DebugMode::ToBreakpoint);
 }
 
-// Further statements of the line the program stands in, but not the line once more in a loop.
+// Returns true for further statements of the line at which the program has stopped, but not for the same line again in
+// a loop.
 bool DebugSession::is_same_line(const DebugStop& stop) {
   return stop.module == stop_.module && stop.time_ns == stop_.time_ns && stop.frames.size() == stop_.frames.size() &&
          stop.line > stop_.line && !stop_line_.empty() && code_.line(table(), stop.line).name == stop_line_;
@@ -174,7 +175,7 @@ bool DebugSession::prompt() {
   }
 }
 
-// True: goes on.
+// Returns true if the program continues.
 bool DebugSession::aim(Aim aim) {
   aim_ = aim;
   const bool free = aim == Aim::Run || aim == Aim::Scan;
@@ -196,7 +197,7 @@ std::optional<bool> DebugSession::obey(const std::string& line) {
   return std::nullopt;
 }
 
-// Nothing: the program still stands.
+// Nothing: the program remains stopped.
 std::optional<bool> DebugSession::travel(const std::string& verb, const std::string& rest) {
   if (verb == "c" || verb == "continue") {
     return aim(Aim::Run);
@@ -251,7 +252,7 @@ void DebugSession::look(const std::string& verb, const std::string& rest) {
     set(rest);
   } else if (verb == "h" || verb == "help") {
     context_.out.line(kHelp);
-  } else if (!verb.empty() && verb.front() != '#') {  // of a script: a remark
+  } else if (!verb.empty() && verb.front() != '#') {  // '#' begins a comment in a script
     context_.out.error(fmt::format("'{}' is not possible here; help says what is", verb));
   }
 }

@@ -25,7 +25,7 @@ struct PlcRequest {
   plc::CompileOptions compile;
   std::string folder = ".";  // -o
   bool only_sources = false;
-  std::string version;  // of a library
+  std::string version;  // for a library
 };
 
 bool save(Context& context, const fs::path& path, const std::string& text) {
@@ -36,7 +36,8 @@ bool save(Context& context, const fs::path& path, const std::string& text) {
   return saved.ok();
 }
 
-// Our programs, library and headers: beside this program, in the build directory as in an installation.
+// The programs, library and headers of InduRoP: in the folder of this program, in a build directory as well as in an
+// installation.
 struct Parts {
   fs::path glb2idl;
   fs::path headers;
@@ -101,8 +102,8 @@ bool build_modules(Context& context, const plc::CompileOptions& options, const p
   for (const plc::ModuleText& one : compiled.modules) {
     const fs::path module = folder / (one.name + ".so");
     const fs::path code = folder / (one.name + ".cpp");
-    // The flags of indurop_add_module(). What is watched is compiled with -O1, which takes g++ a third less; without
-    // strict aliasing each power that is told would make it look up again where the program lies.
+    // The flags of indurop_add_module(). Watched programs are compiled with -O1, for which g++ needs a third less time;
+    // without strict aliasing the code would look up the program's address again after each power value.
     std::vector<std::string> arguments{compiler(),
                                        "-std=c++20",
                                        options.debug || options.watch ? "-O1" : "-O2",
@@ -122,7 +123,7 @@ bool build_modules(Context& context, const plc::CompileOptions& options, const p
     if (options.watch) {
       arguments.emplace_back("-fstrict-aliasing");
     }
-    if (arguments[0].find("clang") == std::string::npos) {  // g++ collects its garbage earlier than it would
+    if (arguments[0].find("clang") == std::string::npos) {  // g++ collects garbage earlier than by default
       arguments.insert(arguments.end(), {"--param", options.watch ? "ggc-min-expand=30" : "ggc-min-expand=50"});
     }
     if (!run_compiler(context, arguments, code, sources)) {
@@ -132,7 +133,7 @@ bool build_modules(Context& context, const plc::CompileOptions& options, const p
   return true;
 }
 
-// Says what there is to say of it. Unlike a module a library may be without a PROGRAM.
+// Compiles and prints the diagnostics. Unlike a module a library may have no PROGRAM.
 plc::Compiled compile(Context& context, plc::CompileOptions options, bool library) {
   options.library = library;
   const auto files = with_project_files(context, options.files);
@@ -146,7 +147,7 @@ plc::Compiled compile(Context& context, plc::CompileOptions options, bool librar
   return compiled;
 }
 
-// Prints what is wrong, else one line.
+// Prints the diagnostics, else one line.
 int check_plc(Context& context, const PlcRequest& request) {
   const plc::Compiled compiled = compile(context, request.compile, true);
   if (!compiled.ok) {
@@ -198,7 +199,7 @@ int build_library(Context& context, const PlcRequest& request) {
   library.dialect = request.compile.dialect.value_or(compiled.dialect);
   const auto files = with_project_files(context, request.compile.files);
   for (const std::string& one : files.value_or(std::vector<std::string>())) {
-    if (one.ends_with(".plcproj")) {  // it only names files
+    if (one.ends_with(".plcproj")) {  // it only has names of files
       context.out.error(fmt::format("{} is a project, name its files instead", one));
       return kUsage;
     }

@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether a line calls something in the code, or in our headers and those of the variables, an error.
+// Returns whether a line of the log reports an error in the generated code, or in headers of InduRoP or of the
+// variables.
 bool blames_code(const std::string& log, const fs::path& code) {
   for (std::size_t from = 0; from < log.size();) {
     const std::size_t end = std::min(log.find('\n', from), log.size());

@@ -24,7 +24,7 @@ constexpr std::uint64_t kMagic = iec::Coverage::kMagic;
 constexpr std::size_t kHeadWords = iec::Coverage::kHeadWords;
 constexpr std::size_t kFields = 6;
 
-// How often lines ran, by file and number. Several statements of a line: it ran as often as the one that ran most.
+// How often lines ran, by file and number. For several statements in a line: the count of the one that ran most often.
 using Runs = std::map<std::pair<std::string, int>, std::uint64_t>;
 
 std::vector<std::string_view> split(std::string_view text, char by) {
@@ -43,7 +43,7 @@ bool read_number(std::string_view text, Number& to) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// "rung 3" of "POU main, rung 3, coil Motor", and what is behind it.
+// Splits "POU main, rung 3, coil Motor" into "rung 3" and the rest.
 std::pair<std::string, std::string> drawn_of(std::string_view within) {
   for (const std::string_view word : {", rung ", ", network "}) {
     if (const auto at = within.find(word); at != std::string_view::npos) {
@@ -55,7 +55,7 @@ std::pair<std::string, std::string> drawn_of(std::string_view within) {
   return {};
 }
 
-// One line of the text of a file of counters. False if it makes no sense.
+// Parses one line of the text in a file of counters. Returns false if it is invalid.
 bool add_point(std::string_view line, std::span<const std::uint64_t> counts, Coverage& coverage, Runs& runs) {
   const auto fields = split(line, '\t');
   std::size_t counter = 0;
@@ -152,7 +152,7 @@ struct Request {
   std::string lcov;
 };
 
-// "14, 17-18"
+// Formats numbers as "14, 17-18".
 std::string ranges(const std::vector<int>& numbers) {
   std::string out;
   for (std::size_t i = 0; i < numbers.size();) {
@@ -167,7 +167,7 @@ std::string ranges(const std::vector<int>& numbers) {
   return out;
 }
 
-// What was tried of a POU.
+// The coverage of a POU.
 struct Part {
   std::size_t lines = 0;
   std::vector<int> left_lines;
@@ -175,7 +175,7 @@ struct Part {
   std::set<std::string> run_rungs;
   std::size_t outcomes = 0;
   std::size_t tried = 0;
-  std::vector<std::string> left;  // of outcomes, in words
+  std::vector<std::string> left;  // missing outcomes, as text
 };
 
 std::map<std::string, Part> parts_of(const FileCoverage& file) {
@@ -199,7 +199,7 @@ std::map<std::string, Part> parts_of(const FileCoverage& file) {
     part.outcomes += 2;
     part.tried += (one.yes > 0 ? 1U : 0U) + (one.no > 0 ? 1U : 0U);
     if (one.yes + one.no == 0) {
-      continue;  // said with its line or rung
+      continue;  // reported with its line or rung
     }
     const std::string where = one.drawn.empty() ? fmt::format("line {}", key.first) : one.drawn + ", " + one.what;
     const bool coil = !one.what.empty();

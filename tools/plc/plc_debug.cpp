@@ -35,7 +35,7 @@ struct Request {
   std::string until;
 };
 
-// The program alone, as a configuration of its own.
+// Builds the program alone and a configuration for it.
 bool build(Context& context, Request& request, const plc::Compiled& compiled, const fs::path& folder) {
   if (!write_modules(context, request.compile, compiled, folder, false)) {
     return false;
@@ -100,7 +100,7 @@ int debug(Context& context, Request& request) {
   }
   launch.fresh_signals = true;
   launch.group = base::Launch::Group::Own;
-  launch.ends_with_us = SIGTERM;  // however we end: nobody else knows of this node
+  launch.ends_with_us = SIGTERM;  // however this program ends: no other process knows the node
   const auto started = base::spawn(launch);
   if (!started) {
     context.out.error(fmt::format("cannot start {}", launch.program.string()));

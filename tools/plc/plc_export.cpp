@@ -30,7 +30,7 @@ std::string now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(seconds));
 }
 
-// What is wrong with the program as `check` finds it, then what the format lacks.
+// Prints the diagnostics of `check`, then what the format does not support.
 std::optional<std::string> text_of(Context& context, const Request& request) {
   const auto files = with_project_files(context, request.compile.files);
   if (!files) {

@@ -34,7 +34,7 @@ Literal literal_of(std::string_view text) {
   return based ? plc::st::number_literal(text) : plc::st::typed_literal(text);
 }
 
-// As the values of shared variables are written.
+// Returns the literal in the notation of shared variables.
 std::string plain(const Literal& literal) {
   const std::string sign = literal.negative ? "-" : "";
   if (const auto* truth = std::get_if<bool>(&*literal.value)) {

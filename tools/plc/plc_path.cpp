@@ -12,7 +12,7 @@
 namespace indurop::tools {
 namespace {
 
-// ".X.Y": takes ".X".
+// Consumes ".X" of ".X.Y".
 bool enter_field(Part& part, std::string_view& path) {
   path.remove_prefix(1);
   const std::size_t end = std::min(path.find_first_of(".["), path.size());
@@ -28,7 +28,7 @@ bool enter_field(Part& part, std::string_view& path) {
   return false;
 }
 
-// "[1,2].Y": takes "[1,2]".
+// Consumes "[1,2]" of "[1,2].Y".
 bool enter_element(Part& part, std::string_view& path) {
   std::size_t number = 0;
   for (const plc::Bounds& bounds : part.type->dimensions) {

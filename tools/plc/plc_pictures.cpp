@@ -71,7 +71,7 @@ struct PlcPictures::Program {
       return {};
     }
     std::string first = plan->diagnostics.empty() ? "it cannot be read" : base::to_string(plan->diagnostics[0]);
-    constexpr std::string_view kOption = " with --glb";  // which is none of the server
+    constexpr std::string_view kOption = " with --glb";  // not an option of the server
     if (const auto at = first.find(kOption); at != std::string::npos) {
       first.erase(at, kOption.size());
     }
@@ -95,7 +95,7 @@ struct PlcPictures::Program {
     watched = std::make_unique<Watched>();
     watched->context.node = node;
     watched->context.out.divert(&watched->said);
-    plc::Diagnostics quiet;  // what is wrong was said
+    plc::Diagnostics quiet;  // errors were reported already
     auto view =
         std::make_unique<PlcView>(watched->context, *plan, plc::live_bodies(plan->document, "", quiet), ViewChoice{});
     if (auto opened = view->open(); !opened) {
@@ -148,7 +148,7 @@ Result<base::Json, Failure> PlcPictures::tell(const std::string& node, const std
       continue;
     }
     if (anew) {
-      one->nodes.erase(node);  // looks anew whether the node runs this program
+      one->nodes.erase(node);  // checks again whether the node runs this program
     }
     auto view = one->view_of(node);
     if (view) {

@@ -25,7 +25,7 @@ Retained retained_of(const glb2idl::Compilation& compiled) {
   return out;
 }
 
-// What is lost of any value.
+// Describes what of a value is lost.
 std::vector<std::string> losses(const schema::Variable& before, const schema::Variable& now) {
   const std::vector<std::uint8_t> old(before.type.size());
   std::vector<std::uint8_t> value(now.type.size());
@@ -47,7 +47,7 @@ std::vector<base::Diagnostic> retained_changes(const std::filesystem::path& glb,
     out.push_back({base::Diagnostic::Severity::Warning, glb.string(), {}, "retained " + text});
   };
   if (!before.ok || !after.ok) {
-    return out;  // there was none, or it is no longer one
+    return out;  // there was none, or it is not retained any more
   }
   const Retained kept = retained_of(after);
   for (const auto& [name, old] : retained_of(before)) {

@@ -38,7 +38,7 @@ Style style_of(Run::Look look) {
   return Style::None;
 }
 
-// Where names of shared variables may stand.
+// Returns the texts that may contain names of shared variables.
 std::vector<std::string> texts_of(const plc::LiveBody& body) {
   if (is_text(body)) {
     return {body.body->text};
@@ -95,7 +95,7 @@ Result<void, Failure> PlcView::open() {
   return check_marks();
 }
 
-// Programs, or one instance of what was named.
+// Chooses the programs, or one instance of the selected POU.
 Result<void, Failure> PlcView::choose() {
   for (std::size_t i = 0; i < plan_.layouts.size(); ++i) {
     for (const plc::WatchedInstance& one : plan_.layouts[i].instances) {
@@ -122,7 +122,7 @@ Result<void, Failure> PlcView::choose() {
                      : fmt::format("there is no instance '{}'; write main.motor for motor in main", choice_.instance)};
 }
 
-// A program is called by its own name, unless it runs several times.
+// A program has its own name, unless it runs several times.
 std::string PlcView::title_of(std::size_t program, const std::string& name) const {
   const plc::TaskProgram& one = *plan_.instances[program];
   const auto alike = std::count_if(plan_.instances.begin(), plan_.instances.end(),
@@ -139,7 +139,7 @@ void PlcView::show(std::size_t program, const plc::WatchedInstance& instance) {
   }
 }
 
-// What the programs tell, and the shared variables that texts name.
+// Returns the names of the programs' watched data, and of the shared variables in their texts.
 std::vector<std::string> PlcView::names() {
   const std::string space = plan_.space + "::";
   std::vector<std::string> names;
@@ -158,7 +158,7 @@ std::vector<std::string> PlcView::names() {
   return names;
 }
 
-// "LIST[2].X" of a global: its name in the store, if it is a shared variable.
+// For "LIST[2].X" of a global: adds its name in the store, if it is a shared variable.
 void PlcView::add_shared(const std::string& path, std::vector<std::string>& names) {
   const std::size_t end = std::min(path.find_first_of(".["), path.size());
   const auto global = plan_.program->global_names.find(path.substr(0, end));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of PlcView for programs that draw themselves: SVG at rest, and beside it where power, values and active
-// steps are to be shown. What changes comes in the same order, so that both fit together without names.
+// The drawings of PlcView for programs that draw themselves: SVG without power, and the places at which power, values
+// and active steps are to be shown. Changing data comes in the same order, so that both match without names.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -45,7 +45,7 @@ bool is_switch(const plc::draw::Symbol& symbol) {
          (symbol.element->kind == Element::Kind::Contact || symbol.element->kind == Element::Kind::Coil);
 }
 
-// Calls `use` with each output of a block and the place right above its line.
+// Calls `use` with each output of a block and the position right above its line.
 template <class Use>
 void for_each_output(const plc::draw::Picture& picture, Use use) {
   for (const plc::draw::Symbol& symbol : picture.symbols) {

@@ -29,7 +29,7 @@ struct Request {
   std::int64_t timeout_ns = 0;
 };
 
-// On a terminal: as many lines as fit, painted in place.
+// The view on a terminal: as many lines as fit, repainted in place.
 class View {
  public:
   View(Context& context, PlcView& view) : context_(context), view_(view), screen_(context.out) {}
@@ -56,7 +56,7 @@ class View {
 
  private:
   [[nodiscard]] std::size_t room() const {
-    constexpr int kOtherLines = 3;  // heading, footer, the cursor's
+    constexpr int kOtherLines = 3;  // heading, footer, and the line of the cursor
     return static_cast<std::size_t>(std::max(1, context_.out.extent().rows - kOtherLines));
   }
 
@@ -71,7 +71,7 @@ class View {
     return lines;
   }
 
-  // False if the user wants to end.
+  // Returns false if the user wants to quit.
   bool handle_keys() {
     for (char c = screen_.key(); c != 0; c = screen_.key()) {
       if (c == 'q') {
@@ -107,7 +107,7 @@ int watch(Context& context, Request& request) {
     print_diagnostics(context, plan.diagnostics);
     return kCheckFailed;
   }
-  plc::Diagnostics quiet;  // what is wrong was said
+  plc::Diagnostics quiet;  // errors were reported already
   auto bodies = plc::live_bodies(plan.document, "", quiet);
   PlcView view(context, plan, std::move(bodies), request.choice);
   if (const auto opened = view.open(); !opened) {

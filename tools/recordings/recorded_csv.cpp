@@ -19,7 +19,7 @@ namespace {
 
 using base::Problem;
 
-// A channel whose values are columns.
+// A channel with its values as columns.
 struct Columns {
   std::vector<recording::IdlLeaf> layout;
   std::size_t first = 0;
@@ -79,7 +79,7 @@ class Sheet {
     changed_ns_ = time;
   }
 
-  // The last row, too.
+  // Writes the last row too.
   Exported finish() {
     write_rows_before(changed_ns_ + 1);
     return std::move(out_);
@@ -110,7 +110,7 @@ class Sheet {
     columns_.emplace(id, std::move(columns));
   }
 
-  // What held until now, before something else does.
+  // Writes the values that held until now, before another one changes.
   void write_rows_before(std::int64_t time) {
     if (!time_ns_) {
       return;
@@ -141,7 +141,7 @@ class Sheet {
   std::vector<std::string> heading_;
   std::vector<std::string> cells_;
   std::vector<std::string> texts_;
-  std::optional<std::int64_t> time_ns_;  // of the next row, with --every
+  std::optional<std::int64_t> time_ns_;  // time of the next row, with --every
   bool changed_ = false;
   std::int64_t changed_ns_ = 0;
 };

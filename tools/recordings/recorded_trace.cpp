@@ -35,7 +35,7 @@ void name_tracks(const recorder::Sources& sources, std::string& out) {
   }
 }
 
-// Log times are those of all nodes together; a run's own times are its node's.
+// Log times are on the common clock of all nodes; a run's own times are on its node's clock.
 void add_run(const recorder::Source& source, std::size_t pid, const recorder::RunWords& run, std::int64_t since_ns,
              std::string& out) {
   constexpr double kNsPerUs = 1000.0;

@@ -10,7 +10,7 @@
 namespace indurop::tools {
 namespace {
 
-// False after an error message.
+// Returns false after an error message.
 bool save(Context& context, const std::string& file, const Result<Exported, base::Problem>& made, const char* what,
           const char* hint) {
   if (!made) {

@@ -17,9 +17,9 @@ namespace {
 
 using recorder::Survey;
 
-// "2026-11-22 03:12:04.120"; of virtual time "12.5 s".
+// Returns "2026-11-22 03:12:04.120"; for virtual time "12.5 s".
 std::string time_text(std::int64_t ns) {
-  constexpr std::int64_t kVirtual = std::int64_t{365} * 86'400 * rt::kNanosPerSecond;  // no clock stands in 1970
+  constexpr std::int64_t kVirtual = std::int64_t{365} * 86'400 * rt::kNanosPerSecond;  // no real clock is in 1970
   constexpr std::int64_t kNsPerMs = 1'000'000;
   if (ns < kVirtual) {
     return human_ns(ns);

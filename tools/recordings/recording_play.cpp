@@ -37,7 +37,7 @@ struct Options {
   double speed = 1;
 };
 
-// A variable that is played.
+// A variable that is written.
 struct Played {
   const vars::DirectoryEntry* entry = nullptr;
   const schema::Variable* variable = nullptr;
@@ -50,7 +50,7 @@ bool named(const Options& options, const std::string& name) {
                      [&name](const std::string& glob) { return schema::glob_match(glob, name); });
 }
 
-// What modules of the node do not write themselves, or what was asked for by name.
+// Chooses the variables that modules of the node do not write themselves, or those named on the command line.
 Result<Playlist, Failure> choose(Context& context, const Options& options, const recording::McapReader& reader,
                                  const vars::Store& store) {
   const recorder::Sources sources = recorder::find_sources(reader);
@@ -89,7 +89,7 @@ Result<Playlist, Failure> choose(Context& context, const Options& options, const
   return list;
 }
 
-// Writing to a forced value is for nothing. The names, empty: none is.
+// Returns the names of forced variables, because writing to them has no effect; empty: none is forced.
 std::vector<std::string> forced_of(const Playlist& list, const vars::Store& store) {
   std::vector<std::string> names;
   const std::vector<vars::Force> forces = store.forces();
@@ -107,7 +107,7 @@ struct Done {
   std::uint64_t refused = 0;
 };
 
-// Writes what differs from what was written last.
+// Writes the parts that differ from the last written value.
 void play_one(Played& played, std::span<const std::uint8_t> cdr, vars::Store& store, Done& done) {
   std::vector<std::uint8_t> bytes(played.entry->value_size);
   if (!recording::from_cdr(played.variable->type, cdr, bytes) || bytes == played.bytes) {

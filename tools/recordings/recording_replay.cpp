@@ -18,7 +18,7 @@
 namespace indurop::tools {
 namespace {
 
-// What the recording says of the node it is of.
+// Returns the recording's facts about its node.
 Result<recording::TextMap, base::Problem> about(const ReplayWish& wish) {
   auto reader = recording::McapReader::open(wish.file);
   if (!reader) {
@@ -32,7 +32,7 @@ Result<recording::TextMap, base::Problem> about(const ReplayWish& wish) {
   return sources.all[*source].about;
 }
 
-// Of the variables that differ, as the replay's own recording says: what the modules left now over what they left then.
+// Draws the variables that differ according to the replay's recording: the replayed values over the recorded ones.
 // Returns the exit code.
 int draw(Context& context, const ReplayWish& wish, const std::filesystem::path& output, int code) {
   const auto reader = recording::McapReader::open(output);
@@ -77,7 +77,7 @@ int draw(Context& context, const ReplayWish& wish, const std::filesystem::path& 
   return code;
 }
 
-// As something is to be done behind it.
+// Runs the node as a child process, because there is work to do afterwards.
 int as_child(Context& context, const ReplayWish& wish, const std::filesystem::path& program, config::RunOptions run) {
   const TemporaryFolder folder;
   if (folder.path().empty()) {

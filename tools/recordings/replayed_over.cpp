@@ -57,7 +57,7 @@ std::optional<Sheet> read(std::string_view text) {
   return sheet;
 }
 
-// The rows of both in the order of time: `use(time, recorded, now)` with what holds then; null: nothing yet.
+// Merges the rows of both by time: calls `use(time, recorded, now)` with the rows that hold then; null: none yet.
 template <class Use>
 void for_each_time(const Sheet& recorded, const Sheet& now, const Use& use) {
   const Row* left = nullptr;
@@ -78,7 +78,7 @@ void for_each_time(const Sheet& recorded, const Sheet& now, const Use& use) {
   }
 }
 
-using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;  // columns of one name
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;  // columns of the same name
 
 Pairs differing(const Sheet& recorded, const Sheet& now) {
   Pairs pairs;

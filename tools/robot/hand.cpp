@@ -18,11 +18,11 @@ namespace {
 
 struct Direction {
   int frame = 0;  // ROBOT_JOG.eFrame
-  int index = 0;  // of dSpeed
+  int index = 0;  // in dSpeed
   double sign = 1;
 };
 
-// None: it is no direction.
+// Returns nothing if it is not a direction.
 std::optional<Direction> read_direction(const Hand& hand) {
   constexpr std::array<std::string_view, 6> kTip{"x", "y", "z", "rx", "ry", "rz"};
   std::string word = hand.direction;
@@ -43,7 +43,7 @@ std::optional<Direction> read_direction(const Hand& hand) {
   return found == kTip.end() ? std::nullopt : std::optional(out);
 }
 
-// Tells the robot again and again that the hand is there. The exit code.
+// Sends the heartbeat to the robot repeatedly. Returns the exit code.
 int hold(Context& context, vars::Store& store, const Item& beat, const Hand& hand) {
   constexpr std::int64_t kBeatNs = 100'000'000;
   const std::int64_t end = hand.for_ns > 0 ? rt::now_ns() + hand.for_ns : INT64_MAX;
@@ -65,9 +65,10 @@ int hold(Context& context, vars::Store& store, const Item& beat, const Hand& han
   return kOk;
 }
 
-// A hand that was lost left the switch pressed: the robot wants it released before it counts again. The exit code.
+// A lost client may have left the switch pressed: the robot requires it to be released before it accepts it again.
+// Returns the exit code.
 int let_go_before(Context& context, vars::Store& store, const Item& enable, const std::vector<Assignment>& rest) {
-  constexpr std::int64_t kPeriodsNs = 100'000'000;  // of any robot
+  constexpr std::int64_t kPeriodsNs = 100'000'000;  // longer than the period of any robot
   const auto now = operate::read(store, enable);
   if (!now || std::all_of(now->begin(), now->end(), [](std::uint8_t byte) { return byte == 0; })) {
     return kOk;
@@ -78,7 +79,7 @@ int let_go_before(Context& context, vars::Store& store, const Item& enable, cons
   return wait_until(rt::now_ns() + kPeriodsNs) == Woken::Signal ? interrupt_code() : kOk;
 }
 
-// Whether the robot's files know the work frame, where they can be read: those of another host cannot.
+// Returns whether the robot's files define the work frame; true if they cannot be read, such as those of another host.
 bool knows_frame(Context& context, const RobotChoice& choice, const std::string& frame) {
   const auto files = files_of_node(context.node, choice, false);
   const robot::ListedPoints listed = files ? robot::list_points(files->names) : robot::ListedPoints{};

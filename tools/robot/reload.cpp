@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-// What the robot says: what it has acknowledged, what it has done, and how the last service ended.
+// The robot's answer: the last acknowledged and completed command, and the result of the last service.
 struct Answer {
   std::uint32_t acknowledged = 0, done = 0, error = 0;
   std::string message;
@@ -27,7 +27,7 @@ class Robot {
   Robot(Context& context, vars::Store& store, const RobotChoice& choice)
       : context_(context), store_(store), space_(choice.space) {}
 
-  // The exit code.
+  // Returns the exit code.
   int look(Answer& to) {
     const std::string state = space_ + "::ROBOT_MODULE_STATE.";
     std::vector<Item> items;

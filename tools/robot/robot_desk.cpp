@@ -16,14 +16,14 @@
 namespace indurop::tools {
 namespace {
 
-// Those of an array of double.
+// Returns the elements of an array of double.
 std::vector<double> numbers_of(const std::vector<std::uint8_t>& bytes) {
   std::vector<double> out(bytes.size() / sizeof(double));
   std::memcpy(out.data(), bytes.data(), out.size() * sizeof(double));
   return out;
 }
 
-// Of a plant, the part of the node's board.
+// Returns, for a plant, the configuration of the node's board.
 config::Config config_of(const std::string& file, const std::string& board) {
   const config::CheckOptions options{.files = false, .adjust = true};
   if (!config::is_plant_file(file)) {

@@ -36,7 +36,7 @@ class Planner {
     if (is_glob(text) && text.find(' ') == std::string_view::npos && text.find('(') == std::string_view::npos) {
       return add_glob(text);
     }
-    // The first '=' that belongs to no comparison.
+    // Finds the first '=' that is not part of a comparison.
     const std::size_t sign = text.find_first_of("=<>!");
     const bool named = sign != std::string_view::npos && text[sign] == '=' && text.substr(sign, 2) != "==";
     return add_formula(base::trimmed(named ? text.substr(0, sign) : text),
@@ -90,7 +90,7 @@ class Planner {
     out.unit = place->unit;
     if (type.base == Base::Enum) {
       const schema::Variable& variable = *place->variable;
-      // The place is a copy that ends here; the part of the schema stays.
+      // The place is a local copy; the part of the schema remains valid.
       out.enumerators = enumerators_at(variable.type, place->offset);
     }
     return out;

@@ -13,7 +13,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::size_t kMostText = 1000;  // letters of a formula; so its parser is never deep
+constexpr std::size_t kMostText = 1000;  // characters of a formula; limits the depth of the parser
 constexpr int kMostDepth = 50;
 
 bool is_letter(char c) {
@@ -25,7 +25,7 @@ bool is_digit(char c) {
 
 }  // namespace
 
-// Errors are kept in problem_: the first one counts.
+// Only the first error is kept, in problem_.
 class FormulaParser {
  public:
   FormulaParser(std::string_view text, const FindOperand& find) : text_(text), find_(find) {}
@@ -51,7 +51,7 @@ class FormulaParser {
   using Names = const std::vector<schema::Enumerator>*;
   struct Term {
     std::string unit;
-    bool number = false;  // a plain number takes the unit of its partner
+    bool number = false;  // a plain number takes the unit of the other operand
     Names names = nullptr;
   };
 

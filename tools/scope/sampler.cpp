@@ -14,7 +14,7 @@ namespace {
 
 using base::Problem;
 
-// How often a track is written; what tells nothing of itself comes last.
+// Period at which a track is written; tracks without their own rate come last.
 std::int64_t period_of(const RunView& run, std::uint32_t module) {
   const bool known = module < run.module_count() && run.module(module).period_ns > 0;
   return known ? run.module(module).period_ns : std::numeric_limits<std::int64_t>::max();
@@ -24,7 +24,8 @@ bool has(std::span<const std::uint32_t> indices, std::uint32_t one) {
   return std::find(indices.begin(), indices.end(), one) != indices.end();
 }
 
-// Who knows a variable best: those who write it; else the one that looks at it most often.
+// Returns the tracks on which the variable is known best: those of its writers; else that of the reader that runs most
+// often.
 std::vector<std::size_t> tellers(const tape::Follower& follower, const RunView& run, std::uint32_t variable) {
   std::vector<std::size_t> writers;
   std::optional<std::size_t> reader;
@@ -76,7 +77,7 @@ Result<void, Problem> TickSampler::choose_tracks(const RunView& run, const vars:
       wanted[track][variable].push_back(input);
     }
   }
-  // The one that runs most often tells how far the node is.
+  // The track that runs most often shows how far the node is.
   std::size_t fastest = 0;
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
     if (period_of(run, follower_.module_of(track)) < period_of(run, follower_.module_of(fastest))) {
@@ -126,7 +127,7 @@ std::span<const double> TickSampler::next(std::uint64_t& tick) {
     begun_ = true;
     next_tick_ = static_cast<std::uint64_t>(std::max<std::int64_t>((oldest_ns_ - epoch_ns_) / period_ns_, 0));
   }
-  // Runs become visible when they end: one that is still going on may tell something of a tick before.
+  // Runs become visible when they end: one that is still running may change a value of an earlier tick.
   constexpr std::int64_t kLeastNs = 2'000'000;
   const std::int64_t patience = std::max({kLeastNs, 2 * period_ns_, 2 * longest_ns_});
   const std::int64_t end = time_of(next_tick_ + 1);

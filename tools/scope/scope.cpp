@@ -85,7 +85,7 @@ bool Scope::over() const {
   return state == scheduler::NodeState::Stopped || state == scheduler::NodeState::Failed || !run_.node_alive();
 }
 
-// True if the picture is complete with this tick.
+// Returns true if the capture is complete with this tick.
 bool Scope::add(std::uint64_t tick, std::span<const double> inputs) {
   std::vector<double> row;
   if (rows_.size() >= rows_of(order_)) {

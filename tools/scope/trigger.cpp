@@ -33,7 +33,7 @@ Result<Trigger, base::Problem> Trigger::parse(std::string_view text, const FindO
 bool Trigger::look(std::span<const double> inputs) {
   const double now = formula_.value(inputs);
   if (std::isnan(now)) {
-    return false;  // what was known before still counts
+    return false;  // the previous value remains valid
   }
   const std::optional<double> before = std::exchange(before_, now);
   if (!before) {

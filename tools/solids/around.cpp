@@ -18,10 +18,10 @@ namespace {
 struct Part {
   Surface surface;
   Solid solid;
-  bool whole = false;  // no cut saves anything
+  bool whole = false;  // no cut reduces the waste
 };
 
-// Where to cut is found with some of the triangles; all of them count for what is around the parts.
+// Returns some of the triangles, to search for a cut; all of them count for the solids around the parts.
 Surface some_of(const Surface& surface) {
   constexpr std::size_t kMost = 2000;
   const std::size_t step = surface.size() / kMost + 1;
@@ -32,15 +32,15 @@ Surface some_of(const Surface& surface) {
   return some;
 }
 
-// Places spread by the sequence of the plastic number's sister (M. Roberts, "The unreasonable effectiveness of
-// quasirandom sequences", 2018), those of them that are inside.
+// Returns those points of the sequence of the plastic number's sister (M. Roberts, "The unreasonable effectiveness of
+// quasirandom sequences", 2018) that are inside.
 Inside inside_places(const Surface& surface) {
   Eigen::AlignedBox3d extent;
   for (const Vec3& corner : corners_of(surface)) {
     extent.extend(corner);
   }
   constexpr int kPlaces = 2500;
-  constexpr double kRoot = 1.2207440846057596;  // of x^4 = x + 1
+  constexpr double kRoot = 1.2207440846057596;  // root of x^4 = x + 1
   const Vec3 step(1 / kRoot, 1 / (kRoot * kRoot), 1 / (kRoot * kRoot * kRoot));
   Inside inside{{}, extent.volume() / kPlaces};
   for (int i = 0; i < kPlaces; ++i) {
@@ -65,7 +65,7 @@ class Cutter {
     return part;
   }
 
-  // Nothing if no cut saves anything.
+  // Returns nothing if no cut reduces the waste.
   std::optional<Parts> cut_well(const Part& part) {
     const Surface some = some_of(part.surface);
     std::vector<Mat3> frames = frames_;
@@ -106,7 +106,7 @@ class Cutter {
            waste_of(fit_along(corners.above, frames, inside_), inside_);
   }
 
-  // Evenly, then closer around the best.
+  // Tries evenly spaced cuts, then closer ones around the best.
   void try_along(const Surface& some, const Vec3& normal, std::span<const Mat3> frames, Cut& best) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -150,7 +150,7 @@ std::vector<Solid> solids_of(const std::vector<Part>& parts) {
   return solids;
 }
 
-// The one that reaches farthest beyond the surface, if that is too far and it can be cut.
+// Returns the part whose solid extends farthest beyond the surface, if that is too far and the part can be cut.
 Part* worst_of(std::vector<Part>& parts, const Surface& surface, double within) {
   const std::vector<double> each = each_beyond(solids_of(parts), surface);
   Part* worst = nullptr;

@@ -10,7 +10,8 @@ namespace indurop::solids {
 
 namespace {
 
-// From its middle that way to its skin, in its own directions. `way` is no zero.
+// Vector from the centre of the solid in direction `way` to its surface, in the solid's own directions. `way` is not
+// zero.
 Vec3 on_skin(const robot::Solid& solid, const Vec3& way) {
   if (solid.kind == robot::SolidKind::Box) {
     return way / way.cwiseAbs().cwiseQuotient(solid.half).maxCoeff();
@@ -21,7 +22,7 @@ Vec3 on_skin(const robot::Solid& solid, const Vec3& way) {
   return way.normalized() * solid.half.x();
 }
 
-// The point of a triangle that is nearest: in the middle of it, else on one of its edges.
+// Distance to the nearest point of a triangle: inside it, else on one of its edges.
 double distance_to(const Triangle& triangle, const Vec3& point) {
   const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   bool above = normal.squaredNorm() > 0;
@@ -75,7 +76,7 @@ std::vector<Vec3> skin_of(const robot::Solid& solid) {
 double distance_to(const Surface& surface, const Vec3& point) {
   double least = std::numeric_limits<double>::infinity();
   for (const Triangle& triangle : surface) {
-    // Nothing of a triangle is farther from a corner than its longer edge there.
+    // No point of a triangle is farther from a corner than the longer edge at that corner.
     const double edge = std::max((triangle[1] - triangle[0]).norm(), (triangle[2] - triangle[0]).norm());
     if ((point - triangle[0]).norm() - edge < least) {
       least = std::min(least, distance_to(triangle, point));
@@ -94,7 +95,7 @@ bool inside_of(const Surface& surface, const Vec3& point) {
     const double below = lengths + a.dot(b) * c.norm() + a.dot(c) * b.norm() + b.dot(c) * a.norm();
     angle += 2 * std::atan2(a.dot(b.cross(c)), below);
   }
-  return std::abs(angle) > 2 * robot::kPi;  // all around is 4 pi
+  return std::abs(angle) > 2 * robot::kPi;  // 4 pi if it is fully enclosed
 }
 
 std::vector<double> each_beyond(const std::vector<robot::Solid>& solids, const Surface& surface) {

@@ -19,7 +19,7 @@ struct Outline {
 };
 
 struct Divided {
-  Outline below, above, both;  // `both`: what lies in the plane
+  Outline below, above, both;  // `both`: points in the plane
 };
 
 Divided divide(const Triangle& triangle, const Plane& plane) {
@@ -58,7 +58,7 @@ void add_corners(const Outline& outline, std::vector<Vec3>& to) {
   to.insert(to.end(), outline.corners.begin(), outline.corners.begin() + static_cast<std::ptrdiff_t>(outline.count));
 }
 
-// The hull of what lies in the plane: more than the lid of a part with a hollow, never less.
+// Adds the hull of the points in the plane: for a part with a hollow larger than the lid, never smaller.
 void add_lid(const std::vector<Vec3>& rim, const Plane& plane, Surface& to) {
   const Vec3 right = plane.normal.unitOrthogonal();
   const Vec3 up = plane.normal.cross(right);

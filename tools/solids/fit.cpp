@@ -14,7 +14,7 @@ namespace indurop::solids {
 
 namespace {
 
-// Right-handed, its third column along a direction.
+// Returns a right-handed frame with its third column along a direction.
 Mat3 frame_along(const Vec3& direction) {
   Mat3 frame;
   frame.col(2) = direction.normalized();
@@ -35,7 +35,7 @@ Solid box_in(std::span<const Vec3> points, const Mat3& axes) {
   return Solid::box(extent.sizes(), place_of(axes, extent.center()));
 }
 
-// Both along the third column of a frame.
+// A box and a cylinder along the third column of a frame.
 struct Along {
   Solid box, cylinder;
 };
@@ -58,7 +58,8 @@ Along fit_direction(std::span<const Vec3> points, const Mat3& frame) {
   return {box_in(points, turned), Solid::cylinder(circle.radius, high - low, place_of(frame, middle))};
 }
 
-// Towards the farthest point in ever smaller steps (M. Badoiu and K. L. Clarkson, "Smaller core-sets for balls", 2003).
+// Moves towards the farthest point in ever smaller steps (M. Badoiu and K. L. Clarkson, "Smaller core-sets for balls",
+// 2003).
 Solid ball_around(std::span<const Vec3> points) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& point : points) {
@@ -76,7 +77,7 @@ Solid ball_around(std::span<const Vec3> points) {
   return Solid::ball((farthest() - middle).norm(), {middle, robot::Quat::Identity()});
 }
 
-// The one that wastes least of those that were offered.
+// Keeps the solid with the least waste of those that are offered.
 class Best {
  public:
   explicit Best(const Inside& inside) : inside_(inside) {}
@@ -96,7 +97,7 @@ class Best {
   double waste_ = std::numeric_limits<double>::infinity();
 };
 
-// Evenly over half of a sphere, since directions count both ways.
+// Returns directions spread evenly over half of a sphere, since opposite ones are equivalent.
 std::vector<Vec3> spread_directions(int count) {
   const double golden = robot::kPi * (3 - std::sqrt(5.0));
   std::vector<Vec3> directions;
@@ -108,7 +109,7 @@ std::vector<Vec3> spread_directions(int count) {
   return directions;
 }
 
-// The points that are farthest in some direction: what is around them is nearly around all.
+// Returns the points that are outermost in some direction: a solid around them is nearly around all.
 std::vector<Vec3> outermost(std::span<const Vec3> points) {
   constexpr std::size_t kFew = 600;
   constexpr int kDirections = 300;
@@ -125,7 +126,7 @@ std::vector<Vec3> outermost(std::span<const Vec3> points) {
   return found;
 }
 
-// The best solid of a kind along any direction: `kind` takes it out of what lies along one.
+// Returns the best solid of a kind along any direction: `kind` selects it from the solids along one direction.
 Solid best_along(std::span<const Vec3> points, const std::vector<Vec3>& directions, Solid Along::*kind) {
   Vec3 best = directions.front();
   Solid found = fit_direction(points, frame_along(best)).*kind;
@@ -218,12 +219,12 @@ Solid fit(std::span<const Vec3> points, std::span<const Mat3> frames, const Insi
   Best any(inside);
   any.offer(best_along(outer, directions, &Along::box));
   any.offer(best_along(outer, directions, &Along::cylinder));
-  constexpr double kNearly = 0.03;  // of its room
+  constexpr double kNearly = 0.03;  // share of its volume
   return any.waste() < straight.waste() - kNearly * room_of(straight.solid()) ? any.solid() : straight.solid();
 }
 
 Solid rounded(const Solid& solid, std::span<const Vec3> points) {
-  constexpr double kPlace = 1e5;  // parts of a metre or radian
+  constexpr double kPlace = 1e5;  // steps in a metre or radian
   constexpr double kSize = 1e4;
   const auto to_grid = [&](const Vec3& value) {
     return Vec3((value * kPlace).array().round() / kPlace + 0.0);  // no -0
@@ -240,7 +241,7 @@ Solid rounded(const Solid& solid, std::span<const Vec3> points) {
     radius = std::max(radius, there.head<2>().norm());
     distance = std::max(distance, there.norm());
   }
-  // A hair more, so that what a file says in decimals is not below it; and nothing is flat.
+  // Rounds up slightly, so that the decimal value in a file is not smaller; and no size is 0.
   const auto up = [](double value) { return std::ceil((value + 1e-9) * kSize) / kSize; };
   if (round.kind == robot::SolidKind::Box) {
     round.half = Vec3(up(2 * reach.x()), up(2 * reach.y()), up(2 * reach.z())) / 2;

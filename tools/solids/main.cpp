@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `indurop-solids`: writes a URDF file anew, with boxes, cylinders and balls around the meshes that its links collide
-// with. A program of its own, since the library that reads meshes takes 30 ms to load.
+// `indurop-solids`: rewrites a URDF file with boxes, cylinders and spheres around the meshes that its links collide
+// with. It is a separate program, since the library that reads meshes takes 30 ms to load.
 
 #include <fmt/format.h>
 
@@ -60,7 +60,7 @@ void place_in_link(Surface& surface, const robot::Pose& origin) {
   }
 }
 
-// The surfaces of all meshes, each in its link; what is wrong with one goes to `mistakes`.
+// Returns the surfaces of all meshes, each in the frame of its link; adds errors to `mistakes`.
 std::vector<Surface> read_all(const Options& options, const std::vector<CollisionMesh>& meshes,
                               std::vector<base::Diagnostic>& mistakes) {
   const Packages packages = packages_of(options);
@@ -97,7 +97,7 @@ std::string names_of(const std::vector<Solid>& solids) {
   return base::enumerate(names, names.size());
 }
 
-// The exit code.
+// Returns the exit code.
 int write(tools::Context& context, const std::filesystem::path& file, const std::string& text) {
   if (file.empty()) {
     return kOk;

@@ -15,20 +15,20 @@ namespace indurop::solids {
 
 namespace {
 
-constexpr int kView = 260;  // pixels, of a view with its margin
+constexpr int kView = 260;  // pixels; size of a view with its margin
 constexpr int kMargin = 20;
 constexpr int kTitle = 40;
 constexpr const char* kSolidStyle =
     ".mesh{fill:#55636f}.solid{fill:#0b78c2;fill-opacity:.10;stroke:#0b78c2;stroke-width:1.2}";
 
-// Which axes go right and up.
+// The axes that point right and up.
 struct View {
   const char* name;
   int right, up;
 };
 constexpr View kViews[] = {{"x right, z up", 0, 2}, {"y right, z up", 1, 2}, {"x right, y up", 0, 1}};
 
-// Evenly over the area; the same ones each time.
+// Returns points spread evenly over the area; the same ones each time.
 std::vector<Vec3> dots_of(const Surface& surface) {
   std::vector<double> areas;
   for (const Triangle& triangle : surface) {
@@ -48,10 +48,10 @@ std::vector<Vec3> dots_of(const Surface& surface) {
   return dots;
 }
 
-// Metres to pixels: all of a mesh at one scale.
+// Converts metres to pixels: one scale for all views of a mesh.
 struct Scale {
   Vec3 middle = Vec3::Zero();
-  double pixels = 1;  // of a metre
+  double pixels = 1;  // per metre
 
   [[nodiscard]] Vec2 at(const Vec3& point, const View& view) const {
     const Vec3 from = (point - middle) * pixels;

@@ -15,7 +15,7 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-// One of the two chains of the hull, in the order of the points.
+// Adds one of the two chains of the hull, in the order of the points.
 template <class Iterator>
 void add_chain(Iterator begin, Iterator end, std::vector<Vec2>& hull) {
   const std::size_t first = hull.size();
@@ -25,7 +25,7 @@ void add_chain(Iterator begin, Iterator end, std::vector<Vec2>& hull) {
     }
     hull.push_back(*point);
   }
-  hull.pop_back();  // the other chain begins there
+  hull.pop_back();  // it is the begin of the other chain
 }
 
 bool outside(const Circle& circle, const Vec2& point) {
@@ -40,7 +40,7 @@ Circle around(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Vec2 ab = b - a;
   const Vec2 ac = c - a;
   const double twice = 2 * (ab.x() * ac.y() - ab.y() * ac.x());
-  if (std::abs(twice) <= 1e-14 * ab.norm() * ac.norm()) {  // on a line: the two that are farthest apart
+  if (std::abs(twice) <= 1e-14 * ab.norm() * ac.norm()) {  // collinear: uses the two points that are farthest apart
     const Circle pairs[] = {around(a, b), around(a, c), around(b, c)};
     return *std::max_element(std::begin(pairs), std::end(pairs),
                              [](const Circle& one, const Circle& other) { return one.radius < other.radius; });

@@ -34,7 +34,7 @@ const base::Attribute* attribute_of(const base::Element* element, std::string_vi
   return found == element->attributes.end() ? nullptr : &*found;
 }
 
-// Of a place, whose columns count characters of UTF-8.
+// Returns the byte offset of a place, whose columns count UTF-8 characters.
 std::size_t offset_of(const std::string& text, const base::SourcePlace& place) {
   std::size_t at = 0;
   for (int line = 1; line < place.line; ++line) {
@@ -49,7 +49,8 @@ std::size_t offset_of(const std::string& text, const base::SourcePlace& place) {
   return at;
 }
 
-// Behind the end of the <collision> that begins there; nothing if it has none. None is inside of another.
+// Returns the position after the end of the <collision> that begins at `begin`; nothing if it has none. They are never
+// nested.
 std::optional<std::size_t> end_of_collision(const std::string& text, std::size_t begin) {
   constexpr std::string_view kEnd = "</collision";
   for (std::size_t at = text.find('<', begin); at != std::string::npos; at = text.find('<', at + 1)) {
@@ -137,7 +138,7 @@ class Finder {
     found_.meshes.push_back(std::move(one));
   }
 
-  // As it is if there is no such attribute.
+  // Leaves `to` unchanged if there is no such attribute.
   bool read_three(const base::Attribute* attribute, Vec3& to) {
     if (attribute == nullptr) {
       return true;
@@ -160,7 +161,7 @@ class Finder {
   FoundMeshes found_;
 };
 
-// "0.12", without zeros that say nothing.
+// Returns "0.12", without trailing zeros.
 std::string number(double value) {
   std::string text = fmt::format("{:.5f}", value);
   text.erase(text.find_last_not_of('0') + 1);
@@ -193,7 +194,7 @@ std::string element_of(const robot::Solid& solid, const std::string& indent) {
       three(solid.place.position), three(robot::to_rpy(solid.place.orientation)), shape);
 }
 
-// The blanks in front of what begins there, if there is nothing else in its line.
+// Returns the blanks in front of `at`, if there is nothing else before it in the line.
 std::string indent_at(const std::string& text, std::size_t at) {
   const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
   const std::string before = text.substr(line, at - line);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
 constexpr std::size_t kEvents = 5;
-constexpr std::size_t kMessages = 2;  // of these: who prints all the time hides nothing
+constexpr std::size_t kMessages = 2;  // maximum messages among these: a module that prints all the time hides nothing
 constexpr std::size_t kTroubles = 3;
 constexpr const char* kKeys = "q Quit  n Node  s Sort  Space Pause  Up/Down Scroll";
 
@@ -99,7 +99,7 @@ std::string message_of(const RunView& run, const MessageSample& one) {
       fmt::format("tick {}: {}: {}", since / std::max<std::int64_t>(block.basic_period_ns, 1), one.who, one.text));
 }
 
-// Overruns, what was ordered from outside in this run and what modules printed, oldest first.
+// Returns overruns, external commands in this run and output of modules, oldest first.
 std::vector<TopEvent> newest_events(const std::string& node, const RunView& run) {
   std::vector<TopEvent> all;
   const scheduler::RunBlock& block = run.block();
@@ -202,7 +202,7 @@ TopSample take_sample(const std::string& node, const RunView& run, const TopSamp
   alarms.refresh();
   sample.alarms = alarms.book().counts();
   for (const alarms::ListedAlarm& one : alarms::list_alarms({}, alarms.book(), false)) {
-    const bool said = one.name.starts_with(alarms::module_alarm(""));  // with the modules
+    const bool said = one.name.starts_with(alarms::module_alarm(""));  // listed with the modules
     if (one.record.state != alarms::AlarmState::Shelved && !said) {
       sample.troubles.push_back(printable(
           fmt::format("{} alarm, {}: {}", schema::word_of(one.priority), word_of(one.record.state), one.text)));

@@ -54,7 +54,7 @@ TopScreen::TopScreen() {
   if (has_colors() && std::getenv("NO_COLOR") == nullptr) {
     start_color();
     use_default_colors();
-    constexpr short kOwn = -1;  // of the terminal
+    constexpr short kOwn = -1;  // the terminal's default colour
     init_pair(kGood, COLOR_GREEN, kOwn);
     init_pair(kWarn, COLOR_YELLOW, kOwn);
     init_pair(kBad, COLOR_RED, kOwn);
@@ -75,7 +75,7 @@ void TopScreen::paint(const std::vector<TopLine>& lines) {
   int row = 0;
   for (const TopLine& line : lines) {
     attrset(static_cast<int>(attributes_of(line)));
-    // The last place of the last line would scroll.
+    // Writing to the last column of the last line would scroll.
     mvaddnstr(row, 0, line.text.c_str(), -1);
     if (line.reversed) {
       for (int column = getcurx(stdscr); column < getmaxx(stdscr) && getcury(stdscr) == row; ++column) {

@@ -10,7 +10,7 @@
 namespace indurop::tools {
 namespace {
 
-// Empty after an error message.
+// Returns an empty list after an error message.
 std::vector<std::pair<std::string, std::string>> split(Context& context, const char* verb,
                                                        const std::vector<std::string>& words) {
   std::vector<std::pair<std::string, std::string>> out;

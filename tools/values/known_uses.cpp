@@ -11,7 +11,7 @@
 namespace indurop::tools {
 namespace {
 
-// Modules of all boards, "control@sensor".
+// Returns the modules of all boards as "control@sensor".
 std::vector<config::VariableUse> uses_in(const CheckedPlant& checked) {
   const auto boards = config::views_of(checked.plant, checked.check);
   const config::Uses uses(boards);

@@ -17,7 +17,7 @@ namespace indurop::tools {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr std::int64_t kJustNowNs = 250'000'000;  // boards that live confirm their values more often
+constexpr std::int64_t kJustNowNs = 250'000'000;  // running boards confirm their values more often
 
 PeerView view_peer(const mirror::PeerRecord& record, std::int64_t now) {
   const std::int64_t heard = record.heard_ns.load(kRelaxed);
@@ -43,7 +43,7 @@ Style style_of(const std::string& state) {
   return state == "alive" ? Style::Good : state == "absent" ? Style::Warn : Style::Bad;
 }
 
-// Of the variables that a standby sends too: whether this board leads them.
+// Tells whether this board leads the variables that a standby sends too.
 std::string lead_of(const MirrorView& view, const std::string& board) {
   std::map<std::string, int> owners;
   for (const mirror::MirroredVariable& one : view.variables) {
@@ -110,7 +110,7 @@ std::vector<std::string> explain_old(const MirrorView& view, const std::set<std:
       continue;
     }
     std::string old;
-    std::map<std::string, std::string> taken_over;  // names by board that leads now
+    std::map<std::string, std::string> taken_over;  // names by the board that leads now
     for (const mirror::MirroredVariable& one : view.variables) {
       if (one.owner == peer.name && variables.contains(one.name)) {
         const auto leader = leaders.find(one.name);

@@ -23,7 +23,7 @@
 namespace indurop::tools {
 namespace {
 
-// The store is that of the process that runs the node.
+// Returns true if the store belongs to the process that runs the node.
 bool store_alive(const std::string& node, const vars::BlockHeader& header) {
   const pid_t pid = vars::running_node(node);
   return pid != 0 && pid == header.node_pid.load(std::memory_order_relaxed);
@@ -118,7 +118,7 @@ Result<std::string, Failure> choose_node(const std::string& asked) {
 
 namespace {
 
-// Which formats differ: " (format of its store 4, here 5)".
+// Returns the formats that differ: " (format of its store 4, here 5)".
 std::string formats_of(const std::string& node) {
   std::vector<std::string> differing;
   const auto compare = [&](const char* what, std::uint32_t found, std::uint32_t known) {
@@ -193,7 +193,7 @@ Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode, const
   }
   context.values = std::make_shared<HereSource>(*node, mode);
   auto store = context.values->attach();
-  // One that starts under a name that was used before still shows what the former left.
+  // A node that starts under a name that was used before shows the values of the former one until its own store exists.
   while_starting([&] {
     if (store.ok() && store_alive(*node, store->header())) {
       return true;

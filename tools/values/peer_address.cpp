@@ -21,7 +21,7 @@ namespace {
 
 struct Answer {
   int code = 0;         // of getaddrinfo()
-  std::string address;  // empty: it has none of IPv4
+  std::string address;  // empty: it has no IPv4 address
 };
 
 Answer ask(const std::string& name) {
@@ -42,7 +42,7 @@ Answer ask(const std::string& name) {
   return answer;
 }
 
-// By a thread that nobody waits for: getaddrinfo() cannot be given a time.
+// Uses a detached thread, because getaddrinfo() has no time-out.
 std::future<Answer> begin_to_ask(const std::string& name) {
   std::packaged_task<Answer()> task([name] { return ask(name); });
   std::future<Answer> answer = task.get_future();
@@ -50,7 +50,7 @@ std::future<Answer> begin_to_ask(const std::string& name) {
   return answer;
 }
 
-// False: the time is over, or the user interrupts.
+// Returns false if the time is over, or the user interrupts.
 bool wait_for(const std::future<Answer>& answer, rt::MonoTime deadline) {
   constexpr std::chrono::milliseconds kLook{20};
   while (answer.wait_for(kLook) != std::future_status::ready) {
@@ -61,10 +61,10 @@ bool wait_for(const std::future<Answer>& answer, rt::MonoTime deadline) {
   return true;
 }
 
-// Where the port begins, or the end of it.
+// Returns the position of the colon before the port, or the end of the text.
 std::size_t end_of_name(const std::string& peer) {
   const auto colon = peer.rfind(':');
-  const bool port = colon != std::string::npos && peer.find(':') == colon;  // more of them: an address of IPv6
+  const bool port = colon != std::string::npos && peer.find(':') == colon;  // several colons: an IPv6 address
   return port ? colon : peer.size();
 }
 

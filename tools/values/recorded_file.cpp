@@ -21,7 +21,7 @@ namespace {
 using base::Problem;
 namespace fs = std::filesystem;
 
-constexpr std::string_view kOwn = "indurop/";  // channels that are no variables
+constexpr std::string_view kOwn = "indurop/";  // channels that are not variables
 
 std::int64_t written_ns(const fs::path& file) {
   std::error_code ignored;
@@ -40,7 +40,7 @@ RecordingFile file_of(const recorder::Box& box, bool black_box) {
           written_ns(box.file)};
 }
 
-// Channels with numbers, by their number in the file.
+// The layouts of channels with numbers, by channel id in the file.
 using Layouts = std::map<std::uint16_t, std::vector<recording::IdlLeaf>>;
 
 Layouts layouts_of(const recording::Contents& contents) {
@@ -57,7 +57,7 @@ Layouts layouts_of(const recording::Contents& contents) {
   return layouts;
 }
 
-// By channel: which of its leaves is which line.
+// By channel: pairs of leaf and line index.
 using Wanted = std::map<std::uint16_t, std::vector<std::pair<std::size_t, std::size_t>>>;
 
 Result<Wanted, Problem> find_numbers(const recording::Contents& contents, const Layouts& layouts,
@@ -79,7 +79,7 @@ Result<Wanted, Problem> find_numbers(const recording::Contents& contents, const 
   return wanted;
 }
 
-// What the lines held at evenly spaced times.
+// Samples the values of the lines at evenly spaced times.
 class Grid {
  public:
   Grid(std::pair<std::int64_t, std::int64_t> whole, const RecordedWish& wish)
@@ -89,7 +89,7 @@ class Grid {
     out.lines.assign(wish.names.size(), std::vector<double>(points_, std::nan("")));
   }
 
-  // All times before this one.
+  // Fills all points before this time.
   void fill(std::int64_t before_ns) {
     for (; point_ < points_ && time_of(point_) < before_ns; ++point_) {
       for (std::size_t line = 0; line < held.size(); ++line) {

@@ -17,8 +17,8 @@ namespace indurop::tools {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kMostElements = 64;  // of an array
-constexpr std::size_t kMostSteps = 8;      // different values of a lane
+constexpr std::size_t kMostElements = 64;  // maximum elements of an array
+constexpr std::size_t kMostSteps = 8;      // maximum different values of a lane
 
 std::optional<double> number(std::string_view text) {
   double value = 0;

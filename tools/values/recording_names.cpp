@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the columns of a recording are called in a picture.
+// The names of the columns of a recording in a picture.
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ std::optional<std::size_t> whole(std::string_view text) {
   return code == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
-// "joint [deg]" is called "joint" as well.
+// "joint [deg]" also matches the name "joint".
 bool is_called(const std::string& full, std::string_view name) {
   const std::string_view plain = std::string_view(full).substr(0, full.find(" ["));
   return full == name || plain == name ||

@@ -18,7 +18,7 @@ namespace indurop::tools {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{20};
-constexpr std::int64_t kQuietNs = 200'000'000;  // nothing new for so long: that was all
+constexpr std::int64_t kQuietNs = 200'000'000;  // after this time without anything new discovery is complete
 constexpr std::int64_t kSetNs = 3'000'000'000;
 constexpr std::int64_t kRepeatNs = 300'000'000;
 constexpr int kMostRepeats = 4;
@@ -34,11 +34,12 @@ std::vector<std::string> silent(const std::vector<mirror::RemoteBoard>& boards) 
   return names;
 }
 
-// Whether a name on a command line means the variable or a part of it. It may lack namespaces, and name a board.
+// Returns whether a name on a command line refers to the variable or a part of it. It may lack namespaces, and name a
+// board.
 bool means(const std::string& text, const std::string& variable) {
   std::string name = text.substr(0, text.find('@'));
   for (auto dot = name.find('.'); dot != std::string::npos; dot = name.find('.')) {
-    name.replace(dot, 1, "::");  // either may separate namespaces
+    name.replace(dot, 1, "::");  // both separators of namespaces are accepted
   }
   name = name.substr(0, name.find('['));
   for (std::string begin = name;; begin.resize(begin.rfind("::"))) {
@@ -50,7 +51,8 @@ bool means(const std::string& text, const std::string& variable) {
   }
 }
 
-// What keys may have to do with it that nobody was heard: who has some does not answer who has none, or others.
+// Returns a hint that keys may be why no board was discovered: a participant with keys does not answer one without, or
+// with others.
 std::string keys_hint(const dds::NetworkSettings& network) {
   if (!network.security.on()) {
     return "<external secure=\"on\">: --keys";
@@ -88,7 +90,7 @@ RemoteSource::~RemoteSource() {
   }
 }
 
-// Each of them is of a board that is heard, or of one of which only that is known.
+// Returns true if each of them belongs to a board that is received, or is known to belong to one that is not.
 bool RemoteSource::knows(const std::vector<std::string>& names) const {
   const auto variables = plane_->variables();
   const auto silent = plane_->silent_variables();
@@ -99,7 +101,7 @@ bool RemoteSource::knows(const std::vector<std::string>& names) const {
   });
 }
 
-// Until nothing new has come for a while and nobody is missing, or the time is over.
+// Waits until nothing new was discovered for a while and no board is missing, or the time is over.
 Result<void, Failure> RemoteSource::gather(const dds::NetworkSettings& network, const std::vector<std::string>& names,
                                            std::vector<std::string>& notes) {
   const std::int64_t end = rt::now_ns() + wait_ns_;
@@ -150,7 +152,7 @@ void RemoteSource::feed() {
   }
 }
 
-// What the plane knows now, and what is wanted of it.
+// Processes what the plane has received, and sets what it requests.
 void RemoteSource::update() {
   const std::lock_guard<std::mutex> guard(mutex_);
   boards_ = plane_->boards();
@@ -171,7 +173,7 @@ void RemoteSource::update() {
   if (order_) {
     order_->forbidden = plane_->may_not_set(order_->variable);
   }
-  // The board may come to know this writer after the writer knew the board: what was sent between is lost.
+  // The board may discover this writer after the writer discovered the board: messages in between are lost.
   if (order_ && order_->repeats < kMostRepeats && order_->answer != order_->value && rt::now_ns() >= order_->next_ns &&
       plane_->send(order_->variable, variables_.at(order_->variable).owner, order_->value)) {
     order_->sent = true;
@@ -201,7 +203,7 @@ void RemoteSource::value_came(const std::string& variable, const std::string& bo
   }
 }
 
-// Boards that are gone keep their variables: the last values stay, and go on when the board is back, or come from
+// Boards that are gone keep their variables: the last values remain, and continue when the board is back, or come from
 // another one that shows them now (a standby).
 void RemoteSource::rebuild(const std::vector<mirror::RemoteVariable>& variables) {
   const auto shows = [&](const std::string& variable, const std::string& board) {
@@ -220,7 +222,7 @@ void RemoteSource::rebuild(const std::vector<mirror::RemoteVariable>& variables)
     if (replaced) {
       known.declared = seen.declared;
       plane_->reopen(seen.declared.name);
-      known.declared.kind = abi::Kind::Ring;  // numbers what comes
+      known.declared.kind = abi::Kind::Ring;  // a ring numbers the received values
       other = true;
     }
     known.boards[seen.board] = seen.writable;
@@ -241,7 +243,7 @@ Status RemoteSource::renew_store() {
     return fresh.error();
   }
   auto view = vars::Store::attach(name, vars::Mode::ReadOnly);
-  (void)vars::remove_shm_file(vars::block_file(name));  // only this process has it
+  (void)vars::remove_shm_file(vars::block_file(name));  // only this process uses it
   if (!view) {
     return view.error();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What modules printed, as people read it.
+// The output of modules, formatted for people.
 #include "scheduler/printed_messages.h"
 #include "tools/values/run_view.h"
 

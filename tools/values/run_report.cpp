@@ -29,7 +29,7 @@ std::vector<std::string> nodes_on(std::int32_t core, const std::string& but) {
   return names;
 }
 
-// It does nothing any more, although its process is there: its supervisor beats every 10 ms.
+// Returns true if its process exists but does not continue: its supervisor sends a heartbeat every 10 ms.
 bool is_hung(const std::string& node, bool alive, scheduler::NodeState state) {
   constexpr std::chrono::seconds kLongest{5};
   const auto beat = alive && state == scheduler::NodeState::Running ? vars::last_beat(node) : Error{Errc::NotFound};

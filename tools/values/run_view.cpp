@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kMostModules = 100'000;
 
-// Where `count` objects begin if they all lie inside `total` bytes and are aligned, else null.
+// Returns the begin of `count` objects if they all are inside `total` bytes and aligned, else null.
 template <class T>
 const T* inside(const scheduler::RunBlock& block, std::uint64_t offset, std::uint64_t count,
                 std::uint64_t total) noexcept {
@@ -30,7 +30,7 @@ OverrunSample plain(const scheduler::OverrunEntry& entry, std::uint64_t number) 
           entry.latency_ns, entry.previous, entry.previous_ns, entry.started != 0};
 }
 
-// Entry n is complete while `sequence` is n + 1; it is copied and kept only if that was so before and after.
+// Entry n is complete while `sequence` is n + 1; the copy is kept only if that was so before and after copying.
 template <class Sample, class Entry>
 std::vector<Sample> read_log(const Entry* ring, std::uint64_t capacity, std::uint64_t next, std::uint64_t most) {
   std::vector<Sample> out;

@@ -23,7 +23,8 @@ namespace {
 
 constexpr double kPatienceSeconds = 2;
 
-// The first of it. A process may end between two calls: then there is nothing, and no exception of a stream's buffer.
+// Returns the begin of a file. A process may end between two calls: then the text is empty, without an exception of a
+// stream's buffer.
 std::string text_of(const std::filesystem::path& file) {
   constexpr std::size_t kMost = 4096;
   std::string text(kMost, '\0');
@@ -33,17 +34,18 @@ std::string text_of(const std::filesystem::path& file) {
   return text;
 }
 
-// A node, or `indurop run` that is about to become one.
+// Returns true for a node, or for `indurop run` that is about to become one.
 bool becomes_node(const std::filesystem::path& process) {
   const std::string name = text_of(process / "comm");
   if (name == "indurop-node\n") {
     return true;
   }
-  // Words end with NUL.
+  // Arguments end with NUL.
   return name == "indurop\n" && text_of(process / "cmdline").find(std::string_view("\0run\0", 5)) != std::string::npos;
 }
 
-// Its /dev/shm is ours. What another user starts is not waited for: it may be named like a node only to hold us up.
+// Returns true if the process has the same /dev/shm (mount namespace) and belongs to this user or root. Processes of
+// other users are not waited for: they could be named like a node only to delay this program.
 bool sees_our_files(const std::filesystem::path& process) {
   struct stat info {};
   if (::stat(process.c_str(), &info) != 0 || (info.st_uid != ::geteuid() && info.st_uid != 0)) {
@@ -54,7 +56,7 @@ bool sees_our_files(const std::filesystem::path& process) {
   return !error && theirs == std::filesystem::read_symlink("/proc/self/ns/mnt", error);
 }
 
-// It has become a node whose modules run.
+// Returns true if it is a node whose modules run.
 bool runs_already(pid_t pid) {
   for (const std::string& node : vars::list_nodes()) {
     if (vars::running_node(node) == pid) {

@@ -26,7 +26,7 @@ void add_item(Item item, std::vector<Item>& items) {
   }
 }
 
-// Exit code, after an error message: there is no such variable, or its board cannot be asked.
+// Returns the exit code, after an error message: there is no such variable, or its board cannot be reached.
 int unknown(Context& context, const std::string& name, const std::string& message) {
   if (const std::string owner = context.values->silent_owner(name); !owner.empty()) {
     context.out.error(fmt::format("'{}' is of board {}, which is silent", name, owner));
@@ -41,7 +41,7 @@ int unknown(Context& context, const std::string& name, const std::string& messag
   return kUnreachable;
 }
 
-// "NAME@BOARD" is taken apart. The exit code, after an error message.
+// Splits "NAME@BOARD". Returns the exit code, after an error message.
 int take_board(Context& context, const vars::Store& store, std::string& name, std::string& board) {
   const auto at = name.rfind('@');
   if (context.values->here() || at == std::string::npos) {
@@ -59,7 +59,7 @@ int take_board(Context& context, const vars::Store& store, std::string& name, st
   return problem.empty() ? kOk : unknown(context, name, problem);
 }
 
-// Leaves out what the keys do not let be read. False if that were all.
+// Removes the items that the keys do not permit reading. Returns false if these were all.
 bool drop_forbidden(Context& context, std::vector<Item>& items) {
   std::set<std::string> forbidden;
   std::erase_if(items, [&](const Item& item) {

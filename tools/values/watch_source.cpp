@@ -75,11 +75,12 @@ void WatchSource::sample(Context& context, std::size_t first, std::size_t count)
       continue;
     }
     now.resize(value.bytes.size());
-    // A value that cannot be read consistently right now is shown in the next round.
+    // A value that cannot be read consistently now is shown in the next round.
     if (!store_->read(*value.item.entry, value.item.place.offset, now).ok()) {
       continue;
     }
-    value.changed = !std::exchange(value.known, true) || now != value.bytes;  // the first value is news, zero or not
+    value.changed = !std::exchange(value.known, true) || now != value.bytes;  // the first value counts as changed, zero
+                                                                              // or not
     value.bytes.swap(now);
   }
 }
