@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop age: how old what one variable says is when it has become another, followed in the runs of a node.
+// indurop age: the age of data from one variable to another, measured in the runs of a node.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,17 +34,17 @@ struct Options {
   std::vector<std::string> files;
   std::string config;
   std::int64_t duration_ns = 0;  // 0: what is on the tape
-  std::int64_t network_ns = 0;   // 0: not told
+  std::int64_t network_ns = 0;   // 0: not given
 };
 
-// The configuration's file, and the node that was asked for; no node: of recordings.
+// The configuration's file, and the requested node; no node: recordings are used.
 struct Asked {
   std::string config;
   std::string node;
   std::string board;  // that node's
 };
 
-// Of nodes that are all boards of one plant on this machine, one; else none: then somebody has to choose.
+// Returns one of the local nodes if all are boards of one plant; else none: then the user has to choose.
 std::string any_board() {
   std::string chosen;
   std::set<std::string> configs;
@@ -85,7 +85,7 @@ Result<Asked, Failure> whom(const Context& context, const Options& options) {
   return asked;
 }
 
-// Nodes of one plant differ in the name of the board only: "control-sim" and "sensor-sim".
+// Nodes of one plant differ only in the name of the board: "control-sim" and "sensor-sim".
 std::string node_of(const Asked& asked, const std::string& board) {
   std::string node = asked.node;
   const auto at = asked.board.empty() ? std::string::npos : node.find(asked.board);
@@ -144,10 +144,10 @@ Result<Runs, Failure> read_files(const Options& options, const std::vector<std::
   return runs;
 }
 
-// What was measured of one way.
+// The measurement of one chain.
 struct Measured {
-  std::vector<std::int64_t> ages;  // rising
-  std::uint64_t disturbed = 0;     // not among them: something overran or was lost meanwhile
+  std::vector<std::int64_t> ages;  // sorted
+  std::uint64_t disturbed = 0;     // left out of `ages`: something overran or was lost meanwhile
   std::int64_t disturbed_most = 0;
   std::uint64_t unclear = 0;
   std::uint64_t unread = 0;
@@ -163,7 +163,7 @@ class Measurement {
 
   [[nodiscard]] const Chains& chains() const noexcept { return chains_; }
 
-  // Empty: the runs of a board of it are not there.
+  // Returns nothing if the runs of one of its boards are not available.
   [[nodiscard]] std::optional<Measured> measure(const Chain& chain) const {
     std::vector<explain::ChainStage> stages;
     for (std::size_t i = 0; i < chain.modules.size(); ++i) {
@@ -204,7 +204,7 @@ class Measurement {
     return found == runs_.end() ? nullptr : &*found;
   }
 
-  // How the board kept to its schedule, and how long its modules took.
+  // Adds how well the board kept its schedule, and the execution times of its modules.
   void keep(std::size_t board) {
     keepings_.emplace_back();
     const config::BoardView& view = plant_.boards()[board];
@@ -244,7 +244,7 @@ Cell time_cell(const std::vector<std::int64_t>& ages, std::size_t index) {
   return ages.empty() ? Cell("-", nullptr, Style::None) : Cell(microseconds(Nanos(ages[index])), ages[index]);
 }
 
-// Whether all that was measured is as predicted.
+// Adds a row; returns whether everything measured is as predicted.
 bool add_row(Context& context, const Measurement& measurement, const Chain& chain, const Measured& measured,
              Nanos network, Table& table) {
   const config::ChainAge age = measurement.chains().age(chain, network);
@@ -282,10 +282,10 @@ bool add_row(Context& context, const Measurement& measurement, const Chain& chai
   return within;
 }
 
-// What was measured of all ways. Returns the exit code.
+// Prints the measurements of all chains. Returns the exit code.
 int tell(Context& context, const Options& options, const ChainPlant& plant, const std::vector<Chain>& found,
          const Runs& runs) {
-  // What boards measure now says nothing of a recording.
+  // Current measurements of boards do not apply to a recording.
   const auto boards = options.files.empty() ? plant.boards() : std::span<const config::BoardView>{};
   const NetworkTime network =
       network_time(boards, options.network_ns > 0 ? std::optional(Nanos(options.network_ns)) : std::nullopt);

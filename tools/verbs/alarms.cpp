@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop alarms: how the alarms of a node stand, what happened to them, and what people do about them.
+// indurop alarms: the status of a node's alarms, their history, and what operators do about them.
 #include <fmt/format.h>
 
 #include "alarms/alarm_list.h"

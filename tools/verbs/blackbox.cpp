@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop blackbox: what nodes of this host, or boards in the network, kept when something went wrong.
+// indurop blackbox: what nodes of this host, or boards in the network, recorded when a fault occurred.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -34,7 +34,7 @@ namespace {
 
 struct Options {
   std::string action;
-  std::string what;  // why, or a file
+  std::string what;  // reason, or a file
   std::string when;
   std::string at;  // name of a box; empty: the newest
   ExportWish out;  // with export
@@ -53,7 +53,7 @@ Result<HeardBoards, Failure> hear(Context& context, Options& options) {
   return hear_boards(context, options.link, options.board);
 }
 
-// Those of this host, as if their nodes were boards.
+// Returns the boxes of this host, as if their nodes were boards.
 std::vector<BoardBox> boxes_here(const std::string& node) {
   std::vector<BoardBox> all;
   for (const recorder::Box& box : node.empty() ? recorder::boxes_here() : recorder::boxes_of(node)) {
@@ -94,7 +94,7 @@ int list(Context& context, Options& options) {
   return kOk;
 }
 
-// The newest, or the one that is named; null after an error message.
+// Returns the newest box, or the one that is named; null after an error message.
 const BoardBox* choose(Context& context, const Options& options, const std::vector<BoardBox>& boxes) {
   const auto found = std::find_if(boxes.begin(), boxes.end(), [&](const BoardBox& box) {
     return options.at.empty() || box.name == std::filesystem::path(options.at).filename();
@@ -129,7 +129,7 @@ int fetch_here(Context& context, const Options& options) {
   return join_to(context, files, options.what);
 }
 
-// Boards of the plant whose boxes are not among these.
+// Returns the boards of the plant without a box among these.
 std::vector<std::string> missing(const HeardBoards& boards, const BoardBox& first,
                                  const std::vector<BoardBox>& chosen) {
   const auto of = std::find_if(boards.reports.begin(), boards.reports.end(),
@@ -190,7 +190,7 @@ int fetch(Context& context, Options& options) {
   return options.far() ? fetch_far(context, options) : fetch_here(context, options);
 }
 
-// What is done with one box, or with what the boards kept of one moment: as with any recording.
+// Processes one box, or the boxes of several boards from one moment, like any recording.
 int use(Context& context, Options& options) {
   const TemporaryFolder folder;
   std::filesystem::path file = folder.path() / "moment.mcap";
@@ -225,7 +225,7 @@ int use(Context& context, Options& options) {
   return replay_recording(context, wish);
 }
 
-// Until a variable is not 0 any more. Returns the exit code.
+// Waits until a variable becomes non-zero. Returns the exit code.
 int await(Context& context, const std::string& name) {
   const auto store = open_store(context, vars::Mode::ReadOnly, {name});
   if (!store) {
@@ -252,7 +252,7 @@ int await(Context& context, const std::string& name) {
   return interrupt_code();
 }
 
-// The node writes it: only it knows all of what belongs to its runs.
+// The node writes the box: only it has all data of its runs.
 int keep(Context& context, const std::string& why) {
   const auto node = choose_node(context.node);
   if (!node) {
@@ -273,8 +273,8 @@ int keep(Context& context, const std::string& why) {
   return kOk;
 }
 
-// Of all boards that are heard, at about the same time; they are heard before, so that a box still tells what led to
-// it.
+// Saves a box on all discovered boards, at about the same time. They are discovered first, so that a box still contains
+// what preceded it.
 int keep_far(Context& context, Options& options) {
   constexpr std::int64_t kTimeoutNs = 5'000'000'000;
   auto commander = BoardCommander::make(context, options.link.keys);

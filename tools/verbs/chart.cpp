@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop chart: values over time as a picture.
+// indurop chart: draws values over time.
 #include <fmt/format.h>
 
 #include <iostream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop check: everything that can be known to be wrong before anything runs, who reads and writes what.
+// indurop check: finds all errors that can be found before anything runs, and lists who reads and writes what.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,7 +19,7 @@ struct Options {
   bool adjust = false;
   bool simulation = false;
   std::vector<std::string> chain;
-  std::int64_t network_ns = 0;  // 0: not told
+  std::int64_t network_ns = 0;  // 0: not given
   config::CheckOptions::Times times;
 };
 

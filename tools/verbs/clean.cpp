@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop clean: removes what nodes that do not run left in shared memory.
+// indurop clean: removes files that nodes which do not run any more left in shared memory.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,7 +16,7 @@
 namespace indurop::tools {
 namespace {
 
-// Nodes with any file, also those without a store (killed while they started).
+// Returns nodes with any file, also those without a store (killed while they started).
 std::vector<std::string> nodes_with_files() {
   std::vector<std::string> names = vars::list_nodes();
   std::error_code error;
@@ -37,7 +37,7 @@ std::vector<std::string> nodes_with_files() {
   return names;
 }
 
-// Which nodes to clean; empty if there is nothing.
+// Returns the nodes to clean; empty if there is nothing.
 Result<std::vector<std::string>, Failure> chosen(const Context& context, bool all) {
   std::string name = context.node;
   const char* environment = std::getenv("INDUROP_NODE");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop deploy: puts a plant to work on all its boards, or changes nothing.
+// indurop deploy: deploys a plant on all its boards, or changes nothing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,14 +39,14 @@ std::vector<std::string> addresses(const config::Plant& plant) {
 }
 
 constexpr std::size_t kLongestComment = 200;
-constexpr std::int64_t kLeftOutNs = 1'000'000'000;  // for boards that are not in the manifest to be heard
+constexpr std::int64_t kLeftOutNs = 1'000'000'000;  // time to discover boards that are not in the manifest
 
 bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Boards that run this plant and are not in it any more: those that are there take part, so that their nodes end with
-// the same switch and come back if it is taken back.
+// Adds boards that run this plant but are not in it any more: those that are present take part, so that their nodes end
+// at the same switch and return if it is rolled back.
 void add_left_out(Context& context, deploy::DeployLink& link, BoardRoster& roster, const deploy::Package& package,
                   std::vector<std::string>& boards) {
   const auto heard = [&](const auto& entry) {
@@ -79,7 +79,7 @@ void add_left_out(Context& context, deploy::DeployLink& link, BoardRoster& roste
   }
 }
 
-// What a board asks for by its name: the package itself, or a file in it.
+// Returns what a board requests by name: the package itself, or a file in it.
 std::optional<deploy::BlobServer::Blob> blob_of(const deploy::PackedPlant& packed, const std::string& name) {
   if (name == packed.id) {
     return deploy::BlobServer::Blob{{}, packed.text};
@@ -100,7 +100,7 @@ void tell_size(Context& context, const Deployment& deployment, const deploy::Pac
   }
 }
 
-// By the keys of --keys, else those that the manifest names.
+// Reads the key from --keys, else from the folder that the manifest names.
 Result<std::string, base::Problem> deploy_key(Context& context, const config::Plant& plant,
                                               deploy::LinkSettings& link) {
   if (link.keys.empty() && !plant.security.empty()) {

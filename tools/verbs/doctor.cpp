@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop doctor: is this machine fit for real time, and what to do if not.
+// indurop doctor: checks whether this machine is fit for real time, and gives advice.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
@@ -92,12 +92,12 @@ int verdict(Context& context, const std::vector<Finding>& findings) {
   return fit ? kOk : kFailed;
 }
 
-// Of all boards of this machine, not of one node.
+// One record for all boards of this machine, not of one node.
 std::filesystem::path tuning_record() {
   return vars::state_directory("machine") / "tuning.json";
 }
 
-// "p50 12 us, p99 40 us, at worst 90 us"
+// Returns "p50 12 us, p99 40 us, at worst 90 us".
 std::string wake_up_test(const Options& options) {
   const LatencyResult result = measure_latency(options.test);
   const auto summary = scheduler::summarize(*result.lateness);
@@ -171,7 +171,7 @@ int core_of_a_node(const Options& options) {
   return options.core.value_or(cores.empty() ? 0 : cores.back());
 }
 
-// Those of the nodes that run; of none: that of one to come.
+// Returns the cores of the running nodes; if none runs: the core that a new node would use.
 std::vector<int> cores_of_ticks(const Options& options) {
   std::set<int> cores;
   for (const std::string& node : options.core ? std::vector<std::string>() : vars::list_nodes()) {

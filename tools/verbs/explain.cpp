@@ -68,7 +68,7 @@ Result<std::vector<Facts>, Failure> gather(const Context& context, const Options
   return plant;
 }
 
-// Of a node that does not run any more, as far as it says so.
+// Describes the end of a node that does not run any more, if it is known.
 std::string how_it_ended(const Facts& facts) {
   if (facts.alive || facts.closed) {
     return {};
@@ -105,7 +105,7 @@ std::vector<Asked> ask_variable(const std::vector<Facts>& plant, std::size_t ask
   const auto owner =
       std::find_if(plant.begin(), plant.end(), [&](const Facts& one) { return one.board == variable.owner; });
   const Facts& its = variable.owner.empty() || owner == plant.end() ? facts : *owner;
-  // Of a node that has ended: as it was then.
+  // For a node that has ended: at that time.
   const std::int64_t latest = facts.alive ? facts.now_ns : std::min(facts.now_ns, facts.release_of(facts.tick));
   const std::int64_t at = options.tick == explain::kNone ? latest : facts.release_of(options.tick);
   return {{fmt::format("why is {} as old as it is?", name), explain::why_old(plant, asked, name, at)},
@@ -113,16 +113,18 @@ std::vector<Asked> ask_variable(const std::vector<Facts>& plant, std::size_t ask
            explain::who_changed(its, name, at + facts.wall_minus_node_ns - its.wall_minus_node_ns)}};
 }
 
-// End of what is known of a node, on the common clock.
+// Returns the last time for which data of a node is available, on the common clock.
 std::int64_t end_of(const Facts& facts) {
   const std::int64_t end = facts.alive ? facts.now_ns : std::min(facts.now_ns, facts.release_of(facts.tick));
   return end + facts.wall_minus_node_ns;
 }
 
-// The node that gets it from another board and went on longest; one that did not see the end of who writes it says
-// nothing of it then. Else the first that knows it.
+// Returns the node that receives the variable from another board and ran longest; if it ended before the writer, it
+// cannot tell about the end of the writer, which is returned instead. Else returns the first node that knows the
+// variable.
 std::optional<std::size_t> where_it_is_old(const std::vector<Facts>& plant, const std::string& name) {
-  constexpr std::int64_t kAlike = 1'000'000'000;  // ends of recordings that were stopped together
+  constexpr std::int64_t kAlike = 1'000'000'000;  // difference between the ends of recordings that were stopped
+                                                  // together
   std::optional<std::size_t> reader;
   std::optional<std::size_t> writer;
   std::optional<std::size_t> known;
@@ -144,7 +146,7 @@ std::optional<std::size_t> where_it_is_old(const std::vector<Facts>& plant, cons
   return writer ? writer : known;
 }
 
-// The first of the nodes that knows what was asked about; a board is asked for at another one.
+// Asks the first of the nodes that knows the subject; for a board another node is asked.
 Result<std::vector<Asked>, Failure> ask(const std::vector<Facts>& plant, const Options& options,
                                         const std::string& variable) {
   std::vector<std::string> names;
@@ -205,7 +207,7 @@ void print(Context& context, const std::vector<Asked>& all) {
 }
 
 int explain_it(Context& context, const Options& options) {
-  // The variable's full name is known only with the configuration.
+  // The full name of the variable is known only after the configuration was read.
   auto plant = gather(context, options, options.what);
   if (!plant) {
     return report(context.out, plant.error());

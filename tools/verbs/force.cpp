@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop force, unforce, forces: values that hold whoever writes them.
+// indurop force, unforce, forces: values that hold against all writers.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,7 +18,7 @@
 namespace indurop::tools {
 namespace {
 
-// Opens the store of a node that runs: forces end with it.
+// Opens the store of a running node: forces end with the node.
 Result<vars::Store, Failure> open_running(Context& context) {
   auto store = open_store(context, vars::Mode::ReadWrite);
   if (store) {
@@ -36,10 +36,10 @@ struct ForceOptions {
   bool lease = false;
 };
 
-// How long a lease holds after it was renewed last.
+// Time of a lease after its last renewal.
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
 
-// Until the user ends it, the node ends, or another user releases one of them.
+// Holds until the user ends it, the node ends, or another user releases one of them.
 int keep_holding(Context& context, vars::Store& store, operate::Lease& lease) {
   constexpr std::int64_t kRenewNs = kLeaseNs / 4;
   context.out.note("held while this runs; Ctrl-C lets go");

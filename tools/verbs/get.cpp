@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop get: values of variables or parts of them, once.
+// indurop get: prints values of variables or parts of them, once.
 #include <fmt/format.h>
 
 #include <set>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kAlignedValue = 24;
 
-// Values of a board that has just died look like any others until its lease is over.
+// Values of a board that has just died look valid until its lease is over.
 void note_old(Context& context, const std::vector<Item>& items) {
   const auto mirror = context.values->here() ? view_mirror(context.node) : std::nullopt;
   std::set<std::string> names;
@@ -48,7 +48,7 @@ int get(Context& context, const std::vector<std::string>& names) {
       return kFailed;
     }
     const std::string text = schema::format_value(item.place.type, *bytes);
-    // The usual `x=$(indurop get NAME)`: one name, nothing but its value.
+    // The usual `x=$(indurop get NAME)`: one name, prints only its value.
     if (context.format == Format::Table && items.size() == 1) {
       context.out.line(item.place.unit.empty() || !context.out.terminal() ? text : text + " " + item.place.unit);
       return kOk;

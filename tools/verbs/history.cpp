@@ -19,7 +19,7 @@ namespace {
 struct Options {
   std::string board;
   deploy::LinkSettings link;
-  std::int64_t wait_ns = 3'000'000'000;  // less, if all are heard
+  std::int64_t wait_ns = 3'000'000'000;  // less if all are discovered
 };
 
 struct Row {
@@ -28,7 +28,7 @@ struct Row {
   bool current = false;
 };
 
-// What several boards say of one deployment is one row.
+// Merges the reports of several boards about one deployment in one row.
 void merge(std::vector<Row>& rows, const std::string& board, const PastDeployment& past, bool current) {
   const auto same = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
     return std::tie(row.past.deployment, row.past.generation, row.past.outcome, row.past.host) ==

@@ -23,11 +23,11 @@ struct Options {
   bool once = false;
 };
 
-constexpr std::int64_t kLookNs = 1'000'000;        // one look per ms
+constexpr std::int64_t kLookNs = 1'000'000;        // one poll per ms
 constexpr std::int64_t kReportNs = 1'000'000'000;  // one line per second
 
-// Counts updates between looks. A ring variable numbers its versions, so none is missed; of a scalar only changes
-// between two looks are seen.
+// Counts updates between polls. A ring variable numbers its versions, so none is missed; of a scalar only changes
+// between two polls are seen.
 class Counter {
  public:
   Counter(const vars::Store& store, const Item& item)
@@ -46,7 +46,7 @@ class Counter {
       window_ += updates;
     }
     if (updates > 0) {
-      last_ns_ = now_ns;  // the first update seen begins the window
+      last_ns_ = now_ns;  // the first observed update begins the window
     }
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop jitter: how exactly modules start and how long they take, as table, histogram and picture.
+// indurop jitter: start lateness and execution times of modules, as table, histogram and picture.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop keys: who may take part in a plant.
+// indurop keys: manages who may take part in a plant.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -62,7 +62,7 @@ int list(Context& context, const KeysRequest& request) {
   return ok ? kOk : kFailed;
 }
 
-// Those that are named, boards before others of the same name; empty after an error.
+// Returns the named keys, a board before others of the same name; empty after an error.
 std::vector<keys::KeyListing> chosen(Context& context, const keys::PlantKeys& keys,
                                      const std::vector<std::string>& names) {
   const std::vector<keys::KeyListing> all = keys.list(keys::instant_now());

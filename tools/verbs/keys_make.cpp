@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop keys init and add: keys for the boards of a plant and for others.
+// indurop keys init and add: creates keys for the boards of a plant and for others.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -162,7 +162,7 @@ int add_deployer(Context& context, const KeysRequest& request, const keys::Plant
   return kOk;
 }
 
-// Others than boards are named by an option, one at a time.
+// Participants other than boards are named by an option, one at a time.
 std::optional<int> add_other(Context& context, const KeysRequest& request, const keys::PlantKeys& keys) {
   const int kinds =
       (request.tool.empty() ? 0 : 1) + (request.viewer.empty() ? 0 : 1) + (request.deployer.empty() ? 0 : 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop lock: what may be written to a node from outside.
+// indurop lock: restricts what may be written to a node from outside.
 #include <fmt/format.h>
 
 #include "operate/set.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop log: which module ran when, from the ring the real-time threads write; with --audit who wrote what.
+// indurop log: which module ran when, from the ring that the real-time threads write; with --audit who wrote what.
 #include <fmt/format.h>
 
 #include "base/replace_file.h"
@@ -89,7 +89,7 @@ int show_log(Context& context, Options& options) {
   std::erase_if(samples, [&](const SlotSample& sample) {
     return !options.glob.empty() && !schema::glob_match(options.glob, run->module_name(sample.module));
   });
-  // A trace is for zooming: everything there is, unless less was asked for.
+  // A trace is for zooming: contains everything available, unless less was requested.
   const std::uint64_t most = options.count > 0 ? options.count : options.trace_file.empty() ? kDefaultLines : kAll;
   if (samples.size() > most) {
     samples.erase(samples.begin(), samples.end() - static_cast<std::ptrdiff_t>(most));

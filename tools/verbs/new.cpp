@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop new: a project that builds and runs.
+// indurop new: creates a project that builds and runs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A name that CMake, make and a shell take without quotes.
+// Returns true for a name that CMake, make and a shell accept without quotes.
 bool good_name(const std::string& name) {
   constexpr std::size_t kLongest = 60;
   return !name.empty() && name.size() <= kLongest && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
@@ -37,7 +37,7 @@ std::string filled_in(std::string text, const std::vector<std::pair<std::string,
   return text;
 }
 
-// The project's name as that of a namespace, which none of its variables may have.
+// The project's name as a namespace, which none of its variables may have.
 std::string namespace_of(const std::string& project) {
   constexpr std::array<std::string_view, 5> kVariables{"gain", "wave", "smoothed", "starts", "seen"};
   std::string name = project;
@@ -47,7 +47,7 @@ std::string namespace_of(const std::string& project) {
   return taken || refused ? name + "_project" : name;
 }
 
-// "0.1.0" -> "0.1": what find_package asks for.
+// Returns "0.1" for "0.1.0", as find_package requires.
 std::string minor_version() {
   const std::string whole = INDUROP_VERSION;
   return whole.substr(0, whole.find('.', whole.find('.') + 1));
@@ -64,7 +64,7 @@ struct Options {
 using Words = std::vector<std::pair<std::string, std::string>>;
 
 Words words_of(const Options& options, const std::string& name, const fs::path& programs, const fs::path& package) {
-  // @PLC@ first: what stands for it has words of its own.
+  // @PLC@ first: its text contains placeholders itself.
   return {{"@PLC@", options.plc() ? plc_build() : ""},
           {"@NAMESPACE@", namespace_of(name)},
           {"@NAME@", name},

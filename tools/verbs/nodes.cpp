@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop nodes (ps): one line per node that runs on this machine; with --all also those that left values behind.
+// indurop nodes (ps): one line per node that runs on this machine; with --all also nodes that left values behind.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -40,7 +40,7 @@ std::vector<Cell> row(const NodeReport& report) {
           Cell(report.config_file)};
 }
 
-// A node without run block: killed while it started, or its block is of another version.
+// Returns the report of a node without run block: killed while it started, or its block is of another version.
 NodeReport without_run_block(const std::string& node, const Error& error) {
   NodeReport report;
   report.node = node;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop overruns: who was late, when, what it used itself, and who ran before it.
+// indurop overruns: which module was late, when, what time it used itself, and which one ran before it.
 #include <fmt/format.h>
 
 #include "tools/command/units.h"
@@ -15,11 +15,11 @@ struct Options {
   std::uint64_t count = 20;
 };
 
-// The likely reason, from what the record holds.
+// Returns the likely reason, from the data in the record.
 std::string reason(const RunView& run, const OverrunSample& overrun) {
   const bool other_longer = overrun.previous >= 0 && overrun.previous_ns > overrun.own_ns;
   if (!overrun.started) {
-    // Only what took a good part of the period explains it; else it was not one of the node's modules.
+    // Only a module that took a good part of the period explains it; else the cause was not one of the node's modules.
     const bool explains = overrun.previous >= 0 && 4 * overrun.previous_ns >= run.module(overrun.module).period_ns;
     return explains ? fmt::format("did not get its turn: {} took {}", run.module_name(overrun.previous),
                                   human_ns(overrun.previous_ns))

@@ -27,7 +27,7 @@ std::string with_line_end(std::string text) {
   return text;
 }
 
-// `Content` and `Check`: Config and CheckResult, or Plant and PlantCheck.
+// Template parameters `Content` and `Check`: Config and CheckResult, or Plant and PlantCheck.
 template <class Content, class Check>
 int show(Context& context, const Options& options, const Content& content, const Check& check) {
   if (!options.svg_file.empty()) {

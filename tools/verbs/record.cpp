@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop record: what the runs of a node's modules see and write, as a file that others read too.
+// indurop record: writes what the runs of a node's modules read and write to a file that third-party programs can read
+// too.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,11 +45,11 @@ struct Options {
   deploy::LinkSettings link;
 };
 
-// A node that is recorded.
+// A node that is being recorded.
 struct Recorded {
   ChosenRun chosen;
   vars::Store store;
-  std::string board;  // of the plant; empty: none
+  std::string board;  // in the plant; empty: none
 };
 
 recorder::About about(const ChosenRun& chosen, const vars::Store& store) {
@@ -67,7 +68,7 @@ recorder::About about(const ChosenRun& chosen, const vars::Store& store) {
   if (auto text = base::read_file(config)) {
     about.files.emplace_back(std::filesystem::path(config).filename().string(), *std::move(text));
   }
-  // Already at the begin: whoever reads it knows that the end of this recording is not that of the node.
+  // Written at the begin already, which tells a reader that the end of this recording is not that of the node.
   about.files.emplace_back(explain::kFactsFile, facts_text_here(chosen.node, chosen.run));
   return about;
 }
@@ -86,7 +87,7 @@ bool ended(const RunView& run) {
 
 using Nodes = std::vector<std::unique_ptr<Recorded>>;
 
-// Until it is to end. Errors: those of the disk.
+// Records until the end is requested. Errors: those of the disk.
 Result<void, base::Problem> go_on(const Options& options, const Nodes& nodes, recorder::Parts& parts) {
   const std::int64_t begin = rt::now_ns();
   std::int64_t flushed = begin;
@@ -117,7 +118,7 @@ Result<void, base::Problem> go_on(const Options& options, const Nodes& nodes, re
   }
 }
 
-// False if something is missing in the recording.
+// Returns false if something is missing in the recording.
 bool tell_missing(Context& context, const Recorded& node, const recorder::Recorder& recorder) {
   for (const std::string& name : recorder.too_large()) {
     context.out.error(
@@ -132,7 +133,7 @@ bool tell_missing(Context& context, const Recorded& node, const recorder::Record
   return recorder.counts().lost.empty();
 }
 
-// False if the node did not come to its end by itself. Of one that did its recording is whole.
+// Returns false if the node did not end normally. If it did, its recording is complete.
 bool tell_death(Context& context, const Recorded& node) {
   const RunView& run = node.chosen.run;
   const auto state = run.block().state.load();
@@ -165,7 +166,7 @@ int tell(Context& context, const Nodes& nodes, const recorder::Parts& parts) {
   return whole ? kOk : kFailed;
 }
 
-// Opens a node and adds it to both; null, or what prevents that.
+// Opens a node and adds it to both; returns what prevents that, else nothing.
 std::optional<Failure> add_node(Context& context, const std::string& board, Nodes& nodes,
                                 std::vector<recorder::Taped>& taped) {
   auto chosen = open_run(board.empty() ? context.node : board);
@@ -173,7 +174,7 @@ std::optional<Failure> add_node(Context& context, const std::string& board, Node
     return chosen.error();
   }
   if (!board.empty() && ended(chosen->run)) {
-    return Failure{kUnreachable, {}};  // it may run elsewhere now
+    return Failure{kUnreachable, {}};  // it may run on another host now
   }
   context.node = chosen->node;
   auto store = open_store(context, vars::Mode::ReadOnly);
@@ -193,7 +194,7 @@ std::optional<Failure> add_node(Context& context, const std::string& board, Node
   return std::nullopt;
 }
 
-// Those of this host are added, unless agents are to record them, too. Returns the others.
+// Adds the boards of this host, unless agents are to record them too. Returns the others.
 std::vector<BoardElsewhere> add_boards(Context& context, const Options& options, const config::Plant& plant,
                                        Nodes& nodes, std::vector<recorder::Taped>& taped) {
   std::vector<BoardElsewhere> elsewhere;
@@ -228,7 +229,7 @@ int record_here(Context& context, const Options& options, const std::filesystem:
     code = kFailed;
   }
   if (code != kOk) {
-    take_interrupt();  // that something is missing says more than that somebody ended it
+    take_interrupt();  // missing data determines the exit code, not the interrupt
   }
   return code;
 }

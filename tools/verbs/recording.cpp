@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop recording: what is done with recordings that are there.
+// indurop recording: the subcommands that work on existing recordings.
 #include "tools/recordings/recording_cut.h"
 #include "tools/recordings/recording_export.h"
 #include "tools/recordings/recording_info.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop replay: the modules of a recording run again with what they began with, and are compared with it.
+// indurop replay: runs the modules of a recording again with the recorded inputs, and compares the results.
 #include "tools/recordings/recording_replay.h"
 #include "tools/verbs/verbs.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop reset: initial values again, with or without the retained ones.
+// indurop reset: restores initial values, with or without the retained ones.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -21,7 +21,7 @@ struct Options {
   bool yes = false;
 };
 
-// Fails unless the user agrees. Without a terminal to ask on only --yes counts.
+// Fails unless the user agrees. Without a terminal only --yes counts.
 Result<void, Failure> agreed(Context& context, const Options& options, const std::string& question) {
   if (options.yes) {
     return {};
@@ -54,7 +54,7 @@ bool erase_retained(Context& context, const std::string& node) {
   return erased.ok();
 }
 
-// The node, as far as this verb needs it: a name is enough, for retained values outlive `indurop clean`.
+// Returns the node, or only its name: that is enough, because retained values remain after `indurop clean`.
 Result<std::string, Failure> node_or_name(const Context& context) {
   if (!context.node.empty() && vars::valid_node_name(context.node) &&
       std::filesystem::exists(vars::state_directory(context.node))) {
@@ -87,7 +87,7 @@ int reset(Context& context, const Options& options) {
     context.out.error(explain_open_error(store.error(), *node, true));
     return exit_code_of(store.error());
   }
-  // Files first: should that fail, nothing has happened yet.
+  // Files first: if that fails, nothing has been changed yet.
   if (options.cold && !erase_retained(context, *node)) {
     return kFailed;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop restart: modules, and nodes of boards.
+// indurop restart: restarts modules, and nodes of boards.
 #include "tools/plant/commands.h"
 #include "tools/verbs/verbs.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop robot: points shown and taught, and the robot moved by hand.
+// indurop robot: shows and teaches points, and jogs the robot.
 #include "tools/robot/hand.h"
 #include "tools/robot/reload.h"
 #include "tools/robot/teaching.h"

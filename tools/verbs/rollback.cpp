@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop rollback: the boards of a plant go back to what they ran before, as one deployment.
+// indurop rollback: returns the boards of a plant to an earlier deployment, as one deployment.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -27,10 +27,10 @@ struct Options {
   bool allow_missing = false;
 };
 
-constexpr std::int64_t kHearNs = 3'000'000'000;  // less, if all are heard
+constexpr std::int64_t kHearNs = 3'000'000'000;  // less if all are discovered
 constexpr std::size_t kShortestId = 4;
 
-// The plant that is meant.
+// Returns the plant to roll back.
 Result<std::string, Failure> choose_plant(const BoardRoster& roster, const Options& options) {
   std::set<std::string> plants;
   for (const auto& [key, entry] : roster.all()) {
@@ -52,7 +52,7 @@ Result<std::string, Failure> choose_plant(const BoardRoster& roster, const Optio
   return *plants.begin();
 }
 
-// Ids that were committed on the board and begin as told.
+// Returns the ids that were committed on the board and begin with `begin`.
 std::set<std::string> ids_like(const std::vector<PastDeployment>& history, const std::string& begin) {
   std::set<std::string> ids;
   for (const PastDeployment& past : history) {
@@ -63,7 +63,7 @@ std::set<std::string> ids_like(const std::vector<PastDeployment>& history, const
   return ids;
 }
 
-// What to go back to; empty after an error.
+// Returns the deployment to return to; empty after an error.
 std::string choose_target(Context& context, deploy::DeployLink& link, const BoardRoster& roster,
                           const std::vector<std::string>& boards, const Options& options) {
   const deploy::BoardReport& first = roster.find(boards.front())->report;
@@ -90,7 +90,7 @@ std::string choose_target(Context& context, deploy::DeployLink& link, const Boar
   return first.previous;
 }
 
-// The list of the deployment's files, for boards whose own one is damaged; empty if no board has a sound one.
+// Fetches the list of the deployment's files, for boards whose own list is damaged; empty if no board has a valid one.
 std::string fetch_package(deploy::DeployLink& link, const BoardRoster& roster, std::uint64_t self,
                           const std::string& id) {
   for (auto& [agent, text] : fetch_texts(link, self, id, roster.agents())) {
@@ -113,7 +113,7 @@ int roll_back(Context& context, Options& options) {
     return report(context.out, with_keys_hint(meant.error(), options.link));
   }
   const std::string& plant = *meant;
-  // The members as the newest deployment has them.
+  // The members according to the newest deployment.
   const deploy::BoardReport* newest = nullptr;
   for (const auto& [key, entry] : roster.all()) {
     if (entry.report.plant == plant && (newest == nullptr || entry.report.generation > newest->generation)) {

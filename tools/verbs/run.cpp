@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop run: becomes indurop-node, so exit code and signals are the node's own.
+// indurop run: executes indurop-node in its place, so exit code and signals are the node's own.
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop scope: variables in every tick around a trigger.
+// indurop scope: captures variables in every tick around a trigger.
 #include <fmt/format.h>
 
 #include <memory>
@@ -30,7 +30,7 @@ struct Options {
   std::int64_t timeout_ns = 0;  // 0: none
 };
 
-// "run.csv" becomes "run-2.csv" for the second picture.
+// Returns "run-2.csv" for "run.csv" and the second capture.
 std::filesystem::path numbered(const std::string& file, std::uint64_t number) {
   std::filesystem::path path = file;
   if (number > 1) {
@@ -117,7 +117,7 @@ class Show {
     return (wanted > 0 && seen_ >= wanted) || context_.out.reader_gone();
   }
 
-  // Whoever has seen something is content.
+  // Ending without an error is enough if at least one capture was made.
   int ended(const std::string& why, int code) {
     if (seen_ > 0) {
       context_.out.note(why);

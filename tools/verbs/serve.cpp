@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop serve: becomes indurop-serve.
+// indurop serve: executes indurop-serve in its place.
 #include <memory>
 
 #include "tools/command/become_server.h"

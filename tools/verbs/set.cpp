@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop set: writes values once, after all of them were found good.
+// indurop set: writes values once, after all of them were checked.
 #include <fmt/format.h>
 
 #include "deploy/link/link_keys.h"
@@ -18,7 +18,7 @@ struct Options {
   BoardForces board;
 };
 
-// The options of variables that boards show are those of agents, too.
+// The options for variables that boards show are also those for agents.
 int set_by_agent(Context& context, Options& options) {
   deploy::LinkSettings& link = options.board.board.link;
   const dds::NetworkSettings& far = context.far.network;
@@ -35,7 +35,7 @@ int set_by_agent(Context& context, Options& options) {
   return set_on_board(context, options.board, options.words);
 }
 
-// A value that a module writes too does not stay: who that is, and what holds it.
+// A value that a module also writes does not remain: names the modules, and the command that holds it.
 void note_writers(Context& context, const std::vector<Assignment>& assignments) {
   const KnownUses uses = known_uses(context.node);
   for (const Assignment& each : assignments) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop start: modules that were stopped or have faulted, and nodes of boards.
+// indurop start: starts modules that were stopped or have faulted, and nodes of boards.
 #include "tools/plant/commands.h"
 #include "tools/verbs/verbs.h"
 

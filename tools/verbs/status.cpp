@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop status: is the node well, what real-time rights did it get, how do its modules do.
+// indurop status: the state of the node, its real-time rights, and the state of its modules.
 #include <fmt/format.h>
 
 #include "alarms/alarm_journal.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop stop: asks the node to end and waits until it has. Of single modules and of boards: plant/commands.h.
+// indurop stop: requests the node to end and waits until it has. For single modules and boards: plant/commands.h.
 #include <fmt/format.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@
 namespace indurop::tools {
 namespace {
 
-// A process by a handle that cannot come to mean another one.
+// A process handle that cannot refer to another process later.
 class ProcessHandle {
  public:
   explicit ProcessHandle(pid_t pid) : file_(static_cast<int>(syscall(SYS_pidfd_open, pid, 0))) {}
@@ -31,7 +31,7 @@ class ProcessHandle {
     }
   }
   [[nodiscard]] int file() const noexcept { return file_; }
-  // 0 or errno.
+  // Returns 0 or errno.
   [[nodiscard]] int send(int signal) const noexcept {
     return syscall(SYS_pidfd_send_signal, file_, signal, nullptr, 0) == 0 ? 0 : errno;
   }
@@ -48,7 +48,8 @@ int stop_node(Context& context, const CommandOptions& options) {
   const std::string& node = *chosen;
   const pid_t pid = vars::running_node(node);
   const ProcessHandle process(pid);
-  // Asked again now that the handle is open: the handle means the node, not a later process of the same number.
+  // Checked again after the handle was opened: the handle must refer to the node, not to a later process with the same
+  // number.
   if (pid == 0 || process.file() < 0 || vars::running_node(node) != pid) {
     context.out.note(fmt::format("node '{}' does not run", node));
     return kOk;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop stream: values for programs that draw them: as datagrams of JSON, which PlotJuggler's UDP server takes, or
-// for Foxglove, to which indurop-serve speaks.
+// indurop stream: values for programs that draw them: as datagrams of JSON for PlotJuggler's UDP server, or for
+// Foxglove, which indurop-serve serves.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netdb.h>
@@ -22,7 +22,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::size_t kMostBytes = 60'000;  // of a datagram; UDP has room for 65507
+constexpr std::size_t kMostBytes = 60'000;  // maximum of a datagram; UDP has room for 65507
 
 struct Options {
   std::vector<std::string> names;
@@ -35,7 +35,7 @@ struct Options {
   std::int64_t timeout_ns = 0;
 };
 
-// Datagrams to one address.
+// Sends datagrams to one address.
 class Sender {
  public:
   explicit Sender(int socket) : socket_(socket) {}
@@ -49,7 +49,7 @@ class Sender {
     }
   }
 
-  // "host:9870", "[::1]:9870".
+  // `to`: "host:9870", "[::1]:9870".
   static Result<Sender, Failure> open(const std::string& to) {
     const std::size_t colon = to.rfind(':');
     if (colon == std::string::npos || colon == 0) {
@@ -73,14 +73,14 @@ class Sender {
     return sender;
   }
 
-  // That nobody listens is no failure: somebody may later.
+  // A missing receiver is no failure: one may start later.
   void send(const std::string& text) const { (void)::send(socket_, text.data(), text.size(), MSG_NOSIGNAL); }
 
  private:
   int socket_;
 };
 
-// The object for "knu::Robot::tick" inside of `root`: its namespaces are objects one in the other.
+// Returns the object for "knu::Robot::tick" in `root`: its namespaces are nested objects.
 JsonValue& place_of(JsonValue& root, const std::string& name) {
   JsonValue* at = &root;
   std::size_t begin = 0;
@@ -95,7 +95,7 @@ class Stream {
  public:
   Stream(Context& context, Sender sender) : context_(context), sender_(std::move(sender)) {}
 
-  // All values, in as many datagrams as they need.
+  // Sends all values, in as many datagrams as needed.
   void send(const WatchSource& source) {
     JsonValue message = begin();
     std::size_t bytes = 0;
@@ -138,7 +138,7 @@ class Stream {
   bool told_ = false;
 };
 
-// What Foxglove's own pages and programs call themselves; only they may connect, besides programs that are no browsers.
+// Origins of Foxglove's own pages and programs; only they may connect, and programs that are not browsers.
 constexpr const char* kOrigins[] = {"https://app.foxglove.dev", "https://studio.foxglove.dev", "file://"};
 
 int stream_to_foxglove(Context& context, const Options& options) {
@@ -160,7 +160,7 @@ int stream_to_foxglove(Context& context, const Options& options) {
   serve.foxglove = options.names;
   serve.foxglove_hz = options.hz;
   serve.origins.assign(std::begin(kOrigins), std::end(kOrigins));
-  if (options.port != 0) {  // else the server says which it is
+  if (options.port != 0) {  // else the server prints the port
     context.out.note(fmt::format("in Foxglove: Open connection, Foxglove WebSocket, ws://localhost:{}", options.port));
   }
   return become_server(context, serve);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop test: builds a project and runs its tests, with a JUnit file and what they tried of PLC programs.
+// indurop test: builds a project and runs its tests, with a JUnit file and the coverage of PLC programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,12 +23,12 @@ struct Options {
   fs::path folder = ".";
   fs::path build;  // empty: FOLDER/build
   std::string select;
-  fs::path junit;  // empty: tests.xml there
+  fs::path junit;  // empty: tests.xml in the build folder
   std::string lcov;
   int jobs = 0;
 };
 
-// False after an error message: the program could not be started, or failed and has said why.
+// Returns false after an error message: the program could not be started, or failed and printed why.
 bool run(Context& context, const std::vector<std::string>& words, int& code) {
   const auto ended = run_child(words);
   if (!ended) {
@@ -83,7 +83,7 @@ int test(Context& context, const Options& options) {
   if (!build(context, options, folder)) {
     return kFailed;
   }
-  // What programs that count themselves were tried by these tests alone.
+  // The coverage is that of these tests alone.
   const fs::path counters = folder / "coverage";
   fs::remove_all(counters, error);
   fs::create_directories(counters, error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop top: nodes of this host as they run, painted in place.
+// indurop top: running nodes of this host, repainted in place.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class Top {
  public:
   Top(Context& context, const Options& options) : context_(context), options_(options), node_(context.node) {}
 
-  // In a pipe: pages of text.
+  // For a pipe: prints pages of text.
   int print() {
     const std::uint64_t rounds = std::max<std::uint64_t>(options_.count, 1);
     for (std::uint64_t i = 0; i < rounds && !interrupted(); ++i) {
@@ -71,7 +71,7 @@ class Top {
       }
       screen.paint(page(screen.extent().columns, screen.extent().rows));
       constexpr std::int64_t kMsNs = 1'000'000;
-      constexpr std::int64_t kMostMs = 200;  // for signals
+      constexpr std::int64_t kMostMs = 200;  // maximum wait, to notice signals
       const auto wait = std::clamp<std::int64_t>((next - rt::now_ns()) / kMsNs, 1, kMostMs);
       if (!obey(screen.key(static_cast<int>(wait)))) {
         return kOk;
@@ -113,7 +113,7 @@ class Top {
     look();
   }
 
-  // False if the user wants to end.
+  // Returns false if the user wants to quit.
   bool obey(TopScreen::Key key) {
     const std::size_t most = sample_ && !sample_->modules.empty() ? sample_->modules.size() - 1 : 0;
     switch (key) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop typeof: what a variable is made of.
+// indurop typeof: the type of a variable and of its parts.
 #include <fmt/format.h>
 
 #include "tools/values/node_choice.h"
@@ -25,7 +25,7 @@ JsonValue values_json(const schema::Type& type) {
   return type.enumerators.empty() ? JsonValue() : values;
 }
 
-// A line for the type itself and one for each part below it, as often as an array repeats it only once.
+// Adds a line for the type itself and one for each part below it; the elements of an array get only one.
 void add_parts(Table& table, const std::string& name, const schema::Place& place, const std::string& description) {
   const schema::Type& type = place.type;
   table.add({Cell(name),

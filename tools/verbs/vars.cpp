@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop vars: which variables a node has, their values, and which modules write and read them.
+// indurop vars: lists a node's variables, their values, and which modules write and read them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop verify: are the files on the boards what was deployed.
+// indurop verify: checks that the files on the boards are those that were deployed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Options {
   std::int64_t timeout_ns = 60'000'000'000;
 };
 
-// What was found on each board, as deploy/agent/board_verify.h and state_check.h tell it.
+// The findings on each board, as reported by deploy/agent/board_verify.h and state_check.h.
 using Findings = std::map<std::string, JsonValue>;
 
 bool is_state_folder(const std::filesystem::path& folder) {
@@ -57,7 +57,8 @@ Result<Findings, Failure> look_here() {
   return found;
 }
 
-// Asks until all have answered; who has not in time, or is of a release that cannot, is in `silent`.
+// Requests until all have answered; boards without an answer in time, or of a release that does not support it, are in
+// `silent`.
 Result<Findings, Failure> look_there(Context& context, Options& options, std::vector<std::string>& silent) {
   auto boards = hear_boards(context, options.link, options.board);
   if (!boards) {
@@ -85,7 +86,7 @@ Result<Findings, Failure> look_there(Context& context, Options& options, std::ve
       }
     }
     if (texts.empty()) {
-      break;  // they do not know the question
+      break;  // they do not support the request
     }
   }
   for (const auto& [agent, name] : names) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop watch: values as they change; painted in place on a terminal, lines in a pipe.
+// indurop watch: shows values as they change; repainted in place on a terminal, lines in a pipe.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct Options {
 };
 
 constexpr std::size_t kAll = SIZE_MAX;
-constexpr std::size_t kAlignUpTo = 24;  // longer values stick out to the right
+constexpr std::size_t kAlignUpTo = 24;  // longer values extend to the right
 
 std::string text_of(const WatchedValue& value) {
   return value.gone ? "gone" : schema::format_value(value.item.place.type, value.bytes);
@@ -147,13 +147,13 @@ class View {
   }
 
  private:
-  // Heading and footer take three lines, and the cursor's line must not scroll.
+  // Heading and footer take three lines, and the line of the cursor must not scroll.
   [[nodiscard]] std::size_t visible() const {
     constexpr int kOtherLines = 4;
     return static_cast<std::size_t>(std::max(1, context_.out.extent().rows - kOtherLines));
   }
 
-  // False if the user wants to end.
+  // Returns false if the user wants to quit.
   bool handle_keys() {
     const std::size_t page = visible();
     const std::size_t total = source_.values().size();
@@ -231,7 +231,7 @@ class View {
   Screen screen_;
   std::size_t first_ = 0;
   bool paused_ = false;
-  // Columns only grow: nothing jumps when a value has fewer digits.
+  // Columns only become wider: nothing moves when a value has fewer digits.
   std::size_t name_width_ = 4;
   std::size_t value_width_ = 5;
 };
