@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A child process indurop-node --sim --step: it is told how many ticks to run, and monitored meanwhile. For a plant it
-// is the node that simulates the plant, together with the nodes of its boards.
+// A child process indurop-node --sim --step: runs a given number of ticks at a time, and is monitored meanwhile. For a
+// plant it is the node that simulates the plant, together with the nodes of its boards.
 
 #pragma once
 

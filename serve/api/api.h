@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all answers share: the boards, the gate that decides who may write, and facts about the server.
+// Data that all answers share: the boards, the gate that decides who may write, and facts about the server.
 
 #pragma once
 

@@ -43,7 +43,7 @@ enum class Pace { Quick, Files, Orders, Wait, Holds, Plant, PlantOrders, Plc, Pa
 
 using Answer = Reply (*)(Api& api, const Call& call);
 
-// How a request about a board of another host is answered.
+// Defines how a request about a board of another host is answered.
 struct Remote {
   bool possible = false;    // false: answered only by a server on that host
   Answer answer = nullptr;  // sends a request or command through the plant; null: the usual answer, from what its agent

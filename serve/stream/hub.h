@@ -20,7 +20,7 @@ namespace indurop::serve {
 
 class Follower;
 
-// Which variables Foxglove gets, and how often.
+// The variables that Foxglove gets, and their rate.
 struct FoxgloveSettings {
   std::vector<std::string> names;  // globs and exact parts; none: all variables
   double rate_hz = 50;

@@ -32,7 +32,7 @@ struct FarOptions {
 };
 class ValueSource;
 
-// What every verb gets in addition to its own options.
+// Data that every verb gets in addition to its own options.
 struct Context {
   Output out;
   Format format = Format::Table;

@@ -33,7 +33,7 @@ std::string keys_hint(const deploy::LinkSettings& settings) {
   if (!settings.network.security.on()) {
     return "; boards that have keys speak only to who has keys of their plant: --keys DIR";
   }
-  // Which of the two sides refuses, and gives the reason, is random.
+  // It is random which of the two sides refuses, and reports the reason.
   const std::string refusal = dds::last_refusal();
   return "; only boards with keys of the same plant are heard with --keys" + (refusal.empty() ? "" : ": " + refusal);
 }

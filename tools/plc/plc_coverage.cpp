@@ -24,7 +24,8 @@ constexpr std::uint64_t kMagic = iec::Coverage::kMagic;
 constexpr std::size_t kHeadWords = iec::Coverage::kHeadWords;
 constexpr std::size_t kFields = 6;
 
-// How often lines ran, by file and number. For several statements in a line: the count of the one that ran most often.
+// Number of executions of lines, by file and number. For several statements in a line: the count of the one that ran
+// most often.
 using Runs = std::map<std::pair<std::string, int>, std::uint64_t>;
 
 std::vector<std::string_view> split(std::string_view text, char by) {

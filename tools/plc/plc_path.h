@@ -15,7 +15,7 @@ namespace indurop::tools {
 struct Part {
   const plc::Type* type = nullptr;
   std::size_t offset = 0;  // in the packed value (plc/emit/watch_layout.h)
-  std::string place = {};  // what follows the name of a shared variable: "[2].y", counted from 0
+  std::string place = {};  // text after the name of a shared variable: "[2].y", counted from 0
 };
 
 // Returns nothing if there is no such part. `path` in capitals; "" is the whole variable.

@@ -13,7 +13,7 @@ namespace indurop::tools {
 struct Hand {
   std::string direction;    // "J1+", "x-", "rz+"
   std::string frame;        // frame of x to rz: "base", "tool" or a work frame
-  double percent = 10;      // of the maximum jog speed
+  double percent = 10;      // share of the maximum jog speed
   std::int64_t for_ns = 0;  // 0: until Ctrl-C
 };
 // The robot stops when this ends for whatever reason: the command is repeated ten times a second, and the robot stops

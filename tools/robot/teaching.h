@@ -7,7 +7,7 @@
 
 namespace indurop::tools {
 
-// Both return the exit code, after messages.
+// Returns the exit code, as the next one does, after messages.
 int show_points(Context& context, const RobotChoice& choice);
 int teach_point(Context& context, const RobotChoice& choice, const robot::TeachOrder& order);
 

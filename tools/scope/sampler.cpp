@@ -77,7 +77,7 @@ Result<void, Problem> TickSampler::choose_tracks(const RunView& run, const vars:
       wanted[track][variable].push_back(input);
     }
   }
-  // The track that runs most often shows how far the node is.
+  // The track that runs most often shows up to which time the node has run.
   std::size_t fastest = 0;
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
     if (period_of(run, follower_.module_of(track)) < period_of(run, follower_.module_of(fastest))) {

@@ -11,7 +11,7 @@
 namespace indurop::solids {
 
 struct Plane {
-  Vec3 normal = Vec3::UnitX();  // of length 1
+  Vec3 normal = Vec3::UnitX();  // unit vector
   double at = 0;                // m along the normal
 };
 
