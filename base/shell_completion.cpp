@@ -130,7 +130,7 @@ std::string zsh_specification(const OptionText& option) {
 
 }  // namespace
 
-// Long because it contains the script.
+// Long: it contains the script.
 std::string bash_completion(const CommandText& program) {
   const std::string function = function_name(program);
   std::string options;

@@ -41,8 +41,8 @@ const Words& keywords() {
   return kWords;
 }
 
-// Macros of the headers that modules include; the preprocessor would replace declarations of such a name. Long because
-// it is a list.
+// Macros of the headers that modules include; the preprocessor would replace declarations of such a name.
+// Long: it is a list.
 const Words& macros() {
   static const Words kWords = split(
       "ADJ_ESTERROR ADJ_FREQUENCY ADJ_MAXERROR ADJ_MICRO ADJ_NANO ADJ_OFFSET ADJ_OFFSET_SINGLESHOT ADJ_OFFSET_SS_READ "

@@ -3,7 +3,7 @@
 
 namespace indurop::robot {
 
-// Long function: one line for each code.
+// Long: one line for each code.
 const char* to_string(ErrorCode code) noexcept {
   switch (code) {
     case ErrorCode::Ok:
