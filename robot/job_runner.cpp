@@ -145,7 +145,7 @@ JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
   return Next::Wait;
 }
 
-// Long function: one case for each kind of step.
+// Long: one case for each kind of step.
 JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept {
   Next next = Next::Go;
   switch (step.op) {

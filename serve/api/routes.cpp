@@ -8,7 +8,7 @@
 
 namespace indurop::serve {
 
-// Long, because it is a table.
+// Long: it is a table.
 std::span<const Route> all_routes() {
   constexpr Method kGet = Method::Get;
   constexpr Method kPost = Method::Post;
