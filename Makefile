@@ -57,7 +57,7 @@ check-deps:
 	@missing=$$(.ci/install-deps --list build); if [ -n "$$missing" ]; then \
 	  echo "missing Debian packages:$$missing"; echo "run: make install-deps"; exit 1; fi
 
-install-deps: ## install the Debian packages of packages.txt that are missing
+install-deps: ## install the Debian packages of .ci/packages.txt that are missing
 	@.ci/install-deps
 
 sanitize: asan-ubsan tsan ## tests under ASan + UBSan, then under TSan

@@ -36,7 +36,7 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/idl/IndurIdlc.cmake
   DESTINATION ${indurop_package_dir})
 
-install(FILES ${PROJECT_SOURCE_DIR}/plc/library/motion.st DESTINATION ${indurop_share_dir}/plc)
+install(FILES ${PROJECT_SOURCE_DIR}/control/plc/motion/motion.st DESTINATION ${indurop_share_dir}/plc)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${indurop_share_dir} USE_SOURCE_PERMISSIONS)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
   DESTINATION ${CMAKE_INSTALL_DOCDIR})

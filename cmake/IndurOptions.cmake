@@ -87,7 +87,7 @@ function(indurop_test name)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${arg_LABEL} TIMEOUT 120)
 endfunction()
 
-# The same programs above rt/posix/ instead of the system that was chosen: nothing but the linker has work to do.
+# The same programs above core/rt/posix/ instead of the system that was chosen: nothing but the linker has work to do.
 function(indurop_tests_above_posix)
   foreach(name ${ARGN})
     get_target_property(libraries ${name} LINK_LIBRARIES)

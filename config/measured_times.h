@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "base/options.h"
 #include "config/check/check.h"
+#include "core/base/options.h"
 
 namespace indurop::config {
 

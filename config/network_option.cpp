@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/duration.h"
-#include "base/text.h"
+#include "core/base/duration.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

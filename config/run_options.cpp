@@ -5,10 +5,10 @@
 
 #include <charconv>
 
-#include "base/duration.h"
 #include "config/check/report_times.h"
 #include "config/network_option.h"
 #include "config/xml/plant_rules.h"
+#include "core/base/duration.h"
 
 namespace indurop::config {
 namespace {

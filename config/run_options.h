@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "base/options.h"
 #include "config/check/check.h"
 #include "config/model/config.h"
+#include "core/base/options.h"
 
 namespace indurop::config {
 

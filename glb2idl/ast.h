@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/schema/schema.h"
 #include "glb2idl/source.h"
-#include "schema/schema.h"
 
 namespace indurop::glb2idl::ast {
 

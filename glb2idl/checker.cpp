@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/schema/idl_word.h"
 #include "glb2idl/initial.h"
 #include "glb2idl/notes.h"
 #include "glb2idl/text.h"
 #include "glb2idl/types.h"
-#include "schema/idl_word.h"
 
 namespace indurop::glb2idl {
 namespace {

@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-#include "base/text.h"
+#include "core/base/text.h"
 #include "glb2idl/checker.h"
 #include "glb2idl/parser.h"
 #include "glb2idl/text.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostic.h"
+#include "core/base/diagnostic.h"
 #include "glb2idl/program.h"
 #include "glb2idl/source.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/nearest.h"
+#include "core/base/nearest.h"
 #include "glb2idl/text.h"
 
 namespace indurop::glb2idl {

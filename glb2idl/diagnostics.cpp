@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "base/source_line.h"
+#include "core/base/source_line.h"
 
 namespace indurop::glb2idl {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostics.h"
+#include "core/base/diagnostics.h"
 #include "glb2idl/source.h"
 
 namespace indurop::glb2idl {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostic.h"
+#include "core/base/diagnostic.h"
 #include "glb2idl/program.h"
 
 namespace indurop::glb2idl {

@@ -8,9 +8,9 @@
 #include <iterator>
 #include <limits>
 
+#include "core/schema/idl_word.h"
 #include "glb2idl/emit.h"
 #include "glb2idl/text.h"
-#include "schema/idl_word.h"
 
 namespace indurop::glb2idl {
 namespace {

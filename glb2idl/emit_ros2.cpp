@@ -9,9 +9,9 @@
 #include <map>
 #include <set>
 
+#include "core/schema/ros_name.h"
 #include "glb2idl/emit.h"
 #include "glb2idl/text.h"
-#include "schema/ros_name.h"
 
 namespace indurop::glb2idl {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "base/utf8.h"
+#include "core/base/utf8.h"
 #include "glb2idl/text.h"
 
 namespace indurop::glb2idl {

@@ -9,7 +9,7 @@
 #include <array>
 #include <utility>
 
-#include "base/utf8.h"
+#include "core/base/utf8.h"
 
 namespace indurop::glb2idl {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "base/exit_code.h"
-#include "base/options.h"
+#include "core/base/exit_code.h"
+#include "core/base/options.h"
 #include "glb2idl/compiler.h"
 #include "glb2idl/emit.h"
 #include "glb2idl/output.h"

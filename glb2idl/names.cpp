@@ -10,9 +10,9 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "core/schema/idl_word.h"
 #include "glb2idl/text.h"
 #include "glb2idl/type_words.h"
-#include "schema/idl_word.h"
 
 namespace indurop::glb2idl {
 namespace {

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "base/nearest.h"
+#include "core/base/nearest.h"
 #include "glb2idl/alarm_note.h"
 #include "glb2idl/initial.h"
 #include "glb2idl/text.h"

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/read_file.h"
-#include "base/replace_file.h"
+#include "core/base/read_file.h"
+#include "core/base/replace_file.h"
 
 namespace indurop::glb2idl {
 namespace {

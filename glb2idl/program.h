@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/schema/schema.h"
 #include "glb2idl/constant.h"
-#include "schema/schema.h"
 
 namespace indurop::glb2idl {
 

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "core/schema/schema.h"
 #include "glb2idl/constant.h"
 #include "glb2idl/diagnostics.h"
 #include "glb2idl/names.h"
-#include "schema/schema.h"
 
 namespace indurop::glb2idl {
 

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "base/read_file.h"
-#include "base/utf8.h"
+#include "core/base/read_file.h"
+#include "core/base/utf8.h"
 
 namespace indurop::glb2idl {
 namespace {

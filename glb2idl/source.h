@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/source_place.h"
+#include "core/base/source_place.h"
 
 namespace indurop::glb2idl {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/schema.h"
+#include "core/schema/schema.h"
 
 namespace indurop::glb2idl {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/nearest.h"
+#include "core/base/nearest.h"
 #include "glb2idl/notes.h"
 #include "glb2idl/text.h"
 #include "glb2idl/type_words.h"

@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "base/exit_code.h"
-#include "base/program_folder.h"
-#include "node/conductor.h"
-#include "node/node.h"
-#include "node/options.h"
-#include "node/trampoline.h"
+#include "core/base/exit_code.h"
+#include "core/base/program_folder.h"
+#include "node/modules/trampoline.h"
+#include "node/run/node.h"
+#include "node/run/options.h"
+#include "node/simulate/conductor.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "rt/signal_word.h"
+#include "core/rt/signal_word.h"
 #include "scheduler/bands.h"
 #include "scheduler/runner.h"
 

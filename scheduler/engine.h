@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "rt/thread.h"
+#include "core/rt/thread.h"
 #include "scheduler/band.h"
 #include "scheduler/core_order.h"
 #include "scheduler/spinner.h"

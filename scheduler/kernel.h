@@ -10,9 +10,9 @@
 #include <functional>
 #include <memory>
 
-#include "rt/clock.h"
-#include "rt/signal_word.h"
-#include "rt/thread.h"
+#include "core/rt/clock.h"
+#include "core/rt/signal_word.h"
+#include "core/rt/thread.h"
 #include "scheduler/task.h"
 
 namespace indurop::scheduler {

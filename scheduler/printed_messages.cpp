@@ -19,7 +19,8 @@ std::span<const T> objects(const RunBlock& block, std::uint64_t offset, std::uin
 }
 
 // Tickets count messages of a ring; twice around it an entry's sequence goes from free to filled to free again
-// (runtime/message_ring.cpp). An entry is copied, and kept only if it was not reused for another message meanwhile.
+// (store/runtime/message_ring.cpp). An entry is copied, and kept only if it was not reused for another message
+// meanwhile.
 template <class Keep>
 void read_ring(const MessageRing& ring, std::span<const MessageEntry> entries, const Keep& keep) {
   const std::uint64_t head = ring.head.load(std::memory_order_acquire);

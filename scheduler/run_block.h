@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "rt/signal_word.h"
+#include "core/rt/signal_word.h"
 #include "scheduler/histogram.h"
 #include "scheduler/module_kind.h"
 

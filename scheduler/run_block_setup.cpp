@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "rt/copy_text.h"
+#include "core/rt/copy_text.h"
 
 namespace indurop::scheduler {
 namespace {

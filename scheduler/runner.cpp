@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "rt/copy_text.h"
-#include "rt/guard_text.h"
-#include "rt/lost_pages.h"
+#include "core/rt/copy_text.h"
+#include "core/rt/guard_text.h"
+#include "core/rt/lost_pages.h"
 
 namespace indurop::scheduler {
 namespace {

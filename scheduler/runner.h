@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "rt/guard.h"
-#include "rt/thread.h"
+#include "core/rt/guard.h"
+#include "core/rt/thread.h"
 #include "scheduler/kernel.h"
 #include "scheduler/statistics.h"
 #include "scheduler/task.h"

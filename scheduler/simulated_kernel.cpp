@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "rt/relax.h"
+#include "core/rt/relax.h"
 
 namespace indurop::scheduler {
 namespace {

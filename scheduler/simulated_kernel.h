@@ -19,7 +19,7 @@
 #include <memory>
 #include <vector>
 
-#include "rt/fiber.h"
+#include "core/rt/fiber.h"
 #include "scheduler/kernel.h"
 
 namespace indurop::scheduler {

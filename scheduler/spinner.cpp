@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "rt/relax.h"
+#include "core/rt/relax.h"
 
 namespace indurop::scheduler {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/duration.h"
+#include "core/base/duration.h"
 
 namespace indurop::config {
 

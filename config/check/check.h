@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "config/model/config.h"
+#include "core/schema/elf.h"
+#include "core/schema/schema.h"
 #include "scheduler/period_table.h"
-#include "schema/elf.h"
-#include "schema/schema.h"
 
 namespace indurop::config {
 

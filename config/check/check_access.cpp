@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "base/text.h"
 #include "config/check/access_map.h"
 #include "config/check/data_flow.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

@@ -10,9 +10,9 @@
 #include <span>
 #include <string_view>
 
-#include "base/text.h"
 #include "config/check/check_parts.h"
 #include "config/check/determinism.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <map>
 
-#include "base/text.h"
 #include "config/check/check_parts.h"
-#include "schema/elf.h"
+#include "core/base/text.h"
+#include "core/schema/elf.h"
 
 namespace indurop::config {
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include "base/nearest.h"
-#include "base/text.h"
 #include "config/check/check_parts.h"
+#include "core/base/nearest.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "base/text.h"
 #include "config/check/check_parts.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

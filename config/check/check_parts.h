@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostics.h"
 #include "config/check/check.h"
 #include "config/check/uses.h"
+#include "core/base/diagnostics.h"
 #include "scheduler/response_time.h"
 #include "scheduler/task.h"
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "base/text.h"
 #include "config/check/check_parts.h"
 #include "config/check/plant_parts.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

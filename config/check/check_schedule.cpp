@@ -7,8 +7,8 @@
 #include <numeric>
 #include <set>
 
-#include "base/text.h"
 #include "config/check/check_parts.h"
+#include "core/base/text.h"
 #include "scheduler/bands.h"
 #include "scheduler/execution_order.h"
 

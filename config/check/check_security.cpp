@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "base/text.h"
 #include "config/check/plant_parts.h"
-#include "keys/plant_keys.h"
+#include "core/base/text.h"
+#include "core/keys/plant_keys.h"
 
 namespace indurop::config {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "base/text.h"
 #include "config/check/check_parts.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

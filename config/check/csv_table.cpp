@@ -10,10 +10,10 @@
 #include <set>
 #include <utility>
 
-#include "base/csv_row.h"
-#include "base/diagnostics.h"
-#include "base/read_file.h"
-#include "base/text.h"
+#include "core/base/csv_row.h"
+#include "core/base/diagnostics.h"
+#include "core/base/read_file.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

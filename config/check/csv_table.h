@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/diagnostic.h"
 #include "config/model/io_config.h"
+#include "core/base/diagnostic.h"
 
 namespace indurop::config {
 

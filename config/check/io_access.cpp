@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/text.h"
 #include "config/check/csv_table.h"
 #include "config/check/io_binding.h"
 #include "config/xml/io_reader.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

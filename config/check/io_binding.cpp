@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <map>
 
-#include "base/diagnostics.h"
-#include "base/text.h"
+#include "core/base/diagnostics.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "base/diagnostics.h"
 #include "config/model/io_config.h"
-#include "schema/schema.h"
+#include "core/base/diagnostics.h"
+#include "core/schema/schema.h"
 
 namespace indurop::config {
 

@@ -8,10 +8,10 @@
 #include <numeric>
 #include <utility>
 
-#include "base/text.h"
 #include "config/check/access_map.h"
 #include "config/check/check_parts.h"
 #include "config/check/report_times.h"
+#include "core/base/text.h"
 #include "scheduler/placement.h"
 
 namespace indurop::config {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "base/text.h"
 #include "config/check/plant_parts.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

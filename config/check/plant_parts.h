@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "base/diagnostics.h"
 #include "config/check/check_plant.h"
 #include "config/check/uses.h"
+#include "core/base/diagnostics.h"
 
 namespace indurop::config {
 

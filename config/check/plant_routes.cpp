@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/text.h"
 #include "config/check/plant_parts.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

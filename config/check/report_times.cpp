@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "base/json.h"
-#include "base/read_file.h"
+#include "core/base/json.h"
+#include "core/base/read_file.h"
 
 namespace indurop::config {
 

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/text.h"
 #include "config/check/access_map.h"
 #include "config/check/check_parts.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

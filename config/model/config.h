@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostic.h"
-#include "base/duration.h"
+#include "core/base/diagnostic.h"
+#include "core/base/duration.h"
 #include "scheduler/core_order.h"
 #include "scheduler/module_kind.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ioconfig.xml as data (chapter, Figure 9): which shared variable is bound to which point of which field device. How a
-// device is driven is implemented in io/.
+// device is driven is implemented in control/io/.
 
 #pragma once
 

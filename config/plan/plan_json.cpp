@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plan for programs: JSON and CSV. Names and order of the fields are stable, see docs/report.md.
 
-#include "base/csv_row.h"
-#include "base/json.h"
 #include "config/plan/plan_parts.h"
+#include "core/base/csv_row.h"
+#include "core/base/json.h"
 #include "scheduler/response_time.h"
 
 namespace indurop::config {

@@ -6,9 +6,9 @@
 #include <array>
 #include <map>
 
-#include "base/svg.h"
-#include "base/text.h"
 #include "config/plan/plan_parts.h"
+#include "core/base/svg.h"
+#include "core/base/text.h"
 #include "scheduler/words.h"
 
 namespace indurop::config {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "base/text.h"
 #include "config/plan/plan_parts.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/text.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "base/diagnostics.h"
 #include "config/model/config.h"
+#include "core/base/diagnostics.h"
 
 namespace indurop::config {
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/text.h"
 #include "config/xml/element_rules.h"
 #include "config/xml/reader.h"
 #include "config/xml/values.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 

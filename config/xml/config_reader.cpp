@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <map>
 
-#include "base/text.h"
 #include "config/xml/after_rules.h"
 #include "config/xml/element_rules.h"
 #include "config/xml/external_reader.h"
 #include "config/xml/module_reader.h"
 #include "config/xml/values.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include "base/diagnostics.h"
-#include "base/xml_element.h"
 #include "config/model/config.h"
+#include "core/base/diagnostics.h"
+#include "core/base/xml_element.h"
 
 namespace indurop::config {
 

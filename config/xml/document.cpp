@@ -5,8 +5,8 @@
 
 #include <cerrno>
 
-#include "base/read_file.h"
-#include "base/xml.h"
+#include "core/base/read_file.h"
+#include "core/base/xml.h"
 
 namespace indurop::config {
 namespace {

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/diagnostic.h"
-#include "base/xml_element.h"
+#include "core/base/diagnostic.h"
+#include "core/base/xml_element.h"
 
 namespace indurop::config {
 

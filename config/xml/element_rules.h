@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "base/diagnostics.h"
-#include "base/duration.h"
-#include "base/xml_element.h"
 #include "config/model/config.h"
+#include "core/base/diagnostics.h"
+#include "core/base/duration.h"
+#include "core/base/xml_element.h"
 
 namespace indurop::config {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "base/text.h"
 #include "config/xml/plant_rules.h"
 #include "config/xml/values.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostics.h"
-#include "base/xml_element.h"
 #include "config/model/config.h"
 #include "config/xml/element_rules.h"
+#include "core/base/diagnostics.h"
+#include "core/base/xml_element.h"
 
 namespace indurop::config {
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "base/xml_element.h"
 #include "config/model/config.h"
+#include "core/base/xml_element.h"
 
 namespace indurop::config {
 

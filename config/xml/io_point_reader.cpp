@@ -7,11 +7,11 @@
 #include <limits>
 #include <map>
 
-#include "base/duration.h"
-#include "base/text.h"
 #include "config/xml/attributes.h"
 #include "config/xml/element_rules.h"
 #include "config/xml/values.h"
+#include "core/base/duration.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

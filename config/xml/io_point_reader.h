@@ -5,10 +5,10 @@
 
 #include <optional>
 
-#include "base/diagnostics.h"
-#include "base/xml_element.h"
 #include "config/model/io_config.h"
 #include "config/xml/attributes.h"
+#include "core/base/diagnostics.h"
+#include "core/base/xml_element.h"
 
 namespace indurop::config {
 

@@ -9,12 +9,12 @@
 #include <limits>
 #include <map>
 
-#include "base/text.h"
 #include "config/xml/attributes.h"
 #include "config/xml/document.h"
 #include "config/xml/element_rules.h"
 #include "config/xml/io_point_reader.h"
 #include "config/xml/values.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

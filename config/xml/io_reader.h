@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/diagnostics.h"
 #include "config/model/io_config.h"
+#include "core/base/diagnostics.h"
 
 namespace indurop::config {
 

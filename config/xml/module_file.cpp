@@ -5,7 +5,7 @@
 #include <system_error>
 #include <vector>
 
-#include "base/program_folder.h"
+#include "core/base/program_folder.h"
 
 namespace indurop::config {
 namespace {

@@ -7,10 +7,10 @@
 #include <set>
 #include <span>
 
-#include "base/text.h"
 #include "config/xml/module_file.h"
 #include "config/xml/reader.h"
 #include "config/xml/values.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

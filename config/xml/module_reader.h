@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostics.h"
 #include "config/model/config.h"
 #include "config/xml/element_rules.h"
+#include "core/base/diagnostics.h"
 
 namespace indurop::config {
 

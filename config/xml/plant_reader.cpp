@@ -9,7 +9,6 @@
 #include <set>
 #include <span>
 
-#include "base/text.h"
 #include "config/xml/attributes.h"
 #include "config/xml/config_reader.h"
 #include "config/xml/document.h"
@@ -17,6 +16,7 @@
 #include "config/xml/external_reader.h"
 #include "config/xml/plant_rules.h"
 #include "config/xml/values.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

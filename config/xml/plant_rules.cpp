@@ -7,7 +7,7 @@
 #include <array>
 #include <map>
 
-#include "base/text.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

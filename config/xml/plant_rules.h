@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "base/diagnostics.h"
 #include "config/model/plant.h"
+#include "core/base/diagnostics.h"
 
 namespace indurop::config {
 

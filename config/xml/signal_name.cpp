@@ -8,8 +8,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/text.h"
 #include "config/xml/values.h"
+#include "core/base/text.h"
 
 namespace indurop::config {
 namespace {

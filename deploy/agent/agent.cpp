@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/agent.h"
 
-#include "base/exit_code.h"
-#include "base/program_folder.h"
-#include "base/stop_signal.h"
+#include "core/base/exit_code.h"
+#include "core/base/program_folder.h"
+#include "core/base/stop_signal.h"
+#include "core/rt/clock.h"
 #include "deploy/agent/agent_state.h"
 #include "deploy/agent/board_alarms.h"
 #include "deploy/agent/board_commands.h"
@@ -19,8 +20,7 @@
 #include "deploy/agent/service_manager.h"
 #include "deploy/link/blob_server.h"
 #include "deploy/transaction/board_transaction.h"
-#include "rt/clock.h"
-#include "vars/box_wish.h"
+#include "store/vars/box_wish.h"
 
 namespace indurop::deploy {
 namespace {

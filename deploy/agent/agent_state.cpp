@@ -14,13 +14,13 @@
 #include <set>
 #include <utility>
 
-#include "base/json.h"
-#include "base/read_file.h"
-#include "base/replace_file.h"
-#include "base/text.h"
-#include "keys/digest.h"
-#include "rt/file_lock.h"
-#include "vars/retain.h"
+#include "core/base/json.h"
+#include "core/base/read_file.h"
+#include "core/base/replace_file.h"
+#include "core/base/text.h"
+#include "core/keys/digest.h"
+#include "core/rt/file_lock.h"
+#include "store/vars/retain.h"
 
 namespace indurop::deploy {
 namespace {

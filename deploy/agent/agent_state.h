@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "base/problem.h"
+#include "core/base/problem.h"
 #include "deploy/disk/committed_file.h"
 #include "deploy/disk/deployment_files.h"
 #include "deploy/transaction/package.h"

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <vector>
 
-#include "base/replace_file.h"
+#include "core/base/replace_file.h"
 #include "deploy/agent/run_image.h"
 
 namespace indurop::deploy {

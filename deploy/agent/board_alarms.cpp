@@ -9,12 +9,12 @@
 #include <optional>
 #include <utility>
 
-#include "alarms/alarm_list.h"
-#include "alarms/alarm_orders.h"
 #include "deploy/transaction/write_words.h"
+#include "history/alarms/alarm_list.h"
+#include "history/alarms/alarm_orders.h"
 #include "scheduler/module_health.h"
-#include "vars/run_file.h"
-#include "vars/store.h"
+#include "store/vars/run_file.h"
+#include "store/vars/store.h"
 
 namespace indurop::deploy {
 namespace {

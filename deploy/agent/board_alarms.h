@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "alarms/alarm_watch.h"
-#include "base/log.h"
-#include "base/problem.h"
+#include "core/base/log.h"
+#include "core/base/problem.h"
+#include "core/rt/clock.h"
 #include "deploy/words/command_words.h"
-#include "rt/clock.h"
+#include "history/alarms/alarm_watch.h"
 
 namespace indurop::deploy {
 

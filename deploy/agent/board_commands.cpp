@@ -7,11 +7,11 @@
 #include <cstring>
 #include <random>
 
+#include "core/rt/clock.h"
 #include "deploy/agent/board_alarms.h"
 #include "deploy/transaction/write_words.h"
-#include "operate/journal.h"
-#include "rt/clock.h"
-#include "vars/box_wish.h"
+#include "store/operate/journal.h"
+#include "store/vars/box_wish.h"
 
 namespace indurop::deploy {
 namespace {

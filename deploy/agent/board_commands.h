@@ -9,14 +9,14 @@
 #include <optional>
 #include <string>
 
+#include "core/rt/clock.h"
 #include "deploy/agent/board_forces.h"
 #include "deploy/agent/board_process.h"
 #include "deploy/agent/board_recorder.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/link/command_link.h"
-#include "rt/clock.h"
 #include "scheduler/module_command.h"
-#include "vars/run_file.h"
+#include "store/vars/run_file.h"
 
 namespace indurop::deploy {
 

@@ -7,7 +7,7 @@
 
 #include "config/check/check_plant.h"
 #include "config/xml/plant_reader.h"
-#include "rt/clock.h"
+#include "core/rt/clock.h"
 
 namespace indurop::deploy {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "deploy/transaction/write_words.h"
-#include "operate/set.h"
-#include "vars/custody.h"
-#include "vars/store.h"
+#include "store/operate/set.h"
+#include "store/vars/custody.h"
+#include "store/vars/store.h"
 
 namespace indurop::deploy {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Remote commands about values of this board's variables and its write lock, executed by calls of operate/. Not
+// Remote commands about values of this board's variables and its write lock, executed by calls of store/operate/. Not
 // real-time safe.
 
 #pragma once
@@ -11,12 +11,12 @@
 #include <string>
 #include <utility>
 
-#include "base/problem.h"
+#include "core/base/problem.h"
 #include "deploy/transaction/write_words.h"
 #include "deploy/words/command_words.h"
-#include "operate/hold.h"
-#include "operate/who.h"
-#include "vars/store.h"
+#include "store/operate/hold.h"
+#include "store/operate/who.h"
+#include "store/vars/store.h"
 
 namespace indurop::deploy {
 

@@ -5,8 +5,8 @@
 
 #include <chrono>
 
+#include "core/keys/participant_keys.h"
 #include "deploy/link/link_keys.h"
-#include "keys/participant_keys.h"
 
 namespace indurop::deploy {
 namespace {

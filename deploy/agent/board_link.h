@@ -7,11 +7,11 @@
 #include <memory>
 #include <string>
 
-#include "base/log.h"
+#include "core/base/log.h"
+#include "core/rt/clock.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/link/command_link.h"
 #include "deploy/link/deploy_link.h"
-#include "rt/clock.h"
 
 namespace indurop::deploy {
 

@@ -13,15 +13,15 @@
 #include <cstring>
 #include <utility>
 
-#include "base/exit_code.h"
-#include "base/spawn.h"
+#include "core/base/exit_code.h"
+#include "core/base/spawn.h"
+#include "core/rt/clock.h"
 #include "deploy/agent/node_program.h"
 #include "deploy/agent/options.h"
-#include "mirror/frames/mirror_block.h"
-#include "rt/clock.h"
+#include "network/mirror/frames/mirror_block.h"
 #include "scheduler/run_block.h"
-#include "vars/node_lock.h"
-#include "vars/shm_file.h"
+#include "store/vars/node_lock.h"
+#include "store/vars/shm_file.h"
 
 namespace indurop::deploy {
 namespace {

@@ -15,12 +15,12 @@
 #include <string>
 #include <vector>
 
-#include "base/log.h"
+#include "core/base/log.h"
+#include "core/rt/clock.h"
 #include "deploy/agent/black_box.h"
 #include "deploy/agent/tick_watch.h"
 #include "deploy/words/deployment_words.h"
-#include "rt/clock.h"
-#include "vars/run_file.h"
+#include "store/vars/run_file.h"
 
 namespace indurop::deploy {
 

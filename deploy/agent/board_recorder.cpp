@@ -13,16 +13,16 @@
 #include <system_error>
 #include <utility>
 
-#include "base/descriptor.h"
-#include "base/exit_code.h"
-#include "base/json.h"
-#include "base/read_file.h"
-#include "base/spawn.h"
-#include "base/text.h"
-#include "vars/names_of_nothing.h"
-#include "vars/retain.h"
-#include "vars/shm_file.h"
-#include "vars/store.h"
+#include "core/base/descriptor.h"
+#include "core/base/exit_code.h"
+#include "core/base/json.h"
+#include "core/base/read_file.h"
+#include "core/base/spawn.h"
+#include "core/base/text.h"
+#include "store/vars/names_of_nothing.h"
+#include "store/vars/retain.h"
+#include "store/vars/shm_file.h"
+#include "store/vars/store.h"
 
 namespace indurop::deploy {
 namespace {

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "base/log.h"
+#include "core/base/log.h"
+#include "core/rt/clock.h"
 #include "deploy/words/command_words.h"
-#include "rt/clock.h"
 
 namespace indurop::deploy {
 

@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "alarms/alarm_list.h"
-#include "base/json.h"
+#include "core/base/json.h"
 #include "deploy/agent/run_image.h"
+#include "history/alarms/alarm_list.h"
 #include "scheduler/printed_messages.h"
-#include "vars/node_lock.h"
-#include "vars/run_file.h"
-#include "vars/store.h"
+#include "store/vars/node_lock.h"
+#include "store/vars/run_file.h"
+#include "store/vars/store.h"
 
 namespace indurop::deploy {
 namespace {

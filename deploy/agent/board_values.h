@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The variables of the board's node, their values and what its modules printed, for remote tools. Only reads, like
 // every observer of the store: no tick is affected. Not real-time safe.
-//   variables: {"layout": 16 hexadecimal digits} in a line, then the schema as JSON (schema/schema.h)
+//   variables: {"layout": 16 hexadecimal digits} in a line, then the schema as JSON (core/schema/schema.h)
 //   values:    {"layout", "running", "now_ns": CLOCK_MONOTONIC or virtual time of the board,
 //               "forces" and "lock" as in run_image.h, "alarms": number of them} in a line, then for each variable, in
 //               the order of the schema, its freshness (i64, little endian: see below) and the bytes of its value
@@ -14,8 +14,8 @@
 #include <limits>
 #include <string>
 
-#include "alarms/alarm_journal.h"
-#include "rt/clock.h"
+#include "core/rt/clock.h"
+#include "history/alarms/alarm_journal.h"
 
 namespace indurop::deploy {
 

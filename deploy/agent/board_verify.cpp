@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/board_verify.h"
 
-#include "base/json.h"
-#include "keys/digest.h"
+#include "core/base/json.h"
+#include "core/keys/digest.h"
 
 namespace indurop::deploy {
 namespace {

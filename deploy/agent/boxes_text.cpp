@@ -3,8 +3,8 @@
 
 #include <system_error>
 
-#include "base/json.h"
-#include "recorder/boxes.h"
+#include "core/base/json.h"
+#include "history/recorder/boxes.h"
 
 namespace indurop::deploy {
 

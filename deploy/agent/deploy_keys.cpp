@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "base/read_file.h"
-#include "base/text.h"
-#include "keys/deploy_list.h"
-#include "keys/plant_keys.h"
-#include "vars/shm_file.h"
+#include "core/base/read_file.h"
+#include "core/base/text.h"
+#include "core/keys/deploy_list.h"
+#include "core/keys/plant_keys.h"
+#include "store/vars/shm_file.h"
 
 namespace indurop::deploy {
 

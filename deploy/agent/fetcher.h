@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "base/problem.h"
+#include "core/base/problem.h"
+#include "core/keys/digest.h"
+#include "core/rt/clock.h"
 #include "deploy/agent/agent_state.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/transaction/blob_fetch.h"
-#include "keys/digest.h"
-#include "rt/clock.h"
 
 namespace indurop::deploy {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/mirror_text.h"
 
-#include "base/json.h"
-#include "mirror/frames/mirrored_variables.h"
-#include "rt/clock.h"
-#include "vars/node_lock.h"
-#include "vars/shm_file.h"
+#include "core/base/json.h"
+#include "core/rt/clock.h"
+#include "network/mirror/frames/mirrored_variables.h"
+#include "store/vars/node_lock.h"
+#include "store/vars/shm_file.h"
 
 namespace indurop::deploy {
 

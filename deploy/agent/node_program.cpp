@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-#include "base/program_folder.h"
+#include "core/base/program_folder.h"
 
 namespace indurop::deploy {
 

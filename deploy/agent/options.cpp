@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "base/exit_code.h"
-#include "base/options.h"
-#include "vars/shm_file.h"
+#include "core/base/exit_code.h"
+#include "core/base/options.h"
+#include "store/vars/shm_file.h"
 
 namespace indurop::deploy {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/other_boards.h"
 
-#include "schema/topic_name.h"
+#include "core/schema/topic_name.h"
 
 namespace indurop::deploy {
 namespace {

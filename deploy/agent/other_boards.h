@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/log.h"
+#include "core/base/log.h"
 #include "deploy/agent/box_watch.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/words/deployment_words.h"

@@ -5,15 +5,15 @@
 #include <cstring>
 #include <vector>
 
-#include "base/json.h"
-#include "rt/clock.h"
+#include "core/base/json.h"
+#include "core/rt/clock.h"
+#include "core/schema/schema.h"
 #include "scheduler/run_block.h"
-#include "schema/schema.h"
-#include "vars/custody.h"
-#include "vars/held_value.h"
-#include "vars/node_lock.h"
-#include "vars/run_file.h"
-#include "vars/store.h"
+#include "store/vars/custody.h"
+#include "store/vars/held_value.h"
+#include "store/vars/node_lock.h"
+#include "store/vars/run_file.h"
+#include "store/vars/store.h"
 
 namespace indurop::deploy {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <string>
 
-#include "base/json.h"
+#include "core/base/json.h"
 
 namespace indurop::deploy {
 

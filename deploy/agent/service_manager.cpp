@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "base/descriptor.h"
+#include "core/base/descriptor.h"
 
 namespace indurop::deploy {
 namespace {

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <string>
 
-#include "rt/clock.h"
+#include "core/rt/clock.h"
 
 namespace indurop::deploy {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "rt/clock.h"
+#include "core/rt/clock.h"
 #include "scheduler/run_block.h"
 
 namespace indurop::deploy {

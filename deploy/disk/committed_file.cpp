@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/disk/committed_file.h"
 
-#include "keys/digest.h"
+#include "core/keys/digest.h"
 
 namespace indurop::deploy {
 namespace {

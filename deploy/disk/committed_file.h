@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/json.h"
-#include "base/problem.h"
+#include "core/base/json.h"
+#include "core/base/problem.h"
 #include "deploy/words/deployment_words.h"
 
 namespace indurop::deploy {

@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "base/descriptor.h"
-#include "base/read_file.h"
+#include "core/base/descriptor.h"
+#include "core/base/read_file.h"
+#include "core/keys/digest.h"
 #include "deploy/words/deployment_words.h"
-#include "keys/digest.h"
 
 namespace indurop::deploy {
 namespace {

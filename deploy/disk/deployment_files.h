@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "base/problem.h"
+#include "core/base/problem.h"
 #include "deploy/transaction/package.h"
 
 namespace indurop::deploy {

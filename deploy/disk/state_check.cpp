@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <map>
 
-#include "base/read_file.h"
+#include "core/base/read_file.h"
 #include "deploy/disk/committed_file.h"
 #include "deploy/words/deployment_words.h"
 

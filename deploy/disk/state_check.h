@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "base/descriptor.h"
-#include "base/json.h"
+#include "core/base/descriptor.h"
+#include "core/base/json.h"
+#include "core/keys/digest.h"
 #include "deploy/disk/deployment_files.h"
-#include "keys/digest.h"
 
 namespace indurop::deploy {
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-#include "base/read_file.h"
+#include "core/base/read_file.h"
 
 namespace indurop::deploy {
 namespace {

@@ -11,9 +11,9 @@
 #include <optional>
 #include <string>
 
-#include "base/descriptor.h"
+#include "core/base/descriptor.h"
+#include "core/rt/clock.h"
 #include "deploy/link/deploy_link.h"
-#include "rt/clock.h"
 
 namespace indurop::deploy {
 

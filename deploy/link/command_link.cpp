@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/link/command_link.h"
 
-#include "dds/endpoint.h"
+#include "core/rt/signal_word.h"
+#include "core/schema/topic_name.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/link/wire_words.h"
-#include "rt/signal_word.h"
-#include "schema/topic_name.h"
+#include "network/dds/endpoint.h"
 
 namespace indurop::deploy {
 namespace {

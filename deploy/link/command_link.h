@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "base/problem.h"
+#include "core/base/problem.h"
 #include "deploy/words/command_words.h"
 
 namespace indurop::deploy {

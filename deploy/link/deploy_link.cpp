@@ -9,18 +9,18 @@
 #include <map>
 #include <random>
 
-#include "dds/endpoint.h"
-#include "dds/guid.h"
-#include "dds/network_options.h"
-#include "dds/other_releases.h"
-#include "dds/setup.h"
+#include "core/rt/clock.h"
+#include "core/rt/machine.h"
+#include "core/rt/signal_word.h"
+#include "core/schema/topic_name.h"
 #include "deploy/link/link_keys.h"
 #include "deploy/link/speakers.h"
 #include "deploy/link/wire_words.h"
-#include "rt/clock.h"
-#include "rt/machine.h"
-#include "rt/signal_word.h"
-#include "schema/topic_name.h"
+#include "network/dds/endpoint.h"
+#include "network/dds/guid.h"
+#include "network/dds/network_options.h"
+#include "network/dds/other_releases.h"
+#include "network/dds/setup.h"
 
 namespace indurop::deploy {
 namespace {

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "base/options.h"
-#include "base/problem.h"
-#include "dds/network_settings.h"
+#include "core/base/options.h"
+#include "core/base/problem.h"
+#include "core/rt/clock.h"
 #include "deploy/words/deployment_words.h"
-#include "rt/clock.h"
+#include "network/dds/network_settings.h"
 
 namespace indurop::rt {
 class SignalWord;

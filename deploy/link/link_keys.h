@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <string>
 
-#include "base/options.h"
-#include "base/problem.h"
-#include "dds/network_settings.h"
+#include "core/base/options.h"
+#include "core/base/problem.h"
+#include "core/keys/participant_keys.h"
 #include "deploy/link/deploy_link.h"
-#include "keys/participant_keys.h"
+#include "network/dds/network_settings.h"
 
 namespace indurop::deploy {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "base/read_file.h"
-#include "keys/credentials.h"
+#include "core/base/read_file.h"
+#include "core/keys/credentials.h"
 
 namespace indurop::deploy {
 namespace {

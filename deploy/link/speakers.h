@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "dds/guid.h"
 #include "deploy/words/deployment_words.h"
+#include "network/dds/guid.h"
 
 namespace indurop::deploy {
 

@@ -15,9 +15,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "dds/lent.h"
 #include "deploy/words/command_words.h"
 #include "deploy/words/deployment_words.h"
+#include "network/dds/lent.h"
 
 namespace indurop::deploy::wire {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "rt/clock.h"
+#include "core/rt/clock.h"
 
 namespace indurop::deploy {
 

@@ -9,9 +9,9 @@
 #include <optional>
 #include <string>
 
+#include "core/rt/clock.h"
 #include "deploy/transaction/silence.h"
 #include "deploy/words/deployment_words.h"
-#include "rt/clock.h"
 
 namespace indurop::deploy {
 

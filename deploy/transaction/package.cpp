@@ -10,12 +10,12 @@
 #include <sstream>
 #include <string_view>
 
-#include "base/file_problem.h"
-#include "base/json.h"
-#include "base/read_file.h"
-#include "base/text.h"
 #include "config/check/io_access.h"
-#include "keys/digest.h"
+#include "core/base/file_problem.h"
+#include "core/base/json.h"
+#include "core/base/read_file.h"
+#include "core/base/text.h"
+#include "core/keys/digest.h"
 
 namespace indurop::deploy {
 namespace {

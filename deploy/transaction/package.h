@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/problem.h"
 #include "config/model/plant.h"
+#include "core/base/problem.h"
 
 namespace indurop::deploy {
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "core/rt/clock.h"
 #include "deploy/transaction/silence.h"
 #include "deploy/words/deployment_words.h"
-#include "rt/clock.h"
 
 namespace indurop::deploy {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "rt/clock.h"
+#include "core/rt/clock.h"
 
 namespace indurop::deploy {
 

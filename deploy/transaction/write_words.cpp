@@ -6,8 +6,8 @@
 
 #include <charconv>
 
-#include "base/json.h"
-#include "base/text.h"
+#include "core/base/json.h"
+#include "core/base/text.h"
 
 namespace indurop::deploy {
 

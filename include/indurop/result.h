@@ -44,8 +44,8 @@ struct Error {
 };
 
 // Either a value or an error: an Error, which costs nothing to pass, or another error type where people need more
-// detail (base/problem.h). value() requires ok(), error() requires not ok(); asking for the other one is a bug of the
-// caller and aborts.
+// detail (core/base/problem.h). value() requires ok(), error() requires not ok(); asking for the other one is a bug of
+// the caller and aborts.
 template <class T, class E = Error>
 class [[nodiscard]] Result {
  public:

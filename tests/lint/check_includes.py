@@ -86,7 +86,7 @@ def groups_of(root, name, quote, target):
     if ".." in target.split("/"):
         return groups
     # Suites share helpers and generate headers; a name without a folder cannot be a room's.
-    if (root / name).parent.joinpath(target).is_file() or (name.startswith(("tests/", "bench/")) and "/" not in target):
+    if (root / name).parent.joinpath(target).is_file() or (name.startswith("tests/") and "/" not in target):
         groups.add("own")
     folders = target.split("/")[:-1]  # "config/check/uses.h": who may include config/ or only config/check/
     groups.update("/".join(folders[:count]) + "/" for count in range(1, len(folders) + 1))
@@ -122,7 +122,7 @@ def unused(rules, used):
     """Permissions that no file makes use of. What every room may have (the ground floor too) is not counted."""
     return [f"include_rules.txt: {folder} may include {word} and no file does; take the word away"
             for folder, allowed in rules.items() for word in allowed
-            if word not in used[folder] and word not in EVERYWHERE | {"base/", folder} and word[0] != "-"]
+            if word not in used[folder] and word not in EVERYWHERE | {"core/base/", folder} and word[0] != "-"]
 
 
 def main():

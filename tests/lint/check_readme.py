@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What the documentation tells people to type exists, its links lead somewhere, and so do the files it names in code
-of this tree: `vars/store.h`, or `vars/store` for short. check_readme.py ROOT [INDUROP]
+of this tree: `store/vars/store.h`, or `store/vars/store` for short. check_readme.py ROOT [INDUROP]
 INDUROP: the built program, whose --help must know every verb shown."""
 
 import pathlib

@@ -97,20 +97,20 @@ def changelog(root):
                f"the project is {version.group(1) if version else 'without version'}")
 
 
-# What another kernel has not, or has in another way: the rooms have rt/ for it.
+# What another kernel has not, or has in another way: the rooms have core/rt/ for it.
 BELOW_RT = re.compile(r"\bpthread_(?:mutex|cond|rwlock|spin|barrier)\w*|\bsem_(?:t\b|\w+\s*\()|\b(?:flock|membarrier)\s*\(|"
                       r"\bSYS_(?:membarrier|futex|tkill)|\bFUTEX_|\bF_OFD_|<(?:semaphore|sys/file|linux/\w+)\.h>")
 
 
 def border(root):
     for name in common.cxx_files(root):
-        if name.startswith(("rt/", "tests/", "bench/", "examples/")):
+        if name.startswith(("core/rt/", "tests/", "examples/")):
             continue
         for number, line in enumerate(common.read(root, name).split("\n"), 1):
             bare = re.sub(r'"(\\.|[^"\\])*"', '""', line)
             found = BELOW_RT.search(bare)
             if found:
-                yield f"{name}:{number}: {found.group(0)} is for rt/ only; use what rt/ offers, or add it there for both systems"
+                yield f"{name}:{number}: {found.group(0)} is for core/rt/ only; use what core/rt/ offers, or add it there for both systems"
 
 
 RULES = {rule.__name__: rule for rule in (spdx, todo, disabled, length, names, characters, border, changelog)}

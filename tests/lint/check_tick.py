@@ -2,7 +2,7 @@
 """Every function outside of the project that the tick path can reach is on the list tick_services.txt. What a kernel
 without Linux has to offer is that list; what allocates or may block is not on it.
 check_tick.py LIST SYSTEM LIBRARY.a...
-SYSTEM is the folder of rt/ that is linked: lines `service/SYSTEM` count for it only. As for the linker the first library that
+SYSTEM is the folder of core/rt/ that is linked: lines `service/SYSTEM` count for it only. As for the linker the first library that
 has a function counts.
 
 Followed are the calls and addresses in the machine code of the static libraries, from the roots on. Calls through tables

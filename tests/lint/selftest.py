@@ -50,42 +50,42 @@ class Includes(Sample):
         return check_includes.check(self.root, check_includes.load_rules(HERE / "include_rules.txt"))[0]
 
     def test_rooms_below_are_allowed(self):
-        self.put("rt/clock.h", HEAD)
-        self.assertEqual(self.check("scheduler/a.cpp", '"rt/clock.h"'), [])
+        self.put("core/rt/clock.h", HEAD)
+        self.assertEqual(self.check("scheduler/a.cpp", '"core/rt/clock.h"'), [])
 
     def test_dds_outside_dds(self):
-        self.found(self.check("mirror/a.cpp", "<dds/dds.h>"), "mirror/a.cpp:4", "dds/dds.h")
+        self.found(self.check("network/mirror/a.cpp", "<dds/dds.h>"), "network/mirror/a.cpp:4", "dds/dds.h")
 
     def test_dds_inside_dds(self):
-        self.assertEqual(self.check("dds/a.cpp", "<dds/dds.h>"), [])
+        self.assertEqual(self.check("network/dds/a.cpp", "<dds/dds.h>"), [])
 
     def test_xml_outside_config(self):
         self.found(self.check("scheduler/a.cpp", "<tinyxml2.h>"), "tinyxml2.h")
 
     def test_iceoryx_outside_vars(self):
-        self.found(self.check("runtime/a.h", '"iceoryx_hoofs/posix_wrapper/shared_memory_object.hpp"'), "iceoryx_hoofs")
+        self.found(self.check("store/runtime/a.h", '"iceoryx_hoofs/posix_wrapper/shared_memory_object.hpp"'), "iceoryx_hoofs")
 
     def test_room_above(self):
-        self.found(self.check("vars/a.cpp", '"scheduler/run_block.h"'), "scheduler/run_block.h")
+        self.found(self.check("store/vars/a.cpp", '"scheduler/run_block.h"'), "scheduler/run_block.h")
 
     def test_dlopen_in_scheduler(self):
         self.found(self.check("scheduler/a.cpp", "<dlfcn.h>"), "dlfcn.h")
 
     def test_table_of_the_documentation_that_is_old(self):
         rules = self.root / "rules.txt"
-        self.put("rules.txt", "# rt/: the floor\nrt/: std rt/\n")
-        self.put("docs/architecture.md", "<!-- rooms -->\n| `rt/` | the roof | - |\n<!-- /rooms -->\n")
+        self.put("rules.txt", "# core/rt/: the floor\ncore/rt/: std core/rt/\n")
+        self.put("docs/architecture.md", "<!-- rooms -->\n| `core/rt/` | the roof | - |\n<!-- /rooms -->\n")
         self.found(check_includes.check_table(self.root, rules, check_includes.load_rules(rules)), "docs/architecture.md")
         table = check_includes.table(self.root, rules, check_includes.load_rules(rules))
-        self.assertIn("| `rt/` | the floor | - |", table)
+        self.assertIn("| `core/rt/` | the floor | - |", table)
         self.put("docs/architecture.md", f"<!-- rooms -->\n{table}<!-- /rooms -->\n")
         self.assertEqual(check_includes.check_table(self.root, rules, check_includes.load_rules(rules)), [])
 
     def test_permission_nobody_uses(self):
-        self.put("rt/clock.h", HEAD)
-        self.put("vars/a.cpp", f'{HEAD}#include "rt/clock.h"\n#include <vector>\n')
-        rules = {"rt/": ["std", "rt/"], "vars/": ["std", "posix", "vars/", "rt/", "fmt", "-<dlfcn.h>"]}
-        self.found(check_includes.unused(rules, check_includes.check(self.root, rules)[1]), "vars/ may include fmt")
+        self.put("core/rt/clock.h", HEAD)
+        self.put("store/vars/a.cpp", f'{HEAD}#include "core/rt/clock.h"\n#include <vector>\n')
+        rules = {"core/rt/": ["std", "core/rt/"], "store/vars/": ["std", "posix", "store/vars/", "core/rt/", "fmt", "-<dlfcn.h>"]}
+        self.found(check_includes.unused(rules, check_includes.check(self.root, rules)[1]), "store/vars/ may include fmt")
 
     def test_third_party_in_public_header(self):
         self.found(self.check("include/indurop/a.h", "<fmt/core.h>"), "fmt/core.h")
@@ -95,11 +95,11 @@ class Includes(Sample):
         self.found(self.check("config/model/a.h", '"config/check/check.h"'), "config/check/check.h")
 
     def test_internals_in_example(self):
-        self.found(self.check("examples/a/a.cpp", '"vars/store.h"'), "vars/store.h")
+        self.found(self.check("examples/a/a.cpp", '"store/vars/store.h"'), "store/vars/store.h")
 
     def test_relative_path_upwards(self):
-        self.put("rt/clock.h", HEAD)
-        self.found(self.check("rt/a.cpp", '"../rt/clock.h"'), "../rt/clock.h")
+        self.put("core/rt/clock.h", HEAD)
+        self.found(self.check("core/rt/a.cpp", '"../rt/clock.h"'), "../rt/clock.h")
 
     def test_folder_without_rule(self):
         self.found(self.check("misc/a.cpp", "<vector>"), "no line in include_rules.txt")
@@ -110,34 +110,34 @@ class Text(Sample):
         return check_text.RULES[rule](self.root)
 
     def test_clean_file(self):
-        self.put("rt/a.h", HEAD + "#pragma once\n")
+        self.put("core/rt/a.h", HEAD + "#pragma once\n")
         for rule in ("spdx", "todo", "disabled", "length", "characters"):
             self.assertEqual(list(self.check(rule)), [])
 
     def test_missing_spdx(self):
-        self.put("rt/a.h", "#pragma once\n")
-        self.found(self.check("spdx"), "rt/a.h:1", "SPDX")
+        self.put("core/rt/a.h", "#pragma once\n")
+        self.found(self.check("spdx"), "core/rt/a.h:1", "SPDX")
 
     def test_missing_purpose(self):
-        self.put("rt/a.h", HEAD.split("\n", 1)[0] + "\n#pragma once\n")
-        self.found(self.check("spdx"), "rt/a.h:2")
+        self.put("core/rt/a.h", HEAD.split("\n", 1)[0] + "\n#pragma once\n")
+        self.found(self.check("spdx"), "core/rt/a.h:2")
 
     def test_semaphore_outside_of_its_room(self):
-        self.put("rt/a.h", HEAD + "#include <semaphore.h>\nsem_t word;\n")
+        self.put("core/rt/a.h", HEAD + "#include <semaphore.h>\nsem_t word;\n")
         self.assertEqual(list(self.check("border")), [])
-        self.put("vars/a.h", HEAD + "  pthread_mutex_t lock;\n")
-        self.found(self.check("border"), "vars/a.h:4", "pthread_mutex_t")
-        self.put("vars/a.h", HEAD + "  ::sem_post(&word);\n")
-        self.found(self.check("border"), "vars/a.h:4", "sem_post")
-        self.put("vars/a.h", HEAD + 'constexpr auto kWords = "flock sem_t pthread_mutex_t";\n')
+        self.put("store/vars/a.h", HEAD + "  pthread_mutex_t lock;\n")
+        self.found(self.check("border"), "store/vars/a.h:4", "pthread_mutex_t")
+        self.put("store/vars/a.h", HEAD + "  ::sem_post(&word);\n")
+        self.found(self.check("border"), "store/vars/a.h:4", "sem_post")
+        self.put("store/vars/a.h", HEAD + 'constexpr auto kWords = "flock sem_t pthread_mutex_t";\n')
         self.assertEqual(list(self.check("border")), [])
 
     def test_todo_without_issue(self):
-        self.put("rt/a.cpp", HEAD + "// TODO" + ": later\n")
-        self.found(self.check("todo"), "rt/a.cpp:4")
+        self.put("core/rt/a.cpp", HEAD + "// TODO" + ": later\n")
+        self.found(self.check("todo"), "core/rt/a.cpp:4")
 
     def test_todo_with_issue(self):
-        self.put("rt/a.cpp", HEAD + "// TODO" + "(#12): later\n")
+        self.put("core/rt/a.cpp", HEAD + "// TODO" + "(#12): later\n")
         self.assertEqual(list(self.check("todo")), [])
 
     def test_disabled_test(self):
@@ -149,8 +149,8 @@ class Text(Sample):
         self.found(self.check("disabled"), "tests/unit/CMakeLists.txt:1")
 
     def test_long_file(self):
-        self.put("rt/a.cpp", HEAD + "\n" * 400)
-        self.found(self.check("length"), "rt/a.cpp")
+        self.put("core/rt/a.cpp", HEAD + "\n" * 400)
+        self.found(self.check("length"), "core/rt/a.cpp")
 
     def test_name_of_a_test(self):
         self.put("tests/a_test.cpp", HEAD + "TEST(Job, AllErrorsAtOnce) {}\nTEST(Job, All_errors) {}\nTEST(Job, Ends) {}\n")
@@ -165,20 +165,20 @@ class Text(Sample):
         self.found(self.check("characters"), "docs/a.md:1", "invisible")
 
     def test_foreign_letter_in_comment(self):
-        self.put("rt/a.cpp", HEAD + "// \u00b5s\n")
-        self.found(self.check("characters"), "rt/a.cpp:4", "ASCII")
+        self.put("core/rt/a.cpp", HEAD + "// \u00b5s\n")
+        self.found(self.check("characters"), "core/rt/a.cpp:4", "ASCII")
 
     def test_foreign_letter_in_string(self):
-        self.put("rt/a.cpp", HEAD + 'const char* k = "\u00b5s";\n')
+        self.put("core/rt/a.cpp", HEAD + 'const char* k = "\u00b5s";\n')
         self.assertEqual(list(self.check("characters")), [])
 
     def test_white_space_at_end(self):
-        self.put("rt/a.cpp", HEAD + "int a; \n")
-        self.found(self.check("characters"), "rt/a.cpp:4", "white space")
+        self.put("core/rt/a.cpp", HEAD + "int a; \n")
+        self.found(self.check("characters"), "core/rt/a.cpp:4", "white space")
 
     def test_no_newline_at_end(self):
-        self.put("rt/a.cpp", HEAD + "int a;")
-        self.found(self.check("characters"), "rt/a.cpp:4", "newline")
+        self.put("core/rt/a.cpp", HEAD + "int a;")
+        self.found(self.check("characters"), "core/rt/a.cpp:4", "newline")
 
     def test_stale_changelog(self):
         self.put("CMakeLists.txt", "project(InduRoP VERSION 0.2.0)\n")
@@ -190,11 +190,11 @@ class Functions(Sample):
     BODY = "  a();\n" * 60
 
     def check(self, text):
-        self.put("rt/a.cpp", HEAD + text)
+        self.put("core/rt/a.cpp", HEAD + text)
         return check_functions.check(self.root)
 
     def test_long_function(self):
-        self.found(self.check(f"namespace a {{\nint b::c(int d) const {{\n{self.BODY}}}\n}}\n"), "rt/a.cpp:5", "b::c has 62 lines")
+        self.found(self.check(f"namespace a {{\nint b::c(int d) const {{\n{self.BODY}}}\n}}\n"), "core/rt/a.cpp:5", "b::c has 62 lines")
 
     def test_long_method_in_a_class(self):
         self.found(self.check(f"class A : public B {{\n  void c() override {{\n{self.BODY}  }}\n}};\n"), "c has 62 lines")
@@ -218,12 +218,12 @@ class Functions(Sample):
 class Format(Sample):
     def test_badly_formatted(self):
         shutil.copy(ROOT / ".clang-format", self.root)
-        self.put("rt/a.cpp", HEAD + "int   a ;\n")
+        self.put("core/rt/a.cpp", HEAD + "int   a ;\n")
         self.assertTrue(check_format.check(self.root))
 
     def test_well_formatted(self):
         shutil.copy(ROOT / ".clang-format", self.root)
-        self.put("rt/a.cpp", HEAD + "int a;\n")
+        self.put("core/rt/a.cpp", HEAD + "int a;\n")
         self.assertEqual(check_format.check(self.root), [])
 
 
@@ -234,34 +234,34 @@ class Headers(Sample):
         self.assertEqual(len(found), 2, found)  # both compilers
 
     def test_public_header_that_needs_internals(self):
-        self.put("rt/b.h", HEAD + "#pragma once\n")
-        self.put("include/indurop/a.h", HEAD + '#pragma once\n#include "rt/b.h"\n')
+        self.put("core/rt/b.h", HEAD + "#pragma once\n")
+        self.put("include/indurop/a.h", HEAD + '#pragma once\n#include "core/rt/b.h"\n')
         self.assertEqual(len(check_headers.check(self.root, [])), 2)
 
     def test_header_without_guard(self):
-        self.put("rt/a.h", HEAD + "struct A {};\n")
-        self.found(check_headers.check(self.root, []), "rt/a.h", "redefinition")
+        self.put("core/rt/a.h", HEAD + "struct A {};\n")
+        self.found(check_headers.check(self.root, []), "core/rt/a.h", "redefinition")
 
     def test_a_header_that_passed_is_compiled_again_when_one_it_includes_changes(self):
-        self.put("rt/b.h", HEAD + "#pragma once\nstruct B {};\n")
-        self.put("rt/a.h", HEAD + '#pragma once\n#include "rt/b.h"\nB a();\n')
+        self.put("core/rt/b.h", HEAD + "#pragma once\nstruct B {};\n")
+        self.put("core/rt/a.h", HEAD + '#pragma once\n#include "core/rt/b.h"\nB a();\n')
         self.assertEqual(check_headers.check(self.root, [], self.root), [])
         passed = [path for path in self.root.iterdir() if len(path.name) == 64]
         self.assertEqual(len(passed), 2)
-        self.put("rt/b.h", HEAD + "#pragma once\nstruct C {};\n")
-        self.found(check_headers.check(self.root, [], self.root), "rt/a.h")
+        self.put("core/rt/b.h", HEAD + "#pragma once\nstruct C {};\n")
+        self.found(check_headers.check(self.root, [], self.root), "core/rt/a.h")
 
     def test_precompiled_header_not_included(self):
-        self.put("rt/a.h", HEAD + "#pragma once\n#include <string>\n")
-        self.put("rt/a.cpp", HEAD + '#include "rt/a.h"\nstd::string text;  // std::map<int, int>\nstd::vector<int> list;\n')
+        self.put("core/rt/a.h", HEAD + "#pragma once\n#include <string>\n")
+        self.put("core/rt/a.cpp", HEAD + '#include "core/rt/a.h"\nstd::string text;  // std::map<int, int>\nstd::vector<int> list;\n')
         findings = check_headers.check(self.root, [])
-        self.found(findings, "rt/a.cpp", "<vector>")
+        self.found(findings, "core/rt/a.cpp", "<vector>")
         self.assertEqual(len(findings), 1, findings)
 
     def test_own_header_not_first(self):
-        self.put("rt/a.h", HEAD + "#pragma once\nstd::size_t a();\n")
-        self.put("rt/a.cpp", HEAD + '#include <string>\n#include "rt/a.h"\n')
-        self.found(check_headers.check(self.root, []), "rt/a.cpp", "first include")
+        self.put("core/rt/a.h", HEAD + "#pragma once\nstd::size_t a();\n")
+        self.put("core/rt/a.cpp", HEAD + '#include <string>\n#include "core/rt/a.h"\n')
+        self.found(check_headers.check(self.root, []), "core/rt/a.cpp", "first include")
 
     def test_good_header(self):
         self.put("include/indurop/a.h", HEAD + "#pragma once\n#include <string>\nstd::string a();\n")
@@ -345,16 +345,16 @@ class Readme(Sample):
 
     def test_missing_source_file(self):
         self.put("Makefile", "all:\n")
-        self.put("vars/store.h", HEAD)
-        self.put("docs/a.md", "`vars/store.h`, `vars/store`, `vars/`, `build/bin/`, `a/b`, and `vars/stroe.h`\n")
-        self.found(check_readme.check(self.root, None), "docs/a.md", "vars/stroe.h")
+        self.put("store/vars/store.h", HEAD)
+        self.put("docs/a.md", "`store/vars/store.h`, `store/vars/store`, `store/vars/`, `build/bin/`, `a/b`, and `store/vars/stroe.h`\n")
+        self.found(check_readme.check(self.root, None), "docs/a.md", "store/vars/stroe.h")
 
 
 class Commits(Sample):
     def test_subjects_as_they_should_be(self):
         self.assertEqual(check_commits.check([
             ("a", "robot: wait for drives to switch off before enabling"), ("b", "page, status: show what is missing"),
-            ("c", "tools: pass the reason on"), ("d", "vars/retain: keep the old file")]), [])
+            ("c", "tools: pass the reason on"), ("d", "store/vars/retain: keep the old file")]), [])
 
     def test_subjects_that_are_not(self):
         for subject, what in ((f"robot: say {'x' * 72}", "the limit"), ("Drives are late", "not 'room: imperative'"),
@@ -409,8 +409,8 @@ class Tidy(Sample):
         shutil.copy(ROOT / ".clang-tidy", self.root)
 
     def tidy(self, text):
-        self.put("rt/a.cpp", HEAD + text)
-        entry = {"file": str(self.root / "rt/a.cpp"), "directory": str(self.root), "command": "c++ -std=c++20 -c rt/a.cpp"}
+        self.put("core/rt/a.cpp", HEAD + text)
+        entry = {"file": str(self.root / "core/rt/a.cpp"), "directory": str(self.root), "command": "c++ -std=c++20 -c core/rt/a.cpp"}
         return check_tidy.tidy_one(self.root, self.root, entry, self.root, b"")
 
     def test_clean_file_is_remembered(self):
@@ -423,26 +423,26 @@ class Tidy(Sample):
                            capture_output=True)
         self.assertEqual(check_tidy.changed(self.root), ([], "no git here"))
         git("init")
-        self.put("rt/a.cpp", HEAD)
-        self.put("rt/b.cpp", HEAD)
+        self.put("core/rt/a.cpp", HEAD)
+        self.put("core/rt/b.cpp", HEAD)
         git("add", ".")
         git("commit", "-m", "one")
         self.assertEqual(check_tidy.changed(self.root)[0], [])
-        self.put("rt/b.cpp", HEAD + "int b;\n")
+        self.put("core/rt/b.cpp", HEAD + "int b;\n")
         git("commit", "-am", "two")
-        self.put("rt/c.cpp", HEAD)
-        self.assertEqual(sorted(check_tidy.changed(self.root)[0]), ["rt/b.cpp", "rt/c.cpp"])
+        self.put("core/rt/c.cpp", HEAD)
+        self.assertEqual(sorted(check_tidy.changed(self.root)[0]), ["core/rt/b.cpp", "core/rt/c.cpp"])
 
     def test_files_that_are_compiled_together(self):
-        self.put("rt/a.cpp", HEAD + "int* f() { return 0; }\n")
-        self.put("build/rt/Unity/unity_0_cxx.cxx", f'/* made */\n#include "{self.root}/rt/a.cpp"\n')
-        together = {"file": str(self.root / "build/rt/Unity/unity_0_cxx.cxx"), "directory": str(self.root),
-                    "command": "c++ -std=c++20 -c build/rt/Unity/unity_0_cxx.cxx"}
-        alone = {**together, "file": str(self.root / "rt/b.cpp")}
+        self.put("core/rt/a.cpp", HEAD + "int* f() { return 0; }\n")
+        self.put("build/core/rt/Unity/unity_0_cxx.cxx", f'/* made */\n#include "{self.root}/core/rt/a.cpp"\n')
+        together = {"file": str(self.root / "build/core/rt/Unity/unity_0_cxx.cxx"), "directory": str(self.root),
+                    "command": "c++ -std=c++20 -c build/core/rt/Unity/unity_0_cxx.cxx"}
+        alone = {**together, "file": str(self.root / "core/rt/b.cpp")}
         self.put("build/compile_commands.json", json.dumps([together, alone]))
         entries = list(check_tidy.compiled(self.root / "build"))
-        self.assertEqual([entry["file"] for entry in entries], [str(self.root / "rt/a.cpp"), alone["file"]])
-        self.found(check_tidy.tidy_one(self.root, self.root, entries[0], self.root, b""), "rt/a.cpp", "modernize-use-nullptr")
+        self.assertEqual([entry["file"] for entry in entries], [str(self.root / "core/rt/a.cpp"), alone["file"]])
+        self.found(check_tidy.tidy_one(self.root, self.root, entries[0], self.root, b""), "core/rt/a.cpp", "modernize-use-nullptr")
 
     def test_findings_are_remembered(self):
         text = "int* f() { return 0; }\n"
@@ -468,7 +468,7 @@ class Tidy(Sample):
     def test_misspelt_family(self):
         text = (ROOT / ".clang-tidy").read_text()
         self.put(".clang-tidy", text.replace("bugprone-*", "bug-prone-*"))
-        self.put("rt/clock.cpp", HEAD)
+        self.put("core/rt/clock.cpp", HEAD)
         self.found(check_tidy.families(self.root), "bugprone")
 
 

@@ -8,8 +8,8 @@
 #include <csignal>
 #include <fstream>
 
-#include "vars/layout.h"
-#include "vars/store.h"
+#include "store/vars/layout.h"
+#include "store/vars/store.h"
 
 namespace indurop::test {
 namespace {

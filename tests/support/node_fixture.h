@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "scheduler/run_block.h"
+#include "store/vars/run_file.h"
 #include "tests/support/as_nobody.h"
 #include "tests/support/program.h"
-#include "vars/run_file.h"
 
 // Named as GoogleTest names its own.
 // NOLINTBEGIN(cppcoreguidelines-macro-usage,readability-identifier-naming)

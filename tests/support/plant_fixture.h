@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "store/vars/node_lock.h"
+#include "store/vars/store.h"
 #include "tests/support/dds_domain.h"
 #include "tests/support/program.h"
 #include "tests/support/wait_until.h"
-#include "vars/node_lock.h"
-#include "vars/store.h"
 
 namespace indurop::test {
 

@@ -9,12 +9,12 @@
 #include <cstddef>
 #include <cstring>
 
-#include "rt/clock.h"
-#include "tools/command/gentle.h"
-#include "tools/command/interrupt.h"
+#include "core/rt/clock.h"
+#include "tools/cli/command/gentle.h"
+#include "tools/cli/command/interrupt.h"
+#include "tools/cli/values/watch_source.h"
 #include "tools/iceoryx/publisher.h"
 #include "tools/iceoryx/supervisor.h"
-#include "tools/values/watch_source.h"
 
 namespace indurop::iceoryx {
 namespace {

@@ -12,8 +12,8 @@
 #include <iceoryx_posh/popo/untyped_publisher.hpp>
 #include <iceoryx_posh/runtime/posh_runtime.hpp>
 
-#include "rt/clock.h"
-#include "tools/command/interrupt.h"
+#include "core/rt/clock.h"
+#include "tools/cli/command/interrupt.h"
 
 namespace indurop::iceoryx {
 namespace {

@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include "tools/values/watch_source.h"
+#include "tools/cli/values/watch_source.h"
 
 namespace indurop::iceoryx {
 

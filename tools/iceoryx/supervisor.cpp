@@ -12,8 +12,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "rt/clock.h"
-#include "tools/command/interrupt.h"
+#include "core/rt/clock.h"
+#include "tools/cli/command/interrupt.h"
 #include "tools/iceoryx/publisher.h"
 #include "tools/iceoryx/roudi.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "robot/solid.h"
+#include "control/robot/collision/solid.h"
 #include "tools/solids/mesh.h"
 
 namespace indurop::solids {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "robot/solid.h"
+#include "control/robot/collision/solid.h"
 #include "tools/solids/mesh.h"
 
 namespace indurop::solids {

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "base/read_file.h"
-#include "base/replace_file.h"
-#include "base/text.h"
-#include "tools/command/config_file.h"
-#include "tools/command/verb.h"
+#include "core/base/read_file.h"
+#include "core/base/replace_file.h"
+#include "core/base/text.h"
+#include "tools/cli/command/config_file.h"
+#include "tools/cli/command/verb.h"
 #include "tools/solids/around.h"
 #include "tools/solids/beyond.h"
 #include "tools/solids/mesh_file.h"

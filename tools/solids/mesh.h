@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/problem.h"
-#include "robot/geometry.h"
+#include "control/robot/kinematics/geometry.h"
+#include "core/base/problem.h"
 
 namespace indurop::solids {
 

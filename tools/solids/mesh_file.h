@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "base/problem.h"
+#include "core/base/problem.h"
 
 namespace indurop::solids {
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <random>
 
-#include "base/svg.h"
-#include "tools/pictures/svg_parts.h"
+#include "core/base/svg.h"
+#include "tools/cli/pictures/svg_parts.h"
 #include "tools/solids/beyond.h"
 #include "tools/solids/planar.h"
 

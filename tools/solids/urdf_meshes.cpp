@@ -9,9 +9,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "base/text.h"
-#include "base/xml.h"
-#include "base/xml_text.h"
+#include "core/base/text.h"
+#include "core/base/xml.h"
+#include "core/base/xml_text.h"
 
 namespace indurop::solids {
 

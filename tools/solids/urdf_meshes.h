@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostic.h"
-#include "robot/solid.h"
+#include "control/robot/collision/solid.h"
+#include "core/base/diagnostic.h"
 
 namespace indurop::solids {
 

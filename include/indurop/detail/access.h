@@ -57,8 +57,8 @@ INDUROP_ALWAYS_INLINE bool is_forced(void* scalar) noexcept {
 }
 
 // Checks before the write, so that a forced value is never replaced even briefly, and after it, because the value may
-// have been forced in between: forcing makes sure that this second check sees it (vars/forces.cpp), so no barrier is
-// needed here.
+// have been forced in between: forcing makes sure that this second check sees it (store/vars/forces.cpp), so no barrier
+// is needed here.
 template <class T>
 INDUROP_ALWAYS_INLINE void scalar_write(void* entry, T value) noexcept {
   if (is_forced(entry)) [[unlikely]] {

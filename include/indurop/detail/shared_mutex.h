@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Space for a lock in shared memory. Its content depends on the system: only rt/shared_mutex.h knows it.
+// Space for a lock in shared memory. Its content depends on the system: only core/rt/shared_mutex.h knows it.
 
 #pragma once
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "node_fixture.h"
-#include "vars/store.h"
+#include "store/vars/store.h"
 
 namespace indurop::test {
 namespace {

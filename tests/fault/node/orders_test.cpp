@@ -7,8 +7,8 @@
 #include <csignal>
 #include <thread>
 
+#include "core/rt/guard.h"
 #include "node_fixture.h"
-#include "rt/guard.h"
 
 namespace indurop::test {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "hosted.h"
 #include "hosted_program.h"
+#include "store/vars/call_layout.h"
 #include "tests/support/forked.h"
-#include "vars/call_layout.h"
 
 namespace {
 

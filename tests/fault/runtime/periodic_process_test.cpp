@@ -6,9 +6,9 @@
 #include <indurop/indurop.h>
 
 #include "hosted_program.h"
-#include "runtime/message_ring.h"
+#include "store/runtime/message_ring.h"
+#include "store/vars/process.h"
 #include "test_node.h"
-#include "vars/process.h"
 
 namespace {
 

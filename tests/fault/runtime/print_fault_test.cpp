@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "core/rt/clock.h"
 #include "hosted.h"
-#include "rt/clock.h"
 #include "tests/support/forked.h"
 
 namespace {

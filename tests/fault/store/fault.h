@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "tests/support/forked.h"
-#include "tests/unit/vars/test_schema.h"
+#include "tests/unit/store/vars/test_schema.h"
 
 namespace indurop::vars::test {
 

@@ -8,12 +8,12 @@
 #include <atomic>
 #include <filesystem>
 
+#include "core/rt/clock.h"
 #include "fault.h"
-#include "rt/clock.h"
+#include "store/vars/node_lock.h"
+#include "store/vars/run_file.h"
+#include "store/vars/store.h"
 #include "tests/support/wait_until.h"
-#include "vars/node_lock.h"
-#include "vars/run_file.h"
-#include "vars/store.h"
 
 namespace indurop::vars {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "fault.h"
-#include "vars/retain.h"
+#include "store/vars/retain.h"
 
 namespace indurop::vars {
 namespace {

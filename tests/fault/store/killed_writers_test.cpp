@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fault.h"
-#include "vars/ring.h"
-#include "vars/store.h"
+#include "store/vars/ring.h"
+#include "store/vars/store.h"
 
 namespace indurop::vars {
 namespace {

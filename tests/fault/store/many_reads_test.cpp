@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <array>
 
+#include "core/rt/thread.h"
 #include "fault.h"
-#include "rt/thread.h"
-#include "vars/ring.h"
-#include "vars/store.h"
+#include "store/vars/ring.h"
+#include "store/vars/store.h"
 
 // What libindurop provides to modules.
 extern "C" void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint32_t offset,

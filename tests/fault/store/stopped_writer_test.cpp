@@ -6,11 +6,11 @@
 #include <atomic>
 #include <chrono>
 
+#include "core/rt/shared_mutex.h"
 #include "fault.h"
-#include "rt/shared_mutex.h"
+#include "store/vars/ring.h"
+#include "store/vars/store.h"
 #include "tests/support/wait_until.h"
-#include "vars/ring.h"
-#include "vars/store.h"
 
 namespace indurop::vars {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "serve/door/frames.h"
+#include "tools/serve/door/frames.h"
 
 namespace {
 

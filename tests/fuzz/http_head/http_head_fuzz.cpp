@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "serve/door/door.h"
-#include "serve/door/gate.h"
-#include "serve/door/http_head.h"
+#include "tools/serve/door/door.h"
+#include "tools/serve/door/gate.h"
+#include "tools/serve/door/http_head.h"
 
 namespace {
 

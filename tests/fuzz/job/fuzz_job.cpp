@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "robot/job.h"
-#include "robot/job_runner.h"
+#include "control/robot/job/job.h"
+#include "control/robot/job/runner.h"
 
 namespace {
 

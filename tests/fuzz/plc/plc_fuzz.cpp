@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "plc/front/compiler.h"
-#include "plc/print/print.h"
+#include "control/plc/front/compiler.h"
+#include "control/plc/print/print.h"
 
 namespace {
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "recording/idl_layout.h"
-#include "recording/mcap_reader.h"
+#include "history/recording/idl_layout.h"
+#include "history/recording/mcap_reader.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "plc/front/compiler.h"
+#include "control/plc/front/compiler.h"
 #include "tests/golden/golden.h"
 
 namespace indurop::plc {

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <regex>
 
-#include "plc/front/compiler.h"
-#include "plc/front/reader.h"
-#include "plc/plcopen/project_writer.h"
+#include "control/plc/front/compiler.h"
+#include "control/plc/front/reader.h"
+#include "control/plc/plcopen/project_writer.h"
 #include "tests/golden/golden.h"
 
 namespace indurop::plc {

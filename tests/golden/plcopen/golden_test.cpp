@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <random>
 
-#include "plc/lower/bodies.h"
-#include "plc/plcopen/document.h"
-#include "plc/plcopen/read_project.h"
-#include "plc/print/print.h"
-#include "plc/print/st_text.h"
+#include "control/plc/lower/bodies.h"
+#include "control/plc/plcopen/document.h"
+#include "control/plc/plcopen/read_project.h"
+#include "control/plc/print/print.h"
+#include "control/plc/print/st_text.h"
 #include "tests/golden/golden.h"
 
 namespace indurop::plc {

@@ -12,16 +12,16 @@
 #include <string>
 #include <vector>
 
-#include "rt/clock.h"
-#include "runtime/message_ring.h"
+#include "core/rt/clock.h"
+#include "core/schema/schema.h"
 #include "scheduler/run_block_setup.h"
 #include "scheduler/statistics.h"
-#include "schema/schema.h"
-#include "vars/custody.h"
-#include "vars/node_lock.h"
-#include "vars/process.h"
-#include "vars/run_file.h"
-#include "vars/store.h"
+#include "store/runtime/message_ring.h"
+#include "store/vars/custody.h"
+#include "store/vars/node_lock.h"
+#include "store/vars/process.h"
+#include "store/vars/run_file.h"
+#include "store/vars/store.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "agents_fixture.h"
-#include "keys/digest.h"
+#include "core/keys/digest.h"
 
 namespace indurop::test {
 namespace {

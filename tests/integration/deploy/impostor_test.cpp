@@ -6,11 +6,11 @@
 #include <thread>
 
 #include "agents_fixture.h"
+#include "core/keys/participant_keys.h"
+#include "core/rt/clock.h"
 #include "deploy/link/command_link.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/link/link_keys.h"
-#include "keys/participant_keys.h"
-#include "rt/clock.h"
 
 namespace indurop::test {
 namespace {

@@ -2,7 +2,7 @@
 // Boards and deployers killed in each phase of a deployment: in the end all boards run the same, and it is either what
 // was committed or, once one board has committed the next, that. (The trial: faults_test.cpp.)
 
-#include "base/read_file.h"
+#include "core/base/read_file.h"
 #include "deploy/link/deploy_link.h"
 #include "killed_fixture.h"
 

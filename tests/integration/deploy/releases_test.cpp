@@ -2,7 +2,7 @@
 // A board with an older release in the network, whose protocol is another one: it is named, and disturbs nobody.
 
 #include "agents_fixture.h"
-#include "schema/topic_name.h"
+#include "core/schema/topic_name.h"
 
 namespace indurop::test {
 namespace {

@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "mirror/external/external_block.h"
+#include "network/mirror/external/external_block.h"
 #include "node_fixture.h"
+#include "store/vars/shm_file.h"
 #include "tests/support/dds_domain.h"
-#include "vars/shm_file.h"
 
 namespace indurop::test {
 

@@ -17,16 +17,16 @@
 #include <string>
 #include <vector>
 
-#include "dds/entity.h"
+#include "core/schema/elf.h"
 #include "kinds.h"
 #include "live.h"
-#include "mirror/external/external.h"
-#include "mirror/external/external_block.h"
-#include "mirror/external/external_type.h"
-#include "schema/elf.h"
+#include "network/dds/entity.h"
+#include "network/mirror/external/external.h"
+#include "network/mirror/external/external_block.h"
+#include "network/mirror/external/external_type.h"
+#include "store/vars/store.h"
 #include "tests/support/dds_domain.h"
 #include "tests/support/program.h"
-#include "vars/store.h"
 
 namespace indurop::test {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "dds/entity.h"
 #include "kinds_msgs.h"
+#include "network/dds/entity.h"
 #include "plane_fixture.h"
+#include "store/vars/custody.h"
 #include "tests/support/program.h"
-#include "vars/custody.h"
 
 namespace indurop::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "live.h"
-#include "vars/store.h"
+#include "store/vars/store.h"
 
 namespace indurop::test {
 namespace {

@@ -9,11 +9,11 @@
 #include <fstream>
 #include <thread>
 
-#include "dds/endpoint.h"
-#include "dds/guid.h"
-#include "dds/setup.h"
-#include "keys/participant_keys.h"
+#include "core/keys/participant_keys.h"
 #include "live.h"
+#include "network/dds/endpoint.h"
+#include "network/dds/guid.h"
+#include "network/dds/setup.h"
 
 namespace indurop::test {
 namespace {

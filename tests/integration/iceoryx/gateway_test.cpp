@@ -14,9 +14,9 @@
 #include <random>
 #include <sstream>
 
+#include "core/schema/elf.h"
 #include "node_fixture.h"
-#include "schema/elf.h"
-#include "vars/store.h"
+#include "store/vars/store.h"
 
 namespace indurop::test {
 namespace {

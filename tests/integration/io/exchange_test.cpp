@@ -9,8 +9,8 @@
 
 #include <indurop/generated.h>
 
-#include "io/dispatcher.h"
-#include "schema/elf.h"
+#include "control/io/dispatcher.h"
+#include "core/schema/elf.h"
 #include "tests/support/program.h"
 
 namespace indurop::io {

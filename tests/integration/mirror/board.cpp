@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "board_schema.h"
-#include "mirror/frames/mirror.h"
-#include "rt/clock.h"
+#include "core/rt/clock.h"
+#include "network/mirror/frames/mirror.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "schema/schema.h"
+#include "core/schema/schema.h"
 
 namespace indurop::test {
 

@@ -15,13 +15,13 @@
 #include <string>
 #include <vector>
 
-#include "mirror/frames/mirror_block.h"
+#include "network/mirror/frames/mirror_block.h"
+#include "store/vars/shm_file.h"
+#include "store/vars/store.h"
+#include "store/vars/together.h"
 #include "tests/support/dds_domain.h"
 #include "tests/support/program.h"
 #include "tests/support/wait_until.h"
-#include "vars/shm_file.h"
-#include "vars/store.h"
-#include "vars/together.h"
 
 namespace indurop::test {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dds/joining.h"
+#include "network/dds/joining.h"
 
 #include <unistd.h>
 
 #include "board_schema.h"
 #include "boards.h"
-#include "dds/endpoint.h"
-#include "mirror/frames/dds_plane.h"
-#include "mirror/frames/sender.h"
-#include "rt/clock.h"
+#include "core/rt/clock.h"
+#include "network/dds/endpoint.h"
+#include "network/mirror/frames/dds_plane.h"
+#include "network/mirror/frames/sender.h"
 
 namespace indurop::test {
 namespace {

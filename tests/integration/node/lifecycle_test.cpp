@@ -9,9 +9,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/rt/clock.h"
 #include "node_fixture.h"
-#include "rt/clock.h"
-#include "vars/store.h"
+#include "store/vars/store.h"
 
 namespace indurop::test {
 namespace {

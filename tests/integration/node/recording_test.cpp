@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "node_fixture.h"
+#include "store/vars/store.h"
 #include "tests/support/wait_until.h"
-#include "vars/store.h"
 
 namespace indurop::test {
 namespace {

@@ -10,8 +10,8 @@
 #include <set>
 #include <thread>
 
+#include "core/rt/thread.h"
 #include "node_fixture.h"
-#include "rt/thread.h"
 
 namespace indurop::test {
 namespace {

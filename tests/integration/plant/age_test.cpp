@@ -6,8 +6,8 @@
 #include <fstream>
 #include <limits>
 
-#include "base/json.h"
-#include "recording/mcap_reader.h"
+#include "core/base/json.h"
+#include "history/recording/mcap_reader.h"
 #include "tests/support/plant_fixture.h"
 
 namespace indurop::test {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "base/json.h"
+#include "core/base/json.h"
 #include "turning_table_fixture.h"
 
 namespace indurop::test {

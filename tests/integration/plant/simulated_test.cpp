@@ -4,7 +4,7 @@
 #include <iterator>
 #include <map>
 
-#include "recording/mcap_reader.h"
+#include "history/recording/mcap_reader.h"
 #include "turning_table_fixture.h"
 
 namespace indurop::test {

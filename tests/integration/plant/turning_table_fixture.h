@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "mirror/frames/mirror_block.h"
+#include "network/mirror/frames/mirror_block.h"
 #include "scheduler/run_block.h"
+#include "store/vars/run_file.h"
+#include "store/vars/store.h"
 #include "tests/support/plant_fixture.h"
-#include "vars/run_file.h"
-#include "vars/store.h"
 
 namespace indurop::test {
 

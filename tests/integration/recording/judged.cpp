@@ -14,12 +14,12 @@
 #include <string_view>
 #include <vector>
 
-#include "recording/cdr.h"
-#include "recording/mcap_reader.h"
-#include "recording/mcap_writer.h"
-#include "recording/omg_idl.h"
-#include "schema/idl_word.h"
-#include "tests/unit/recording/random_value.h"
+#include "core/schema/idl_word.h"
+#include "history/recording/cdr.h"
+#include "history/recording/mcap_reader.h"
+#include "history/recording/mcap_writer.h"
+#include "history/recording/omg_idl.h"
+#include "tests/unit/history/recording/random_value.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 
 #include <filesystem>
 
-#include "dds/setup.h"
-#include "keys/plant_keys.h"
-#include "mirror/frames/plane_topics.h"
+#include "core/keys/plant_keys.h"
+#include "network/dds/setup.h"
+#include "network/mirror/frames/plane_topics.h"
 #include "tests/integration/mirror/boards.h"
 
 namespace indurop::test {

@@ -2,7 +2,7 @@
 # The service: what systemd finds wrong with it, and that it has the two rights it needs and no others.
 # Usage: unit_test.sh SOURCE_DIR PROGRAM_DIR
 set -eu
-unit=$1/packaging/systemd/indurop-agent@.service.in
+unit=$1/cmake/packaging/systemd/indurop-agent@.service.in
 fail() { echo "$unit: $1" >&2; exit 1; }
 
 for key in CapabilityBoundingSet AmbientCapabilities; do

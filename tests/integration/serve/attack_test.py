@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """indurop-serve as somebody meets it who means harm: raw sockets, real certificates of a plant. What may be asked is taken
-from serve/openapi.json, so a path that is added is tried by everybody, too. attack_test.py PROGRAMS FAKE_NODE [TEST...]"""
+from tools/serve/openapi.json, so a path that is added is tried by everybody, too. attack_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
 import base64
 import contextlib
@@ -20,7 +20,7 @@ from websocket import CLOSE, PING, TEXT, Closed, WebSocket
 
 API = "/api/v1"
 READ_TOKEN = "a-token-that-only-reads-0123456789"
-DESCRIPTION = pathlib.Path(__file__).resolve().parents[3] / "serve" / "openapi.json"
+DESCRIPTION = pathlib.Path(__file__).resolve().parents[3] / "tools" / "serve" / "openapi.json"
 PROTOCOLS = ("indurop.v1", "foxglove.websocket.v1", "foxglove.sdk.v1")
 
 
@@ -147,7 +147,7 @@ def test_who_may_what(setting):
                     server = server_for(setting, loopback, write)
                 for kind, what, request in everything():
                     if wrong and what not in ("page", "indurop.v1", "get /api/v1/status", "post /api/v1/boards/board/set"):
-                        continue  # tests/unit/serve asks for all of them
+                        continue  # tests/unit/tools/serve asks for all of them
                     status = ask(server.port, request(*headers), certificate=certificate, tls=not loopback)
                     expected = allowed(kind, loopback, write, reads, writes, wrong)
                     right = status in expected if expected is not True else status not in (0, 401, 403, 421)

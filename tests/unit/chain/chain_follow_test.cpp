@@ -2,7 +2,7 @@
 // Values followed through random plants in virtual time, compared with values that carry where they come from: never
 // another run than the right one, and all of them if values change in every run.
 
-#include "explain/chain_follow.h"
+#include "history/explain/chain_follow.h"
 
 #include <map>
 #include <string>

@@ -10,7 +10,7 @@
 #include <random>
 #include <thread>
 
-#include "schema/elf.h"
+#include "core/schema/elf.h"
 
 namespace indurop::config {
 namespace {

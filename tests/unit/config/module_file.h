@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "schema/elf.h"
-#include "schema/schema.h"
+#include "core/schema/elf.h"
+#include "core/schema/schema.h"
 
 namespace indurop::config {
 

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "base/program_folder.h"
+#include "core/base/program_folder.h"
 #include "module_file.h"
 
 namespace indurop::config {

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/xml.h"
 #include "configuration.h"
+#include "core/base/xml.h"
 
 namespace indurop::config {
 namespace {

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "core/keys/digest.h"
 #include "deploy/agent/agent_state.h"
 #include "deploy/disk/state_check.h"
-#include "keys/digest.h"
 
 namespace indurop::deploy {
 namespace {

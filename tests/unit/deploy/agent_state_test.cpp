@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "keys/digest.h"
+#include "core/keys/digest.h"
 
 namespace indurop::deploy {
 namespace {

@@ -10,10 +10,10 @@
 #include <csignal>
 #include <fstream>
 
+#include "store/vars/retain.h"
+#include "store/vars/store.h"
 #include "tests/support/wait_until.h"
-#include "tests/unit/vars/test_schema.h"
-#include "vars/retain.h"
-#include "vars/store.h"
+#include "tests/unit/store/vars/test_schema.h"
 
 namespace indurop::deploy {
 namespace {

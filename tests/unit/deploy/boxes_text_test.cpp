@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "recorder/boxes.h"
+#include "history/recorder/boxes.h"
 
 namespace indurop::deploy {
 namespace {

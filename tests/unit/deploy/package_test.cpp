@@ -8,7 +8,7 @@
 
 #include <fstream>
 
-#include "keys/digest.h"
+#include "core/keys/digest.h"
 
 namespace indurop::deploy {
 namespace {

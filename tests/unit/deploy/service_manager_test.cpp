@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/descriptor.h"
+#include "core/base/descriptor.h"
 
 namespace indurop::deploy {
 namespace {

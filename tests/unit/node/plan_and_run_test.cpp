@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "config/check/check.h"
-#include "node/setup.h"
+#include "node/run/setup.h"
 #include "scheduler/engine.h"
 #include "tests/unit/scheduler/fixture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/plant_script.h"
+#include "node/simulate/plant_script.h"
 
 #include <gtest/gtest.h>
 

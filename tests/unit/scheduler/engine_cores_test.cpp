@@ -6,9 +6,9 @@
 #include <atomic>
 #include <thread>
 
+#include "core/rt/clock.h"
+#include "core/rt/thread.h"
 #include "fixture.h"
-#include "rt/clock.h"
-#include "rt/thread.h"
 
 namespace indurop::scheduler {
 namespace {

@@ -14,8 +14,8 @@
 #include <string_view>
 #include <thread>
 
+#include "core/rt/clock.h"
 #include "fixture.h"
-#include "rt/clock.h"
 
 namespace indurop::scheduler {
 namespace {

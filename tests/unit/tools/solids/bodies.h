@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "robot/geometry.h"
+#include "control/robot/kinematics/geometry.h"
 #include "tools/solids/mesh.h"
 
 namespace indurop::solids {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "robot/urdf.h"
+#include "control/robot/files/urdf.h"
 #include "tests/unit/tools/solids/bodies.h"
 #include "tools/solids/fit.h"
 

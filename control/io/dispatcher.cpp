@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/io/dispatcher.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "config/xml/io_reader.h"
+
+namespace indurop::io {
+
+Dispatcher::Made Dispatcher::make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase) {
+  config::ReadIo read = config::read_io_config(file);
+  const auto bound = config::bind_io(read.config, schema, read.diagnostics);
+  Made made{nullptr, std::move(read.diagnostics)};
+  if (base::has_error(made.diagnostics)) {
+    return made;
+  }
+  std::unique_ptr<Dispatcher> dispatcher(new Dispatcher);  // NOLINT: the constructor is private
+  for (const config::BoundDevice& device : bound) {
+    std::vector<base::Diagnostic> wrong = dispatcher->add(device, phase, file);
+    std::move(wrong.begin(), wrong.end(), std::back_inserter(made.diagnostics));
+  }
+  if (!base::has_error(made.diagnostics)) {
+    made.dispatcher = std::move(dispatcher);
+  }
+  return made;
+}
+
+Dispatcher::~Dispatcher() {
+  stop();
+}
+
+std::optional<Dispatcher::Report> Dispatcher::report_to(const std::optional<schema::Place>& variable) {
+  if (!variable) {
+    return std::nullopt;
+  }
+  return Report{variables_.add_write(*variable), variable->type.base};
+}
+
+std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, Phase phase,
+                                              const std::filesystem::path& file) {
+  std::vector<config::BoundPoint> inputs;
+  std::vector<config::BoundPoint> outputs;
+  std::vector<config::IoPoint> input_points;
+  std::vector<config::IoPoint> output_points;
+  for (const config::BoundPoint& b : bound.points) {
+    if (phase == (b.point.output ? Phase::Inputs : Phase::Outputs)) {
+      continue;  // belongs to the other module
+    }
+    (b.point.output ? outputs : inputs).push_back(b);
+    (b.point.output ? output_points : input_points).push_back(b.point);
+  }
+  if (inputs.empty() && outputs.empty()) {
+    return {};
+  }
+  const bool shareable = bound.device.driver == config::IoDriver::ModbusTcp;
+  if (!shareable && outputs.size() + inputs.size() != bound.points.size()) {
+    return {{base::Diagnostic::Severity::Error, file.string(), bound.device.place,
+             fmt::format("the inputs and outputs of {} device {} cannot be split among two modules; give the module "
+                         "that runs it a file of its own, without phase",
+                         config::name_of(bound.device.driver), bound.device.name)}};
+  }
+  auto driver = make_driver(bound.device, output_points, input_points);
+  if (!driver) {
+    return std::move(driver).error();
+  }
+  Line& line = lines_.emplace_back();
+  line.device = bound.device;
+  line.driver = std::move(driver).value();
+  for (const config::BoundPoint& b : inputs) {
+    line.to.push_back(variables_.add_write(b.variable));
+    line.input_qualities.push_back(report_to(b.quality));
+  }
+  for (const config::BoundPoint& b : outputs) {
+    line.from.push_back(variables_.add_read(b.variable));
+    line.output_qualities.push_back(report_to(b.quality));
+  }
+  // If two modules share a device, the one with the inputs reports its quality.
+  if (phase != Phase::Outputs || output_points.size() == bound.points.size()) {
+    line.quality = report_to(bound.quality);
+    line.errors = report_to(bound.errors);
+  }
+  if (line.driver->in_tick()) {
+    line.in_tick.emplace(inputs, outputs);
+    line.outputs.resize(outputs.size());
+  } else {
+    line.thread = std::make_unique<ExchangeThread>(line.device, *line.driver, DeviceImage(inputs, outputs));
+  }
+  return {};
+}
+
+Status Dispatcher::start(std::uint32_t module) {
+  variables_.bind();
+  for (const Line& line : lines_) {
+    if (line.thread == nullptr) {
+      continue;
+    }
+    if (const Status status = line.thread->start(module); !status) {
+      stop();
+      return status;
+    }
+  }
+  return {};
+}
+
+void Dispatcher::stop() {
+  for (const Line& line : lines_) {
+    if (line.thread != nullptr) {
+      line.thread->stop();
+    }
+  }
+  variables_.unbind();
+}
+
+void Dispatcher::take(Line& line, OutputImage& into) noexcept {
+  for (std::size_t i = 0; i < line.from.size(); ++i) {
+    into[i] = variables_.read(line.from[i]);
+  }
+}
+
+void Dispatcher::tell(const std::optional<Report>& to, Quality quality) noexcept {
+  if (!to) {
+    return;
+  }
+  const bool is_bool = to->base == schema::Base::Bool;
+  std::uint64_t bits = 0;
+  (void)to_variable(to->base, is_bool ? quality == Quality::Good : static_cast<int>(quality), bits);
+  variables_.set(to->part, bits);
+}
+
+void Dispatcher::give(const Line& line, const InputImage& image) noexcept {
+  for (std::size_t i = 0; i < line.to.size(); ++i) {
+    if (image.inputs[i].is_set) {
+      variables_.set(line.to[i], image.inputs[i].bits);
+    }
+    tell(line.input_qualities[i], image.inputs[i].quality);
+  }
+  for (std::size_t i = 0; i < line.from.size(); ++i) {
+    tell(line.output_qualities[i], image.outputs[i]);
+  }
+  tell(line.quality, image.device);
+  if (line.errors) {
+    std::uint64_t bits = 0;
+    (void)to_variable(line.errors->base, static_cast<Number>(image.errors), bits);
+    variables_.set(line.errors->part, bits);
+  }
+}
+
+void Dispatcher::run(std::chrono::nanoseconds elapsed) noexcept {
+  for (Line& line : lines_) {
+    if (line.thread != nullptr) {
+      take(line, line.thread->next_outputs());
+      line.thread->send();
+      give(line, line.thread->receive());
+    } else {
+      take(line, line.outputs);
+      (void)line.in_tick->exchange(*line.driver, line.outputs, DeviceImage::Outputs::Fresh, elapsed);
+      give(line, line.in_tick->current());
+    }
+  }
+  variables_.commit();
+}
+
+}  // namespace indurop::io

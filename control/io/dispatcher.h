@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Connects an ioconfig.xml with the runs of a module: variables, images, devices. The process image is copied in run()
+// only, once per tick.
+
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/check/io_binding.h"
+#include "control/io/device_image.h"
+#include "control/io/exchange_thread.h"
+#include "control/io/variables.h"
+
+namespace indurop::io {
+
+// The points that one run copies: two modules with the same file can split them.
+enum class Phase { Both, Inputs, Outputs };
+
+class Dispatcher {
+ public:
+  struct Made;
+  // `schema`: the node's variables. Not real-time safe.
+  static Made make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase);
+  Dispatcher(const Dispatcher&) = delete;
+  Dispatcher& operator=(const Dispatcher&) = delete;
+  ~Dispatcher();
+
+  // Binds the variables and starts the threads of devices that need one; their messages are those of module `module`.
+  // Not real-time safe. Errors: NoSpace, System.
+  Status start(std::uint32_t module);
+  // Reads the outputs from their variables, exchanges with devices that work in the tick, and writes the inputs to
+  // their variables. Real-time safe. `elapsed`: time since the last run.
+  void run(std::chrono::nanoseconds elapsed) noexcept;
+  // Not real-time safe.
+  void stop();
+
+ private:
+  // A variable for the quality or error count of a point or a device.
+  struct Report {
+    std::size_t part;  // index in variables_
+    schema::Base base;
+  };
+  // One device with the variables of its points, as indices in `variables_`.
+  struct Line {
+    config::IoDevice device;
+    std::unique_ptr<Driver> driver;
+    std::optional<DeviceImage> in_tick;
+    std::unique_ptr<ExchangeThread> thread;  // for a device outside the tick
+    OutputImage outputs;                     // for a device in the tick
+    std::vector<std::size_t> from;           // variables of the outputs
+    std::vector<std::size_t> to;             // variables of the inputs
+    std::vector<std::optional<Report>> input_qualities;
+    std::vector<std::optional<Report>> output_qualities;
+    std::optional<Report> quality;
+    std::optional<Report> errors;
+  };
+  Dispatcher() = default;
+  // Returns the errors of the device.
+  std::vector<base::Diagnostic> add(const config::BoundDevice& bound, Phase phase, const std::filesystem::path& file);
+  std::optional<Report> report_to(const std::optional<schema::Place>& variable);
+  void take(Line& line, OutputImage& into) noexcept;
+  void give(const Line& line, const InputImage& image) noexcept;
+  void tell(const std::optional<Report>& to, Quality quality) noexcept;
+
+  Variables variables_;
+  std::deque<Line> lines_;
+};
+
+struct Dispatcher::Made {
+  std::unique_ptr<Dispatcher> dispatcher;     // null if the file cannot be used
+  std::vector<base::Diagnostic> diagnostics;  // all errors, warnings and notes
+};
+
+}  // namespace indurop::io

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only place with a list of all drivers.
+
+#include "control/io/driver.h"
+
+#include "control/io/cia402_driver.h"
+#include "control/io/csv_driver.h"
+#include "control/io/modbus_driver.h"
+#include "control/io/modbus_server.h"
+
+namespace indurop::io {
+
+Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const config::IoDevice& device,
+                                                                           std::span<const config::IoPoint> outputs,
+                                                                           std::span<const config::IoPoint> inputs) {
+  switch (device.driver) {
+    case config::IoDriver::ModbusTcp:
+    case config::IoDriver::ModbusRtu:
+      return std::unique_ptr<Driver>(std::make_unique<ModbusDriver>(device, outputs, inputs));
+    case config::IoDriver::ModbusServer:
+      return std::unique_ptr<Driver>(std::make_unique<ModbusServer>(device, outputs, inputs));
+    case config::IoDriver::Cia402:
+      return std::unique_ptr<Driver>(std::make_unique<Cia402Driver>(device, outputs, inputs));
+    case config::IoDriver::Csv:
+      break;
+  }
+  auto recorded = CsvDriver::make(device, inputs);
+  if (!recorded) {
+    return std::move(recorded).error();
+  }
+  return std::unique_ptr<Driver>(std::move(recorded).value());
+}
+
+}  // namespace indurop::io

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interface of I/O dispatch to one kind of field device. A driver knows its device and numbers; it knows nothing of
+// shared variables, scaling, threads or XML. docs/io.md shows how to add another fieldbus.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "config/model/io_config.h"
+#include "control/io/sample.h"
+#include "core/base/diagnostic.h"
+
+namespace indurop::io {
+
+class Driver {
+ public:
+  Driver() = default;
+  Driver(const Driver&) = delete;
+  Driver& operator=(const Driver&) = delete;
+  virtual ~Driver() = default;
+
+  // Returns true if exchange() is real-time safe and depends on its arguments alone; the tick itself then calls it.
+  // false: it may wait for a device and is called by a thread of the device's own.
+  [[nodiscard]] virtual bool in_tick() const noexcept = 0;
+
+  // Makes the device ready: opens the port, connects. Returns false if that fails: problem() returns the reason, and
+  // open() is called again later.
+  virtual bool open() = 0;
+
+  // Sends the outputs and reads the inputs, in the order of the points of their direction. `elapsed` is the time since
+  // the last exchange, as the schedule counts it. Outputs whose quality is not Good must not be sent. The driver sets
+  // the quality of each input and of each output it had to send, and does not change the value of an input that is not
+  // Good. After Lost, close() and open() are called next.
+  enum class Outcome { Good, Partly, Lost };  // unless Good, problem() returns the reason
+  virtual Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) = 0;
+
+  virtual void close() noexcept = 0;
+
+  [[nodiscard]] virtual std::string problem() const = 0;
+};
+
+// Makes the driver for a device with these points. Errors: why the configuration cannot work, for example a missing
+// file. Not real-time safe.
+Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const config::IoDevice& device,
+                                                                           std::span<const config::IoPoint> outputs,
+                                                                           std::span<const config::IoPoint> inputs);
+
+}  // namespace indurop::io

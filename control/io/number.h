@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Converts a number to a type that may be too small for it: gives the nearest value and whether the number fitted.
+// Real-time safe.
+
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+#include "control/io/sample.h"
+
+namespace indurop::io {
+
+// Rounds to nearest, ties to even. Returns false if the number is out of range: `into` is the nearest limit; NaN leaves
+// it unchanged.
+template <std::integral T>
+bool to_whole(Number value, T& into) noexcept {
+  if (std::isnan(value)) {
+    return false;
+  }
+  const Number rounded = std::nearbyint(value);
+  if (rounded < static_cast<Number>(std::numeric_limits<T>::min())) {
+    into = std::numeric_limits<T>::min();
+    return false;
+  }
+  if (rounded > static_cast<Number>(std::numeric_limits<T>::max())) {
+    into = std::numeric_limits<T>::max();
+    return false;
+  }
+  into = static_cast<T>(rounded);
+  return true;
+}
+
+// Returns false for a finite number out of range: `into` is the largest value of the type, with the number's sign.
+template <std::floating_point T>
+bool to_real(Number value, T& into) noexcept {
+  constexpr Number kMost = std::numeric_limits<T>::max();
+  if (std::isfinite(value) && std::fabs(value) > kMost) {
+    into = static_cast<T>(std::copysign(kMost, value));
+    return false;
+  }
+  into = static_cast<T>(value);
+  return true;
+}
+
+}  // namespace indurop::io

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layout of a network: positions of its symbols and lines, in characters and lines. Text, SVG and the running view
+// are drawn from it. The layout is the compiler's own, because files of some editors have no places.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "control/plc/draw/shape.h"
+#include "control/plc/network/sheet.h"
+
+namespace indurop::plc::draw {
+
+using network::Body;
+using network::Index;
+using network::Network;
+using network::Order;
+using network::Sheet;
+using network::Source;
+
+struct Symbol {
+  const Element* element = nullptr;  // null: `text`, the value of the last scan fed back to an input
+  std::string text;
+  Shape shape;
+  int x = 0;
+  int y = 0;
+};
+
+// A straight piece of a line, in halves of characters and lines: the middle of character x is 2 * x + 1. It has power
+// if one of the sources has.
+struct Line {
+  int x1 = 0;
+  int y1 = 0;
+  int x2 = 0;
+  int y2 = 0;
+  int net = 0;  // pieces of one net join where they meet, those of different nets cross
+  std::vector<Source> sources;
+};
+
+struct Picture {
+  int width = 0;   // of the sheet: characters from the left rail (at 0) to the right one (at width - 1)
+  int height = 0;  // lines
+  bool rails = false;
+  std::vector<Symbol> symbols;
+  std::vector<Line> lines;
+};
+
+// Lays out one network. `rails`: a ladder; coils end at the right rail, which is at least `width` away. Requires a
+// network without errors.
+[[nodiscard]] Picture lay_out(const Network& network, const Index& index, const Order& order, bool rails,
+                              int width = 0);
+// Lays out all networks; all ladders are as wide as the widest.
+[[nodiscard]] std::vector<Picture> lay_out(const Sheet& sheet, Body::Language language);
+
+}  // namespace indurop::plc::draw

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/plc/draw/rows.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace indurop::plc::draw {
+namespace {
+
+// Further rounds only move items apart that cannot all be straight.
+constexpr int kRounds = 4;
+constexpr int kMostClashes = 200;
+
+const Item& item_of(const Graph& graph, const End& end) {
+  return graph.items[static_cast<std::size_t>(end.item)];
+}
+
+class Rows {
+ public:
+  explicit Rows(Graph& graph) : graph_(graph) {
+    columns_.resize(static_cast<std::size_t>(graph.columns));
+    for (std::size_t i = 0; i < graph.items.size(); ++i) {
+      columns_[static_cast<std::size_t>(graph.items[i].column)].push_back(i);
+    }
+    for (auto& column : columns_) {
+      std::stable_sort(column.begin(), column.end(),
+                       [&](std::size_t a, std::size_t b) { return graph.items[a].rank < graph.items[b].rank; });
+    }
+    const auto higher = [&](const End& a, const End& b) { return item_of(graph, a).rank < item_of(graph, b).rank; };
+    for (Net& net : graph.nets) {
+      std::stable_sort(net.sources.begin(), net.sources.end(), higher);
+      std::stable_sort(net.targets.begin(), net.targets.end(), higher);
+    }
+    into_.assign(graph.items.size(), nullptr);
+    out_of_.assign(graph.items.size(), nullptr);
+    for (const Net& net : graph.nets) {
+      for (const End& end : net.targets) {
+        const auto i = static_cast<std::size_t>(end.item);
+        into_[i] = into_[i] == nullptr || end.port < port_into(i) ? &net : into_[i];
+      }
+      const auto first = static_cast<std::size_t>(net.sources.front().item);
+      out_of_[first] = out_of_[first] == nullptr ? &net : out_of_[first];
+    }
+  }
+
+  void run() {
+    for (int round = 0; round < kRounds; ++round) {
+      for (const auto& column : columns_) {
+        stack(column, true);
+      }
+      for (auto column = columns_.rbegin(); column != columns_.rend(); ++column) {
+        pull_down(*column);
+      }
+    }
+    settle();
+    int top = std::numeric_limits<int>::max();
+    for (const Item& item : graph_.items) {
+      top = std::min(top, item.symbol.y);
+    }
+    for (Item& item : graph_.items) {
+      item.symbol.y -= top;
+    }
+    for (int i = 0; i < kMostClashes; ++i) {
+      const int clash = find_clash();
+      if (clash < 0) {
+        return;
+      }
+      ++graph_.items[static_cast<std::size_t>(clash)].symbol.y;
+      settle();
+    }
+  }
+
+ private:
+  [[nodiscard]] int port_into(std::size_t i) const {
+    int port = std::numeric_limits<int>::max();
+    for (const End& end : into_[i]->targets) {
+      port = static_cast<std::size_t>(end.item) == i ? std::min(port, end.port) : port;
+    }
+    return port;
+  }
+
+  void stack(const std::vector<std::size_t>& column, bool straight) {
+    int free = 0;
+    for (const std::size_t i : column) {
+      Symbol& symbol = graph_.items[i].symbol;
+      symbol.y = std::max(symbol.y, free);
+      if (straight && into_[i] != nullptr) {
+        const int port = symbol.shape.inputs[static_cast<std::size_t>(port_into(i))];
+        symbol.y = std::max(symbol.y, output_row(graph_, into_[i]->sources.front()) - port);
+      }
+      free = symbol.y + symbol.shape.height;
+    }
+  }
+
+  // Aligns the first of the sources of a net with the first of its targets.
+  void pull_down(const std::vector<std::size_t>& column) {
+    for (const std::size_t i : column) {
+      if (out_of_[i] != nullptr) {
+        Symbol& symbol = graph_.items[i].symbol;
+        const int own = output_row(graph_, out_of_[i]->sources.front()) - symbol.y;
+        symbol.y = std::max(symbol.y, input_row(graph_, out_of_[i]->targets.front()) - own);
+      }
+    }
+    stack(column, false);
+  }
+
+  void settle() {
+    for (const auto& column : columns_) {
+      stack(column, false);
+    }
+  }
+
+  [[nodiscard]] int find_clash() const {
+    int clash = -1;
+    for (int column = 0; column + 1 < graph_.columns && clash < 0; ++column) {
+      (void)assign_tracks(graph_, column, clash);
+    }
+    return clash;
+  }
+
+  Graph& graph_;
+  std::vector<std::vector<std::size_t>> columns_;
+  std::vector<const Net*> into_;    // by item: the net into its first connected input
+  std::vector<const Net*> out_of_;  // by item: the net of which it is the first source
+};
+
+// The lines that a net between two columns touches.
+struct Span {
+  std::size_t net = 0;
+  int top = 0;
+  int bottom = 0;
+  std::vector<int> left;   // lines of its sources
+  std::vector<int> right;  // lines of its targets
+};
+
+std::vector<Span> spans_of(const Graph& graph, int column) {
+  std::vector<Span> spans;
+  for (std::size_t n = 0; n < graph.nets.size(); ++n) {
+    const Net& net = graph.nets[n];
+    if (item_of(graph, net.sources.front()).column != column) {
+      continue;
+    }
+    Span span;
+    span.net = n;
+    for (const End& end : net.sources) {
+      span.left.push_back(output_row(graph, end));
+    }
+    for (const End& end : net.targets) {
+      span.right.push_back(input_row(graph, end));
+    }
+    span.top = std::min(*std::min_element(span.left.begin(), span.left.end()),
+                        *std::min_element(span.right.begin(), span.right.end()));
+    span.bottom = std::max(*std::max_element(span.left.begin(), span.left.end()),
+                           *std::max_element(span.right.begin(), span.right.end()));
+    spans.push_back(std::move(span));
+  }
+  return spans;
+}
+
+// Returns true if a source of `a` and a target of `b` are on one line: the track of a must be left of that of b.
+bool comes_before(const Span& a, const Span& b) {
+  return std::any_of(a.left.begin(), a.left.end(),
+                     [&](int row) { return std::find(b.right.begin(), b.right.end(), row) != b.right.end(); });
+}
+
+}  // namespace
+
+int input_row(const Graph& graph, const End& end) {
+  const Symbol& symbol = item_of(graph, end).symbol;
+  return symbol.y + symbol.shape.inputs[static_cast<std::size_t>(end.port)];
+}
+
+int output_row(const Graph& graph, const End& end) {
+  const Symbol& symbol = item_of(graph, end).symbol;
+  return symbol.y + symbol.shape.outputs[static_cast<std::size_t>(end.port)];
+}
+
+std::vector<int> assign_tracks(const Graph& graph, int column, int& clash) {
+  std::vector<int> tracks(graph.nets.size(), -1);
+  std::vector<Span> open = spans_of(graph, column);
+  open.erase(std::remove_if(open.begin(), open.end(), [](const Span& span) { return span.top == span.bottom; }),
+             open.end());
+  std::vector<Span> done;
+  while (!open.empty()) {
+    const auto next = std::find_if(open.begin(), open.end(), [&](const Span& span) {
+      return std::none_of(open.begin(), open.end(),
+                          [&](const Span& other) { return &other != &span && comes_before(other, span); });
+    });
+    if (next == open.end()) {
+      clash = graph.nets[open.back().net].targets.front().item;
+      return {};
+    }
+    int track = 0;
+    for (const Span& other : done) {
+      if ((other.top <= next->bottom && next->top <= other.bottom) || comes_before(other, *next)) {
+        track = std::max(track, tracks[other.net] + 1);
+      }
+    }
+    tracks[next->net] = track;
+    done.push_back(std::move(*next));
+    open.erase(next);
+  }
+  return tracks;
+}
+
+void assign_rows(Graph& graph) {
+  Rows(graph).run();
+}
+
+}  // namespace indurop::plc::draw

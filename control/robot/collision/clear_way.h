@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks a path of the arm step by step without missing anything between the steps: no body can have moved farther than
+// its axes allow, and two bodies that are farther apart than that did not meet.
+
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "control/robot/collision/body_distance.h"
+#include "control/robot/collision/clearance.h"
+
+namespace indurop::robot {
+
+class ClearWay {
+ public:
+  // `exact`: as exact as FCL can compute, not for the tick; otherwise two bodies may count as touching that only nearly
+  // do.
+  ClearWay(const Clearance& clearance, bool exact);
+
+  enum class Step {
+    Clear,
+    Shorter,  // undecided for the whole step: try a shorter one
+    Touches,  // the bodies of pair() come too near to each other
+    Lost      // the path cannot be continued
+  };
+  // Sets the start of a path. Real-time safe like all functions below, unless it is exact.
+  void begin(const Joints& from, int tool) noexcept;
+  // Exchanges the bodies with those of another one. clearance() has to follow.
+  void swap(ClearWay& other) noexcept;
+  // Continues from the present place of `other`, which checks the same bodies.
+  void take(const ClearWay& other) noexcept;
+  // Checks the step to `to`; `moved` is the distance that the axes travel in it, back and forth. Bodies that are
+  // already too near may not come nearer.
+  Step next(const Joints& to, const Joints& moved) noexcept;
+  // Returns where the last step led to.
+  [[nodiscard]] const Joints& at() const noexcept { return at_; }
+  // Returns the pair that touches, at the start or on the last step; -1: none did.
+  [[nodiscard]] int pair() const noexcept { return pair_; }
+
+ private:
+  // Minimum distance of a pair from touching, at the last step.
+  struct Room {
+    double left = 0;      // m
+    bool counts = false;  // applies to this tool
+    bool inside = false;  // it touches, and may only separate
+  };
+
+  // Returns the distance from touching at one of the two places, in m.
+  [[nodiscard]] double measure(std::size_t pair, const Clearance::Places& places) noexcept;
+  Step look(std::size_t pair, double most, bool& placed, const Joints& to) noexcept;
+  Step come_apart(std::size_t pair, double most) noexcept;
+
+  const Clearance& clearance_;
+  std::unique_ptr<Nearest> nearest_;
+  std::vector<Room> rooms_, next_;
+  Clearance::Places here_, there_;
+  Joints at_ = Joints::Zero();
+  bool here_placed_ = false;
+  int pair_ = -1;
+  double apart_ = 0;  // m, the longest step while bodies touch
+};
+
+// Returns how far axes travel at most on a path of which three places are known, the second in its middle; with twice
+// the allowance that a smooth path needs.
+[[nodiscard]] Joints moved_by(const Joints& from, const Joints& middle, const Joints& to) noexcept;
+
+// Walks along a path from place 0 on, in steps as long as possible.
+class ClearWalk {
+ public:
+  // `widest`: the longest step in which the middle still shows how the path bends.
+  void begin(double length, double widest) noexcept {
+    length_ = length;
+    width_ = widest_ = widest;
+    place_ = 0;
+  }
+  [[nodiscard]] bool done() const noexcept { return !(place_ < length_); }
+  [[nodiscard]] double place() const noexcept { return place_; }
+  // Takes one step, or none if it has to be shorter. `at(place, near, q)`: the axes at a place; false if there are
+  // none.
+  template <class At>
+  ClearWay::Step step(ClearWay& way, const At& at) noexcept {
+    if (width_ < 1e-9 * length_) {
+      return ClearWay::Step::Lost;
+    }
+    const double to = place_ + 1.001 * width_ >= length_ ? length_ : place_ + width_;
+    Joints middle = way.at();
+    if (!at((place_ + to) / 2, way.at(), middle)) {
+      return ClearWay::Step::Lost;
+    }
+    Joints end = middle;
+    if (!at(to, middle, end)) {
+      return ClearWay::Step::Lost;
+    }
+    const ClearWay::Step step = way.next(end, moved_by(way.at(), middle, end));
+    if (step == ClearWay::Step::Clear) {
+      place_ = to;
+      width_ = 2 * width_ < widest_ ? 2 * width_ : widest_;
+    } else {
+      width_ /= 2;
+    }
+    return step;
+  }
+
+  // Takes the whole path, if `steps` steps are enough for it. Otherwise pair() returns what is in the way.
+  template <class At>
+  bool all(ClearWay& way, int steps, const At& at) noexcept {
+    for (; steps > 0 && !done(); --steps) {
+      const ClearWay::Step one = step(way, at);
+      if (one == ClearWay::Step::Touches || one == ClearWay::Step::Lost) {
+        return false;
+      }
+    }
+    return done();
+  }
+
+ private:
+  double length_ = 0, place_ = 0, width_ = 0, widest_ = 0;
+};
+
+}  // namespace indurop::robot

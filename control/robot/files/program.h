@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The content of the job files with everything that is derived from it, ready to replace what a robot has loaded:
+// nothing of it allocates once it exists.
+
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "control/robot/collision/clear_way.h"
+#include "control/robot/files/files.h"
+#include "control/robot/kinematics/tool_set.h"
+
+namespace indurop::robot {
+
+struct Program {
+  Program(const Arm& arm, JobBook read, Clearance made);
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program() = default;
+
+  JobBook book;
+  Clearance clearance;
+  ToolSet tools;
+  // Collision checks of the same bodies: for planning, for the follower, for motions that were not planned, and for
+  // their way to rest.
+  ClearWay planned, followed, unplanned, to_rest;
+};
+
+// Reads the job files again. Returns null, and the reason in `error` (one line, with the number of further errors), if
+// they or the surroundings have errors, or if the arm's description is no longer `urdf`.
+std::unique_ptr<Program> read_program(const FileNames& names, const std::string& urdf, std::string& error);
+
+}  // namespace indurop::robot

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/robot/files/read_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+#include "control/robot/files/check_calls.h"
+#include "control/robot/files/check_splines.h"
+#include "control/robot/files/read_bodies.h"
+#include "control/robot/kinematics/abilities.h"
+#include "control/robot/kinematics/tool_set.h"
+#include "control/robot/kinematics/workspace.h"
+#include "core/base/read_file.h"
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr std::size_t kMostBytes = 4U << 20U;
+
+using Diagnostics = std::vector<base::Diagnostic>;
+
+base::Diagnostic error(std::string file, base::SourcePlace place, std::string text) {
+  return {base::Diagnostic::Severity::Error, std::move(file), place, std::move(text)};
+}
+
+void take_over(Diagnostics&& from, Diagnostics& to) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+Result<std::string, base::Diagnostic> text_of(const std::string& path, const char* what) {
+  auto text = base::read_file(path, kMostBytes);
+  if (text) {
+    return std::move(*text);
+  }
+  using Kind = base::FileProblem::Kind;
+  const base::FileProblem& problem = text.error();
+  return error(path, {1, 1},
+               std::string("this ") + what +
+                   (problem.kind == Kind::TooLarge ? " has more than 4 MiB"
+                    : problem.kind == Kind::System
+                        ? " cannot be read; names begin at the folder of the module.xml"
+                        : " cannot be read: " + problem.text + "; names begin at the folder of the module.xml"));
+}
+
+std::vector<JobFile> read_jobs(const FileNames& names, Diagnostics& errors) {
+  std::vector<JobFile> files;
+  for (const std::string& path : names.jobs) {
+    if (auto text = text_of(path, "job")) {
+      files.push_back({path, std::move(text).value()});
+    } else {
+      errors.push_back(std::move(text).error());
+    }
+  }
+  return files;
+}
+
+// Checks points given as joint angles against the arm.
+Diagnostics check_points(const JobBook& book, const Arm& arm) {
+  Diagnostics errors;
+  for (const Point& point : book.points) {
+    const int axis = point.target.is_pose ? -1 : arm.beyond_limits(point.target.joints);
+    if (axis >= 0) {
+      std::ostringstream text;
+      const Axis& a = arm.axis(axis);
+      const double unit = a.slides() ? 0.001 : kPi / 180;
+      text << "point '" << point.name << "': joint " << axis + 1 << " is at " << point.target.joints[axis] / unit
+           << (a.slides() ? " mm" : " degrees") << ", its limits are " << a.lower / unit << " to " << a.upper / unit;
+      errors.push_back(error(point.file, point.place, text.str()));
+    }
+  }
+  return errors;
+}
+
+// Taught tools and points in frames have no known positions while there are other errors: no messages about them then.
+bool is_known(const Point& point, const JobBook& book, bool placed) {
+  const auto taught = [](const Tool& tool) { return tool.is_taught; };
+  return placed || (point.frame < 0 && std::none_of(book.tools.begin(), book.tools.end(), taught));
+}
+
+Diagnostics check_workspace(const FileNames& names, const JobBook& book, const Arm& arm, bool placed) {
+  const std::vector<double>& corners = names.workspace;
+  bool sane = corners.empty() || corners.size() == 6;
+  for (std::size_t i = 0; sane && i < corners.size(); ++i) {
+    sane = std::isfinite(corners[i]) && corners[i] != corners[(i + 3) % 6];
+  }
+  if (!sane) {
+    return {error("property workspace", {}, "it has to be two opposite corners of a box, x y z x y z in mm")};
+  }
+  Diagnostics errors;
+  const Workspace box = Workspace::of(corners);
+  for (const Point& point : book.points) {
+    const Target& target = point.target;
+    if (!is_known(point, book, placed) || (!target.is_pose && book.tools.size() > 1)) {
+      continue;  // the tip position depends on the tool
+    }
+    const Vec3 place = target.is_pose ? target.pose.position : arm.forward(target.joints).position;
+    if (box.outside(place) > 0) {
+      std::ostringstream text;
+      text << "point '" << point.name << "': the tool is at " << (1000 * place).transpose()
+           << " mm, outside of the workspace (" << box.text() << ")";
+      errors.push_back(error(point.file, point.place, text.str()));
+    }
+  }
+  return errors;
+}
+
+std::string ways_of(const Solutions& found) {
+  std::string ways;
+  for (int i = 0; i < found.count; ++i) {
+    const std::string one = std::to_string(found.list[static_cast<std::size_t>(i)].posture);
+    ways += ways.find(one) != std::string::npos ? "" : (ways.empty() ? "" : ", ") + one;
+  }
+  return ways;
+}
+
+ArmShape shape_of(const Arm& arm) {
+  ArmShape shape{arm.count(), {}};
+  for (int i = 0; i < arm.count(); ++i) {
+    shape.slides[static_cast<std::size_t>(i)] = arm.axis(i).slides();
+  }
+  return shape;
+}
+
+// Returns "RPY 180 0 12.5", the reachable orientation closest to that of a pose, if only the orientation prevents it;
+// else nothing.
+std::string nearest_turn(const Arm& arm, const Inverse& inverse, const Pose& pose) {
+  const Solutions found = inverse.search(pose, Joints::Zero(), {64, 64, HUGE_VAL, 0});
+  double least = HUGE_VAL;
+  std::ostringstream text;
+  for (int i = 0; i < found.count; ++i) {
+    const Quat turn = arm.forward(found.list[static_cast<std::size_t>(i)].q).orientation;
+    const double away = rotation_between(turn, pose.orientation).norm();
+    if (away < least - 1e-6) {
+      const Vec3 rpy = to_rpy(turn);
+      least = away;
+      text.str("");
+      text << std::fixed << std::setprecision(2) << "RPY " << degrees(rpy[0]) << " " << degrees(rpy[1]) << " "
+           << degrees(rpy[2]);
+    }
+  }
+  return text.str();
+}
+
+std::string out_of_reach(const Arm& arm, const Inverse& inverse, const Target& target, Reach reach) {
+  const std::string turn = arm.count() < 6 ? nearest_turn(arm, inverse, target.pose) : "";
+  if (!turn.empty()) {
+    return "an arm of " + std::to_string(arm.count()) + " axes cannot hold its tool like that there; the nearest is " +
+           turn;
+  }
+  return std::string("the arm cannot hold its tool like that there") +
+         (reach == Reach::JointLimit ? " within the limits of its joints" : "") +
+         "; give it a nearer position or another orientation";
+}
+
+// A point may give the value of an axis only if its pose leaves that axis undetermined.
+std::string wrong_axis(const Arm& arm, const Target& target) {
+  const Held more = target.held & ~redundant_axes(arm);
+  for (unsigned i = 0; i < kAxes; ++i) {
+    if ((more >> i & 1U) != 0) {
+      return "AXIS " + std::to_string(i + 1) + " follows from the pose; leave it out, or use JOINT";
+    }
+  }
+  return "";
+}
+
+std::string wrong_pose(const Arm& arm, const Inverse& inverse, const Target& target, const Solutions& found) {
+  if (std::string text = wrong_axis(arm, target); !text.empty()) {
+    return text;
+  }
+  if (found.count == 0) {
+    return out_of_reach(arm, inverse, target, found.reach);
+  }
+  if (target.posture && !inverse.has_postures()) {
+    return "this arm has no postures; leave POSTURE out, or use JOINT";
+  }
+  if (target.posture && found.nearest(Joints::Zero(), target.posture) == nullptr) {
+    return "not possible in posture " + std::to_string(*target.posture) + ", but in " + ways_of(found);
+  }
+  return "";
+}
+
+// The tool at a point is known only when the job runs; points that no tool reaches are reported now. The posture of an
+// arm without a closed form at poses has to be searched for, which is done here, before anything moves: a pose without
+// solution is an error there.
+Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
+  Diagnostics errors;
+  const ToolSet tools(arm, book.tips());
+  for (Point& point : book.points) {
+    const Target& target = point.target;
+    if (!target.is_pose || !is_known(point, book, placed)) {
+      continue;
+    }
+    const bool closed = tools.inverse(0).closed_form() && target.held == 0;
+    Search how;
+    how.held = target.held;
+    std::string wrong;
+    bool possible = false;
+    for (int i = 0; i < tools.count(); ++i) {
+      const Inverse& inverse = tools.inverse(i);
+      const auto found = std::make_shared<const Solutions>(closed ? inverse.all(target.pose, target.joints)
+                                                                  : inverse.search(target.pose, target.joints, how));
+      const std::string text = wrong_pose(tools.arm(i), inverse, target, *found);
+      wrong = i == 0 ? text : wrong;
+      possible = possible || text.empty();
+      if (!closed) {
+        book.known.push_back(found);
+        point.known.push_back(found.get());
+      }
+    }
+    if (!possible) {
+      errors.push_back(error(point.file, point.place, "point '" + point.name + "': " + wrong));
+      errors.back().severity = closed ? base::Diagnostic::Severity::Warning : base::Diagnostic::Severity::Error;
+    }
+  }
+  return errors;
+}
+
+// Speeds above the limit are no danger: lines then run at full speed.
+Diagnostics check_speeds(const JobBook& book, double most) {
+  Diagnostics warnings;
+  for (const Job& job : book.jobs) {
+    for (const Step& step : job.steps) {
+      if (const double asked = 1000 * step.value; step.op == Op::Speed && step.index == 1 && most > 0 && asked > most) {
+        std::ostringstream text;
+        text << "SPEED " << asked << " mm/s is beyond full speed, " << most
+             << " mm/s (property tool_speed): lines run at that";
+        warnings.push_back(error(job.file, {static_cast<int>(step.line), 1}, text.str()));
+        warnings.back().severity = base::Diagnostic::Severity::Warning;
+      }
+    }
+  }
+  return warnings;
+}
+
+// Loads affect torques only.
+Diagnostics check_loads(const JobBook& book, const Dynamics& dynamics) {
+  Diagnostics warnings;
+  const auto warn = [&](const std::string& file, base::SourcePlace place, const std::string& what) {
+    warnings.push_back(error(file, place, what + " counts for nothing: the URDF does not say what the arm weighs"));
+    warnings.back().severity = base::Diagnostic::Severity::Warning;
+  };
+  if (dynamics.known()) {
+    return warnings;
+  }
+  for (const Tool& tool : book.tools) {
+    tool.body.mass > 0 ? warn(tool.file, tool.place, "MASS") : void();
+  }
+  for (const Job& job : book.jobs) {
+    for (const Step& step : job.steps) {
+      step.op == Op::Load&& step.index > 0 ? warn(job.file, {static_cast<int>(step.line), 1}, "LOAD") : void();
+    }
+  }
+  return warnings;
+}
+
+void sort_out(Diagnostics said, ReadFiles& read) {
+  for (base::Diagnostic& one : said) {
+    (one.severity == base::Diagnostic::Severity::Error ? read.errors : read.notes).push_back(std::move(one));
+  }
+}
+
+}  // namespace
+
+ReadFiles read_files(const FileNames& names) {
+  ReadFiles read;
+  if (auto text = text_of(names.urdf, "robot description (property urdf)"); !text) {
+    read.errors.push_back(std::move(text).error());
+  } else if (auto arm = arm_from_urdf(names.urdf, *text)) {
+    read.model = std::move(arm).value();
+    read.notes = read.model->notes;
+    read.urdf = std::move(*text);
+  } else {
+    take_over(std::move(arm).error(), read.errors);
+  }
+  ReadJobs jobs = parse_jobs(read_jobs(names, read.errors), read.model ? shape_of(read.model->arm) : ArmShape{});
+  take_over(std::move(jobs.diagnostics), read.errors);
+  read.book = std::move(jobs.book);
+  if (read.model) {
+    const Inverse inverse(read.model->arm);
+    if (read.errors.empty()) {
+      sort_out(place_tools(read.book, read.model->arm), read);
+      take_over(place_frames(read.book, read.model->arm), read.errors);
+    }
+    const bool placed = read.errors.empty();
+    take_over(check_points(read.book, read.model->arm), read.errors);
+    sort_out(solve_points(read.book, read.model->arm, placed), read);
+    sort_out(check_calls(read.book), read);
+    sort_out(check_loads(read.book, read.model->dynamics), read);
+    sort_out(check_speeds(read.book, names.tool_speed), read);
+    if (read.errors.empty()) {
+      ReadBodies bodies = read_bodies(*read.model, read.book, names.urdf, names.ignored, names.clearance);
+      read.clearance = std::move(bodies.clearance);
+      sort_out(std::move(bodies.found), read);
+      sort_out(check_clear(read.book, read.model->arm, read.clearance), read);
+    }
+    take_over(check_workspace(names, read.book, read.model->arm, placed), read.errors);
+    if (read.book.tools.size() == 1) {
+      take_over(check_splines(read.book, inverse), read.errors);
+    }
+    read.kind = abilities(read.model->arm, inverse);
+  }
+  return read;
+}
+
+Findings check_module(FileNames names, const PropertyText& property) {
+  Settings settings;
+  Findings found;
+  const auto add = [&](std::vector<WrongSetting>&& wrong) {
+    std::move(wrong.begin(), wrong.end(), std::back_inserter(found.properties));
+  };
+  add(take_properties(property, settings));
+  add(check_settings(settings));
+  names.workspace = settings.workspace;
+  names.tool_speed = settings.tool_speed;
+  names.clearance = settings.clearance;
+  names.ignored = settings.ignore_collisions;
+  ReadFiles read = read_files(names);
+  if (read.model) {
+    add(check_axes(settings, read.model->arm, read.model->dynamics.known()));
+    take_over(check_room(read.model->arm, read.clearance, names.urdf), read.errors);
+  }
+  take_over(std::move(read.notes), read.errors);
+  if (!read.kind.empty()) {
+    read.errors.push_back({base::Diagnostic::Severity::Note, names.urdf, {1, 1}, "the arm: " + read.kind});
+  }
+  found.files = std::move(read.errors);
+  found.variables = std::move(read.book.named);
+  return found;
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jobs in memory: points, and steps with all names resolved, so that running a job needs only numbers.
+
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "control/robot/collision/solid.h"
+#include "control/robot/job/formula.h"
+#include "control/robot/kinematics/body.h"
+#include "control/robot/path/segment.h"
+#include "core/base/diagnostic.h"
+#include "core/base/source_place.h"
+
+namespace indurop::robot {
+
+enum class Op : std::uint8_t {
+  Move,          // index: point, or kBack; mid: point; value: 1 if a joint motion has to be straight,
+                 // or if more points of a spline follow
+  Speed,         // value: part of full speed, or m/s if index is 1
+  Zone,          // value: m
+  Acceleration,  // value: part of the full accelerations and jerks
+  Tool,          // index: tool
+  Load,          // index: load of the book
+  Set,           // index: signal; formula; pulse
+  SetOnPath,     // as Set, during the motion before it: value: m before its end, after its start if mid is 1;
+                 // timeout above 0: s instead of m
+  Assign,        // index: variable of the job; formula
+  WaitUntil,     // formula; timeout
+  WaitTime,      // value: s
+  Call,          // index: job; formula: its first argument; mid: number of arguments
+  Arm,           // index: job; formula; slot: interrupt of the book
+  Disarm,        // index: job
+  Return,
+  Try,      // index: step after RECOVER; mid: variable that receives the error number
+  EndTry,   // index: step after the whole TRY
+  Recover,  // the first step after RECOVER
+  Goto,     // index: step; loops between this step and that one are left or entered
+  If,       // formula; index: step if true, like Goto
+  Unless,   // formula; index: step if false, after a block
+  Again,    // index: step at the beginning of the block
+  Loop,     // value: number of passes, 0: endless; index: step after its End
+  End       // index: step of its Loop
+};
+
+struct Step {
+  Op op = Op::Move;
+  Move move = Move::Joint;
+  std::uint32_t line = 0;
+  int index = -1;
+  int mid = -1;
+  int formula = -1;
+  int slot = -1;
+  int guard = -1;        // step of the innermost TRY around it
+  bool by_tool = false;  // Move: the offset is along the axes of the tool
+  double value = 0;
+  double timeout = 0;  // s; 0: none
+  double pulse = 0;    // s that the output is on; 0: it is set permanently
+};
+
+// Stands for a point: the place where an interrupt left the path.
+inline constexpr int kBack = -2;
+
+struct Point {
+  std::string name;
+  Target target;
+  std::string file;
+  base::SourcePlace place;
+  int frame = -1;                // frame of the book in which it was given; -1: the base
+  Quat axes = Quat::Identity();  // of that frame
+  // Solutions for each tool, if the point is a pose whose solutions have to be searched for; the book owns them.
+  std::vector<const Solutions*> known{};
+};
+
+// The position of a workpiece or a pallet: given by its pose, or taught by three points.
+struct WorkFrame {
+  std::string name;
+  std::string file;
+  base::SourcePlace place;
+  Pose pose;
+  bool is_taught = false;
+  std::array<int, 3> points{-1, -1, -1};  // origin, a point on x, a point on the side of y
+  int tool = 0;                           // tool that touched the points
+};
+
+// A tool: its tip seen from the arm's end, either given or taught by joint points at which the tip touches one place.
+struct Tool {
+  std::string name;
+  std::string file;
+  base::SourcePlace place;
+  Pose tip;
+  std::vector<int> points{};
+  bool is_taught = false;
+  Body body{};  // seen from the arm's end; a mass of 0: unknown
+};
+
+// One line that declares a body. KEEPOUT: a zone that the arm must not enter. BODY: part of a tool, in the frame of the
+// arm's end.
+struct BodyLine {
+  std::string name;  // of the zone or of the tool
+  std::string file;
+  base::SourcePlace place;
+  Solid solid;
+  int frame = -1;  // frame of the book in which it was given; -1: the base
+  int tool = -1;   // tool of the book
+};
+
+struct Job {
+  std::string name;  // name of the file, without folder and extension
+  std::string file;
+  std::vector<Step> steps;
+  std::vector<std::string> variables{};  // its own; parameters first, those without a name hold the limits of FOR
+  std::size_t parameters = 0;
+};
+
+inline constexpr std::size_t kMostVariables = 32;  // per job
+inline constexpr std::size_t kMostInterrupts = 8;  // of all jobs together
+
+// A shared variable that jobs use, and the first place where it is used.
+struct NamedVariable {
+  std::string name;
+  std::string file;
+  base::SourcePlace place;
+};
+
+struct JobBook {
+  std::vector<Point> points;
+  std::vector<WorkFrame> frames;
+  std::vector<Tool> tools;  // the first one is no tool: the arm's end
+  std::vector<Body> loads;  // seen from the arm's end; the first one is no load
+  std::vector<BodyLine> keepouts{}, bodies{};
+  std::vector<Job> jobs;
+  std::vector<std::string> signals;
+  std::vector<NamedVariable> named{};  // the same signals, with their places
+  std::vector<Formula> formulas;
+  // An ON statement: its condition, and the job that it calls when the condition becomes true.
+  struct Interrupt {
+    int formula = -1;
+    int job = -1;
+  };
+  std::vector<Interrupt> interrupts{};
+
+  // Returns the index of the point P<number>; -1 if there is none.
+  [[nodiscard]] int numbered_point(std::uint32_t number) const noexcept;
+  [[nodiscard]] Target target(int point, int tool) const noexcept;
+  // The tips of all tools.
+  [[nodiscard]] std::vector<Pose> tips() const;
+  std::vector<int> numbered;                            // by number, filled by parse_jobs
+  std::vector<std::shared_ptr<const Solutions>> known;  // owns what Point::known points to
+};
+
+struct JobFile {
+  std::string path;  // as shown in messages
+  std::string text;
+};
+
+struct ReadJobs {
+  JobBook book;                               // valid only if there are no diagnostics
+  std::vector<base::Diagnostic> diagnostics;  // errors, at most 100
+};
+// The properties of the arm that the parser needs.
+struct ArmShape {
+  int axes = 6;
+  std::array<bool, kAxes> slides{};
+};
+// Parses all files together: points and jobs may be used before they are declared and in other files. Not real-time
+// safe.
+ReadJobs parse_jobs(const std::vector<JobFile>& files, const ArmShape& shape = {});
+
+class Arm;
+
+// Computes the tips of taught tools; a note states for each of them how well its points agree.
+std::vector<base::Diagnostic> place_tools(JobBook& book, const Arm& arm);
+// Computes frames from their points, and points from their frames. The parser itself does not know the arm.
+std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm);
+
+}  // namespace indurop::robot

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/robot/job/point_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace indurop::robot {
+namespace {
+
+// Formats as "12.5", "-0.001", never "-0".
+std::string number(double value) {
+  const double rounded = std::round(value * 1000) / 1000;
+  std::array<char, 64> text{};
+  const auto [end, error] =
+      std::to_chars(text.data(), text.data() + text.size(), rounded == 0 ? 0.0 : rounded, std::chars_format::fixed);
+  return error == std::errc{} ? std::string(text.data(), end) : "?";
+}
+
+// Offset at which a line's comment begins, including the spaces before it; the end of the line if there is none.
+std::size_t comment_of(std::string_view line) {
+  std::size_t at = std::min(line.find('#'), line.find("//"));
+  at = std::min(at, line.size());
+  while (at > 0 && (line[at - 1] == ' ' || line[at - 1] == '\t' || line[at - 1] == '\r')) {
+    --at;
+  }
+  return at;
+}
+
+}  // namespace
+
+std::string joint_text(const Arm& arm, const Joints& joints) {
+  std::string out = "JOINT";
+  for (int i = 0; i < arm.count(); ++i) {
+    out += ' ' + number(arm.axis(i).slides() ? joints[i] * 1000 : degrees(joints[i]));
+  }
+  return out;
+}
+
+std::string pose_text(const Pose& pose) {
+  const Vec3 turn = to_rpy(pose.orientation).unaryExpr([](double a) { return degrees(a); });
+  const Vec3 place = pose.position * 1000;
+  return "POSE " + number(place.x()) + ' ' + number(place.y()) + ' ' + number(place.z()) + " RPY " + number(turn.x()) +
+         ' ' + number(turn.y()) + ' ' + number(turn.z());
+}
+
+std::string place_text(const JobBook& book, const Point& point, const Arm& arm) {
+  if (!point.target.is_pose) {
+    return joint_text(arm, point.target.joints);
+  }
+  if (point.frame < 0) {
+    return pose_text(point.target.pose);
+  }
+  const WorkFrame& frame = book.frames[static_cast<std::size_t>(point.frame)];
+  return pose_text(seen_from(frame.pose, point.target.pose)) + " IN " + frame.name;
+}
+
+Pose seen_from(const Pose& frame, const Pose& pose) {
+  const Quat back = frame.orientation.conjugate();
+  return {back * (pose.position - frame.position), back * pose.orientation};
+}
+
+WithPoint put_point(std::string_view text, int line, std::string_view name, std::string_view place) {
+  std::string statement = "POINT ";
+  statement.append(name).append(" = ").append(place);
+  if (line == 0) {
+    WithPoint out{std::string(text), 0};
+    out.text += !text.empty() && text.back() != '\n' ? "\n" : "";
+    out.text += statement + '\n';
+    out.line = static_cast<int>(std::count(out.text.begin(), out.text.end(), '\n'));
+    return out;
+  }
+  std::size_t begin = 0;
+  for (int at = 1; at < line && begin < text.size(); ++at) {
+    begin = std::min(text.find('\n', begin), text.size() - 1) + 1;
+  }
+  const std::string_view old = text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin);
+  const std::size_t indented = std::min(old.find_first_not_of(" \t"), old.size());
+  std::string out(text.substr(0, begin + indented));
+  out += statement;
+  out += text.substr(begin + std::max(comment_of(old), indented));
+  return {std::move(out), line};
+}
+
+}  // namespace indurop::robot

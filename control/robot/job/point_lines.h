@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points as lines of job files: formats them, and inserts them into the text of a file.
+
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "control/robot/job/job.h"
+#include "control/robot/kinematics/arm.h"
+
+namespace indurop::robot {
+
+// Returns "JOINT 10 -20 30.5 0 90 0": the arm's axes in deg (mm if they slide), to a thousandth.
+std::string joint_text(const Arm& arm, const Joints& joints);
+// Returns "POSE 500 -200 350 RPY 180 0 180", in mm and deg, to a thousandth. `pose` is seen from the frame in which it
+// is given.
+std::string pose_text(const Pose& pose);
+// The same as written in the file: in the frame of the point.
+std::string place_text(const JobBook& book, const Point& point, const Arm& arm);
+
+// Transforms `pose` into coordinates of `frame`; both are given in the same frame.
+Pose seen_from(const Pose& frame, const Pose& pose);
+
+struct WithPoint {
+  std::string text;
+  int line = 0;  // where the point is written, from 1
+};
+// Returns the text with "POINT name = place" in line `line`, whose comment stays, or at the end if `line` is 0.
+WithPoint put_point(std::string_view text, int line, std::string_view name, std::string_view place);
+
+}  // namespace indurop::robot

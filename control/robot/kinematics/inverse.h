@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inverse kinematics, from the tool's pose to joint angles: in closed form if the arm has one, else by iteration.
+
+#pragma once
+
+#include "control/robot/kinematics/closed_forms.h"
+#include "control/robot/kinematics/numeric.h"
+
+namespace indurop::robot {
+
+class Inverse {
+ public:
+  explicit Inverse(const Arm& arm);
+
+  struct Result {
+    Reach reach = Reach::OutOfReach;
+    Solution solution;
+  };
+  // The solution nearest to `near`; with `posture` only the solution of that posture (one of eight). For an arm without
+  // a closed form it iterates from `near`, which has to be as close as neighbouring places on a path are. Real-time
+  // safe.
+  [[nodiscard]] Result nearest(const Pose& pose, const Joints& near,
+                               std::optional<std::uint8_t> posture = std::nullopt) const noexcept;
+  // The same, chosen from solutions that were found earlier.
+  [[nodiscard]] Result nearest(const Solutions& known, const Joints& near,
+                               std::optional<std::uint8_t> posture) const noexcept;
+  // All solutions in closed form; only the nearest one for an arm without a closed form. Real-time safe.
+  [[nodiscard]] Solutions all(const Pose& pose, const Joints& near) const noexcept;
+  // All solutions of any arm; takes milliseconds if there is no closed form.
+  [[nodiscard]] Solutions search(const Pose& pose, const Joints& near, const Search& how = {}) const noexcept;
+
+  [[nodiscard]] bool closed_form() const noexcept { return wrist_ || parallel_; }
+  // Returns whether the arm has named postures (different ways to reach the same pose).
+  [[nodiscard]] bool has_postures() const noexcept { return postures_.has_value(); }
+  // Returns `near` with the axes that a pose leaves undetermined set to their values in `from`: along a line they stay
+  // at these values, whatever the place before was.
+  [[nodiscard]] Joints held_as(const Joints& from, Joints near) const noexcept;
+  // Text for the user, such as "spherical wrist, inverse kinematics in closed form".
+  [[nodiscard]] const char* kind() const noexcept;
+
+ private:
+  [[nodiscard]] Solutions solve(const Pose& pose, const Joints& near, Gathered::What what) const noexcept;
+
+  const Arm& arm_;
+  std::optional<SphericalWrist> wrist_;
+  std::optional<ParallelAxes> parallel_;
+  std::optional<Postures> postures_;
+  Held held_;
+};
+
+}  // namespace indurop::robot

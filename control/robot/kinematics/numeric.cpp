@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/robot/kinematics/numeric.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr int kSteps = 100;
+constexpr double kNear = 1e-14;    // metres and radians: iteration continues down to this, since jerk shows the rest
+constexpr double kEnough = 1e-10;  // the same, if another step brings no improvement
+constexpr double kGood = 1e-7;     // the same, for a place on a path
+constexpr double kExact = 1e-9;    // for a solution of the search
+constexpr double kClose = 1e-3;    // worth more steps
+
+using Square = Eigen::Matrix<double, kAxes, kAxes>;
+
+double error_of(const Arm& arm, const Pose& pose, const Joints& q, Twist& twist) noexcept {
+  twist = difference(arm.forward(q), pose);
+  return twist.squaredNorm();
+}
+
+Joints within_limits(const Arm& arm, Joints q) noexcept {
+  for (int i = 0; i < arm.count(); ++i) {
+    const Axis& a = arm.axis(i);
+    q[i] = a.endless ? q[i] : std::clamp(q[i], a.lower, a.upper);
+  }
+  return q;
+}
+
+// A step of half a turn would leave the range in which the linear model is valid.
+Joints shortened(const Joints& change) noexcept {
+  return change * std::min(1.0, 0.5 / std::max(change.lpNorm<Eigen::Infinity>(), 1e-300));
+}
+
+Jacobian moving(const Arm& arm, const Joints& q, Held held) noexcept {
+  Jacobian j = arm.jacobian(q);
+  for (int i = 0; i < arm.count(); ++i) {
+    if ((held >> static_cast<unsigned>(i) & 1U) != 0) {
+      j.col(i).setZero();
+    }
+  }
+  return j;
+}
+
+struct Descent {
+  int steps = kSteps;
+  bool limited = true;  // stays within the limits in every step
+  Held held = 0;
+};
+
+// Damped least squares. Returns the square of the remaining error.
+double descend(const Arm& arm, const Pose& pose, const Descent& how, Joints& q) noexcept {
+  const auto allowed = [&](const Joints& there) { return how.limited ? within_limits(arm, there) : there; };
+  q = allowed(q);
+  Twist twist;
+  double error = error_of(arm, pose, q, twist);
+  double damping = 1e-3;
+  for (int step = 0; step < how.steps && error > kNear * kNear && damping < 1e6; ++step) {
+    const Jacobian j = moving(arm, q, how.held);
+    Square normal = j.transpose() * j;
+    normal.diagonal().array() += damping;
+    const Joints tried = allowed(q + shortened(normal.ldlt().solve(j.transpose() * twist)));
+    Twist left;
+    const double found = error_of(arm, pose, tried, left);
+    if (found < error) {
+      q = tried;
+      error = found;
+      twist = left;
+      damping = std::max(damping / 5, 1e-12);
+    } else if (error < kEnough * kEnough) {
+      break;
+    } else {
+      damping *= 4;
+    }
+  }
+  return error;
+}
+
+// Reaches the position exactly, and among all joint angles for it those with the orientation closest to the requested
+// one. Returns the remaining errors of both, as squares.
+std::pair<double, double> place_first(const Arm& arm, const Pose& pose, Joints& q) noexcept {
+  constexpr int kMost = 40;
+  constexpr double kDamping = 1e-6;
+  constexpr double kStill = 1e-12;
+  Twist twist;
+  for (int step = 0; step < kMost; ++step) {
+    error_of(arm, pose, q, twist);
+    const Jacobian j = arm.jacobian(q);
+    Square turning = j.bottomRows<3>().transpose() * j.bottomRows<3>();
+    turning.diagonal().array() += kDamping;
+    const auto solver = turning.ldlt();
+    const Eigen::Matrix<double, kAxes, 3> across = solver.solve(j.topRows<3>().transpose());
+    const Joints turn = solver.solve(j.bottomRows<3>().transpose() * twist.tail<3>());
+    Mat3 reach = j.topRows<3>() * across;
+    reach.diagonal().array() += 1e-14 * reach.trace() + 1e-14;  // for directions that are missing
+    const Vec3 force = reach.ldlt().solve(twist.head<3>() - j.topRows<3>() * turn);
+    const Joints change = shortened(turn + across * force);
+    q = within_limits(arm, q + change);
+    if (change.squaredNorm() < kStill * kStill) {
+      break;
+    }
+  }
+  error_of(arm, pose, q, twist);
+  return {twist.head<3>().squaredNorm(), twist.tail<3>().squaredNorm()};
+}
+
+// Shifts each angle by the full turns that bring it nearest to `near`; returns false if that is beyond the limits.
+bool turn_back(const Arm& arm, const Joints& near, Joints& q) noexcept {
+  for (int i = 0; i < arm.count(); ++i) {
+    const auto angle = turn_nearest(arm.axis(i), q[i], near[i]);
+    if (!angle) {
+      return false;
+    }
+    q[i] = *angle;
+  }
+  return true;
+}
+
+bool known(const Arm& arm, const Solutions& found, const Joints& q) noexcept {
+  constexpr double kSame = 1e-4;  // rad
+  for (int i = 0; i < found.count; ++i) {
+    const Joints away = found.list[static_cast<std::size_t>(i)].q - q;
+    double most = 0;
+    for (int a = 0; a < arm.count(); ++a) {
+      most = std::max(most, std::abs(arm.axis(a).slides() ? away[a] : std::remainder(away[a], 2 * kPi)));
+    }
+    if (most < kSame) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Iterates from q, which is near to a solution. Returns the square of the remaining error of the orientation; infinite
+// if the position (with six or more axes: the pose) is not reached.
+double missed(const Arm& arm, const Pose& pose, const Search& how, Joints& q) noexcept {
+  if (arm.count() >= 6) {
+    return descend(arm, pose, {kSteps, true, how.held}, q) < kExact * kExact ? 0 : HUGE_VAL;
+  }
+  const auto [place, turn] = place_first(arm, pose, q);
+  return place < kExact * kExact ? turn : HUGE_VAL;
+}
+
+}  // namespace
+
+Held redundant_axes(const Arm& arm) noexcept {
+  Held held = 0;
+  int more = arm.count() - 6;
+  for (int i = 0; i < arm.count() && more > 0; ++i) {
+    if (arm.axis(i).slides()) {
+      held |= 1U << static_cast<unsigned>(i);
+      --more;
+    }
+  }
+  for (int i = 0, turning = 0; i < arm.count() && more > 0; ++i) {
+    turning += arm.axis(i).slides() ? 0 : 1;
+    if (!arm.axis(i).slides() && turning >= 3) {
+      held |= 1U << static_cast<unsigned>(i);
+      --more;
+    }
+  }
+  return held;
+}
+
+NumericSolution solve_numerically(const Arm& arm, const Pose& pose, const Joints& near) noexcept {
+  Joints q = near;
+  double error = 0;
+  if (arm.count() < 6) {
+    error = place_first(arm, pose, q).first;
+  } else {
+    error = descend(arm, pose, {kSteps, true, redundant_axes(arm)}, q);
+  }
+  const bool at_limit = arm.beyond_limits(q, -1e-9) >= 0;
+  const Reach missed = at_limit ? Reach::JointLimit : Reach::OutOfReach;
+  return {error < kGood * kGood ? Reach::Ok : missed, q};
+}
+
+Solutions search_numerically(const Arm& arm, const std::optional<Postures>& postures, const Pose& pose,
+                             const Joints& near, const Search& how) noexcept {
+  constexpr int kFew = 40;  // steps: a start value that leads nowhere shows it early
+  const double close = std::max(kClose, arm.count() < 6 ? 2 * how.turned : 0.0);
+  Solutions found;
+  bool exact = false;  // an exact solution was found; errors caused by a limit are then ignored
+  for (int i = 0; i < how.least || (found.count == 0 && i < how.most); ++i) {
+    Joints q = i == 0 ? near : arm.spread(i);
+    for (int a = 0; a < arm.count(); ++a) {
+      q[a] = (how.held >> static_cast<unsigned>(a) & 1U) != 0 ? near[a] : q[a];
+    }
+    // An iteration that leaves the limits often returns into them a turn later, and one along a limit may lead round
+    // it.
+    if (descend(arm, pose, {kFew, i % 2 == 0, how.held}, q) > close * close) {
+      continue;
+    }
+    if (!turn_back(arm, near, q)) {
+      found.reach = found.count > 0 ? Reach::Ok : Reach::JointLimit;
+      continue;
+    }
+    const double left = missed(arm, pose, how, q);
+    const bool good = left < kExact * kExact;
+    if (!(left < how.turned * how.turned) || (exact && !good) || known(arm, found, q)) {
+      continue;
+    }
+    found.count = good && !exact ? 0 : found.count;
+    exact = good;
+    found.add(arm, q, postures ? postures->at(arm, q) : std::uint8_t{0}, near);
+  }
+  return found;
+}
+
+}  // namespace indurop::robot

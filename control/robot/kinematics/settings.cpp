@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/robot/kinematics/settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "core/base/word_values.h"
+
+namespace indurop::robot {
+
+namespace {
+
+using Wrong = std::vector<WrongSetting>;
+
+struct Number {
+  const char* name;
+  double Settings::*member;
+};
+// Settings that must be above 0.
+constexpr Number kNumbers[] = {
+    {"time_to_speed", &Settings::time_to_speed},
+    {"time_to_acceleration", &Settings::time_to_acceleration},
+    {"tool_speed", &Settings::tool_speed},
+    {"tool_turn_speed", &Settings::tool_turn_speed},
+    {"following_limit", &Settings::following_limit},
+    {"regain_distance", &Settings::regain_distance},
+    {"plan_time", &Settings::plan_time},
+    {"clearance", &Settings::clearance},
+};
+// Settings that need not be above 0.
+constexpr Number kOtherNumbers[] = {
+    {"emergency_factor", &Settings::emergency_factor},
+};
+struct Flag {
+  const char* name;
+  bool Settings::*member;
+};
+constexpr Flag kFlags[] = {{"absolute", &Settings::absolute}, {"plan_in_tick", &Settings::plan_in_tick}};
+struct List {
+  const char* name;
+  std::vector<double> Settings::*member;
+};
+constexpr List kLists[] = {{"acceleration", &Settings::acceleration},
+                           {"jerk", &Settings::jerk},
+                           {"workspace", &Settings::workspace},
+                           {"counts_per_turn", &Settings::counts_per_turn},
+                           {"counts_per_mm", &Settings::counts_per_mm},
+                           {"gear", &Settings::gear},
+                           {"zero", &Settings::zero},
+                           {"rotor_inertia", &Settings::rotor_inertia},
+                           {"rated_torque", &Settings::rated_torque},
+                           {"collision_limit", &Settings::collision_limit}};
+constexpr const char* kCategory = "emergency_category";
+constexpr const char* kIgnored = "ignore_collisions";
+
+// This library stands alone: core/base/text.h is not in it.
+std::string trimmed(const std::string& text) {
+  constexpr const char* kSpaces = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kSpaces);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
+}
+
+std::string quoted(const std::string& text) {
+  return "'" + text + "'";
+}
+
+// Reads a number. take_properties() has trimmed the texts of properties.
+void take_number(const PropertyText& property, const Number& number, Settings& settings, Wrong& wrong) {
+  const std::string text = property(number.name);
+  if (text.empty()) {
+    return;
+  }
+  if (const auto value = base::number_in(text)) {
+    settings.*number.member = *value;
+  } else {
+    wrong.push_back({number.name, quoted(text) + " is no number, write one such as 0.25"});
+  }
+}
+
+void take_list(const PropertyText& property, const List& list, Settings& settings, Wrong& wrong) {
+  std::istringstream words(property(list.name));
+  std::vector<double> values;
+  for (std::string word; words >> word;) {
+    const auto value = base::number_in(word);
+    if (!value) {
+      wrong.push_back({list.name, quoted(word) + " is no number, write numbers with spaces between them"});
+      return;
+    }
+    values.push_back(*value);
+  }
+  if (!values.empty()) {
+    settings.*list.member = std::move(values);
+  }
+}
+
+}  // namespace
+
+std::vector<WrongSetting> take_properties(const PropertyText& given, Settings& settings) {
+  const auto property = [&given](const char* name) { return trimmed(given(name)); };
+  Wrong wrong;
+  for (const Number& number : kNumbers) {
+    take_number(property, number, settings, wrong);
+  }
+  for (const Number& number : kOtherNumbers) {
+    take_number(property, number, settings, wrong);
+  }
+  for (const Flag& flag : kFlags) {
+    const std::string text = property(flag.name);
+    const auto value = base::flag_in(text);
+    settings.*flag.member = value.value_or(settings.*flag.member);
+    if (!value && !text.empty()) {
+      wrong.push_back({flag.name, quoted(text) + " is neither true nor false"});
+    }
+  }
+  for (const List& list : kLists) {
+    take_list(property, list, settings, wrong);
+  }
+  settings.ignore_collisions = property(kIgnored);
+  if (const std::string text = property(kCategory); !text.empty()) {
+    if (text == "0" || text == "1") {
+      settings.emergency_category = text == "0" ? StopCategory::Category0 : StopCategory::Category1;
+    } else {
+      wrong.push_back({kCategory, "it has to be 0 or 1, an emergency stop takes power away"});
+    }
+  }
+  return wrong;
+}
+
+std::vector<WrongSetting> check_settings(const Settings& settings) {
+  Wrong wrong;
+  for (const Number& number : kNumbers) {
+    const double value = settings.*number.member;
+    if (!(std::isfinite(value) && value > 0)) {
+      wrong.push_back({number.name, "it has to be above 0"});
+    }
+  }
+  if (!(std::isfinite(settings.emergency_factor) && settings.emergency_factor >= 1)) {
+    wrong.push_back({"emergency_factor", "it has to be 1 or more: an emergency stop brakes at least like any other"});
+  }
+  if (settings.emergency_category != StopCategory::Category0 &&
+      settings.emergency_category != StopCategory::Category1) {
+    wrong.push_back({kCategory, "it has to be 0 or 1, an emergency stop takes power away"});
+  }
+  return wrong;
+}
+
+std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, bool weighed) {
+  Wrong wrong;
+  const auto count = static_cast<std::size_t>(arm.count());
+  const auto check = [&](const char* name, const std::vector<double>& values, bool or_none = false) {
+    const auto is_sane = [&](double v) { return std::isfinite(v) && (v > 0 || (or_none && v == 0)); };
+    if (!values.empty() && (values.size() != count || !std::all_of(values.begin(), values.end(), is_sane))) {
+      wrong.push_back({name, "it has to be " + std::to_string(count) + " numbers " + (or_none ? "from" : "above") +
+                                 " 0, one of each axis"});
+    }
+  };
+  const auto check_shared = [&](const char* name, const std::vector<double>& values, bool or_none = false) {
+    const auto is_sane = [&](double v) { return std::isfinite(v) && (or_none || v != 0); };
+    if ((values.size() != 1 && values.size() != count) || !std::all_of(values.begin(), values.end(), is_sane)) {
+      wrong.push_back({name, "it has to be one number for all axes, or " + std::to_string(count) + ", one of each" +
+                                 (or_none ? "" : "; none may be 0")});
+    }
+  };
+  check_shared("counts_per_turn", settings.counts_per_turn);
+  check_shared("counts_per_mm", settings.counts_per_mm);
+  check_shared("gear", settings.gear);
+  check_shared("zero", settings.zero, true);
+  check("acceleration", settings.acceleration);
+  check("jerk", settings.jerk);
+  check("rated_torque", settings.rated_torque);
+  check("collision_limit", settings.collision_limit);
+  check("rotor_inertia", settings.rotor_inertia, true);
+  for (const char* name : {"collision_limit", "rotor_inertia"}) {
+    const bool rotors = name == std::string_view("rotor_inertia");
+    if (!(rotors ? settings.rotor_inertia : settings.collision_limit).empty() && !weighed) {
+      wrong.push_back({name, "the URDF does not say what the arm weighs; give its links <inertial>"});
+    }
+  }
+  if (!settings.collision_limit.empty() && settings.rated_torque.empty()) {
+    wrong.push_back({"collision_limit", "what drives measure counts in parts of rated_torque; give that too"});
+  }
+  return wrong;
+}
+
+Joints of_axes(const std::vector<double>& values) noexcept {
+  Joints joints = Joints::Zero();
+  std::copy_n(values.begin(), std::min(values.size(), static_cast<std::size_t>(kAxes)), joints.data());
+  return joints;
+}
+
+const std::vector<std::string>& setting_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names{"urdf", "jobs", kCategory, kIgnored};
+    const auto add = [&](const auto& table) {
+      for (const auto& one : table) {
+        names.emplace_back(one.name);
+      }
+    };
+    add(kNumbers);
+    add(kOtherNumbers);
+    add(kFlags);
+    add(kLists);
+    return names;
+  }();
+  return kNames;
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plans motions, in a background thread or in the tick. The tick requests a plan, polls for it in each period, and
+// never waits. A plan is due a fixed number of periods after the request, however soon it is ready, so that a motion
+// begins in the same period on every run.
+
+#pragma once
+
+#include <indurop/robot/controller.h>
+#include <pthread.h>
+
+#include <atomic>
+#include <chrono>
+
+#include "control/robot/plan/planner.h"
+
+namespace indurop::robot {
+
+struct PlanRequest {
+  MoveCommand command;
+  const ToolPath* chain = nullptr;  // instead of `command`; is not changed until the motion has ended
+  Joints from = Joints::Zero();
+  bool follows = false;  // continues the motion that was planned before, without a stop
+};
+
+struct Plan {
+  Fault fault;
+  Segment segment;  // if planning failed only its source is valid
+  Blend blend;      // from the motion before into this one
+};
+
+class PlanningDesk {
+ public:
+  PlanningDesk(const Places& places, const JointLimits& joints, const ToolLimits& tool, const Settings& settings);
+  PlanningDesk(const PlanningDesk&) = delete;
+  PlanningDesk& operator=(const PlanningDesk&) = delete;
+  ~PlanningDesk();
+
+  // Called by the tick, real-time safe: no system call, no lock. Returns whether nothing is being planned.
+  [[nodiscard]] bool free() const noexcept { return !asked_; }
+  // Returns whether the thread still uses an abandoned request: its chain must not be changed.
+  [[nodiscard]] bool holds_forgotten() noexcept;
+  // Requests a plan; requires free().
+  void ask(const PlanRequest& request) noexcept;
+  // Abandons the plan in progress; no motion will follow on it.
+  void forget() noexcept;
+  // Called once per period. Returns the plan if it is due and ready; it remains valid until the next request.
+  const Plan* take() noexcept;
+  // The planner, for replacing its bodies; requires free() and no abandoned request in use.
+  [[nodiscard]] Planner& planner() noexcept { return planner_; }
+  // Announces that plans will soon be requested.
+  void expect_work(bool soon) noexcept { soon_.store(soon, std::memory_order_relaxed); }
+  // For a plan with ErrorCode::Planner: how the thread crashed.
+  [[nodiscard]] const char* crash() const noexcept { return crash_; }
+
+ private:
+  // The owner of the request and the plan: the tick in Free, Asked and Made; the planning thread in Working.
+  enum class State { Free, Asked, Working, Made };
+
+  [[nodiscard]] bool learned(bool what) const noexcept { return learned_ != nullptr ? learned_(what) : what; }
+  [[nodiscard]] double seconds_of(const PlanRequest& request) const noexcept;
+  void post() noexcept;
+  void work() noexcept;
+  void run() noexcept;
+  void look_for_work() noexcept;
+  static void* enter(void* desk) noexcept;
+
+  const Places& places_;
+  ToolLimits tool_;
+  double due_ = 0;  // periods
+  bool in_tick_;
+  bool (*learned_)(bool what) noexcept;
+  decltype(Settings::guarded) guarded_;
+
+  // Used by the tick only.
+  bool asked_ = false;
+  bool waits_ = false;   // for the thread to end an abandoned request
+  bool forgot_ = false;  // an abandoned request that the thread may still use
+  int periods_left_ = 0;
+  PlanRequest waiting_;
+
+  std::atomic<State> state_{State::Free};
+  std::atomic<bool> dropped_{false}, ending_{false}, soon_{false};
+  PlanRequest request_;
+  Plan plan_;
+
+  // Used by the planning thread only.
+  Planner planner_;
+  Segment before_;
+  bool crashed_ = false;  // it plans no more motions
+  char crash_[96] = "";
+  pthread_t thread_{};
+};
+
+}  // namespace indurop::robot

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/robot/plan/rehearsal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/robot/path/rates.h"
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kSure = 0.99;        // of the limits, margin for the motion between two instants
+constexpr int kFewestInstants = 300;  // instants: jerk of short motions peaks between the knots of their timing
+constexpr int kMaxInstants = 1 << 20;
+constexpr int kLong = kMaxInstants;                   // instants; longer motions have calm stretches
+constexpr int kFewSkipped = 16, kManySkipped = 1024;  // instants
+
+}  // namespace
+
+void Rehearsal::begin(const Joints& from, double duration, double step, bool timed) noexcept {
+  count_ = static_cast<int>(std::clamp(std::ceil(duration / step), double{kFewestInstants}, double{kMaxInstants}));
+  step_ = duration / count_;
+  next_ = 1;
+  worst_ = 0;
+  acceleration_share_ = timed ? TimingShares::kAcceleration : Shares::kBending;
+  jerk_share_ = timed ? TimingShares::kJerk : Shares::kBendingJerk;
+  pace_ = {};
+  seen_.fill(from);
+  skip_ = wait_ = kFewSkipped;
+  unknown_ = 0;
+  tip_far_ = 0;
+  tip_ = TipSpeed(places_.arm());
+  tip_.begin(from);
+}
+
+double Rehearsal::time() const noexcept {
+  return step_ * std::min(next_, count_);  // a few instants after the end, where it rests
+}
+
+bool Rehearsal::look(const Segment& segment, double place) noexcept {
+  Joints here = seen_[0];
+  if (places_.on(segment, place, seen_[0], here) != Reach::Ok) {
+    return false;
+  }
+  seen_ = {here, seen_[0], seen_[1], seen_[2]};
+  tip_.note(here);
+  ++next_;
+  wait_ = std::max(0, wait_ - 1);
+  if (unknown_ > 0) {
+    --unknown_;
+    return true;
+  }
+  const auto& q = seen_;
+  const Joints first = ((q[0] - q[1]) / step_).cwiseAbs();
+  const Joints second = ((q[0] - 2 * q[1] + q[2]) / (step_ * step_)).cwiseAbs();
+  const Joints third = ((q[0] - 3 * q[1] + 3 * q[2] - q[3]) / (step_ * step_ * step_)).cwiseAbs();
+  last_ = std::max({first.cwiseQuotient(joints_.velocity).maxCoeff(),
+                    std::sqrt(second.cwiseQuotient(acceleration_share_ * joints_.acceleration).maxCoeff()),
+                    std::cbrt(third.cwiseQuotient(jerk_share_ * joints_.jerk).maxCoeff())});
+  worst_ = std::max(worst_, last_);
+  note(first, second);
+  return true;
+}
+
+void Rehearsal::note(const Joints& first, const Joints& second) noexcept {
+  for (int i = 0; i < kAxes; ++i) {
+    pace_.acceleration = std::min(pace_.acceleration, shared(joints_.acceleration[i], first[i]));
+    pace_.mixed = std::min(pace_.mixed, shared(joints_.jerk[i], second[i]));
+    pace_.jerk = std::min(pace_.jerk, shared(joints_.jerk[i], first[i]));
+  }
+}
+
+double Rehearsal::far_time() const noexcept {
+  const bool may = count_ >= kLong && wait_ == 0 && unknown_ == 0 && next_ + skip_ < count_;
+  return may ? step_ * (next_ - 1 + skip_) : -1;
+}
+
+void Rehearsal::skip(const Segment& segment, double far_place) noexcept {
+  Joints far = seen_[0];
+  if (places_.on(segment, far_place, seen_[0], far) != Reach::Ok || !calm(far)) {
+    skip_ = std::max(skip_ / 2, kFewSkipped);
+    wait_ = kFewSkipped;
+    return;
+  }
+  constexpr double kFaster = 1.5;  // in between, at most
+  const double span = skip_ * step_;
+  const Joints speed = (far - seen_[0]) / span;
+  const Joints before = (seen_[0] - seen_[1]) / step_;
+  note(kFaster * speed.cwiseAbs(), 2 * kFaster * (speed - before).cwiseAbs() / span);
+  TipSpeed tip(places_.arm());
+  tip.begin(seen_[0]);
+  tip.note(far);
+  tip_far_ = std::max(tip_far_, kFaster * tip.farthest() / skip_);
+  tip_.go_on_from(far);
+  seen_.fill(far);
+  unknown_ = 2;
+  next_ += skip_;
+  skip_ = std::min(2 * skip_, kManySkipped);
+}
+
+// Speeds that are so small that they may change at once are ignored. A joint that reverses in between has a different
+// mean speed.
+bool Rehearsal::calm(const Joints& far) const noexcept {
+  constexpr double kMoved = 0.05;  // rad or m
+  constexpr double kFast = 0.3, kSudden = 0.25, kChange = 0.25;
+  const double span = skip_ * step_;
+  const Joints speed = (far - seen_[0]) / span;
+  const Joints before = (seen_[0] - seen_[1]) / step_;
+  for (int i = 0; i < kAxes; ++i) {
+    const double change = std::abs(speed[i] - before[i]);
+    const double most = std::max(std::abs(speed[i]), std::abs(before[i]));
+    const double sudden = kSudden * jerk_share_ * joints_.jerk[i] * step_ * step_;
+    if (std::abs(far[i] - seen_[0][i]) > kMoved || most > kFast * joints_.velocity[i] ||
+        change > std::max(kChange * most, sudden) ||
+        change > kChange * acceleration_share_ * joints_.acceleration[i] * span ||
+        change > kChange * jerk_share_ * joints_.jerk[i] * span * span) {
+      return false;
+    }
+  }
+  const double here = places_.arm().volume(seen_[0]);
+  const double there = places_.arm().volume(far);
+  return std::min(std::abs(here), std::abs(there)) > 3 * std::abs(there - here);
+}
+
+double Rehearsal::last_factor() const noexcept {
+  return std::max(1.0, last_ / kSure);
+}
+
+double Rehearsal::factor() const noexcept {
+  return std::max(1.0, worst_ / kSure);
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/keys/plant_keys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "core/keys/deploy_list.h"
+#include "core/keys/plant_parts.h"
+
+namespace indurop::keys {
+
+namespace fs = std::filesystem;
+
+Done PlantKeys::make(const std::string& plant, const std::vector<std::string>& boards, Instant until) const {
+  std::error_code error;
+  const auto reserved = std::find_if(boards.begin(), boards.end(), &reserved_name);
+  if (reserved != boards.end()) {
+    return not_for(Role::Board, *reserved);
+  }
+  if (fs::exists(folder_, error) && !fs::is_empty(folder_, error)) {
+    return base::Problem{fmt::format("there is already something in {}; nothing was written", folder_.string())};
+  }
+  const fs::path target = fs::absolute(folder_, error).lexically_normal();
+  const fs::path fresh = aside(target.has_filename() ? target : target.parent_path());
+  const PlantKeys made(fresh);
+  // The deployer first: it adds its key to the shared files.
+  Done done = in_turn([&] { return make_top(fresh, plant, until); },
+                      [&] {
+                        return make_participant(fresh, made.deployer(), {Role::Deployer, plant, "deployer"}, until);
+                      },
+                      [&] { return replace(fresh / kDeployPublic, read_text(made.deployer() / kDeployPublic)); },
+                      [&] {
+                        return make_participant(fresh, made.viewer(), {Role::Viewer, plant, "viewer"}, until);
+                      });
+  for (const std::string& board : boards) {
+    if (done) {
+      done = make_participant(fresh, made.board(board), {Role::Board, plant, board}, until);
+    }
+  }
+  return put_in_place(std::move(done), fresh, target);
+}
+
+Done PlantKeys::add(const Holder& holder, Instant until) const {
+  const bool first = holder.role != Role::Tool && holder.name == unit_of(holder.role);  // of those that init makes
+  if (reserved_name(holder.name) && !first) {
+    return not_for(holder.role, holder.name);
+  }
+  const auto all = list(instant_now());
+  const auto same =
+      std::find_if(all.begin(), all.end(), [&](const KeyListing& each) { return each.name == holder.name; });
+  if (same != all.end()) {
+    if (same->revoked) {
+      return base::Problem{
+          fmt::format("{} was revoked, and its keys are still in {}; choose another name, or move them away",
+                      holder.name, same->folder.string())};
+    }
+    return base::Problem{fmt::format("{} has keys already, in {}; a new certificate for them: indurop keys renew {}",
+                                     holder.name, same->folder.string(), holder.name)};
+  }
+  const fs::path folder = folder_ / folder_of(holder.role, holder.name);
+  const fs::path fresh = aside(folder);
+  return put_in_place(in_turn([&] { return make_folder(folder.parent_path()); },
+                              [&] { return make_participant(folder_, fresh, holder, until); }),
+                      fresh, folder);
+}
+
+Done PlantKeys::add(const std::string& board, Instant until) const {
+  return add({Role::Board, plant(), board}, until);
+}
+
+Done PlantKeys::add_viewer(const std::string& name, Instant until) const {
+  return add({Role::Viewer, plant(), name}, until);
+}
+
+Done PlantKeys::add_deployer(const std::string& name, Instant until) const {
+  Done done = add({Role::Deployer, plant(), name}, until);
+  return done ? share(kDeployPublic, read_text(deployer(name) / kDeployPublic)) : done;
+}
+
+Done PlantKeys::rotate(const KeyListing& deployer) const {
+  std::error_code error;
+  const fs::path before = deployer.folder / kDeployKeyBefore;
+  if (fs::exists(before, error)) {
+    return base::Problem{fmt::format(
+        "{} has a new key already that is not the only one yet: when all boards have deploy.pub, indurop keys rotate "
+        "--finish",
+        deployer.name)};
+  }
+  const std::string key = make_key(KeyKind::Ed25519);
+  const std::string list = with_deploy_key(folder_, deployer.name, key);
+  if (key.empty() || list.empty()) {
+    return crypto_failed();
+  }
+  fs::rename(deployer.folder / kDeployKey, before, error);
+  if (error) {
+    return base::Problem{
+        fmt::format("cannot put {} aside: {}", (deployer.folder / kDeployKey).string(), error.message())};
+  }
+  return in_turn([&] { return write_new(deployer.folder / kDeployKey, key, kSecret); },
+                 [&] { return share(kDeployPublic, list); });
+}
+
+Result<std::size_t, base::Problem> PlantKeys::finish_rotation() const {
+  std::vector<DeployKey> list = read_deploy_list(read_text(folder_ / kDeployPublic));
+  const std::size_t ended = std::erase_if(list, [](const DeployKey& key) { return key.former; });
+  if (ended == 0) {
+    return ended;
+  }
+  if (Done done = share(kDeployPublic, deploy_list_text(list)); !done) {
+    return std::move(done).error();
+  }
+  std::error_code error;
+  for (const KeyListing& each : this->list(instant_now())) {
+    fs::remove(each.folder / kDeployKeyBefore, error);
+  }
+  return ended;
+}
+
+Done PlantKeys::share(const char* file, const std::string& text) const {
+  Done done = replace(folder_ / file, text);
+  for (const KeyListing& each : list(instant_now())) {
+    if (done) {
+      done = replace(each.folder / file, text);
+    }
+  }
+  return done;
+}
+
+Done PlantKeys::add_tool(const std::string& name, const VariableRights& rights, Instant until) const {
+  return add({Role::Tool, plant(), name, rights}, until);
+}
+
+Done PlantKeys::renew(const KeyListing& whose, Instant until) const {
+  Holder holder{whose.role, plant(), whose.name};
+  if (whose.role == Role::Tool) {
+    auto rights = read_rights(whose.folder / kVariables);
+    if (!rights) {
+      return std::move(rights).error();
+    }
+    holder.variables = std::move(rights).value();
+  }
+  const Papers papers =
+      make_papers(read_authority(folder_), holder, read_text(ParticipantKeys(whose.folder).key), until);
+  if (papers.certificate.empty() || papers.permissions.empty()) {
+    return crypto_failed();
+  }
+  return in_turn([&] { return note_issued(folder_, folder_of(whose.role, whose.name), papers.certificate); },
+                 [&] { return replace(whose.folder / kIdentity, papers.certificate); },
+                 [&] { return replace(whose.folder / kPermissions, papers.permissions); });
+}
+
+Done PlantKeys::revoke(const KeyListing& whose) const {
+  const Authority authority = read_authority(folder_);
+  const auto issuer = read_certificate(authority.certificate);
+  if (!issuer) {
+    return base::Problem{fmt::format("{} is not a certificate", (folder_ / kAuthority).string())};
+  }
+  const std::string list = make_revocation_list(authority, read_text(folder_ / kRevoked),
+                                                issued_to(folder_, folder_of(whose.role, whose.name)),
+                                                {valid_from(), issuer->validity.until});
+  Done done = share(kRevoked, list);
+  std::vector<DeployKey> keys = read_deploy_list(read_text(folder_ / kDeployPublic));
+  const bool signs = whose.role == Role::Deployer;
+  if (done && signs && std::erase_if(keys, [&](const DeployKey& key) { return key.deployer == whose.name; }) > 0) {
+    done = share(kDeployPublic, deploy_list_text(keys));
+  }
+  return done;
+}
+
+fs::path PlantKeys::viewer(const std::string& name) const {
+  return folder_ / folder_of(Role::Viewer, name);
+}
+
+fs::path PlantKeys::deployer(const std::string& name) const {
+  return folder_ / folder_of(Role::Deployer, name);
+}
+
+fs::path PlantKeys::authority_key() const {
+  return folder_ / kAuthorityKey;
+}
+
+bool PlantKeys::exist() const {
+  std::error_code error;
+  return fs::exists(folder_ / kAuthority, error);
+}
+
+std::string PlantKeys::plant() const {
+  const auto facts = read_certificate(read_text(folder_ / kAuthority));
+  return facts ? facts->organisation : std::string{};
+}
+
+std::vector<KeyListing> PlantKeys::list(Instant now) const {
+  const std::string authority = read_text(folder_ / kAuthority);
+  const std::string revoked = read_text(folder_ / kRevoked);
+  std::vector<KeyListing> all = listings_in(Role::Board, folder_ / "boards", folder_, now);
+  std::error_code error;
+  for (const auto& [role, folder] : {std::pair(Role::Viewer, viewer()), std::pair(Role::Deployer, deployer())}) {
+    if (fs::exists(folder, error)) {
+      all.push_back(listing_of(role, folder, authority, revoked, now));
+    }
+    std::vector<KeyListing> further = listings_in(role, folder.string() + "s", folder_, now);
+    std::move(further.begin(), further.end(), std::back_inserter(all));
+  }
+  std::vector<KeyListing> tools = listings_in(Role::Tool, folder_ / "tools", folder_, now);
+  std::move(tools.begin(), tools.end(), std::back_inserter(all));
+  return all;
+}
+
+}  // namespace indurop::keys

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of a plant as a folder (docs/security.md): the authority, and one folder for each board and each other
+// participant, with all that it needs. Private keys are readable by their owner only and never replaced.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/problem.h"
+#include "core/keys/credentials.h"
+#include "core/keys/dds_documents.h"
+#include "core/keys/participant_keys.h"
+
+namespace indurop::keys {
+
+struct KeyListing {
+  Role role = Role::Board;
+  std::string name;
+  std::filesystem::path folder;
+  Validity validity;
+  bool revoked = false;
+  std::string problem;       // empty: the keys can be used
+  VariableRights variables;  // for Role::Tool
+  std::string exposed;       // exposed_key() of its private keys
+};
+
+// Return true for the certificate of a plant's authority, and for one that such an authority has issued.
+bool is_plant_authority(const CertificateFacts& facts);
+bool is_plant_certificate(const CertificateFacts& facts);
+// Returns the role of a plant's certificate; nothing if this release has no such role.
+std::optional<Role> plant_role(const CertificateFacts& facts);
+
+// Returns true for a word that names a role, so that no board or tool gets it as its name by mistake.
+bool reserved_name(const std::string& name);
+// Returns the command that makes keys for this role: "indurop keys add --viewer NAME".
+std::string how_to_add(Role role, const std::string& name);
+
+class PlantKeys {
+ public:
+  explicit PlantKeys(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  // Calls that return a problem have changed nothing.
+  Result<void, base::Problem> make(const std::string& plant, const std::vector<std::string>& boards,
+                                   Instant until) const;
+  Result<void, base::Problem> add(const std::string& board, Instant until) const;
+  // Adds a viewer or deployer. Boards accept deployments of a new deployer after they got the new deploy.pub.
+  Result<void, base::Problem> add_viewer(const std::string& name, Instant until) const;
+  Result<void, base::Problem> add_deployer(const std::string& name, Instant until) const;
+  // Adds a tool, a program that reads and sets variables of the external plane. Its lists are stored in its keys
+  // folder, in variables.txt.
+  Result<void, base::Problem> add_tool(const std::string& name, const VariableRights& rights, Instant until) const;
+  // Makes a new certificate and new permissions for the old key; for a tool, those that variables.txt lists now.
+  Result<void, base::Problem> renew(const KeyListing& whose, Instant until) const;
+  // Revokes the certificate: participants that have the new list, which is copied to all folders, reject it. Boards
+  // with the new deploy.pub also reject deployments of a revoked deployer.
+  Result<void, base::Problem> revoke(const KeyListing& whose) const;
+  // Makes a new signing key for a deployer. The old one stays valid until finish_rotation().
+  Result<void, base::Problem> rotate(const KeyListing& deployer) const;
+  // Makes old keys invalid. Returns their number.
+  Result<std::size_t, base::Problem> finish_rotation() const;
+
+  [[nodiscard]] bool exist() const;
+  [[nodiscard]] std::string plant() const;  // empty: there is no readable authority
+  [[nodiscard]] std::vector<KeyListing> list(Instant now) const;
+
+  [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
+  [[nodiscard]] std::filesystem::path board(const std::string& name) const { return folder_ / "boards" / name; }
+  [[nodiscard]] std::filesystem::path tool(const std::string& name) const { return folder_ / "tools" / name; }
+  [[nodiscard]] std::filesystem::path viewer(const std::string& name = "viewer") const;
+  [[nodiscard]] std::filesystem::path deployer(const std::string& name = "deployer") const;
+  [[nodiscard]] std::filesystem::path authority_key() const;
+
+ private:
+  Result<void, base::Problem> add(const Holder& holder, Instant until) const;
+  // Copies a file that all participants have to all folders.
+  Result<void, base::Problem> share(const char* file, const std::string& text) const;
+  std::filesystem::path folder_;
+};
+
+}  // namespace indurop::keys

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes a schema as JSON.
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/schema/json_names.h"
+#include "core/schema/schema.h"
+
+namespace indurop::schema {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string to_hex(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string out;
+  out.reserve(bytes.size() * 2);
+  for (const std::uint8_t byte : bytes) {
+    out += kDigits[byte >> 4U];
+    out += kDigits[byte & 15U];
+  }
+  return out;
+}
+
+ordered_json number_json(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(value > 0 ? "inf" : "-inf");
+}
+
+ordered_json alarm_json(const Alarm& alarm) {
+  ordered_json out{{"text", alarm.text}, {"priority", word_of(alarm.priority)}};
+  out["when"] = ordered_json::array({symbol_of(alarm.comparison), number_json(alarm.limit)});
+  if (alarm.deadband != 0) {
+    out["deadband"] = alarm.deadband;
+  }
+  if (alarm.delay_ns != 0) {
+    out["delay_ns"] = alarm.delay_ns;
+  }
+  return out;
+}
+
+template <class Declaration>
+void write_notes(ordered_json& out, const Declaration& from) {
+  if (!from.unit.empty()) {
+    out["unit"] = from.unit;
+  }
+  if (!from.description.empty()) {
+    out["description"] = from.description;
+  }
+  if (from.range) {
+    out["range"] = ordered_json::array({number_json(from.range->min), number_json(from.range->max)});
+  }
+  for (const Alarm& alarm : from.alarms) {
+    out["alarms"].push_back(alarm_json(alarm));
+  }
+}
+
+ordered_json type_json(const Type& type) {
+  const char* base = kBaseNames[static_cast<std::size_t>(type.base)];
+  const bool plain = size_of(type.base) != 0 && type.base != Base::Enum;
+  if (plain && type.dims.empty()) {
+    return base;
+  }
+  ordered_json out{{"base", base}};
+  if (!type.name.empty()) {
+    out["name"] = type.name;
+  }
+  if (type.base == Base::Text) {
+    out["size"] = type.text_size;
+  } else if (type.base == Base::Enum) {
+    ordered_json values = ordered_json::array();
+    for (const Enumerator& e : type.enumerators) {
+      values.push_back(ordered_json::array({e.name, e.value}));
+    }
+    out["values"] = std::move(values);
+  } else if (type.base == Base::Struct) {
+    out["size"] = type.element_size;
+    out["align"] = type.align;
+    ordered_json fields = ordered_json::array();
+    for (const Field& field : type.fields) {
+      ordered_json f{{"name", field.name}, {"type", type_json(field.type)}, {"offset", field.offset}};
+      write_notes(f, field);
+      fields.push_back(std::move(f));
+    }
+    out["fields"] = std::move(fields);
+  }
+  if (!type.dims.empty()) {
+    out["dims"] = type.dims;
+  }
+  return out;
+}
+
+ordered_json variable_json(const Variable& variable) {
+  ordered_json out{{"name", variable.name},
+                   {"type", type_json(variable.type)},
+                   {"kind", variable.kind == abi::Kind::Scalar ? "scalar" : "ring"}};
+  write_notes(out, variable);
+  if (variable.retain) {
+    out["retain"] = true;
+  }
+  if (variable.maxage_ns != 0) {
+    out["maxage_ns"] = variable.maxage_ns;
+  }
+  if (!variable.initial.empty()) {
+    out["initial"] = to_hex(variable.initial);
+  } else if (variable.given) {
+    out["given"] = true;
+  }
+  if (!variable.fallback.empty()) {
+    out["fallback"] = to_hex(variable.fallback);
+  }
+  if (!variable.source.empty()) {
+    out["source"] = variable.source;
+  }
+  return out;
+}
+
+ordered_json function_json(const Function& function) {
+  ordered_json out{
+      {"name", function.name}, {"arguments", type_json(function.arguments)}, {"result", type_json(function.result)}};
+  if (function.deadline_ns != 0) {
+    out["deadline_ns"] = function.deadline_ns;
+  }
+  if (!function.description.empty()) {
+    out["description"] = function.description;
+  }
+  if (!function.source.empty()) {
+    out["source"] = function.source;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string to_json(const Schema& schema) {
+  ordered_json out{{"schema", kSchemaVersion}, {"abi", abi::kVersion}};
+  if (!schema.variables.empty()) {
+    ordered_json& list = out["variables"] = ordered_json::array();
+    for (const Variable& variable : schema.variables) {
+      list.push_back(variable_json(variable));
+    }
+  }
+  if (!schema.functions.empty()) {
+    ordered_json& list = out["functions"] = ordered_json::array();
+    for (const Function& function : schema.functions) {
+      list.push_back(function_json(function));
+    }
+  }
+  return out.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace indurop::schema

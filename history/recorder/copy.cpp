@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "history/recorder/copy.h"
+
+#include <utility>
+
+#include "history/recorder/sources.h"
+
+namespace indurop::recorder {
+namespace {
+
+using base::Problem;
+
+Result<void, Problem> copy_attachments(const recording::McapReader& from, const std::string& prefix,
+                                       recording::McapWriter& to) {
+  for (const recording::McapAttachmentIndex& index : from.contents().attachments) {
+    const auto bytes = from.attachment(index);
+    if (!bytes) {
+      return bytes.error();
+    }
+    recording::McapAttachment attachment;
+    attachment.name = prefix + index.name;
+    attachment.media_type = index.media_type;
+    if (auto attached = to.attach(attachment, *bytes); !attached) {
+      return attached;
+    }
+  }
+  return {};
+}
+
+Result<void, Problem> copy_metadata(const recording::McapReader& from, const std::string& prefix,
+                                    recording::McapWriter& to) {
+  for (const recording::McapMetadataIndex& index : from.contents().metadata) {
+    if (index.name.ends_with(kEndMetadata)) {
+      continue;
+    }
+    const auto metadata = from.metadata(index);
+    if (!metadata) {
+      return metadata.error();
+    }
+    if (auto said = to.metadata(prefix + index.name, metadata->values); !said) {
+      return said;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<ChannelMap, Problem> copy_channels(const recording::McapReader& from, const std::string& prefix,
+                                          recording::McapWriter& to, std::map<std::string, std::uint16_t>& topics) {
+  ChannelMap channels;
+  std::map<std::uint16_t, std::uint16_t> schemas{{std::uint16_t{0}, std::uint16_t{0}}};
+  for (const auto& [id, channel] : from.contents().channels) {
+    const std::string topic = prefix + channel.topic;
+    if (const auto known = topics.find(topic); known != topics.end()) {
+      channels[id] = known->second;
+      continue;
+    }
+    const auto schema = from.contents().schemas.find(channel.schema);
+    if (schema != from.contents().schemas.end() && !schemas.contains(channel.schema)) {
+      auto added = to.add_schema(schema->second.name, schema->second.encoding, schema->second.data);
+      if (!added) {
+        return std::move(added).error();
+      }
+      schemas[channel.schema] = *added;
+    }
+    auto added = to.add_channel(schemas[channel.schema], topic, channel.encoding, channel.metadata);
+    if (!added) {
+      return std::move(added).error();
+    }
+    channels[id] = topics[topic] = *added;
+  }
+  return channels;
+}
+
+Result<void, Problem> copy_about(const recording::McapReader& from, const std::string& prefix,
+                                 recording::McapWriter& to) {
+  auto attached = copy_attachments(from, prefix, to);
+  return attached ? copy_metadata(from, prefix, to) : attached;
+}
+
+Result<ChannelMap, Problem> copy_frame(const recording::McapReader& from, const std::string& prefix,
+                                       recording::McapWriter& to) {
+  std::map<std::string, std::uint16_t> topics;
+  auto channels = copy_channels(from, prefix, to, topics);
+  if (!channels) {
+    return channels;
+  }
+  if (auto about = copy_about(from, prefix, to); !about) {
+    return std::move(about).error();
+  }
+  return channels;
+}
+
+}  // namespace indurop::recorder

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copies everything in a recording except its messages to another one.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "core/base/problem.h"
+#include "history/recording/mcap_reader.h"
+#include "history/recording/mcap_writer.h"
+
+namespace indurop::recorder {
+
+// Maps channel numbers of the file that is read to those of the one that is written.
+using ChannelMap = std::map<std::uint16_t, std::uint16_t>;
+
+// Copies schemas and channels, with `prefix` before each topic; channels in `topics` exist already, new ones are added
+// to it. Errors: those of the disk.
+Result<ChannelMap, base::Problem> copy_channels(const recording::McapReader& from, const std::string& prefix,
+                                                recording::McapWriter& to,
+                                                std::map<std::string, std::uint16_t>& topics);
+// Copies attachments and metadata, with `prefix` before their names, except the metadata about how the recording ended.
+// Errors: those of the disk, or a part is damaged.
+Result<void, base::Problem> copy_about(const recording::McapReader& from, const std::string& prefix,
+                                       recording::McapWriter& to);
+// Copies schemas, channels, attachments and metadata.
+Result<ChannelMap, base::Problem> copy_frame(const recording::McapReader& from, const std::string& prefix,
+                                             recording::McapWriter& to);
+
+}  // namespace indurop::recorder

@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "history/recorder/recorder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "history/recorder/run_words.h"
+#include "history/recorder/sources.h"
+#include "history/recording/cdr.h"
+#include "history/recording/omg_idl.h"
+
+namespace indurop::recorder {
+namespace {
+
+using base::Problem;
+
+recording::TextMap metadata_of(const schema::Variable& variable) {
+  recording::TextMap map{{"unit", variable.unit}, {"description", variable.description}, {"declared", variable.source}};
+  std::erase_if(map, [](const auto& entry) { return entry.second.empty(); });
+  return map;
+}
+
+std::uint32_t module_of(const tape::Run& run) {
+  return run.module == tape::kOthers ? kOthers : run.module;
+}
+
+recording::View view(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+}  // namespace
+
+Result<Recorder, Problem> Recorder::create_one_of(const std::string& prefix, const About& about,
+                                                  const vars::Store& store, tape::Follower follower,
+                                                  const std::vector<std::string>& globs, std::vector<bool>& matched) {
+  const bool same =
+      std::ranges::equal(follower.variables(), store.directory(), [](const auto& taped, const auto& entry) {
+        return taped.name_hash == entry.name_hash && taped.size == entry.value_size;
+      });
+  // The header of a store that was truncated is no longer valid; its tape may still be intact.
+  if (!same || (!store.lost() && follower.header().layout_hash != store.header().layout_hash)) {
+    return Problem{"the node's variables have just changed: try again"};
+  }
+  Recorder recorder(prefix, store, std::move(follower), about);
+  recorder.begun_wall_ns_ =
+      about.real_minus_node_ns != 0 ? about.real_minus_node_ns + store.now().time_since_epoch().count() : 0;
+  recorder.choose(globs, matched);
+  return recorder;
+}
+
+Result<Recorder, Problem> Recorder::create(const std::filesystem::path& path, const About& about,
+                                           const vars::Store& store, tape::Follower follower,
+                                           const std::vector<std::string>& globs) {
+  std::vector<bool> matched(globs.size(), false);
+  auto recorder = create_one_of("", about, store, std::move(follower), globs, matched);
+  if (!recorder) {
+    return recorder;
+  }
+  if (const auto none = std::find(matched.begin(), matched.end(), false); none != matched.end()) {
+    return Problem{fmt::format("node {} has no variable '{}'; see indurop vars", about.node,
+                               globs[static_cast<std::size_t>(none - matched.begin())])};
+  }
+  auto writer = recording::McapWriter::create(path, {});
+  if (!writer) {
+    return std::move(writer).error();
+  }
+  if (auto begun = recorder->go_on_in(std::make_shared<recording::McapWriter>(std::move(writer).value())); !begun) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    return std::move(begun).error();
+  }
+  return recorder;
+}
+
+const schema::Variable& Recorder::variable(std::uint32_t index) const {
+  return store_.schema().variables[store_.directory()[index].schema_index];
+}
+
+std::uint64_t Recorder::real_time(std::int64_t node_ns) const noexcept {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(node_ns + about_.real_minus_node_ns, 0));
+}
+
+// The log time of a file begins at its own start, however old its known values are; a run that began earlier gets that
+// start.
+std::uint64_t Recorder::log_time(std::int64_t node_ns) const noexcept {
+  return real_time(std::max(node_ns, begin_ns_));
+}
+
+void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& matched) {
+  const auto count = static_cast<std::uint32_t>(store_.directory().size());
+  wanted_.assign(count, globs.empty());
+  for (std::size_t glob = 0; glob < globs.size(); ++glob) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (schema::glob_match(globs[glob], variable(i).name)) {
+        matched[glob] = true;
+        wanted_[i] = true;
+      }
+    }
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (wanted_[i] && follower_.variables()[i].taped == 0) {
+      too_large_.push_back(variable(i).name);
+      wanted_[i] = false;
+    }
+  }
+  copied_.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const schema::Type& type = variable(i).type;
+    copied_[i] = recording::lies_as_cdr(type) && type.size() == follower_.variables()[i].size;
+  }
+  wanted_count_ = static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), true));
+  held_.resize(follower_.tracks());
+  known_.resize(follower_.tracks());
+  for (Known& known : known_) {
+    known.values.resize(count);
+  }
+}
+
+// Writes everything that precedes the first run.
+Result<void, Problem> Recorder::begin_file() {
+  channels_.assign(wanted_.size(), 0);
+  schemas_.clear();
+  if (auto channels = add_own_channels(); !channels) {
+    return channels;
+  }
+  for (const auto& [name, text] : about_.files) {
+    recording::McapAttachment attachment;
+    attachment.name = prefix_ + name;
+    attachment.media_type = "text/plain";
+    if (auto attached = writer_->attach(attachment, view(text)); !attached) {
+      return attached;
+    }
+  }
+  recording::TextMap said{{"format", std::to_string(kRecordingFormat)},
+                          {"node", about_.node},
+                          {"config", about_.config},
+                          {"board", about_.board},
+                          {"deployment", about_.deployment},
+                          {"reason", about_.reason},
+                          {"basic_period_ns", std::to_string(about_.basic_period_ns)},
+                          {"real_minus_node_ns", std::to_string(about_.real_minus_node_ns)},
+                          {"begun_wall_ns", std::to_string(begun_wall_ns_)}};
+  if (part_ > 0) {
+    said[kPartText] = std::to_string(part_);
+  }
+  return writer_->metadata(prefix_ + kNodeMetadata, said);
+}
+
+// Adds the channels of runs, of the clock and of other inputs.
+Result<void, Problem> Recorder::add_own_channels() {
+  recording::TextMap modules;
+  for (std::size_t i = 0; i < about_.modules.size(); ++i) {
+    modules[std::to_string(i)] = about_.modules[i];
+  }
+  const auto add = [&](std::string_view name, std::string_view idl, std::string_view topic,
+                       std::uint16_t& to) -> Result<void, Problem> {
+    auto schema = writer_->add_schema(name, "omgidl", idl);
+    if (!schema) {
+      return std::move(schema).error();
+    }
+    auto channel = writer_->add_channel(*schema, prefix_ + std::string(topic), "cdr", modules);
+    if (!channel) {
+      return std::move(channel).error();
+    }
+    to = *channel;
+    return {};
+  };
+  auto runs = add(kRunSchema, kRunIdl, kRunsTopic, runs_channel_);
+  auto clock = runs ? add(kClockSchema, kClockIdl, kClockTopic, clock_channel_) : runs;
+  return clock ? add(kToldSchema, kToldIdl, kToldTopic, told_channel_) : clock;
+}
+
+Result<std::uint16_t, Problem> Recorder::channel_of(std::uint32_t index) {
+  if (channels_[index] != 0) {
+    return channels_[index];
+  }
+  const schema::Variable& known = variable(index);
+  const recording::OmgIdl idl = recording::omg_idl(known.type);
+  std::uint16_t& schema = schemas_[idl.text];
+  if (schema == 0) {
+    auto added = writer_->add_schema(idl.name, "omgidl", idl.text);
+    if (!added) {
+      return added;
+    }
+    schema = *added;
+  }
+  auto channel = writer_->add_channel(schema, prefix_ + known.name, "cdr", metadata_of(known));
+  if (channel) {
+    channels_[index] = *channel;
+  }
+  return channel;
+}
+
+Result<void, Problem> Recorder::write_value(const tape::Value& value, std::uint32_t module, std::int64_t time_ns,
+                                            std::int64_t release_ns) {
+  if (!wanted_[value.variable]) {
+    return {};
+  }
+  auto channel = channel_of(value.variable);
+  if (!channel) {
+    return std::move(channel).error();
+  }
+  if (copied_[value.variable]) {
+    cdr_.assign(recording::kCdrHead.begin(), recording::kCdrHead.end());
+    cdr_.insert(cdr_.end(), value.bytes.begin(), value.bytes.end());
+  } else if (!recording::to_cdr(variable(value.variable).type, value.bytes, cdr_)) {
+    return Problem{fmt::format("{} has another size than its type", variable(value.variable).name)};
+  }
+  auto written =
+      writer_->write(*channel, log_time(time_ns), real_time(release_ns), to_sequence({module, value.kind}), cdr_);
+  counts_.values += written.ok() ? 1U : 0U;
+  return written;
+}
+
+void Recorder::note(std::size_t track, const tape::Run& run) {
+  Known& known = known_[track];
+  for (const tape::Value& value : run.values) {
+    known.values[value.variable].assign(value.bytes.begin(), value.bytes.end());
+  }
+  known.end_ns = run.tail.end_ns;
+}
+
+// Reads the values of the runs so far, without recording them.
+void Recorder::learn() {
+  begin_ns_ = store_.now().time_since_epoch().count();
+  tape::Run run;
+  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
+    while (follower_.next(track, run)) {
+      note(track, run);
+    }
+  }
+}
+
+// Writes the values from before any module was started, if the recording begins with the first run, else those of the
+// runs before it.
+Result<void, Problem> Recorder::tell_first_values(const tape::Run& first) {
+  const std::int64_t before = first.tail.release_ns - about_.basic_period_ns;
+  for (std::uint32_t i = 0; first.tail.number == 0 && i < wanted_.size(); ++i) {
+    const tape::Value value{tape::EntryKind::Run, i, follower_.first_value(i)};
+    if (auto written = write_value(value, kOthers, before, before); !written) {
+      return written;
+    }
+  }
+  return tell_known_values();
+}
+
+// Writes the values of each module at the end of its last run: inputs of the next run come later, however long that
+// takes.
+Result<void, Problem> Recorder::tell_known_values() {
+  for (std::size_t track = 0; track < known_.size(); ++track) {
+    const Known& known = known_[track];
+    const std::uint32_t module = follower_.module_of(track);
+    for (std::uint32_t i = 0; i < known.values.size(); ++i) {
+      if (known.values[i].empty()) {
+        continue;
+      }
+      const tape::Value value{tape::EntryKind::Before, i, known.values[i]};
+      if (auto written = write_value(value, module == tape::kOthers ? kOthers : module, known.end_ns, known.end_ns);
+          !written) {
+        return written;
+      }
+    }
+  }
+  return {};
+}
+
+// Writes part number `part` of a run: its values, the results of the clock and of calls, and last the run itself.
+Result<void, Problem> Recorder::write_part(const tape::Run& run, std::size_t part) {
+  const std::uint32_t module = module_of(run);
+  if (part < run.values.size()) {
+    const tape::Value& value = run.values[part];
+    const std::int64_t time = value.kind == tape::EntryKind::Before ? run.tail.start_ns : run.tail.end_ns;
+    return write_value(value, module, time, run.tail.release_ns);
+  }
+  part -= run.values.size();
+  const auto write = [&](std::uint16_t channel, std::uint32_t sequence) {
+    return writer_->write(channel, log_time(run.tail.end_ns), real_time(run.tail.release_ns), sequence, cdr_);
+  };
+  if (part < run.clock.size()) {
+    to_cdr(run.clock[part], cdr_);
+    return write(clock_channel_, to_sequence({module, tape::EntryKind::Clock}));
+  }
+  part -= run.clock.size();
+  if (part < run.told.size()) {
+    to_cdr(ToldWords{run.told[part].code, run.told[part].bytes}, cdr_);
+    return write(told_channel_, to_sequence({module, tape::EntryKind::Told}));
+  }
+  to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0, (run.flags & tape::kAnew) != 0}, cdr_);
+  auto written = write(runs_channel_, static_cast<std::uint32_t>(run.tail.number));
+  counts_.runs += written.ok() ? 1U : 0U;
+  return written;
+}
+
+Result<void, Problem> Recorder::write_run(Held& held) {
+  const std::size_t parts = held.run.values.size() + held.run.clock.size() + held.run.told.size() + 1;
+  for (; held.written < parts; ++held.written) {
+    if (auto written = write_part(held.run, held.written); !written) {
+      return written;
+    }
+  }
+  return {};
+}
+
+// Returns false if the track has no run that ended before `until_ns`.
+Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_ns) {
+  std::optional<Held>& held = held_[track];
+  if (!held) {
+    held.emplace();
+    if (!follower_.next(track, held->run)) {
+      held.reset();
+      return false;
+    }
+  }
+  if (held->run.tail.end_ns >= until_ns) {
+    return false;
+  }
+  if (!first_told_) {
+    if (auto told = tell_first_values(held->run); !told) {
+      return std::move(told).error();
+    }
+    first_told_ = true;
+  }
+  if (auto written = write_run(*held); !written) {
+    return std::move(written).error();
+  }
+  latest_ns_ = std::max(latest_ns_, held->run.tail.end_ns);
+  if (remembers_) {
+    note(track, held->run);
+  }
+  held.reset();
+  return true;
+}
+
+Result<void, Problem> Recorder::take(std::int64_t until_ns) {
+  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
+    for (bool more = true; more;) {
+      auto taken = take_run(track, until_ns);
+      if (!taken) {
+        return std::move(taken).error();
+      }
+      more = *taken;
+    }
+    if (const std::uint64_t lost = follower_.lost(track); lost > 0) {
+      counts_.lost[follower_.module_of(track)] = lost;
+    }
+  }
+  return {};
+}
+
+std::optional<std::int64_t> Recorder::waiting_ns() const noexcept {
+  std::optional<std::int64_t> first;
+  for (const std::optional<Held>& held : held_) {
+    if (held) {
+      first = std::min(first.value_or(held->run.tail.end_ns), held->run.tail.end_ns);
+    }
+  }
+  return first;
+}
+
+Result<void, Problem> Recorder::attach(std::string_view name, std::string_view text) {
+  recording::McapAttachment attachment;
+  attachment.name = prefix_ + std::string(name);
+  attachment.media_type = "application/json";
+  return writer_->attach(attachment, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+Result<void, Problem> Recorder::conclude() {
+  std::uint64_t lost = 0;
+  recording::TextMap said;
+  for (const auto& [module, runs] : counts_.lost) {
+    const auto earlier = before_.lost.find(module);
+    const std::uint64_t here = runs - (earlier == before_.lost.end() ? 0 : earlier->second);
+    lost += here;
+    said["lost_runs." + (module < about_.modules.size() ? about_.modules[module] : "")] = std::to_string(here);
+  }
+  said["runs"] = std::to_string(counts_.runs - before_.runs);
+  said["values"] = std::to_string(counts_.values - before_.values);
+  said["lost_runs"] = std::to_string(lost);
+  return writer_->metadata(prefix_ + kEndMetadata, said);
+}
+
+Result<void, Problem> Recorder::close() {
+  auto concluded = conclude();
+  return concluded ? writer_->close() : concluded;
+}
+
+Result<void, Problem> Recorder::go_on_in(std::shared_ptr<recording::McapWriter> writer, std::uint64_t part) {
+  writer_ = std::move(writer);
+  part_ = part;
+  begin_ns_ = std::max(begin_ns_, latest_ns_);
+  before_ = counts_;
+  auto begun = begin_file();
+  return begun && first_told_ ? tell_known_values() : begun;
+}
+
+}  // namespace indurop::recorder

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The records of runs in a recording: one message of the channel indurop/runs at the end of each run. The values of a
+// run are the messages with its module's number since the module's previous run. Times in messages are the node's; log
+// times are CLOCK_REALTIME.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "store/tape/follower.h"
+
+namespace indurop::recorder {
+
+// The format version; increased when replays need something that older recordings lack. A recording without a version
+// has version 1. Version 2 adds the results of snapshot(), valid(), age(), channels and the request to stop.
+inline constexpr std::int64_t kRecordingFormat = 2;
+
+inline constexpr std::string_view kRunsTopic = "indurop/runs";
+inline constexpr std::string_view kRunSchema = "indurop::Run";
+extern const std::string_view kRunIdl;
+
+struct RunWords {
+  tape::RunTail tail;
+  std::uint32_t module = 0;
+  bool faulted = false;
+  bool anew = false;  // its module was started again since its previous run; always false in older recordings
+};
+// The results of irp::now_ns() in runs: messages of the channel indurop/clock, in the order of a run's calls.
+inline constexpr std::string_view kClockTopic = "indurop/clock";
+inline constexpr std::string_view kClockSchema = "indurop::Clock";
+extern const std::string_view kClockIdl;
+void to_cdr(std::int64_t clock_ns, std::vector<std::uint8_t>& cdr);
+// Errors: Corrupt.
+Result<std::int64_t> clock_from_cdr(std::span<const std::uint8_t> cdr);
+
+// The results of shared functions and channels in runs: messages of the channel indurop/told, in the order of the
+// calls.
+inline constexpr std::string_view kToldTopic = "indurop/told";
+inline constexpr std::string_view kToldSchema = "indurop::Told";
+extern const std::string_view kToldIdl;
+struct ToldWords {
+  std::int64_t code = 0;  // see tape::Told
+  std::span<const std::uint8_t> bytes;
+};
+void to_cdr(const ToldWords& told, std::vector<std::uint8_t>& cdr);
+// The result points into `cdr`. Errors: Corrupt.
+Result<ToldWords> told_from_cdr(std::span<const std::uint8_t> cdr);
+
+void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr);
+// Errors: Corrupt.
+Result<RunWords> run_from_cdr(std::span<const std::uint8_t> cdr);
+
+// The sequence number of a value's message: the module whose run it belongs to, and its kind.
+struct ValueWords {
+  std::uint32_t module = 0;  // tape::kOthers is mapped to kOthers
+  tape::EntryKind kind{};    // Run: a first value, from before any module was started
+};
+inline constexpr std::uint32_t kOthers = 0x1fffffff;
+std::uint32_t to_sequence(ValueWords words) noexcept;
+ValueWords from_sequence(std::uint32_t sequence) noexcept;
+
+}  // namespace indurop::recorder

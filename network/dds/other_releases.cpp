@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "network/dds/other_releases.h"
+
+#include <memory>
+#include <string_view>
+#include <utility>
+
+namespace indurop::dds {
+namespace {
+
+struct DdsFree {
+  void operator()(char* text) const noexcept { dds_free(text); }
+};
+using DdsText = std::unique_ptr<char, DdsFree>;
+
+// The text comes from any participant and is shown on terminals: returns a plain name, or nothing.
+std::string plain_name(const DdsText& told) {
+  constexpr std::size_t kLongest = 64;
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+  const std::string_view name = told == nullptr ? std::string_view{} : told.get();
+  const bool plain = name.size() <= kLongest && name.find_first_not_of(kLetters) == std::string_view::npos;
+  return plain ? std::string(name) : std::string{};
+}
+
+std::string property(const dds_qos_t* qos, const char* name) {
+  char* raw = nullptr;
+  (void)dds_qget_prop(qos, name, &raw);
+  return plain_name(DdsText(raw));
+}
+
+std::string entity_name(const dds_qos_t* qos) {
+  char* raw = nullptr;
+  (void)dds_qget_entity_name(qos, &raw);
+  return plain_name(DdsText(raw));
+}
+
+}  // namespace
+
+Result<void, base::Problem> OtherReleases::open(Handle participant) {
+  participants_in_ = Entity(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr));
+  publications_in_ = Entity(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr));
+  if (!participants_in_.ok() || !publications_in_.ok()) {
+    return base::Problem{"cannot see who is in the network: " +
+                         (participants_in_.ok() ? publications_in_.why() : participants_in_.why())};
+  }
+  return {};
+}
+
+void OtherReleases::close() noexcept {
+  participants_in_.reset();
+  publications_in_.reset();
+  participants_.clear();
+  publications_.clear();
+}
+
+bool OtherReleases::take_participants() {
+  bool changed = false;
+  take_all<dds_builtintopic_participant_t>(participants_in_.get(), [&](const auto& told, const auto& info) {
+    const Guid guid = guid_of(told.key);
+    if (!info.valid || !info.alive) {
+      participants_.erase(guid);
+      return;
+    }
+    participants_[guid] = {property(told.qos, "__Hostname"), property(told.qos, "__ProcessName"),
+                           entity_name(told.qos)};
+    changed = true;
+  });
+  return changed;
+}
+
+bool OtherReleases::take_publications() {
+  bool changed = false;
+  take_all<dds_builtintopic_endpoint_t>(publications_in_.get(), [&](const auto& told, const auto& info) {
+    const Guid guid = guid_of(told.key);
+    if (!info.valid || !info.alive) {
+      changed = publications_.erase(guid) > 0 || changed;
+      return;
+    }
+    auto topic = schema::speaker_of(told.topic_name == nullptr ? "" : told.topic_name);
+    if (topic && topic->protocol != schema::protocol()) {
+      publications_[guid] = {guid_of(told.participant_key), std::move(*topic)};
+      changed = true;
+    }
+  });
+  return changed;
+}
+
+bool OtherReleases::look() {
+  const bool known = take_participants() && !publications_.empty();
+  return take_publications() || known;
+}
+
+std::vector<OtherReleases::Speaker> OtherReleases::speakers() const {
+  std::map<std::pair<Guid, std::string>, Speaker> all;
+  for (const auto& [guid, publication] : publications_) {
+    const auto [at, first] = all.try_emplace({publication.participant, publication.topic.plant});
+    Speaker& speaker = at->second;
+    if (first || speaker.topic.board.empty()) {
+      speaker.topic = publication.topic;
+    }
+    if (const auto who = participants_.find(publication.participant); who != participants_.end()) {
+      speaker.host = who->second.host;
+      speaker.program = who->second.program;
+      speaker.name = who->second.name;
+    }
+  }
+  std::vector<Speaker> list;
+  list.reserve(all.size());
+  for (auto& [key, speaker] : all) {
+    list.push_back(std::move(speaker));
+  }
+  return list;
+}
+
+}  // namespace indurop::dds

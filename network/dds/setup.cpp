@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "network/dds/setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/xml_text.h"
+#include "network/dds/endpoint.h"
+#include "network/dds/interface.h"
+#include "network/dds/log.h"
+#include "network/dds/security.h"
+#include "network/dds/steady_waits.h"
+
+namespace indurop::dds {
+namespace {
+
+constexpr int kParticipantsPerHost = 64;  // boards and tools on one host, if ports are tried one after another
+
+// Multicast discovery is also used on one host: one message reaches all participants, instead of one for each possible
+// port. But a third-party program that names a peer there cannot use multicast on loopback.
+bool found_by_multicast(const NetworkSettings& settings) {
+  return settings.multicast && !(settings.one_host && settings.known_ports);
+}
+
+std::string network(const NetworkSettings& settings, const std::string& interface_name) {
+  const bool multicast = found_by_multicast(settings);
+  // Loopback supports multicast, but does not report it.
+  std::string text =
+      fmt::format("<Interfaces><NetworkInterface name=\"{}\"{}/></Interfaces>", base::xml_text(interface_name),
+                  multicast && interface_name == "lo" ? " multicast=\"true\"" : "");
+  // Multicast finds the other boards; data is sent only to boards that read it.
+  text += fmt::format("<AllowMulticast>{}</AllowMulticast>", multicast ? "spdp" : "false");
+  return "<General>" + text + "</General>";
+}
+
+std::string discovery(const NetworkSettings& settings) {
+  std::string text = fmt::format("<LeaseDuration>{} ns</LeaseDuration>", settings.lease_ns);
+  std::string peers;
+  if (settings.one_host) {
+    peers = found_by_multicast(settings) ? "" : "<Peer address=\"127.0.0.1\"/>";
+  } else if (!settings.multicast || settings.known_ports) {
+    for (const std::string& peer : settings.peers) {
+      peers += fmt::format("<Peer address=\"{}\"/>", base::xml_text(peer));
+    }
+  }
+  if (!peers.empty() || settings.known_ports) {
+    text +=
+        fmt::format("<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>",
+                    kParticipantsPerHost);
+  }
+  if (!peers.empty()) {
+    text += fmt::format("<Peers>{}</Peers>", peers);
+  }
+  return "<Discovery>" + text + "</Discovery>";
+}
+
+std::string threads(const NetworkSettings& settings) {
+  std::string text;
+  // Only if the process has the permission: otherwise Cyclone ends the whole process.
+  const std::string realtime =
+      settings.fifo_priority > 0
+          ? fmt::format("<Scheduling><Class>realtime</Class><Priority>{}</Priority></Scheduling>",
+                        settings.fifo_priority)
+          : "";
+  for (const char* name : {"recv", "tev", "gc", "dq.builtins", "dq.user"}) {
+    text += fmt::format("<Thread Name=\"{}\">{}<StackSize>256 kB</StackSize></Thread>", name,
+                        name == std::string_view("gc") ? "" : realtime);
+  }
+  return "<Threads>" + text + "</Threads>";
+}
+
+// Receivers are quick: a quarter of the usual buffer, in pieces that hold any datagram. Memory grows until messages
+// have gone through all of it, which takes those of an agent that rests two minutes.
+constexpr const char* kSizes =
+    "<Sizing><ReceiveBufferSize>256 kB</ReceiveBufferSize>"
+    "<ReceiveBufferChunkSize>72 kB</ReceiveBufferChunkSize></Sizing>";
+
+// A lost last value is repaired within milliseconds, not 100. Not where programs of others take part by keys: with
+// these, Fast DDS is let in less often (docs/adr/0016).
+//
+// Until the last one has answered, a writer asks all of its readers again in this interval, and each answers: with many
+// of them that costs the time in which the last one would. So each is asked as often as if there were eight.
+std::string quick_repair(std::size_t others) {
+  constexpr std::chrono::milliseconds kQuick{10};
+  constexpr std::chrono::milliseconds kUsual{100};
+  constexpr std::size_t kFew = 8;
+  const auto every = std::min(kUsual, kQuick * static_cast<std::int64_t>(std::max<std::size_t>(others, kFew)) /
+                                          static_cast<std::int64_t>(kFew));
+  return fmt::format(
+      "<HeartbeatInterval min=\"2 ms\" minsched=\"5 ms\" max=\"100 ms\">{} ms</HeartbeatInterval>"
+      "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>",
+      every.count());
+}
+
+}  // namespace
+
+std::string domain_configuration(const NetworkSettings& settings, const std::string& interface_name) {
+  return network(settings, interface_name) + discovery(settings) + threads(settings) + kSizes +
+         // One receive thread: with more, shutdown can hang, and none could get a priority.
+         "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>" +
+         (settings.known_ports && settings.security.on() ? "" : quick_repair(settings.others)) +
+         // Files: sockets that hold what a receiver has asked for (deploy_link.h), and no limit for senders below that.
+         (settings.known_ports
+              ? "<SocketReceiveBufferSize max=\"4 MB\"/>"
+                "<Watermarks><WhcHigh>16 MB</WhcHigh><WhcLow>8 MB</WhcLow><WhcHighInit>16 MB</WhcHighInit></Watermarks>"
+              : "") +
+         "</Internal>" + (settings.security.on() ? security_configuration(settings.security, security_plugins()) : "");
+}
+
+Result<Joined, base::Problem> join_network(const NetworkSettings& settings) {
+  catch_dds_log();
+  auto interface = choose_interface(settings);
+  if (!interface) {
+    return std::move(interface).error();
+  }
+  if (settings.security.on()) {
+    if (auto usable = security_usable(settings.security, security_plugins()); !usable) {
+      return std::move(usable).error();
+    }
+  }
+  const auto id = static_cast<dds_domainid_t>(settings.domain);
+  Entity domain(dds_create_domain(id, domain_configuration(settings, interface->name).c_str()));
+  if (!domain.ok()) {
+    return base::Problem{fmt::format("DDS domain {}: {}", settings.domain, domain.why())};
+  }
+  const Qos qos(dds_create_qos());
+  if (!settings.board.empty()) {
+    dds_qset_entity_name(qos.get(), settings.board.c_str());  // for DDS tools and other releases
+  }
+  Entity participant(dds_create_participant(id, qos.get(), nullptr));
+  if (!participant.ok()) {
+    const std::string said = last_dds_message();
+    const std::string why = said.empty() ? participant.why() : said;
+    return base::Problem{settings.security.on() ? fmt::format("keys refused (indurop keys list tells more): {}", why)
+                                                : why};
+  }
+  if (interface->note.empty() && !waits_are_steady()) {
+    interface->note = "this program is not heard for as long as its clock is put back, because DDS waits by that clock";
+  }
+  return Joined{{std::move(domain), std::move(participant)}, std::move(interface->note)};
+}
+
+}  // namespace indurop::dds

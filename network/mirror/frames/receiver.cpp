@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "network/mirror/frames/receiver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "network/mirror/frames/board_time.h"
+
+namespace indurop::mirror {
+namespace {
+
+constexpr std::size_t kMostParts = 100'000;  // maximum of a valid catalogue
+
+// The schema is read only now: that takes longer than the rest of a catalogue.
+std::string difference(const schema::Variable& mine, const char* their_schema) {
+  const auto theirs = schema::from_json(their_schema);
+  const auto* other = theirs ? schema::find_variable(theirs.value(), mine.name) : nullptr;
+  return other != nullptr ? schema::first_difference(mine.type, other->type) : "another type";
+}
+
+}  // namespace
+
+Receiver::Receiver(std::string board, const vars::Store& store, const std::vector<Landing*>& landings,
+                   std::mutex& mutex, PeerRecord& record)
+    : board_(std::move(board)), store_(store), mutex_(mutex), record_(record) {
+  std::atomic<std::uint64_t>* room = nullptr;
+  for (Landing* landing : landings) {
+    items_.push_back({landing, landing->add_source()});
+    room = room == nullptr ? landing->lend_room_for_word() : room;
+  }
+  word_ = UpdateWord(room);
+  record_.wanted = static_cast<std::uint32_t>(items_.size());
+}
+
+Result<std::vector<Receiver::Inbox>, base::Problem> Receiver::match(const indurop_wire_Catalogue& catalogue) const {
+  std::vector<Inbox> inboxes;
+  std::string problem;
+  std::size_t more = 0;
+  const auto complain = [&](const auto& text) {
+    if (problem.empty()) {
+      problem = text();
+    } else {
+      ++more;
+    }
+  };
+  const indurop_wire_CatalogueEntry* const first = catalogue.entries._buffer;
+  const indurop_wire_CatalogueEntry* const last = first + catalogue.entries._length;
+  for (const auto* entry = first; entry != last; ++entry) {
+    if (entry->part >= inboxes.size() && entry->part < kMostParts) {
+      inboxes.resize(entry->part + 1);
+    }
+  }
+  for (std::uint32_t i = 0; i < items_.size(); ++i) {
+    const schema::Variable& mine = items_[i].landing->variable();
+    const auto* found = std::find_if(first, last, [&](const auto& entry) { return mine.name == entry.name; });
+    if (found == last) {
+      complain([&] { return fmt::format("board {} does not send {}: it runs another deployment", board_, mine.name); });
+      continue;
+    }
+    if (found->type_hash != mine.type_hash || found->size != items_[i].landing->entry().value_size) {
+      complain([&] {
+        return fmt::format("{} differs between the boards: {} (here / on {}); build both from the same .glb", mine.name,
+                           difference(mine, catalogue.schema), board_);
+      });
+      continue;
+    }
+    if (found->part >= kMostParts || found->offset > std::numeric_limits<std::uint32_t>::max() - found->size) {
+      complain([&] { return fmt::format("the catalogue of board {} is damaged", board_); });
+      continue;
+    }
+    Inbox& inbox = inboxes[found->part];
+    inbox.size = std::max(inbox.size, found->offset + found->size);
+    inbox.content.push_back({i, found->offset});
+  }
+  if (!problem.empty()) {
+    return base::Problem{more > 0 ? fmt::format("{} (and {} more)", problem, more) : problem};
+  }
+  return inboxes;
+}
+
+void Receiver::announced(const indurop_wire_Catalogue& catalogue, Plane& plane) {
+  if (std::exchange(other_release_, false)) {
+    record_.problem.set({});
+  }
+  if (catalogue.session == session_ && catalogue.layout == layout_) {
+    record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
+    return;
+  }
+  close();
+  auto matched = match(catalogue);
+  record_.problem.set(matched ? std::string{} : matched.error().text);
+  {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    session_ = catalogue.session;
+    layout_ = catalogue.layout;
+    matched_ = matched.ok();
+    inboxes_ = matched ? std::move(*matched) : std::vector<Inbox>{};
+    std::vector<std::uint32_t> sizes;
+    for (const Inbox& inbox : inboxes_) {
+      sizes.push_back(inbox.size);
+    }
+    staging_.reset(sizes);
+    for (Port& port : ports_) {
+      port.newest_update = 0;
+    }
+  }
+  record_.session.store(session_, std::memory_order_relaxed);
+  record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
+  for (std::size_t i = 0; i < kStreams && matched_ && !items_.empty(); ++i) {
+    auto heard = plane.hear(board_, static_cast<Stream>(i), *this);
+    if (heard) {
+      ports_[i].subscription = std::move(heard).value();
+    } else {
+      record_.problem.set(heard.error().text);
+    }
+  }
+}
+
+void Receiver::close() noexcept {
+  for (Port& port : ports_) {
+    port.subscription.reset();  // waits for a listener that is running
+  }
+}
+
+void Receiver::frame_came(const indurop_wire_Frame& frame, Stream stream) noexcept {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  accept(frame, ports_[static_cast<std::size_t>(stream)]);
+}
+
+void Receiver::accept(const indurop_wire_Frame& frame, Port& port) noexcept {
+  constexpr auto kRelaxed = std::memory_order_relaxed;
+  if (frame.session != session_ || frame.layout != static_cast<std::uint32_t>(layout_) ||
+      frame.part >= inboxes_.size() || frame.data._length < inboxes_[frame.part].size) {
+    record_.refused.fetch_add(1, kRelaxed);
+    return;
+  }
+  if (frame.update > port.newest_update) {
+    if (port.newest_update != 0) {
+      record_.lost_updates.fetch_add(frame.update - port.newest_update - 1, kRelaxed);
+    }
+    port.newest_update = frame.update;
+  }
+  const std::int64_t now = board_ns(store_);
+  if (frame.update_sum != 0) {
+    apply_together(frame, now);
+  } else {
+    apply_alone(frame, now);
+  }
+  if (inboxes_[frame.part].content.empty()) {
+    return;  // has nothing that this board reads
+  }
+  record_.heard_ns.store(now, kRelaxed);
+  record_.delay_ns.store(board_wall_ns(store_) - frame.source_time_ns, kRelaxed);
+  record_.tick.store(frame.tick, kRelaxed);
+  record_.frames.fetch_add(1, kRelaxed);
+}
+
+void Receiver::apply_alone(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept {
+  Inbox& inbox = inboxes_[frame.part];
+  if (frame.update >= inbox.update) {  // else older than the present value
+    inbox.update = frame.update;
+    deliver(inbox, {frame.data._buffer, frame.data._length}, nullptr, now_ns);
+  }
+}
+
+void Receiver::apply_together(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept {
+  const Staging::Verdict verdict =
+      staging_.arrived(frame.part, frame.update, frame.update_sum, {frame.data._buffer, frame.data._length}, now_ns);
+  if (verdict == Staging::Verdict::Old || verdict == Staging::Verdict::Wait) {
+    return;
+  }
+  word_.begin();
+  staging_.take(
+      [&](std::uint32_t part, std::span<const std::uint8_t> data) { deliver(inboxes_[part], data, &word_, now_ns); });
+  word_.end(verdict == Staging::Verdict::Whole);
+}
+
+void Receiver::deliver(const Inbox& inbox, std::span<const std::uint8_t> data, UpdateWord* word,
+                       std::int64_t now_ns) noexcept {
+  for (const Arrival& arrival : inbox.content) {
+    const Item& item = items_[arrival.item];
+    item.landing->deliver({item.source, session_, word, now_ns},
+                          data.subspan(arrival.offset, item.landing->entry().value_size), record_);
+  }
+}
+
+void Receiver::silent() noexcept {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  if (record_.state.exchange(PeerState::Silent) == PeerState::Silent) {
+    return;
+  }
+  record_.losses.fetch_add(1, std::memory_order_relaxed);
+  const std::int64_t now = board_ns(store_);
+  // Values that a standby takes over must not be read together with values that are still this board's.
+  word_.begin();
+  for (const Item& item : items_) {
+    item.landing->silent(item.source, now, record_);
+  }
+  word_.end(word_.whole());
+}
+
+void Receiver::other_release(const std::string& problem) {
+  const PeerState state = record_.state.load(std::memory_order_relaxed);
+  const bool announced = state == PeerState::Alive || (state == PeerState::Mismatched && !other_release_);
+  if (announced || other_release_ == !problem.empty()) {
+    return;
+  }
+  other_release_ = !problem.empty();
+  record_.problem.set(problem);
+  record_.state.store(other_release_  ? PeerState::Mismatched
+                      : session_ != 0 ? PeerState::Silent
+                                      : PeerState::Absent,
+                      std::memory_order_release);
+}
+
+}  // namespace indurop::mirror

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/modules/module_commands.h"
+
+#include <algorithm>
+
+#include "core/rt/clock.h"
+
+namespace indurop::node {
+namespace {
+
+using scheduler::CommandResult;
+using scheduler::ModuleCommand;
+using scheduler::ModuleState;
+using scheduler::Operation;
+
+constexpr std::chrono::seconds kLaunch{5};  // until a process is ready to be released
+constexpr std::chrono::milliseconds kCommandPoll{1};
+
+}  // namespace
+
+bool ModuleCommands::is_process(std::uint32_t module) const noexcept {
+  return parts_.config.modules[module].type == scheduler::ModuleType::Process;
+}
+
+bool ModuleCommands::answer(const Work& work, CommandResult result) {
+  const char* done = work.command == ModuleCommand::Stop ? "stopped" : "started";
+  if (result == CommandResult::Done) {
+    parts_.console.info("module {}: {} by command", record(work.module).name, done);
+  } else if (result == CommandResult::OldCode) {
+    parts_.console.warning(
+        "module {}: started by command, with the code that was loaded when the node started; its file is another one "
+        "now, stop and run the node to load it",
+        record(work.module).name);
+  } else if (result == CommandResult::Failed) {
+    parts_.console.error("module {}: could not be {} as commanded", record(work.module).name, done);
+  }
+  scheduler::answer_command(record(work.module), result);
+  return true;
+}
+
+void ModuleCommands::look(rt::MonoTime now) {
+  for (std::uint32_t i = 0; i < parts_.run.module_count; ++i) {
+    const ModuleCommand command = scheduler::waiting_command(record(i));
+    const bool taken = std::any_of(works_.begin(), works_.end(), [i](const Work& work) { return work.module == i; });
+    if (command != ModuleCommand::None && !taken) {
+      take(i, command, now);
+    }
+  }
+  std::erase_if(works_, [&](Work& work) { return go_on(work, now); });
+}
+
+void ModuleCommands::take(std::uint32_t module, ModuleCommand command, rt::MonoTime now) {
+  const ModuleState state = record(module).state.load();
+  const bool stopped = state == ModuleState::Stopped;
+  const bool runs = state == ModuleState::Running || state == ModuleState::Starting;
+  Work work{module, command, Step::Leaving, now, {nullptr, [](Phases::Call* /*none*/) {}}};
+  if ((command == ModuleCommand::Stop && stopped) || (command == ModuleCommand::Start && runs)) {
+    scheduler::answer_command(record(module), CommandResult::Unchanged);
+    return;
+  }
+  if (!stopped) {
+    leave(work, now);
+  } else if (begin_start(work, now)) {
+    return;
+  }
+  works_.push_back(std::move(work));
+}
+
+bool ModuleCommands::go_on(Work& work, rt::MonoTime now) {
+  switch (work.step) {
+    case Step::Leaving:
+      return has_left(work, now) && call_stop(work, now);
+    case Step::Stopping:
+      if (!parts_.phases.ended(*work.call, now, Phases::kGrace)) {
+        return false;
+      }
+      (void)parts_.phases.conclude(std::move(work.call));  // a failure is reported; the module is stopped all the same
+      return rest(work, now);
+    case Step::Starting:
+      return parts_.phases.ended(*work.call, now, {}) &&
+             (parts_.phases.conclude(std::move(work.call)) ? enter(work) : answer(work, CommandResult::Failed));
+    case Step::Launching:
+      return launched(work, now);
+  }
+  return true;
+}
+
+void ModuleCommands::leave(const Work& work, rt::MonoTime now) {
+  if (is_process(work.module)) {
+    parts_.processes.stop(work.module, now);
+  } else if (!parts_.engine.disable(work.module)) {
+    parts_.normal_threads.halt(work.module, now);
+  }
+}
+
+bool ModuleCommands::has_left(const Work& work, rt::MonoTime now) {
+  return parts_.processes.has_ended(work.module) && parts_.engine.at_rest(work.module) &&
+         parts_.normal_threads.has_ended(work.module, now);
+}
+
+// Called when no run of the module is in progress any more: calls stop().
+bool ModuleCommands::call_stop(Work& work, rt::MonoTime now) {
+  record(work.module).state.store(ModuleState::Stopped);
+  if (auto* stop = parts_.libraries[work.module].functions().stop; stop != nullptr) {
+    work.call = parts_.phases.begin(work.module, "stop", stop);
+    work.step = Step::Stopping;
+  }
+  return work.call == nullptr && rest(work, now);
+}
+
+// Finally writes the values declared for the case that the module is stopped.
+bool ModuleCommands::rest(Work& work, rt::MonoTime now) {
+  record(work.module).state.store(ModuleState::Stopped);
+  parts_.failsafe.apply(work.module);
+  return work.command == ModuleCommand::Stop ? answer(work, CommandResult::Done) : begin_start(work, now);
+}
+
+bool ModuleCommands::begin_start(Work& work, rt::MonoTime now) {
+  work.began = now;
+  if (is_process(work.module)) {
+    work.step = Step::Launching;
+    return !parts_.processes.start(work.module) && answer(work, CommandResult::Failed);
+  }
+  auto* start = parts_.libraries[work.module].functions().start;
+  if (start == nullptr) {
+    return enter(work);
+  }
+  work.call = parts_.phases.begin(work.module, "start", start);
+  work.step = Step::Starting;
+  return work.call == nullptr && answer(work, CommandResult::Failed);
+}
+
+// A thread module keeps its code as long as the node runs; a user who has built another one must be informed.
+CommandResult ModuleCommands::started(std::uint32_t module) const {
+  return parts_.libraries[module].is_outdated() ? CommandResult::OldCode : CommandResult::Done;
+}
+
+bool ModuleCommands::enter(Work& work) {
+  if (parts_.config.modules[work.module].operation == Operation::NonReal) {
+    return answer(work, parts_.normal_threads.launch(work.module) ? started(work.module) : CommandResult::Failed);
+  }
+  if (tape::Track* track = parts_.tape == nullptr ? nullptr : parts_.tape->of(work.module)) {
+    track->started_anew();
+  }
+  record(work.module).state.store(ModuleState::Running);
+  parts_.engine.enable(work.module);
+  return answer(work, started(work.module));
+}
+
+bool ModuleCommands::launched(Work& work, rt::MonoTime now) {
+  switch (record(work.module).state.load()) {
+    case ModuleState::Running:
+    case ModuleState::Exited:
+      return answer(work, CommandResult::Done);
+    case ModuleState::Restarting:
+    case ModuleState::Faulted:
+      return answer(work, CommandResult::Failed);
+    case ModuleState::Loaded:
+    case ModuleState::Starting:
+    case ModuleState::Stopped:
+      break;
+  }
+  return now - work.began > kLaunch && answer(work, CommandResult::Failed);
+}
+
+void ModuleCommands::end() {
+  for (Work& work : works_) {
+    if (work.call != nullptr) {
+      while (!parts_.phases.ended(*work.call, rt::MonoClock::now(), Phases::kGrace)) {
+        rt::sleep_until(rt::MonoClock::now() + kCommandPoll);
+      }
+      if (parts_.phases.conclude(std::move(work.call)) && work.step == Step::Starting) {
+        record(work.module).state.store(ModuleState::Loaded);  // it has started, so its stop() will be called
+      }
+    }
+    scheduler::answer_command(record(work.module), CommandResult::Ending);
+  }
+  works_.clear();
+}
+
+}  // namespace indurop::node

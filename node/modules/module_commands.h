@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Executes commands about single modules while the node runs: a module is taken out of the schedule and put back, its
+// start() and stop() are called in the background, the others are not affected. Called by the thread that supervises
+// the node.
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "node/modules/failsafe.h"
+#include "node/modules/normal_threads.h"
+#include "node/modules/processes.h"
+#include "node/run/phases.h"
+#include "scheduler/engine.h"
+#include "scheduler/module_command.h"
+#include "store/tape/tape.h"
+
+namespace indurop::node {
+
+class ModuleCommands {
+ public:
+  // The parts of the node needed to execute commands.
+  struct Parts {
+    const config::Config& config;
+    scheduler::RunBlock& run;
+    const std::vector<ModuleLibrary>& libraries;
+    scheduler::Engine& engine;
+    Processes& processes;
+    NormalThreads& normal_threads;
+    Phases& phases;
+    FailSafe& failsafe;
+    Console& console;
+    tape::Tape* tape;  // null: none
+  };
+  explicit ModuleCommands(const Parts& parts) : parts_(parts) {}
+
+  // Accepts new commands and continues those in progress.
+  void look(rt::MonoTime now);
+  // Called when the schedule has ended: waits for calls in progress and answers the remaining commands.
+  void end();
+
+ private:
+  // Progress of a command.
+  enum class Step { Leaving, Stopping, Starting, Launching };
+  struct Work {
+    std::uint32_t module;
+    scheduler::ModuleCommand command;
+    Step step;
+    rt::MonoTime began;
+    Phases::CallPointer call;
+  };
+  void take(std::uint32_t module, scheduler::ModuleCommand command, rt::MonoTime now);
+  // Returns true when the command is finished.
+  bool go_on(Work& work, rt::MonoTime now);
+  void leave(const Work& work, rt::MonoTime now);
+  bool has_left(const Work& work, rt::MonoTime now);
+  bool call_stop(Work& work, rt::MonoTime now);
+  bool rest(Work& work, rt::MonoTime now);
+  bool begin_start(Work& work, rt::MonoTime now);
+  bool enter(Work& work);
+  bool launched(Work& work, rt::MonoTime now);
+  [[nodiscard]] scheduler::CommandResult started(std::uint32_t module) const;
+  bool answer(const Work& work, scheduler::CommandResult result);
+  [[nodiscard]] bool is_process(std::uint32_t module) const noexcept;
+  [[nodiscard]] scheduler::ModuleRecord& record(std::uint32_t module) const noexcept {
+    return parts_.run.modules()[module];
+  }
+
+  Parts parts_;
+  std::vector<Work> works_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/modules/module_library.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/sendfile.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace indurop::node {
+namespace {
+
+// The dynamic linker shares the globals between all that load the same file; a copy without a name is another file.
+int copy_to_memory(const std::filesystem::path& file) {
+  const int from = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (from < 0) {
+    return -1;
+  }
+  const int to = ::memfd_create(file.filename().c_str(), MFD_CLOEXEC);
+  struct stat info {};
+  bool ok = to >= 0 && ::fstat(from, &info) == 0;
+  for (off_t done = 0; ok && done < info.st_size;) {
+    const ssize_t n = ::sendfile(to, from, &done, static_cast<std::size_t>(info.st_size - done));
+    ok = n > 0;
+  }
+  ::close(from);
+  if (!ok && to >= 0) {
+    ::close(to);
+  }
+  return ok ? to : -1;
+}
+
+template <class Function>
+Function symbol(void* handle, const char* plain, const char* mangled) {
+  void* found = ::dlsym(handle, plain);
+  return reinterpret_cast<Function>(found != nullptr ? found : ::dlsym(handle, mangled));
+}
+
+}  // namespace
+
+Result<void, base::Problem> ModuleLibrary::load(const std::filesystem::path& file, bool own_copy) {
+  file_ = file;
+  mark_ = mark_of(file);
+  std::string path = file.string();
+  if (own_copy) {
+    copy_ = copy_to_memory(file);
+    if (copy_ < 0) {
+      return base::Problem{fmt::format("cannot copy {}: {}", file.string(), std::strerror(errno))};
+    }
+    path = fmt::format("/proc/self/fd/{}", copy_);
+  }
+  handle_ = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle_ == nullptr) {
+    const char* reason = ::dlerror();
+    return base::Problem{fmt::format(
+        "cannot load the module: {}; if a symbol is undefined, link the library that defines it into the module",
+        reason != nullptr ? reason : "unknown reason")};
+  }
+  find_functions();
+  if (functions_.run == nullptr) {
+    return base::Problem{
+        "the module has no run function: add INDUROP_MODULE(run = &::yourFunction) or define `void run()`"};
+  }
+  return {};
+}
+
+void ModuleLibrary::find_functions() {
+  using Describe = void (*)(ModuleDescriptor*);
+  if (auto describe = reinterpret_cast<Describe>(::dlsym(handle_, "indurop_module_describe")); describe != nullptr) {
+    describe(&functions_);
+    return;
+  }
+  using Plain = void (*)();
+  functions_.run = symbol<Plain>(handle_, "run", "_Z3runv");
+  functions_.start = symbol<Plain>(handle_, "start", "_Z5startv");
+  functions_.stop = symbol<Plain>(handle_, "stop", "_Z4stopv");
+  if (auto condition = symbol<int (*)()>(handle_, "condition", "_Z9conditionv"); condition != nullptr) {
+    functions_.condition = condition;
+  }
+}
+
+ModuleLibrary::Mark ModuleLibrary::mark_of(const std::filesystem::path& file) {
+  struct stat info {};
+  constexpr std::int64_t kSecondNs = 1'000'000'000;
+  return ::stat(file.c_str(), &info) != 0
+             ? Mark{}
+             : Mark{info.st_dev, info.st_ino, info.st_size, info.st_mtim.tv_sec * kSecondNs + info.st_mtim.tv_nsec};
+}
+
+bool ModuleLibrary::is_outdated() const {
+  return handle_ != nullptr && mark_of(file_) != mark_;
+}
+
+ModuleLibrary::ModuleLibrary(ModuleLibrary&& other) noexcept
+    : file_(std::move(other.file_)),
+      mark_(other.mark_),
+      handle_(std::exchange(other.handle_, nullptr)),
+      copy_(std::exchange(other.copy_, -1)),
+      functions_(other.functions_) {}
+
+ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
+  std::swap(file_, other.file_);
+  std::swap(mark_, other.mark_);
+  std::swap(handle_, other.handle_);
+  std::swap(copy_, other.copy_);
+  std::swap(functions_, other.functions_);
+  return *this;
+}
+
+ModuleLibrary::~ModuleLibrary() {
+  if (handle_ != nullptr) {
+    ::dlclose(handle_);
+  }
+  if (copy_ >= 0) {
+    ::close(copy_);
+  }
+}
+
+}  // namespace indurop::node

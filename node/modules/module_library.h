@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A thread module's .so in this process: loads it and finds its functions, either from INDUROP_MODULE or as plain
+// functions start, run, stop, condition with C or C++ linkage (chapter, Figures 7 and 13). Not real-time safe.
+
+#pragma once
+
+#include <indurop/module.h>
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <filesystem>
+
+#include "core/base/problem.h"
+
+namespace indurop::node {
+
+class ModuleLibrary {
+ public:
+  ModuleLibrary() = default;
+  // `own_copy`: loads a private copy, for a second module from the same file. Runs the module's static constructors.
+  Result<void, base::Problem> load(const std::filesystem::path& file, bool own_copy);
+  ModuleLibrary(ModuleLibrary&& other) noexcept;
+  ModuleLibrary& operator=(ModuleLibrary&& other) noexcept;
+  ModuleLibrary(const ModuleLibrary&) = delete;
+  ModuleLibrary& operator=(const ModuleLibrary&) = delete;
+  ~ModuleLibrary();
+
+  // Returns whether the file was replaced or removed since it was loaded: the older version is still running.
+  [[nodiscard]] bool is_outdated() const;
+
+  [[nodiscard]] const ModuleDescriptor& functions() const noexcept { return functions_; }
+
+ private:
+  // Identifies the file that was loaded.
+  struct Mark {
+    std::uint64_t device = 0;
+    std::uint64_t number = 0;
+    std::int64_t size = 0;
+    std::int64_t changed_ns = 0;
+    friend bool operator==(const Mark&, const Mark&) = default;
+  };
+  static Mark mark_of(const std::filesystem::path& file);
+  void find_functions();
+  std::filesystem::path file_;
+  Mark mark_;
+  void* handle_ = nullptr;
+  int copy_ = -1;  // stays open: the dynamic linker would mistake a second file with the same inode number for this one
+  ModuleDescriptor functions_;
+};
+
+}  // namespace indurop::node

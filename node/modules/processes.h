@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Process modules: launched, supervised, restarted within limits, ended in order. Runs on a normal thread; the
+// real-time threads only see ModuleRecord::state and the release slots.
+
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/model/config.h"
+#include "node/modules/failsafe.h"
+#include "node/run/console.h"
+#include "scheduler/run_block.h"
+#include "store/tape/tape.h"
+
+namespace indurop::node {
+
+class Processes {
+ public:
+  // All references are borrowed; `tape`: null if there is none.
+  Processes(const config::Config& config, scheduler::RunBlock& run, std::string node, bool realtime, Console& console,
+            FailSafe& failsafe, tape::Tape* tape);
+  ~Processes();
+  Processes(const Processes&) = delete;
+  Processes& operator=(const Processes&) = delete;
+
+  // Launches all processes. Returns false if one cannot be started at all (reported on the console).
+  bool launch_all();
+  // Returns true if all periodic and sporadic ones have enrolled or ended.
+  [[nodiscard]] bool ready() const noexcept;
+  // Handles deaths, restarts, enrolments, budgets. Returns true if the node must stop because of one (reason()). `now`
+  // is real time, `schedule` that of the schedule, which restarts follow.
+  bool supervise(rt::MonoTime now, rt::MonoTime schedule);
+  [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
+  // When the next process is to be restarted, by the schedule's time; nullopt: none is.
+  [[nodiscard]] std::optional<rt::MonoTime> next_restart() const noexcept;
+  // For a single process. stop() only requests the end; supervise() completes it, without a fault, and has_ended()
+  // returns true after it. start() returns false if the process cannot be launched (reported on the console).
+  void stop(std::uint32_t module, rt::MonoTime now);
+  [[nodiscard]] bool has_ended(std::uint32_t module) const noexcept;
+  bool start(std::uint32_t module);
+  // Kills a process that does not return in a simulation, where it has unlimited time.
+  void kill_hanging(std::uint32_t module);
+  // Requests all to end, waits, kills those still running.
+  void end_all();
+
+ private:
+  struct Child {
+    std::uint32_t index;
+    const config::Module* module;
+    std::string digest = {};  // of its file when the node started; only for deployed files
+    pid_t pid = -1;
+    rt::MonoTime restart_at{};
+    std::deque<rt::MonoTime> restarts;  // times of those within the window
+    bool killed_for_budget = false;
+    bool killed_hanging = false;
+    bool warned = false;  // already warned that it does not expect its signal
+    rt::MonoTime launched{};
+    bool stopping = false;  // by command
+    rt::MonoTime asked{};
+  };
+  Child* find(std::uint32_t module) noexcept;
+  void ask_to_end(Child& child);
+  void insist(Child& child, rt::MonoTime now);
+  [[nodiscard]] bool managed(const Child& child) const noexcept;
+  // Returns true if a launched process is ready to be released.
+  bool enrolled(Child& child);
+  bool launch(Child& child);
+  // Returns true if the file of a deployment is unchanged since the node started, so it is the one that was deployed.
+  bool is_sound(Child& child);
+  void died(Child& child, int status, rt::MonoTime schedule);
+  void fault(Child& child, scheduler::FaultKind kind, const std::string& text);
+  void plan_restart(Child& child, rt::MonoTime schedule);
+  void enforce_budget(Child& child, rt::MonoTime schedule);
+  scheduler::ModuleRecord& record(const Child& child) noexcept { return run_.modules()[child.index]; }
+  scheduler::ProcessSlot& slot(const Child& child) noexcept { return run_.process_slots()[child.index]; }
+
+  scheduler::RunBlock& run_;
+  std::string node_;
+  bool realtime_;
+  Console& console_;
+  FailSafe& failsafe_;
+  tape::Tape* tape_;
+  std::vector<Child> children_;
+  std::string reason_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// This board's mirror: in the network, in a simulated plant, or none.
+
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "network/mirror/frames/mirror.h"
+#include "node/run/checked.h"
+#include "node/run/options.h"
+#include "node/run/prepared.h"
+#include "node/simulate/simulated_mirror.h"
+#include "node/simulate/simulation.h"
+
+namespace indurop::node {
+
+class BoardMirror {
+ public:
+  // All arguments are borrowed.
+  BoardMirror(const Options& options, Checked& checked, Prepared& prepared, const Console& console)
+      : options_(options), checked_(checked), prepared_(prepared), console_(console) {}
+
+  // Starts no mirror for a module.xml, nor in the simulation of one board. `simulation` null: in real time.
+  Result<void, Ending> start(Simulation* simulation);
+  // Announces when the schedule began in real time. Called after it has begun.
+  void announce() noexcept;
+  // Called when the store may have changed. Real-time safe.
+  void notify() noexcept;
+  [[nodiscard]] const mirror::MirrorBlock* block() const noexcept;
+  // Stops the mirror; the other boards notice at once that this one is gone.
+  void stop() noexcept;
+
+ private:
+  Result<void, Ending> start_in_network();
+  Result<void, Ending> start_simulated(Simulation& simulation);
+
+  const Options& options_;
+  Checked& checked_;
+  Prepared& prepared_;
+  const Console& console_;
+  std::optional<mirror::Mirror> mirror_;
+  std::unique_ptr<SimulatedMirror> simulated_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/replay/recorded_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "history/explain/facts_json.h"
+#include "history/recorder/sources.h"
+#include "history/recording/omg_idl.h"
+
+namespace indurop::node {
+
+using base::Problem;
+
+Result<RecordedRuns, Unfit> RecordedRuns::open(const std::filesystem::path& path, const std::string& board,
+                                               const vars::Store& store) {
+  auto reader = recording::McapReader::open(path);
+  if (!reader) {
+    return Unfit{reader.error().text};
+  }
+  RecordedRuns runs(std::move(reader).value());
+  if (auto matched = runs.match(store, board, path.string()); !matched) {
+    return std::move(matched).error();
+  }
+  return runs;
+}
+
+Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::string& board, const std::string& name) {
+  const recording::Contents& contents = reader_.contents();
+  const recorder::Sources sources = recorder::find_sources(reader_);
+  const auto source = recorder::choose_source(sources, board, name);
+  if (!source) {
+    return Unfit{source.error().text};
+  }
+  modules_ = sources.all[*source].modules;
+  prefix_ = sources.all[*source].prefix;
+  real_minus_node_ns_ = sources.all[*source].number("real_minus_node_ns");
+  format_ = std::max<std::int64_t>(sources.all[*source].number("format"), 1);
+  std::string changed;
+  for (const auto& [id, place] : sources.channels) {
+    if (place.source != *source) {
+      continue;
+    }
+    if (place.kind != recorder::ChannelKind::Value) {
+      (place.kind == recorder::ChannelKind::Run     ? runs_channel_
+       : place.kind == recorder::ChannelKind::Clock ? clock_channel_
+                                                    : told_channel_) = id;
+      continue;
+    }
+    const auto* entry = store.find(abi::fnv1a64(place.name.data(), place.name.size()));
+    if (entry == nullptr) {
+      unknown_.push_back(place.name);
+      continue;
+    }
+    const auto schema = contents.schemas.find(contents.channels.at(id).schema);
+    const std::string now = recording::omg_idl(store.schema().variables[entry->schema_index].type).text;
+    if (schema == contents.schemas.end() || schema->second.data != now) {
+      changed += (changed.empty() ? "" : ", ") + place.name;
+      continue;
+    }
+    variables_[id] = static_cast<std::uint32_t>(entry - store.directory().data());
+  }
+  if (!changed.empty()) {
+    return Unfit{fmt::format("{} has another type in this configuration than in {}: replay with the modules that "
+                             "were recorded",
+                             changed, name),
+                 kSchemaMismatch};
+  }
+  return {};
+}
+
+explain::Facts RecordedRuns::facts() const {
+  explain::Facts facts;
+  for (const recording::McapAttachmentIndex& index : reader_.contents().attachments) {
+    const bool own = index.name == prefix_ + std::string(explain::kFactsFile);
+    if (const auto bytes = own ? reader_.attachment(index) : Problem{}; bytes) {
+      (void)explain::read_facts({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, facts);
+    }
+  }
+  return facts;
+}
+
+Result<std::optional<RecordedRuns::Item>, Problem> RecordedRuns::next() {
+  for (;;) {
+    auto message = reader_.next();
+    if (!message) {
+      return std::move(message).error();
+    }
+    if (!*message) {
+      return std::optional<Item>();
+    }
+    const recording::McapMessage& one = **message;
+    if (one.channel == runs_channel_) {
+      auto run = recorder::run_from_cdr(one.data.view);
+      if (!run) {
+        return Problem{"a run of the recording is damaged"};
+      }
+      return std::optional<Item>(RecordedRun{*run});
+    }
+    if (one.channel == clock_channel_ && clock_channel_ != 0) {
+      auto clock = recorder::clock_from_cdr(one.data.view);
+      if (!clock) {
+        return Problem{"a time of the recording is damaged"};
+      }
+      return std::optional<Item>(RecordedClock{recorder::from_sequence(one.sequence).module, *clock});
+    }
+    if (one.channel == told_channel_ && told_channel_ != 0) {
+      auto told = recorder::told_from_cdr(one.data.view);
+      if (!told) {
+        return Problem{"what a run of the recording was told is damaged"};
+      }
+      return std::optional<Item>(RecordedTold{recorder::from_sequence(one.sequence).module, *told});
+    }
+    if (const auto known = variables_.find(one.channel); known != variables_.end()) {
+      return std::optional<Item>(RecordedValue{recorder::from_sequence(one.sequence), known->second, one.data.view});
+    }
+  }
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads a recording as values and runs, in their order, for the variables of a store.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/exit_code.h"
+#include "core/base/problem.h"
+#include "history/explain/facts.h"
+#include "history/recorder/run_words.h"
+#include "history/recording/mcap_reader.h"
+#include "store/vars/store.h"
+
+namespace indurop::node {
+
+struct RecordedValue {
+  recorder::ValueWords words;
+  std::uint32_t variable = 0;  // index in the store's directory
+  std::span<const std::uint8_t> cdr;
+};
+struct RecordedRun {
+  recorder::RunWords words;
+};
+
+struct RecordedClock {
+  std::uint32_t module = 0;
+  std::int64_t now_ns = 0;
+};
+
+struct RecordedTold {
+  std::uint32_t module = 0;
+  recorder::ToldWords words;
+};
+
+// Why a recording cannot be used, and the exit code for that.
+struct Unfit {
+  std::string text;
+  int code = kFailed;
+};
+
+class RecordedRuns {
+ public:
+  // `board`: the board to replay, of a file that was joined; else empty. The store is borrowed. Errors: no recording of
+  // runs, or none of this board; a variable has another type now (kSchemaMismatch).
+  static Result<RecordedRuns, Unfit> open(const std::filesystem::path& path, const std::string& board,
+                                          const vars::Store& store);
+
+  // Returns the next item; nullopt after the last. Views in it are valid until the next call.
+  // Errors: a part of the file is damaged; the next call continues after it.
+  using Item = std::variant<RecordedValue, RecordedRun, RecordedClock, RecordedTold>;
+  Result<std::optional<Item>, base::Problem> next();
+
+  // kRecordingFormat of the program that recorded it.
+  [[nodiscard]] std::int64_t format() const noexcept { return format_; }
+  // CLOCK_REALTIME minus the node's time, when recorded; 0: virtual time.
+  [[nodiscard]] std::int64_t real_minus_node_ns() const noexcept { return real_minus_node_ns_; }
+  // Facts about the node, its modules and commands to it; empty: the recording has none.
+  [[nodiscard]] explain::Facts facts() const;
+  [[nodiscard]] const std::vector<std::string>& modules() const noexcept { return modules_; }
+  [[nodiscard]] const std::vector<std::string>& unknown_variables() const noexcept { return unknown_; }
+  // Returns true if the recording was closed, not cut off.
+  [[nodiscard]] bool complete() const noexcept { return reader_.contents().has_summary; }
+
+ private:
+  explicit RecordedRuns(recording::McapReader reader) : reader_(std::move(reader)) {}
+  Result<void, Unfit> match(const vars::Store& store, const std::string& board, const std::string& name);
+
+  recording::McapReader reader_;
+  std::string prefix_;  // of names in the file
+  std::int64_t format_ = 1;
+  std::int64_t real_minus_node_ns_ = 0;
+  std::vector<std::string> modules_;
+  std::map<std::uint16_t, std::uint32_t> variables_;  // by channel
+  std::vector<std::string> unknown_;
+  std::uint16_t runs_channel_ = 0;
+  std::uint16_t clock_channel_ = 0;
+  std::uint16_t told_channel_ = 0;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a replay repeats events that the values do not show: processes run and die, modules that were restarted are
+// restarted again.
+
+#include <thread>
+
+#include "core/rt/relax.h"
+#include "node/replay/replay.h"
+
+namespace indurop::node {
+namespace {
+
+constexpr std::chrono::seconds kRestartPatience{10};
+constexpr std::chrono::milliseconds kRestartPoll{1};
+constexpr int kLooksBeforeSleep = 2000;
+constexpr std::chrono::microseconds kShortPause{50};
+
+}  // namespace
+
+bool Replay::call(std::uint32_t index, const char* phase, void (*function)()) {
+  if (function == nullptr) {
+    return true;
+  }
+  auto call = phases_.begin(index, phase, function);
+  while (call != nullptr && !phases_.ended(*call, rt::MonoClock::now(), Phases::kGrace)) {
+    std::this_thread::sleep_for(kRestartPoll);
+  }
+  return call != nullptr && phases_.conclude(std::move(call));
+}
+
+// A process has unlimited time, as long as it lives. One that dies stays dead until it is restarted.
+void Replay::run_process(Module& module, std::uint32_t index, const tape::RunTail& tail) {
+  scheduler::ProcessSlot& slot = *module.state.slot;
+  retold_->give(module.clock, module.told());
+  const std::uint64_t release = slot.released.load() + 1;
+  slot.release_ns.store(tail.release_ns);
+  slot.release_tick.store(tail.tick);
+  slot.released.store(release, std::memory_order_release);
+  slot.wake.wake();
+  const rt::MonoTime until = rt::MonoClock::now() + kRestartPatience;
+  for (int looks = 0; slot.done.load(std::memory_order_acquire) != release; ++looks) {
+    if (looks < kLooksBeforeSleep) {
+      rt::relax();
+      continue;
+    }
+    std::this_thread::sleep_for(kShortPause);
+    if (rt::MonoClock::now() > until) {
+      processes_.kill_hanging(index);
+    }
+    (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
+    if (module.state.record->state.load() != scheduler::ModuleState::Running) {
+      module.died = true;
+      processes_.stop(index, rt::MonoClock::now());
+      return;
+    }
+  }
+}
+
+bool Replay::restart_process(std::uint32_t index) {
+  const rt::MonoTime until = rt::MonoClock::now() + kRestartPatience;
+  processes_.stop(index, rt::MonoClock::now());
+  bool started = false;
+  while (rt::MonoClock::now() < until) {
+    (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
+    if (!started && processes_.has_ended(index)) {
+      started = processes_.start(index);
+    } else if (started && run_.modules()[index].state.load() == scheduler::ModuleState::Running) {
+      return true;
+    }
+    std::this_thread::sleep_for(kRestartPoll);
+  }
+  return false;
+}
+
+bool Replay::start_anew(Module& module, std::uint32_t index) {
+  bool good = true;
+  if (module.state.task.type == scheduler::ModuleType::Process) {
+    module.died = false;
+    good = restart_process(index);
+  } else {
+    (void)call(index, "stop", libraries_[index].functions().stop);  // a failure is reported
+    good = call(index, "start", libraries_[index].functions().start);
+    module.state.record->state.store(scheduler::ModuleState::Running);
+    module.state.enabled.store(true);
+  }
+  if (!good) {
+    console_.error("module {} was started anew in the recording and could not be now", module.state.record->name);
+  }
+  return good;
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/run/checked.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "config/xml/plant_reader.h"
+#include "config/xml/reader.h"
+#include "node/parts/plant_part.h"
+
+namespace indurop::node {
+namespace {
+
+struct Reading {
+  bool ok = false;
+  Checked checked;
+  std::vector<base::Diagnostic> diagnostics;
+  std::vector<std::string> boards;  // of the plant
+
+  void add(const std::vector<base::Diagnostic>& more) {
+    diagnostics.insert(diagnostics.end(), more.begin(), more.end());
+  }
+};
+
+// Files that replace a module's file, selected by its name or that of its file. Returns false if one fits no module.
+bool take_files(const std::vector<std::string>& files, config::Config& config,
+                std::vector<base::Diagnostic>& diagnostics) {
+  bool ok = true;
+  std::map<std::string, std::filesystem::path> taken;  // by module
+  const auto wrong = [&](const std::filesystem::path& file, std::string text) {
+    ok = false;
+    diagnostics.push_back({base::Diagnostic::Severity::Error, file.string(), {}, std::move(text)});
+  };
+  for (const std::filesystem::path file : files) {
+    const auto module = std::find_if(config.modules.begin(), config.modules.end(), [&](const config::Module& one) {
+      return one.name == file.stem() || one.file.filename() == file.filename();
+    });
+    if (module == config.modules.end()) {
+      wrong(file, "no module has this name or such a file; rename the file");
+    } else if (const auto [first, fresh] = taken.emplace(module->name, file); !fresh) {
+      wrong(file, fmt::format("takes the place of module {}, as {} does; leave one of them out", module->name,
+                              first->second.string()));
+    } else {
+      module->file = std::filesystem::absolute(file);
+    }
+  }
+  return ok;
+}
+
+// Applies the node's core from the command line: <cores> spreads modules around it.
+void take_core(const Options& options, config::Config& config) {
+  if (config.cores && options.core) {
+    config.core = *options.core;
+  }
+}
+
+Reading read_modules(const Options& options) {
+  Reading out;
+  config::ReadResult read = config::read_config(options.config);
+  out.add(read.diagnostics);
+  if (!read.ok()) {
+    return out;
+  }
+  Checked& checked = out.checked;
+  checked.config = std::move(read.config);
+  if (!take_files(options.replay.with, checked.config, out.diagnostics)) {
+    return out;
+  }
+  take_core(options, checked.config);
+  checked.check = config::check_config(checked.config, {.adjust = options.adjust, .machine = !options.simulation.on});
+  out.add(checked.check.diagnostics);
+  checked.external.configure(checked.config, checked.check);
+  out.ok = checked.check.ok();
+  return out;
+}
+
+Reading read_plant(const Options& options) {
+  Reading out;
+  config::ReadPlant read = config::read_plant(options.config);
+  out.add(read.diagnostics);
+  if (!read.ok()) {
+    return out;
+  }
+  config::Plant& plant = read.plant;
+  for (config::Board& board : plant.boards) {
+    if (board.name == options.board) {
+      if (!take_files(options.replay.with, board.config, out.diagnostics)) {
+        return out;
+      }
+      take_core(options, board.config);
+    }
+  }
+  config::PlantCheck check =
+      config::check_plant(plant, {.adjust = options.adjust, .machine = !options.simulation.on, .board = options.board});
+  out.add(check.diagnostics);
+  for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+    out.boards.push_back(plant.boards[i].name);
+    if (plant.boards[i].name == options.board) {
+      out.checked.mirror = mirror_settings(plant, check, i);
+      out.checked.mirror->network.one_host = options.one_host;
+      out.checked.external.configure(plant, check, i, options.one_host);
+      out.checked.config = std::move(plant.boards[i].config);
+      out.checked.check = std::move(check.boards[i]);
+    }
+  }
+  out.ok = check.ok();
+  return out;
+}
+
+}  // namespace
+
+Result<Checked, Ending> check(const Options& options, const Console& console) {
+  const bool plant = config::is_plant_file(options.config);
+  if (plant == options.board.empty()) {
+    console.error("{} {}", options.config.string(),
+                  plant ? "is the manifest of a plant: say with --board NAME which of its boards this is"
+                        : "is not the manifest of a plant, so there is no --board");
+    return Ending{kUsage};
+  }
+  Reading reading = plant ? read_plant(options) : read_modules(options);
+  for (const base::Diagnostic& diagnostic : reading.diagnostics) {
+    // Where all boards are on one host, the program that starts them prints warnings once.
+    const bool said = diagnostic.severity == base::Diagnostic::Severity::Note ||
+                      (options.one_host && diagnostic.severity == base::Diagnostic::Severity::Warning);
+    if (!said) {
+      fmt::print(stderr, "{}\n", base::to_string(diagnostic));
+    }
+  }
+  if (reading.ok && plant && !reading.checked.mirror) {
+    console.error("the plant has no board {}; it has {}", options.board, fmt::join(reading.boards, ", "));
+    return Ending{kUsage};
+  }
+  if (!reading.ok) {
+    return Ending{kCheckFailed};
+  }
+  return std::move(reading.checked);
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/run/console.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace indurop::node {
+namespace {
+
+constexpr std::chrono::seconds kSummary{1};
+constexpr std::size_t kMostLines = 4;
+
+double in_microseconds(std::int64_t ns) noexcept {
+  return static_cast<double>(ns) / 1000;
+}
+
+// Returns the newest record of an overrun of `module`, null if it was overwritten.
+const scheduler::OverrunEntry* newest_overrun(const scheduler::RunBlock& run, std::uint32_t module) {
+  const auto* entries = run.at<scheduler::OverrunEntry>(run.overrun_log_offset);
+  const std::uint64_t next = run.overrun_log_next.load(std::memory_order_acquire);
+  for (std::uint64_t back = 1; back <= run.overrun_log_capacity && back <= next; ++back) {
+    const auto& entry = entries[(next - back) & (run.overrun_log_capacity - 1)];
+    if (entry.sequence.load(std::memory_order_acquire) == next - back + 1 && entry.module == module) {
+      return &entry;
+    }
+  }
+  return nullptr;
+}
+
+std::string describe_overrun(const scheduler::RunBlock& run, const scheduler::OverrunEntry& entry) {
+  std::string text =
+      fmt::format("the last at tick {} (slot {}): ", std::uint64_t{entry.tick}, std::uint64_t{entry.slot});
+  text += entry.started != 0 ? fmt::format("it had been running for {:.1f} us after starting {:.1f} us late",
+                                           in_microseconds(entry.own_ns), in_microseconds(entry.latency_ns))
+                             : std::string("it was still waiting for its turn");
+  if (entry.previous >= 0) {
+    text += fmt::format("; before it ran {} for {:.1f} us", run.modules()[entry.previous].name,
+                        in_microseconds(entry.previous_ns));
+  }
+  return text;
+}
+
+}  // namespace
+
+void Console::watch(scheduler::RunBlock& run) {
+  run_ = &run;
+  seen_.assign(run.module_count, Seen{});
+  reader_.emplace(run);
+}
+
+void Console::report(rt::MonoTime now, bool last) {
+  if (run_ == nullptr) {
+    return;
+  }
+  print_messages(now);
+  report_faults();
+  if (last || now >= next_summary_) {
+    report_overruns(now, last);
+    report_losses();
+  }
+}
+
+void Console::print_messages(rt::MonoTime now) {
+  runtime::Message message;
+  bool any = false;
+  while (reader_->next(message, now)) {
+    std::fwrite(message.text.data(), 1, message.text.size(), stdout);
+    any = true;
+  }
+  if (any) {
+    std::fflush(stdout);
+  }
+}
+
+void Console::report_faults() {
+  for (std::uint32_t i = 0; i < run_->module_count; ++i) {
+    const scheduler::ModuleRecord& module = run_->modules()[i];
+    const std::uint64_t faults = module.faults.load(std::memory_order_acquire);
+    if (faults != seen_[i].faults) {
+      seen_[i].faults = faults;
+      error("module {} faulted at tick {}: {}", module.name, module.fault_tick.load(std::memory_order_relaxed),
+            module.last_fault);
+    }
+  }
+}
+
+void Console::report_overruns(rt::MonoTime now, bool last) {
+  next_summary_ = now + kSummary;
+  std::vector<std::string> lines;
+  for (std::uint32_t i = 0; i < run_->module_count; ++i) {
+    const scheduler::ModuleRecord& module = run_->modules()[i];
+    const std::uint64_t overruns = module.overruns.load(std::memory_order_relaxed);
+    if (const std::uint64_t fresh = overruns - seen_[i].overruns; fresh > 0) {
+      const scheduler::OverrunEntry* entry = newest_overrun(*run_, i);
+      lines.push_back(fmt::format("module {}: {} overrun{}{}", module.name, fresh, fresh == 1 ? "" : "s",
+                                  entry == nullptr ? "" : ", " + describe_overrun(*run_, *entry)));
+      seen_[i].overruns = overruns;
+    }
+    const std::uint64_t misses = module.deadline_misses.load(std::memory_order_relaxed);
+    if (const std::uint64_t fresh = misses - seen_[i].misses; fresh > 0) {
+      lines.push_back(fmt::format("module {}: {} deadline{} of {:.1f} us missed", module.name, fresh,
+                                  fresh == 1 ? "" : "s", in_microseconds(module.deadline_ns)));
+      seen_[i].misses = misses;
+    }
+  }
+  for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) {
+    warning("{}", lines[i]);
+  }
+  if (lines.size() > kMostLines) {
+    warning("... and {} more of this kind in 1 s: `indurop overruns` and `indurop status` show all",
+            lines.size() - kMostLines);
+  }
+  if (const std::uint64_t lost = run_->lost_ticks.load(std::memory_order_relaxed); last && lost > 0) {
+    warning("{} basic periods lost in all: nothing could be started in them", lost);
+  }
+}
+
+void Console::report_losses() {
+  for (std::uint32_t i = 0; i < run_->module_count; ++i) {
+    const scheduler::ModuleRecord& module = run_->modules()[i];
+    const std::uint64_t lost = module.lost_messages.load(std::memory_order_relaxed);
+    if (lost > seen_[i].lost_messages) {
+      warning("module {}: {} lines of irp::printf dropped, its ring was full", module.name,
+              lost - seen_[i].lost_messages);
+      seen_[i].lost_messages = lost;
+    }
+  }
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The state word of a call slot: request number and CallState in one atomic, so that an answer to an abandoned request
+// can never be mistaken for the answer to the next one.
+
+#pragma once
+
+#include <cstdint>
+
+#include "store/vars/call_layout.h"
+
+namespace indurop::runtime {
+
+constexpr std::uint64_t word_of(std::uint64_t sequence, vars::CallState state) noexcept {
+  return sequence << 8U | static_cast<std::uint64_t>(state);
+}
+constexpr std::uint64_t sequence_of(std::uint64_t word) noexcept {
+  return word >> 8U;
+}
+constexpr vars::CallState state_of(std::uint64_t word) noexcept {
+  return static_cast<vars::CallState>(word & 0xFFU);
+}
+
+}  // namespace indurop::runtime

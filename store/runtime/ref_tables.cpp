@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "store/runtime/ref_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+
+namespace indurop::runtime {
+
+namespace {
+
+std::atomic<std::uint32_t> bindings_done{0};  // NOLINT(*avoid-non-const-global*): one number for the process
+
+std::string type_text(const schema::Type& type) {
+  return fmt::format("{} ({} bytes)", display_name(type), type.size());
+}
+
+}  // namespace
+
+std::vector<BindingProblem> RefTables::add(abi::Ref* refs, std::uint32_t count, const Attachment* to) {
+  std::vector<BindingProblem> problems;
+  for (Table& table : tables_) {
+    if (table.refs == refs) {
+      ++table.times;
+      return problems;
+    }
+  }
+  tables_.push_back({refs, count, 1, {}});
+  bind_table(tables_.back(), to, problems);
+  return problems;
+}
+
+void RefTables::remove(const abi::Ref* refs) {
+  std::erase_if(tables_, [refs](Table& table) { return table.refs == refs && --table.times == 0; });
+}
+
+std::vector<BindingProblem> RefTables::bind(const Attachment* to) {
+  std::vector<BindingProblem> problems;
+  for (Table& table : tables_) {
+    bind_table(table, to, problems);
+  }
+  return problems;
+}
+
+void RefTables::bind_table(Table& table, const Attachment* to, std::vector<BindingProblem>& problems) {
+  for (abi::Ref& ref : std::span(table.refs, table.count)) {
+    void* entry = nullptr;
+    if (to != nullptr) {
+      const vars::DirectoryEntry* found = to->store().find(ref.name_hash);
+      const bool same = found != nullptr && found->kind == ref.kind && found->value_size == ref.value_size;
+      entry = same ? to->store().entry(ref.name_hash, ref.type_hash) : nullptr;
+      if (entry == nullptr) {
+        problems.push_back(describe(table, ref, *to));
+      }
+    }
+    // Other threads may be using the old entry, which stays mapped.
+    __atomic_store_n(&ref.entry, entry != nullptr ? entry : private_.entry_of(ref), __ATOMIC_RELEASE);
+  }
+  bindings_done.fetch_add(1, std::memory_order_release);
+}
+
+std::uint32_t RefTables::bindings() noexcept {
+  return bindings_done.load(std::memory_order_acquire);
+}
+
+BindingProblem RefTables::describe(Table& table, const abi::Ref& ref, const Attachment& to) {
+  if (!table.facts) {
+    table.facts = read_module_of(table.refs);
+  }
+  BindingProblem problem;
+  problem.used = table.facts->uses(ref.name_hash);
+  const schema::Variable* mine = table.facts->variable(ref.name_hash);
+  const vars::DirectoryEntry* entry = to.store().find(ref.name_hash);
+  if (entry == nullptr) {
+    problem.text = fmt::format(
+        "variable {}: node '{}' does not have it, so nobody else sees it: name this program in the node's module.xml "
+        "and restart the node",
+        ref.name, to.node());
+    return problem;
+  }
+  const auto& variables = to.store().schema().variables;
+  const schema::Variable* theirs = entry->schema_index < variables.size() ? &variables[entry->schema_index] : nullptr;
+  const std::string difference = mine != nullptr && theirs != nullptr ? first_difference(mine->type, theirs->type) : "";
+  problem.text =
+      fmt::format("variable {}: this program was built with {}, node '{}' has {}{}{}: rebuild against the same .glb",
+                  ref.name, mine != nullptr ? type_text(mine->type) : fmt::format("{} bytes", ref.value_size),
+                  to.node(), theirs != nullptr ? type_text(theirs->type) : fmt::format("{} bytes", entry->value_size),
+                  difference.empty() ? "" : "; ", difference);
+  return problem;
+}
+
+}  // namespace indurop::runtime

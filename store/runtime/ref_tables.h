@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of variables of everything loaded into this process, and the address of each variable's entry.
+
+#pragma once
+
+#include <indurop/detail/abi.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "store/runtime/attachment.h"
+#include "store/runtime/module_file.h"
+#include "store/runtime/private_memory.h"
+
+namespace indurop::runtime {
+
+// A variable that stays in private memory although there is a store.
+struct BindingProblem {
+  std::string text;   // "variable knu::Robot::joints: this program was built with ...: rebuild ..."
+  bool used = false;  // the code of the module accesses it; otherwise the problem has no effect
+};
+
+class RefTables {
+ public:
+  // Registers the rows and binds them, to private memory if `to` is null. Returns the problems.
+  std::vector<BindingProblem> add(abi::Ref* refs, std::uint32_t count, const Attachment* to);
+  void remove(const abi::Ref* refs);
+  // Binds all rows again.
+  std::vector<BindingProblem> bind(const Attachment* to);
+  [[nodiscard]] bool empty() const noexcept { return tables_.empty(); }
+  // Number of times that rows of any table were bound. Any thread; real-time safe.
+  [[nodiscard]] static std::uint32_t bindings() noexcept;
+
+ private:
+  struct Table {
+    abi::Ref* refs = nullptr;
+    std::uint32_t count = 0;
+    std::uint32_t times = 0;           // one for each source file of the module that includes the header
+    std::optional<ModuleFacts> facts;  // read when first needed
+  };
+  void bind_table(Table& table, const Attachment* to, std::vector<BindingProblem>& problems);
+  static BindingProblem describe(Table& table, const abi::Ref& ref, const Attachment& to);
+
+  std::vector<Table> tables_;
+  PrivateMemory private_;
+};
+
+}  // namespace indurop::runtime

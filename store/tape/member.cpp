@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "store/tape/member.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "store/tape/check.h"
+
+namespace indurop::tape {
+
+Result<Member> Member::open(const std::string& node, std::uint32_t module, const vars::Store& store) {
+  auto file = vars::ShmFile::open(vars::tape_file(node), vars::Mode::ReadWrite);
+  if (!file) {
+    return file.error();
+  }
+  std::byte* const memory = file->data();
+  if (const auto good = index_tape({memory, file->size()}); !good) {
+    return good.error();
+  }
+  if (header_of(memory).layout_hash != store.header().layout_hash) {
+    return Error{Errc::NotFound, 0, "the tape is of another run"};
+  }
+  auto* const tracks = reinterpret_cast<TapeTrack*>(memory + header_of(memory).tracks_offset);
+  auto* const end = tracks + header_of(memory).track_count;
+  auto* const own = std::find_if(tracks, end, [&](const TapeTrack& track) { return track.module == module; });
+  if (own == end) {
+    return Error{Errc::NotFound, 0, "the tape has no track of this module"};
+  }
+  auto track = std::make_unique<Track>(memory, *own, store, Track::Writer::Process);
+  return Member(std::move(file).value(), std::move(track));
+}
+
+}  // namespace indurop::tape

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "store/tape/track.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+#include "store/vars/ring.h"
+
+namespace indurop::tape {
+namespace {
+
+constexpr auto kRelaxed = std::memory_order_relaxed;
+constexpr std::uint64_t kAhead = 64;        // words claimed in advance, so that not each entry has to claim
+constexpr std::uint64_t kLookAtClock = 16;  // variables checked and words written in the time of a clock reading
+
+// The bits of a scalar.
+std::uint64_t load_scalar(const void* entry, std::uint32_t size) noexcept {
+  switch (size) {
+    case 1:
+      return __atomic_load_n(static_cast<const std::uint8_t*>(entry), __ATOMIC_ACQUIRE);
+    case 2:
+      return __atomic_load_n(static_cast<const std::uint16_t*>(entry), __ATOMIC_ACQUIRE);
+    case 4:
+      return __atomic_load_n(static_cast<const std::uint32_t*>(entry), __ATOMIC_ACQUIRE);
+    default:
+      return __atomic_load_n(static_cast<const std::uint64_t*>(entry), __ATOMIC_ACQUIRE);
+  }
+}
+
+const abi::RingHeader& ring_of(const void* entry) noexcept {
+  return *static_cast<const abi::RingHeader*>(entry);
+}
+
+}  // namespace
+
+Track::Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Writer writer)
+    : orders_(reinterpret_cast<TapeHeader*>(tape)->order),
+      head_(shared.head.load(kRelaxed)),
+      at_(head_),
+      claimed_(shared.claimed.load(kRelaxed)),
+      number_(shared.runs.load(kRelaxed)),
+      anew_(number_ > 0 ? std::uint32_t{kAnew} : 0U),  // another process of a module that has run
+      shared_(shared),
+      words_(reinterpret_cast<std::uint64_t*>(tape + shared.data_offset)),
+      mask_(shared.words - 1),
+      part_shift_(static_cast<std::uint8_t>(std::bit_width(shared.words / kMarks) - 1)),
+      shows_open_(writer == Writer::Process),
+      reads_end_(shared.only_read + shared.both),
+      writes_begin_(shared.only_read) {
+  const auto* const indices = reinterpret_cast<const std::uint32_t*>(tape + shared.items_offset);
+  std::uint64_t largest = 0;
+  for (std::size_t i = 0; i < std::size_t{reads_end_} + shared.only_written; ++i) {
+    const vars::DirectoryEntry& entry = store.directory()[indices[i]];
+    items_.push_back(
+        {store.entry(entry.name_hash, 0), 0, entry.value_size, indices[i], entry.kind == abi::Kind::Scalar});
+    largest = std::max(largest, words_of(entry.value_size));
+  }
+  copy_.resize(largest);
+}
+
+void Track::claim(std::uint64_t words) noexcept {
+  if (at_ + words > claimed_) {
+    claimed_ = at_ + words + kAhead;
+    shared_.claimed.store(claimed_, kRelaxed);
+    std::atomic_thread_fence(std::memory_order_release);  // before the data that it announces
+  }
+}
+
+void Track::put(std::uint64_t word) noexcept {
+  __atomic_store_n(words_ + (at_ & mask_), word, __ATOMIC_RELAXED);
+  ++at_;
+}
+
+void Track::put_head(EntryKind kind, std::uint32_t which) noexcept {
+  put(std::bit_cast<std::uint64_t>(EntryHead{kind, which}));
+}
+
+// A value that writers keep overtaking is recorded the next time.
+void Track::tell(Item& item, EntryKind kind) noexcept {
+  const std::uint64_t length = words_of(item.size);
+  if (item.scalar) {
+    claim(1 + length);
+    put_head(kind, item.variable);
+    put(item.seen);
+    return;
+  }
+  copy_[length - 1] = 0;  // the bytes after the value in its last word
+  if (!vars::try_read(ring_of(item.entry), item.size, 0, copy_.data(), item.size)) {
+    item.seen = ~std::uint64_t{0};
+    return;
+  }
+  claim(1 + length);
+  put_head(kind, item.variable);
+  for (std::uint64_t i = 0; i < length; ++i) {
+    put(copy_[i]);
+  }
+}
+
+bool Track::tell_changed(Item& item, EntryKind kind, bool anyway) noexcept {
+  const std::uint64_t now =
+      item.scalar ? load_scalar(item.entry, item.size) : ring_of(item.entry).seq.load(std::memory_order_acquire);
+  if (now == item.seen && !anyway) [[likely]] {
+    return false;
+  }
+  item.seen = now;
+  tell(item, kind);
+  return true;
+}
+
+bool Track::begin() noexcept {
+  at_ = head_;
+  all_ = all_ || open_;
+  open_ = true;
+  clock_left_ = kMostReadings;
+  told_left_ = kMostTold;
+  told_words_left_ = (mask_ + 1) / kToldShare;
+  order_ = orders_.fetch_add(1, kRelaxed);
+  for (std::size_t i = 0; i < reads_end_; ++i) {
+    tell_changed(items_[i], EntryKind::Before, all_);
+  }
+  if (shows_open_) {
+    shared_.open_order.store(order_, kRelaxed);
+    shared_.open_flags.store(anew_.load(kRelaxed), kRelaxed);
+    show_open();
+  }
+  return much(reads_end_, head_);
+}
+
+// About a nanosecond for each variable that was checked and for each word that was written since `from`.
+bool Track::much(std::size_t looked_at, std::uint64_t from) const noexcept {
+  return looked_at + (at_ - from) > kLookAtClock;
+}
+
+// The words so far belong to the open run, even if its writer dies.
+void Track::show_open() noexcept {
+  if (shows_open_) {
+    shared_.open.store(at_, std::memory_order_release);
+  }
+}
+
+void Track::clock(std::int64_t ns) noexcept {
+  if (open_ && clock_left_ > 0) {
+    --clock_left_;
+    claim(2);
+    put_head(EntryKind::Clock, 0);
+    put(static_cast<std::uint64_t>(ns));
+    show_open();
+  }
+}
+
+void Track::told(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept {
+  if (!open_ || told_left_ == 0 || told_words_left_ < 2) {
+    return;
+  }
+  --told_left_;
+  const std::uint64_t length = words_of(bytes.size());
+  const bool fits = 2 + length <= told_words_left_;
+  told_words_left_ -= 2 + (fits ? length : 0);
+  claim(2 + (fits ? length : 0));
+  put_head(EntryKind::Told, fits ? static_cast<std::uint32_t>(bytes.size()) : 0);
+  put(static_cast<std::uint64_t>(fits ? code : kTooLongToTell));
+  for (std::size_t from = 0; fits && from < bytes.size(); from += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + from, std::min(sizeof word, bytes.size() - from));
+    put(word);
+  }
+  show_open();
+}
+
+void Track::end_of_dead(RunTail times) noexcept {
+  at_ = shared_.open.load(std::memory_order_acquire);
+  if (at_ > head_) {
+    order_ = shared_.open_order.load(kRelaxed);
+    anew_.store(static_cast<std::uint32_t>(shared_.open_flags.load(kRelaxed)), kRelaxed);
+    times.start_ns = std::max(times.start_ns, times.release_ns);
+    publish(times, kFaulted);
+  }
+}
+
+bool Track::end(const RunTail& times, std::uint32_t flags) noexcept {
+  const std::uint64_t from = at_ + 1 + kRunWords;
+  for (std::size_t i = 0; i < writes_begin_; ++i) {
+    tell_changed(items_[i], EntryKind::During, false);
+  }
+  for (std::size_t i = writes_begin_; i < items_.size(); ++i) {
+    tell_changed(items_[i], EntryKind::After, all_ && i >= reads_end_);
+  }
+  tell_next_again();
+  publish(times, flags);
+  return much(items_.size(), from);
+}
+
+void Track::look(const RunTail& times) noexcept {
+  at_ = head_;
+  bool changed = false;
+  for (Item& item : items_) {
+    changed = tell_changed(item, EntryKind::Before, all_) || changed;
+  }
+  if (changed) {
+    order_ = orders_.fetch_add(1, kRelaxed);
+    tell_next_again();
+    publish(times, 0);
+  }
+}
+
+void Track::tell_next_again() noexcept {
+  if (!items_.empty()) {
+    again_ = again_ + 1U < items_.size() ? again_ + 1U : 0U;
+    Item& item = items_[again_];
+    if (item.scalar || ring_of(item.entry).seq.load(kRelaxed) == item.seen) {
+      tell(item, EntryKind::Again);
+    }
+  }
+}
+
+// Written from data at hand, and a mark without a division: most runs consist only of this.
+void Track::publish(const RunTail& times, std::uint32_t flags) noexcept {
+  claim(1 + kRunWords);
+  const std::uint32_t anew = anew_.load(std::memory_order_acquire);
+  if (anew != 0) [[unlikely]] {
+    anew_.store(0, kRelaxed);
+  }
+  std::uint64_t* const words = words_;
+  const std::uint64_t mask = mask_;
+  std::uint64_t at = at_;
+  const auto write = [&](std::uint64_t word) { __atomic_store_n(words + (at++ & mask), word, __ATOMIC_RELAXED); };
+  write(std::bit_cast<std::uint64_t>(EntryHead{EntryKind::Run, flags | anew}));
+  // In the order of RunTail.
+  static_assert(kRunWords == 6 && offsetof(RunTail, order) == 8 && offsetof(RunTail, tick) == 16 &&
+                offsetof(RunTail, release_ns) == 24 && offsetof(RunTail, start_ns) == 32);
+  write(number_);
+  write(order_);
+  write(times.tick);
+  write(static_cast<std::uint64_t>(times.release_ns));
+  write(static_cast<std::uint64_t>(times.start_ns));
+  write(static_cast<std::uint64_t>(times.end_ns));
+  if ((head_ ^ at) >> part_shift_ != 0) [[unlikely]] {
+    shared_.marks[(at >> part_shift_) % kMarks].store(at, kRelaxed);
+  }
+  at_ = at;
+  head_ = at;
+  shared_.runs.store(++number_, kRelaxed);
+  shared_.head.store(at, std::memory_order_release);
+  all_ = false;
+  open_ = false;
+}
+
+}  // namespace indurop::tape

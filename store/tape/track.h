@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The writing end of one track: called before and after each run of its module, by the thread that runs it.
+
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "store/tape/layout.h"
+#include "store/vars/store.h"
+
+namespace indurop::tape {
+
+class alignas(kLine) Track {
+ public:
+  // The writing thread's process. A separate process may die in the middle of a run while the node lives, which then
+  // ends that run: so it publishes its progress.
+  enum class Writer { Node, Process };
+
+  // Continues after the present end of the track. `tape`: all its bytes, checked; borrowed, like the store. Not
+  // real-time safe.
+  Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Writer writer = Writer::Node);
+
+  // The module restarts before its next run; call while it does not run, on any thread.
+  void started_anew() noexcept { anew_.store(kAnew, std::memory_order_release); }
+  // Records the values at the start of a run. Returns true if that was much: it took longer than a clock reading.
+  // Real-time safe: no lock, no allocation, no system call.
+  bool begin() noexcept;
+  // Records a clock reading of the run. Real-time safe.
+  void clock(std::int64_t ns) noexcept;
+  // Records the answer of a call or a channel. Real-time safe.
+  void told(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept;
+  // Records the values after the run; from then on readers see the run. Returns true if that was much, as above.
+  // `number` and `order` of `times` are ignored. Real-time safe.
+  bool end(const RunTail& times, std::uint32_t flags) noexcept;
+  // Ends the open run of a writer that died in the middle of it as a run that ended by a fault; nothing if there was
+  // none. Called by the process that continues the track, before anything else. Not real-time safe.
+  void end_of_dead(RunTail times) noexcept;
+  // Position of the next run.
+  [[nodiscard]] const void* next() const noexcept { return words_ + (head_ & mask_); }
+  // A run that only checks: nothing is written if nothing changed. Real-time safe.
+  void look(const RunTail& times) noexcept;
+
+ private:
+  struct Item {
+    const void* entry = nullptr;  // of the store
+    std::uint64_t seen = 0;       // scalar: the value; else the version
+    std::uint32_t size = 0;
+    std::uint32_t variable = 0;
+    bool scalar = false;
+  };
+
+  bool tell_changed(Item& item, EntryKind kind, bool anyway) noexcept;
+  void tell(Item& item, EntryKind kind) noexcept;
+  void tell_next_again() noexcept;
+  void show_open() noexcept;
+  void publish(const RunTail& times, std::uint32_t flags) noexcept;
+  [[nodiscard]] bool much(std::size_t looked_at, std::uint64_t from) const noexcept;
+  void claim(std::uint64_t words) noexcept;
+  void put(std::uint64_t word) noexcept;
+  void put_head(EntryKind kind, std::uint32_t which) noexcept;
+
+  // Two cache lines for what each run needs: with hundreds of modules in a tick they come from far away.
+  std::atomic<std::uint64_t>& orders_;
+  std::uint64_t head_ = 0;
+  std::uint64_t at_ = 0;
+  std::uint64_t claimed_ = 0;
+  std::uint64_t order_ = 0;
+  std::uint64_t number_ = 0;
+  std::uint64_t told_words_left_ = 0;
+  std::uint16_t clock_left_ = 0;     // readings of this run that may still be recorded
+  std::uint16_t told_left_ = 0;      // answers of this run that may still be recorded
+  std::atomic<std::uint32_t> anew_;  // kAnew or 0
+  TapeTrack& shared_;
+  std::uint64_t* words_;
+  std::uint64_t mask_;
+  std::uint8_t part_shift_;  // a part of the ring has 1 << part_shift_ words
+  bool shows_open_;
+  bool all_ = true;    // nothing was recorded yet, or the record is not published
+  bool open_ = false;  // a run has begun and not ended
+  std::uint32_t reads_end_;
+  std::uint32_t writes_begin_;
+  std::uint32_t again_ = 0;
+  std::vector<Item> items_;  // only read, both, only written
+
+  std::vector<std::uint64_t> copy_;  // of one value
+};
+
+}  // namespace indurop::tape

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "store/vars/block.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <string_view>
+
+#include "core/rt/shared_mutex.h"
+#include "store/vars/call_layout.h"
+#include "store/vars/forces.h"
+#include "store/vars/ring.h"
+
+namespace indurop::vars {
+
+namespace {
+
+constexpr std::uint64_t kPage = 4096;
+
+constexpr std::uint64_t round_up(std::uint64_t value, std::uint64_t to) noexcept {
+  return (value + to - 1) / to * to;
+}
+
+bool scalar_size(std::uint64_t size) noexcept {
+  return size == 1 || size == 2 || size == 4 || size == 8;
+}
+
+// Not cryptographic: detects damage and differences, and changes with everything that two processes must agree on.
+class Hash {
+ public:
+  void add(const void* bytes, std::size_t size) noexcept {
+    const auto* at = static_cast<const unsigned char*>(bytes);
+    for (std::size_t i = 0; i < size; ++i) {
+      value_ = (value_ ^ at[i]) * 0x100000001b3ULL;
+    }
+  }
+  void add(std::uint64_t number) noexcept { add(&number, sizeof(number)); }
+  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
+
+ private:
+  std::uint64_t value_ = abi::fnv1a64("", 0);
+};
+
+std::uint64_t layout_hash(std::span<const DirectoryEntry> directory, std::string_view schema_text) noexcept {
+  Hash hash;
+  hash.add(abi::kVersion);
+  hash.add(sizeof(BlockHeader));
+  hash.add(sizeof(abi::RingHeader));
+  hash.add(rt::kLockKind);
+  hash.add(sizeof(void*));
+  hash.add(std::endian::native == std::endian::little ? 1 : 0);
+  hash.add(directory.data(), directory.size_bytes());
+  hash.add(schema_text.data(), schema_text.size());
+  return hash.value();
+}
+
+Result<DirectoryEntry> plan_variable(const schema::Variable& variable, std::size_t index) {
+  const std::uint64_t size = variable.type.size();
+  if (size == 0 || (variable.kind == abi::Kind::Scalar && !scalar_size(size))) {
+    return Error{Errc::InvalidArgument, 0, "size of a shared variable"};
+  }
+  if (!variable.initial.empty() && variable.initial.size() != size) {
+    return Error{Errc::InvalidArgument, 0, "size of a shared variable's initial value"};
+  }
+  if (size > std::numeric_limits<std::uint32_t>::max() - abi::kAlign) {
+    return Error{Errc::Overflow, 0, "size of a shared variable"};
+  }
+  DirectoryEntry entry{};
+  entry.name_hash = variable.name_hash();
+  entry.type_hash = variable.type_hash;
+  entry.value_size = static_cast<std::uint32_t>(size);
+  entry.kind = variable.kind;
+  entry.schema_index = static_cast<std::uint32_t>(index);
+  entry.flags = variable.retain ? kRetain : 0;
+  return entry;
+}
+
+bool unique(std::vector<std::uint64_t> hashes) {
+  std::sort(hashes.begin(), hashes.end());
+  return std::adjacent_find(hashes.begin(), hashes.end()) == hashes.end();
+}
+
+// Strictly ascending: sorted for the search, and no duplicate name.
+bool ordered(std::span<const DirectoryEntry> directory) noexcept {
+  return std::adjacent_find(directory.begin(), directory.end(),
+                            [](const auto& a, const auto& b) { return a.name_hash >= b.name_hash; }) == directory.end();
+}
+
+Status plan_entries(BlockPlan& plan) {
+  for (std::size_t i = 0; i < plan.schema.variables.size(); ++i) {
+    auto entry = plan_variable(plan.schema.variables[i], i);
+    if (!entry) {
+      return entry.error();
+    }
+    plan.directory.push_back(*entry);
+  }
+  std::sort(plan.directory.begin(), plan.directory.end(),
+            [](const DirectoryEntry& a, const DirectoryEntry& b) { return a.name_hash < b.name_hash; });
+  std::vector<std::uint64_t> functions;
+  for (const schema::Function& function : plan.schema.functions) {
+    constexpr std::uint64_t kLargestCall = 1U << 20U;
+    if (function.arguments.size() > kLargestCall || function.result.size() > kLargestCall) {
+      return Error{Errc::Overflow, 0, "size of a shared function's arguments or result"};
+    }
+    functions.push_back(abi::fnv1a64(function.name.data(), function.name.size()));
+  }
+  if (!ordered(plan.directory) || !unique(std::move(functions))) {
+    return Error{Errc::AlreadyExists, 0, "two shared variables or functions of one name"};
+  }
+  return {};
+}
+
+void place_entries(BlockPlan& plan) {
+  plan.directory_offset = round_up(sizeof(BlockHeader), abi::kAlign);
+  plan.schema_offset = round_up(plan.directory_offset + plan.directory.size() * sizeof(DirectoryEntry), abi::kAlign);
+  std::uint64_t at = round_up(plan.schema_offset + plan.schema_text.size(), kPage);
+  for (DirectoryEntry& entry : plan.directory) {
+    entry.offset = at;
+    at += abi::entry_size(entry.kind, entry.value_size);
+  }
+  plan.functions_offset = at;
+  plan.total_size = round_up(at + call_area_size(plan.schema), kPage);
+}
+
+// Copies the part of `memory` given by offset and count; returns false if it is not inside.
+template <class Entry>
+bool copy_table(std::span<const std::byte> memory, std::uint64_t offset, std::uint64_t count, std::vector<Entry>& to) {
+  if (offset % alignof(Entry) != 0 || offset > memory.size() || count > (memory.size() - offset) / sizeof(Entry)) {
+    return false;
+  }
+  to.resize(count);
+  if (count != 0) {
+    std::memcpy(to.data(), memory.data() + offset, count * sizeof(Entry));
+  }
+  return true;
+}
+
+bool inside(std::span<const std::byte> memory, std::uint64_t offset, std::uint64_t size) noexcept {
+  return offset % abi::kAlign == 0 && offset <= memory.size() && size <= memory.size() - offset;
+}
+
+bool sane(std::span<const std::byte> memory, const DirectoryEntry& entry, const schema::Schema& schema) noexcept {
+  return (entry.kind == abi::Kind::Ring || (entry.kind == abi::Kind::Scalar && scalar_size(entry.value_size))) &&
+         entry.schema_index < schema.variables.size() && entry.offset >= sizeof(BlockHeader) &&
+         inside(memory, entry.offset, abi::entry_size(entry.kind, entry.value_size)) &&
+         schema.variables[entry.schema_index].type.size() == entry.value_size &&
+         schema.variables[entry.schema_index].name_hash() == entry.name_hash;
+}
+
+}  // namespace
+
+BlockHeader* header_of(std::byte* memory) noexcept {
+  return reinterpret_cast<BlockHeader*>(memory);
+}
+const BlockHeader* header_of(const std::byte* memory) noexcept {
+  return reinterpret_cast<const BlockHeader*>(memory);
+}
+
+Result<BlockPlan> plan_block(const schema::Schema& schema) {
+  BlockPlan plan;
+  plan.schema = schema;
+  const auto by_name = [](const auto& a, const auto& b) { return a.name < b.name; };
+  std::sort(plan.schema.variables.begin(), plan.schema.variables.end(), by_name);
+  std::sort(plan.schema.functions.begin(), plan.schema.functions.end(), by_name);
+  if (Status status = plan_entries(plan); !status) {
+    return status.error();
+  }
+  plan.schema_text = schema::to_json(plan.schema);
+  place_entries(plan);
+  plan.layout_hash = layout_hash(plan.directory, plan.schema_text);
+  return plan;
+}
+
+Status fill_block(std::byte* memory, const BlockPlan& plan, const std::string& node) {
+  auto* header = new (memory) BlockHeader{};
+  header->abi = abi::kVersion;
+  header->header_size = sizeof(BlockHeader);
+  header->total_size = plan.total_size;
+  header->layout_hash = plan.layout_hash;
+  header->state.store(BlockState::Building, std::memory_order_relaxed);
+  header->variable_count = static_cast<std::uint32_t>(plan.directory.size());
+  header->function_count = static_cast<std::uint32_t>(plan.schema.functions.size());
+  header->directory_offset = plan.directory_offset;
+  header->functions_offset = plan.functions_offset;
+  header->schema_offset = plan.schema_offset;
+  header->schema_size = plan.schema_text.size();
+  node.copy(header->node_name, sizeof(header->node_name) - 1);
+  const auto put = [&](std::uint64_t offset, const void* from, std::size_t size) {
+    if (size != 0) {
+      std::memcpy(memory + offset, from, size);
+    }
+  };
+  put(plan.directory_offset, plan.directory.data(), plan.directory.size() * sizeof(DirectoryEntry));
+  put(plan.schema_offset, plan.schema_text.data(), plan.schema_text.size());
+  const Error no_locks{Errc::Unsupported, 0, "a lock that processes share"};
+  for (const DirectoryEntry& entry : plan.directory) {
+    const auto& initial = plan.schema.variables[entry.schema_index].initial;
+    if (entry.kind == abi::Kind::Scalar) {
+      put(entry.offset, initial.data(), initial.size());
+    } else if (!init_ring(memory + entry.offset, entry.value_size, initial.empty() ? nullptr : initial.data())) {
+      return no_locks;
+    }
+  }
+  if (!init_forces(header->forces) || !init_call_area(memory, plan.functions_offset, plan.schema)) {
+    return no_locks;
+  }
+  return {};
+}
+
+Status check_header(std::span<const std::byte> memory) {
+  if (memory.size() < sizeof(BlockHeader)) {
+    return Error{Errc::Corrupt, 0, "store is shorter than its header"};
+  }
+  const BlockHeader& header = *header_of(memory.data());
+  const std::uint64_t magic = header.magic.load(std::memory_order_acquire);
+  if (magic == 0) {
+    return Error{Errc::Busy, 0, "store is not complete yet"};
+  }
+  if (magic != kMagic) {
+    return Error{Errc::Corrupt, 0, "not a store"};
+  }
+  if (header.abi != abi::kVersion || header.header_size != sizeof(BlockHeader)) {
+    return Error{Errc::VersionMismatch, 0, "store made by another version of InduRoP"};
+  }
+  const BlockState state = header.state.load(std::memory_order_acquire);
+  const bool known_state = state == BlockState::Ready || state == BlockState::Retired;
+  if (header.total_size != memory.size() || !known_state ||
+      std::memchr(header.node_name, 0, sizeof(header.node_name)) == nullptr) {
+    return Error{Errc::Corrupt, 0, "header of the store"};
+  }
+  return {};
+}
+
+Result<BlockIndex> check_block(std::span<const std::byte> memory) {
+  if (Status status = check_header(memory); !status) {
+    return status.error();
+  }
+  const BlockHeader& header = *header_of(memory.data());
+  const Error corrupt{Errc::Corrupt, 0, "directory of the store"};
+  constexpr std::uint32_t kMostVariables = 1'000'000;
+  constexpr std::uint64_t kMostText = std::uint64_t{256} << 20U;
+  BlockIndex index;
+  std::vector<char> text;
+  const std::uint32_t variables = header.variable_count;
+  const std::uint64_t text_size = header.schema_size;
+  if (variables > kMostVariables || text_size > kMostText ||
+      !copy_table(memory, header.directory_offset, variables, index.directory) ||
+      !copy_table(memory, header.schema_offset, text_size, text)) {
+    return corrupt;
+  }
+  const std::string_view schema_text(text.data(), text.size());
+  if (layout_hash(index.directory, schema_text) != header.layout_hash) {
+    return corrupt;
+  }
+  auto schema = schema::from_json(schema_text);
+  if (!schema) {
+    return schema.error();
+  }
+  index.schema = std::move(schema.value());
+  const auto fits = [&](const auto& entry) { return sane(memory, entry, index.schema); };
+  if (!ordered(index.directory) || !std::all_of(index.directory.begin(), index.directory.end(), fits) ||
+      header.function_count != index.schema.functions.size() ||
+      !inside(memory, header.functions_offset, call_area_size(index.schema))) {
+    return corrupt;
+  }
+  return index;
+}
+
+}  // namespace indurop::vars

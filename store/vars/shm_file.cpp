@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+// iceoryx 2.0.3 reports why a mapping failed only by printing it, so each is tried before iceoryx is called. Its object
+// that opens by name is not used: it sets the umask of the whole process to 0 for a moment and maps more than the file
+// has.
+
+#include "store/vars/shm_file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <iceoryx_hoofs/internal/posix_wrapper/shared_memory_object/memory_map.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/rt/lost_pages.h"
+#include "store/vars/os_error.h"
+
+namespace indurop::vars {
+
+namespace {
+
+using iox::posix::MemoryMap;
+
+std::string path_of(const std::string& name) {
+  return std::string(kShmDirectory) + "/" + name;
+}
+
+std::string unfinished(const std::string& name) {
+  return name + ".tmp";
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) noexcept : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) {
+      ::close(number_);
+    }
+  }
+  [[nodiscard]] int get() const noexcept { return number_; }
+
+ private:
+  int number_;
+};
+
+Result<MemoryMap> map(int file, std::size_t size, Mode mode) {
+  const bool writable = mode == Mode::ReadWrite;
+  void* const tried = ::mmap(nullptr, size, writable ? PROT_READ | PROT_WRITE : PROT_READ, MAP_SHARED, file, 0);
+  if (tried == MAP_FAILED) {
+    return os_error(errno, "map shared memory");
+  }
+  ::munmap(tried, size);
+  auto mapped = iox::posix::MemoryMapBuilder()
+                    .length(size)
+                    .fileDescriptor(file)
+                    .accessMode(writable ? iox::posix::AccessMode::READ_WRITE : iox::posix::AccessMode::READ_ONLY)
+                    .create();
+  if (mapped.has_error()) {
+    return os_error(ENOMEM, "map shared memory");
+  }
+  return std::move(mapped.value());
+}
+
+int allocate(int file, std::size_t size) noexcept {
+  int error = EINTR;
+  while (error == EINTR) {
+    error = ::posix_fallocate(file, 0, static_cast<off_t>(size));
+  }
+  return error;
+}
+
+int open_file(const std::string& name, Mode mode) noexcept {
+  const int flags = (mode == Mode::ReadWrite ? O_RDWR : O_RDONLY) | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
+  return ::open(path_of(name).c_str(), flags);
+}
+
+Status inspect(const Descriptor& file, struct stat& info) noexcept {
+  if (file.get() < 0) {
+    return os_error(errno, "open shared memory");
+  }
+  if (::fstat(file.get(), &info) != 0) {
+    return os_error(errno, "inspect shared memory");
+  }
+  if (!S_ISREG(info.st_mode) || info.st_size <= 0) {
+    return Error{Errc::Corrupt, 0, "shared memory file is empty or not a regular file"};
+  }
+  // A file from create() has all its memory allocated. A sparse file may claim any size at no cost to its creator.
+  constexpr off_t kBlock = 512;
+  if (info.st_blocks * kBlock < info.st_size) {
+    return Error{Errc::Corrupt, 0, "shared memory file has holes"};
+  }
+  return {};
+}
+
+}  // namespace
+
+struct ShmFile::Impl {
+  Impl(MemoryMap&& mapped, const struct stat& status, Mode access, const std::string& name)
+      : memory(std::move(mapped)),
+        guard(memory.getBaseAddress(), static_cast<std::size_t>(status.st_size), access == Mode::ReadWrite, name),
+        info(status),
+        mode(access),
+        final_path(path_of(name)) {}
+  MemoryMap memory;
+  rt::GuardedMapping guard;
+  struct stat info;
+  Mode mode;
+  std::string unpublished;  // temporary path, empty if the file has its name
+  std::string final_path;
+};
+
+bool valid_node_name(std::string_view node) noexcept {
+  constexpr std::size_t kLongest = 40;
+  return !node.empty() && node.size() <= kLongest && std::all_of(node.begin(), node.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+std::string block_file(const std::string& node) {
+  return "indurop." + node;
+}
+std::string run_file(const std::string& node) {
+  return "indurop." + node + ".run";
+}
+std::string mirror_file(const std::string& node) {
+  return "indurop." + node + ".mirror";
+}
+std::string external_file(const std::string& node) {
+  return "indurop." + node + ".external";
+}
+std::string tape_file(const std::string& node) {
+  return "indurop." + node + ".tape";
+}
+std::string retold_file(const std::string& node) {
+  return "indurop." + node + ".retold";
+}
+std::string lock_file(const std::string& node) {
+  return "indurop." + node + ".lock";
+}
+
+std::uint64_t store_number(const std::string& node) noexcept {
+  const std::string path = std::string(kShmDirectory) + "/" + block_file(node);
+  struct stat info {};
+  return ::stat(path.c_str(), &info) == 0 ? info.st_ino : 0;
+}
+
+Result<ShmFile> ShmFile::open(const std::string& name, Mode mode) {
+  const Descriptor file(open_file(name, mode));
+  struct stat info {};
+  if (const Status good = inspect(file, info); !good) {
+    return good.error();
+  }
+  auto mapped = map(file.get(), static_cast<std::size_t>(info.st_size), mode);
+  if (!mapped) {
+    return mapped.error();
+  }
+  return ShmFile(std::make_unique<Impl>(std::move(mapped.value()), info, mode, name));
+}
+
+Result<ShmFile> ShmFile::create(const std::string& name, std::size_t size) {
+  if (Status status = remove_unfinished(name); !status) {
+    return status.error();
+  }
+  const std::string temporary = path_of(unfinished(name));
+  const Descriptor file(::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kShmMode));
+  if (file.get() < 0) {
+    return os_error(errno, "create shared memory");
+  }
+  const auto give_up = [&](int error, const char* where) {
+    ::unlink(temporary.c_str());
+    return os_error(error, where);
+  };
+  if (::fchmod(file.get(), kShmMode) != 0) {
+    return give_up(errno, "set rights of shared memory");
+  }
+  if (const int error = allocate(file.get(), size); error != 0) {
+    return give_up(error, "reserve shared memory");
+  }
+  struct stat info {};
+  if (::fstat(file.get(), &info) != 0) {
+    return give_up(errno, "inspect new shared memory");
+  }
+  auto mapped = map(file.get(), size, Mode::ReadWrite);
+  if (!mapped) {
+    ::unlink(temporary.c_str());
+    return mapped.error();
+  }
+  auto impl = std::make_unique<Impl>(std::move(mapped.value()), info, Mode::ReadWrite, name);
+  impl->unpublished = temporary;
+  return ShmFile(std::move(impl));
+}
+
+Result<ShmCopy> ShmCopy::of(const std::string& name) {
+  const Descriptor file(open_file(name, Mode::ReadOnly));
+  struct stat info {};
+  if (const Status good = inspect(file, info); !good) {
+    return good.error();
+  }
+  ShmCopy copy;
+  const auto size = static_cast<std::size_t>(info.st_size);
+  if (constexpr std::size_t kMost = std::size_t{64} << 20U; size > kMost) {
+    return Error{Errc::Corrupt, 0, "shared memory file is larger than any of its kind"};
+  }
+  copy.words_.resize((size + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
+  while (copy.bytes_ < size) {
+    const ssize_t got = ::pread(file.get(), reinterpret_cast<char*>(copy.words_.data()) + copy.bytes_,
+                                size - copy.bytes_, static_cast<off_t>(copy.bytes_));
+    if (got <= 0) {
+      break;  // it was truncated meanwhile
+    }
+    copy.bytes_ += static_cast<std::size_t>(got);
+  }
+  return copy;
+}
+
+Status ShmFile::publish() noexcept {
+  if (::rename(impl_->unpublished.c_str(), impl_->final_path.c_str()) != 0) {
+    return os_error(errno, "give shared memory its name");
+  }
+  impl_->unpublished.clear();
+  return {};
+}
+
+ShmFile::ShmFile(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+ShmFile::ShmFile(ShmFile&&) noexcept = default;
+ShmFile& ShmFile::operator=(ShmFile&& other) noexcept {
+  std::swap(impl_, other.impl_);
+  return *this;
+}
+ShmFile::~ShmFile() {
+  if (impl_ != nullptr && !impl_->unpublished.empty()) {
+    ::unlink(impl_->unpublished.c_str());
+  }
+}
+
+std::byte* ShmFile::data() const noexcept {
+  return static_cast<std::byte*>(impl_->memory.getBaseAddress());
+}
+std::size_t ShmFile::size() const noexcept {
+  return static_cast<std::size_t>(impl_->info.st_size);
+}
+Mode ShmFile::mode() const noexcept {
+  return impl_->mode;
+}
+
+bool ShmFile::trusted() const noexcept {
+  const struct stat& info = impl_->info;
+  if ((info.st_mode & S_IWOTH) != 0) {
+    return false;
+  }
+  return info.st_uid == ::geteuid() || info.st_uid == 0 || (::geteuid() != 0 && info.st_gid == ::getegid());
+}
+
+bool ShmFile::lost() const noexcept {
+  return impl_->guard.lost();
+}
+
+ShmFile::Named ShmFile::named() const noexcept {
+  struct stat now {};
+  if (::lstat(impl_->final_path.c_str(), &now) != 0 || now.st_dev != impl_->info.st_dev ||
+      now.st_ino != impl_->info.st_ino) {
+    return Named::Gone;
+  }
+  return now.st_size < impl_->info.st_size ? Named::Cut : Named::Whole;
+}
+
+void ShmFile::prefault() const noexcept {
+  const int advice = mode() == Mode::ReadWrite ? MADV_POPULATE_WRITE : MADV_POPULATE_READ;
+  if (::madvise(data(), size(), advice) == 0) {
+    return;
+  }
+  // Kernels before 5.14: a read makes the page present, the first write may still cost a minor fault.
+  constexpr std::size_t kSmallestPage = 4096;
+  for (std::size_t i = 0; i < size(); i += kSmallestPage) {
+    static_cast<void>(__atomic_load_n(reinterpret_cast<const unsigned char*>(data()) + i, __ATOMIC_RELAXED));
+  }
+}
+
+Status remove_unfinished(const std::string& name) noexcept {
+  return remove_shm_file(unfinished(name));
+}
+
+Status remove_shm_file(const std::string& name) noexcept {
+  if (::unlink(path_of(name).c_str()) != 0 && errno != ENOENT) {
+    return os_error(errno, "remove shared memory");
+  }
+  return {};
+}
+
+}  // namespace indurop::vars

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "store/vars/store.h"
+
+#include <indurop/detail/access.h>
+
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "core/rt/clock.h"
+#include "store/vars/block.h"
+#include "store/vars/node_lock.h"
+#include "store/vars/process.h"
+#include "store/vars/ring.h"
+#include "store/vars/scalar.h"
+
+namespace indurop::vars {
+
+struct Store::Impl {
+  Impl(ShmFile&& mapped, BlockIndex&& contents, Origin from) noexcept
+      : file(std::move(mapped)), index(std::move(contents)), origin(from) {}
+
+  [[nodiscard]] BlockHeader& header() const noexcept { return *header_of(file.data()); }
+  [[nodiscard]] abi::RingHeader& ring(const DirectoryEntry& variable) const noexcept {
+    return *reinterpret_cast<abi::RingHeader*>(file.data() + variable.offset);
+  }
+  // Returns false for a part outside the value, and for an entry that is not of this store.
+  [[nodiscard]] bool contains(const DirectoryEntry& variable, std::uint64_t offset, std::uint64_t size) const noexcept {
+    const std::uint64_t entry = abi::entry_size(variable.kind, variable.value_size);
+    return offset + size <= variable.value_size && variable.offset % abi::kAlign == 0 &&
+           variable.offset <= file.size() && entry <= file.size() - variable.offset;
+  }
+
+  ShmFile file;
+  BlockIndex index;
+  Origin origin;
+};
+
+namespace {
+
+constexpr std::int64_t kReadLimitNs = 50'000'000;
+constexpr int kSwapTries = 100;  // one millisecond each
+
+const DirectoryEntry* search(const std::vector<DirectoryEntry>& directory, std::uint64_t name_hash) noexcept {
+  const auto at =
+      std::lower_bound(directory.begin(), directory.end(), name_hash,
+                       [](const DirectoryEntry& entry, std::uint64_t hash) { return entry.name_hash < hash; });
+  return at != directory.end() && at->name_hash == name_hash ? &*at : nullptr;
+}
+
+// The node may have been killed while it held locks, or a process overwrote them.
+bool rings_work(const ShmFile& file, const std::vector<DirectoryEntry>& directory) noexcept {
+  return std::all_of(directory.begin(), directory.end(), [&](const DirectoryEntry& entry) {
+    return entry.kind == abi::Kind::Scalar ||
+           check_ring(*reinterpret_cast<abi::RingHeader*>(file.data() + entry.offset), entry.value_size);
+  });
+}
+
+void sign_in(BlockHeader& header, std::uint64_t generation) noexcept {
+  header.node_start_time.store(process_start_time(::getpid()), std::memory_order_relaxed);
+  header.node_pid.store(::getpid(), std::memory_order_relaxed);
+  header.heartbeat_ns.store(rt::now_ns(), std::memory_order_relaxed);
+  header.virtual_ns.store(0, std::memory_order_relaxed);
+  header.generation.store(generation, std::memory_order_release);
+}
+
+// An older block under the node's name, as far as it is usable. Without `index` nothing in it can be trusted.
+struct Previous {
+  std::optional<ShmFile> file;
+  std::optional<BlockIndex> index;
+};
+
+Result<Previous> find_previous(const std::string& node) {
+  Previous previous;
+  auto file = ShmFile::open(block_file(node), Mode::ReadWrite);
+  if (!file) {
+    const Errc code = file.error().code;
+    if (code == Errc::NotFound || code == Errc::Corrupt) {
+      return previous;
+    }
+    return file.error();
+  }
+  if (auto index = check_block({file->data(), file->size()}); index && file->trusted()) {
+    previous.index = std::move(index.value());
+  }
+  previous.file = std::move(file.value());
+  return previous;
+}
+
+// Makes attached processes look for the new block.
+void retire(const Previous& previous) noexcept {
+  if (previous.index) {
+    header_of(previous.file->data())->state.store(BlockState::Retired, std::memory_order_release);
+  }
+}
+
+void zero_slot(unsigned char* slot, std::size_t size) noexcept {
+  static constexpr std::array<unsigned char, 4096> kZero{};
+  for (std::size_t at = 0; at < size; at += kZero.size()) {
+    detail::copy_to_shared(slot + at, kZero.data(), std::min(kZero.size(), size - at));
+  }
+}
+
+void carry_over(const Previous& previous, const BlockPlan& plan, std::byte* memory) {
+  std::vector<std::uint8_t> value;
+  for (const DirectoryEntry& to : plan.directory) {
+    const DirectoryEntry* from = search(previous.index->directory, to.name_hash);
+    if (from == nullptr || from->type_hash != to.type_hash || from->kind != to.kind ||
+        from->value_size != to.value_size) {
+      continue;
+    }
+    std::byte* const old_entry = previous.file->data() + from->offset;
+    value.resize(to.value_size);
+    if (to.kind == abi::Kind::Scalar) {
+      read_scalar(old_entry, to.value_size, 0, value);
+      write_scalar(memory + to.offset, to.value_size, 0, value);
+    } else if (try_read(*reinterpret_cast<abi::RingHeader*>(old_entry), to.value_size, 0, value.data(),
+                        to.value_size)) {
+      auto& ring = *reinterpret_cast<abi::RingHeader*>(memory + to.offset);
+      if (void* slot = begin_write(ring, 0, to.value_size); slot != nullptr) {
+        std::memcpy(slot, value.data(), value.size());
+        commit(ring);
+      }
+    }
+  }
+}
+
+// Variables that an earlier run mirrored from another board belong to this board until a mirror marks them again.
+void own_everything(const Previous& previous) noexcept {
+  for (const DirectoryEntry& entry : previous.index->directory) {
+    std::byte* const at = previous.file->data() + entry.offset;
+    abi::confirmed_of(at, entry.kind).store(0, std::memory_order_release);
+    abi::update_offset_of(at, entry.kind).store(0, std::memory_order_release);
+  }
+}
+
+}  // namespace
+
+Result<Store> Store::create(const std::string& node, const schema::Schema& schema) {
+  if (!valid_node_name(node)) {
+    return Error{Errc::InvalidArgument, 0, "node name: 1 to 40 letters, digits, '_' or '-'"};
+  }
+  auto plan = plan_block(schema);
+  if (!plan) {
+    return plan.error();
+  }
+  auto previous = find_previous(node);
+  if (!previous) {
+    return previous.error();
+  }
+  std::uint64_t generation = 1;
+  if (previous->index) {
+    BlockHeader& old = *header_of(previous->file->data());
+    generation = old.generation.load(std::memory_order_acquire) + 1;
+    if (old.layout_hash == plan->layout_hash && rings_work(*previous->file, previous->index->directory)) {
+      static_cast<void>(remove_unfinished(block_file(node)));
+      own_everything(*previous);
+      let_all_go(old, previous->index->directory);
+      sign_in(old, generation);
+      old.state.store(BlockState::Ready, std::memory_order_release);
+      return Store(std::make_unique<Impl>(std::move(*previous->file), std::move(*previous->index), Origin::Adopted));
+    }
+  }
+  auto file = ShmFile::create(block_file(node), plan->total_size);
+  if (!file) {
+    return file.error();
+  }
+  if (Status status = fill_block(file->data(), *plan, node); !status) {
+    return status.error();
+  }
+  if (previous->index) {
+    retire(*previous);
+    carry_over(*previous, *plan, file->data());
+  }
+  BlockHeader& header = *header_of(file->data());
+  sign_in(header, generation);
+  header.state.store(BlockState::Ready, std::memory_order_relaxed);
+  header.magic.store(kMagic, std::memory_order_release);
+  if (Status status = file->publish(); !status) {
+    return status.error();
+  }
+  return Store(std::make_unique<Impl>(std::move(file.value()),
+                                      BlockIndex{std::move(plan->directory), std::move(plan->schema)},
+                                      previous->index ? Origin::CarriedOver : Origin::Fresh));
+}
+
+Result<Store> Store::attach(const std::string& node, Mode mode) {
+  if (!valid_node_name(node)) {
+    return Error{Errc::InvalidArgument, 0, "node name: 1 to 40 letters, digits, '_' or '-'"};
+  }
+  for (int i = 0; i < kSwapTries; ++i) {
+    auto file = ShmFile::open(block_file(node), mode);
+    if (!file) {
+      return file.error();
+    }
+    auto index = check_block({file->data(), file->size()});
+    if (!index && index.error().code != Errc::Busy) {
+      return index.error();
+    }
+    const auto& header = *header_of(file->data());
+    if (index && header.state.load(std::memory_order_acquire) == BlockState::Ready) {
+      return Store(std::make_unique<Impl>(std::move(file.value()), std::move(index.value()), Origin::Attached));
+    }
+    if (running_node(node) == 0) {
+      break;  // no process would complete or replace it
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return Error{Errc::Busy, 0, "store is being replaced by a newer one"};
+}
+
+Store::Store(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&& other) noexcept {
+  std::swap(impl_, other.impl_);
+  return *this;
+}
+
+Store::~Store() {
+  if (impl_ == nullptr || impl_->origin == Origin::Attached) {
+    return;
+  }
+  std::int32_t mine = ::getpid();  // a forked child's copy does not sign the parent off
+  impl_->header().node_pid.compare_exchange_strong(mine, 0, std::memory_order_release);
+}
+
+Origin Store::origin() const noexcept {
+  return impl_->origin;
+}
+const BlockHeader& Store::header() const noexcept {
+  return impl_->header();
+}
+const schema::Schema& Store::schema() const noexcept {
+  return impl_->index.schema;
+}
+bool Store::retired() const noexcept {
+  return impl_->header().state.load(std::memory_order_acquire) == BlockState::Retired || lost();
+}
+bool Store::lost() const noexcept {
+  return impl_->file.lost() || impl_->header().magic.load(std::memory_order_relaxed) != kMagic;
+}
+ShmFile::Named Store::named() const noexcept {
+  return impl_->file.named();
+}
+
+const DirectoryEntry* Store::find(std::uint64_t name_hash) const noexcept {
+  return search(impl_->index.directory, name_hash);
+}
+
+std::span<const DirectoryEntry> Store::directory() const noexcept {
+  return impl_->index.directory;
+}
+
+void* Store::entry(std::uint64_t name_hash, std::uint64_t type_hash) const noexcept {
+  const DirectoryEntry* found = find(name_hash);
+  const bool fits = found != nullptr && (type_hash == 0 || found->type_hash == type_hash);
+  return fits ? impl_->file.data() + found->offset : nullptr;
+}
+
+Status Store::read(const DirectoryEntry& variable, std::uint32_t offset, std::span<std::uint8_t> to) const noexcept {
+  if (!impl_->contains(variable, offset, to.size())) {
+    return Error{Errc::OutOfRange, 0, "part of a variable to read"};
+  }
+  const auto length = static_cast<std::uint32_t>(to.size());
+  abi::RingHeader& ring = impl_->ring(variable);
+  if (variable.kind == abi::Kind::Scalar) {
+    read_scalar(impl_->file.data() + variable.offset, variable.value_size, offset, to);
+  } else if (bool done = try_read(ring, variable.value_size, offset, to.data(), length); !done) {
+    if (impl_->file.mode() == Mode::ReadWrite) {
+      read_slow(ring, variable.value_size, to.data(), offset, length);
+      done = true;
+    }
+    for (const std::int64_t limit = rt::now_ns() + kReadLimitNs; !done && rt::now_ns() < limit;) {
+      ::sched_yield();
+      done = try_read(ring, variable.value_size, offset, to.data(), length);
+    }
+    if (!done) {
+      return Error{Errc::Timeout, 0, "read a variable that is written without a pause"};
+    }
+  }
+  return lost() ? Status(Error{Errc::Dead, 0, "the store was cut by somebody who may write it"}) : Status();
+}
+
+Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept {
+  if (impl_->file.mode() == Mode::ReadOnly) {
+    return Error{Errc::PermissionDenied, 0, "write through a read-only view"};
+  }
+  if (!impl_->contains(variable, offset, from.size())) {
+    return Error{Errc::OutOfRange, 0, "part of a variable to write"};
+  }
+  if (variable.kind == abi::Kind::Scalar) {
+    write_scalar(impl_->file.data() + variable.offset, variable.value_size, offset, from);
+    return {};
+  }
+  abi::RingHeader& ring = impl_->ring(variable);
+  auto* slot = static_cast<unsigned char*>(begin_write(ring, offset, static_cast<std::uint32_t>(from.size())));
+  if (slot == nullptr) {
+    return Error{Errc::Busy, 0, "write lock of a variable"};
+  }
+  detail::copy_to_shared(slot + offset, from.data(), from.size());
+  commit(ring);
+  return {};
+}
+
+Status Store::force(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> value,
+                    rt::MonoTime until) noexcept {
+  if (impl_->file.mode() == Mode::ReadOnly) {
+    return Error{Errc::PermissionDenied, 0, "force through a read-only view"};
+  }
+  Force what{&variable, offset, static_cast<std::uint32_t>(value.size()), 0, until};
+  if (!impl_->contains(variable, offset, value.size()) || value.size() > sizeof what.value) {
+    return Error{Errc::OutOfRange, 0, "part of a variable to force"};
+  }
+  std::memcpy(&what.value, value.data(), value.size());
+  return vars::force(impl_->header(), what);
+}
+
+Status Store::prolong(const DirectoryEntry& variable, std::uint32_t offset, rt::MonoTime was,
+                      rt::MonoTime until) noexcept {
+  if (impl_->file.mode() == Mode::ReadOnly) {
+    return Error{Errc::PermissionDenied, 0, "prolong through a read-only view"};
+  }
+  return vars::prolong(impl_->header(), variable, offset, was, until);
+}
+
+Status Store::let_go(const DirectoryEntry& variable, std::uint32_t offset) noexcept {
+  if (impl_->file.mode() == Mode::ReadOnly) {
+    return Error{Errc::PermissionDenied, 0, "let go through a read-only view"};
+  }
+  return vars::let_go(impl_->header(), variable, offset);
+}
+
+void Store::let_overdue_go() noexcept {
+  if (impl_->file.mode() == Mode::ReadWrite) {
+    vars::let_overdue_go(impl_->header(), impl_->index.directory);
+  }
+}
+
+std::vector<Force> Store::forces() const {
+  return forces_of(impl_->header(), impl_->index.directory);
+}
+
+void Store::release_locks_of_this_thread() noexcept {
+  if (impl_->file.mode() == Mode::ReadOnly) {
+    return;
+  }
+  const rt::ThreadId thread = rt::this_thread();
+  for (const DirectoryEntry& variable : impl_->index.directory) {
+    if (variable.kind == abi::Kind::Ring) {
+      release_if_mine(impl_->ring(variable), thread);
+    }
+  }
+}
+
+void Store::reset(bool keep_retained) noexcept {
+  static constexpr std::array<std::uint8_t, sizeof(std::uint64_t)> kZero{};
+  for (const DirectoryEntry& variable : impl_->index.directory) {
+    if (impl_->file.mode() == Mode::ReadOnly || (keep_retained && (variable.flags & kRetain) != 0)) {
+      continue;
+    }
+    const auto& initial = impl_->index.schema.variables[variable.schema_index].initial;
+    if (variable.kind == abi::Kind::Scalar) {
+      write_scalar(impl_->file.data() + variable.offset, variable.value_size, 0,
+                   initial.empty() ? std::span(kZero).first(variable.value_size) : std::span(initial));
+      continue;
+    }
+    abi::RingHeader& ring = impl_->ring(variable);
+    if (auto* slot = static_cast<unsigned char*>(begin_write(ring, 0, variable.value_size)); slot != nullptr) {
+      initial.empty() ? zero_slot(slot, variable.value_size)
+                      : detail::copy_to_shared(slot, initial.data(), initial.size());
+      commit(ring);
+    }
+  }
+}
+
+rt::MonoTime Store::now() const noexcept {
+  return time_of(impl_->header());
+}
+
+std::atomic<std::int64_t>& Store::virtual_time() noexcept {
+  return impl_->header().virtual_ns;
+}
+
+void Store::beat(rt::MonoTime now) noexcept {
+  impl_->header().heartbeat_ns.store(rt::to_ns(now), std::memory_order_relaxed);
+}
+
+void Store::prefault() const noexcept {
+  impl_->file.prefault();
+}
+
+}  // namespace indurop::vars

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: Apache-2.0
+// Axes in gear and on cams: whatever the master does and whenever it begins, no set point breaks a limit; once in gear
+// each step of the follower is that of its master times the ratio, on a cam it is where the curve is.
+// INDUROP_ROBOT_GEARS says how many random runs, INDUROP_ROBOT_SEED from which one on.
+
+#include "control/robot/axis/cam.h"
+
+#include <functional>
+
+#include "follow_cell.h"
+
+namespace indurop::robot {
+namespace {
+
+class Gears : public FollowCell {};
+
+TEST_F(Gears, A_follower_at_rest_catches_up_and_keeps_the_ratio) {
+  give(1, AxisService::MoveVelocity, 0, 30);
+  ASSERT_TRUE(until([&] { return joint(0) > 10; }));
+  const Given in = gear(2, 1, -3, 4);
+  step();
+  EXPECT_EQ(state(in), CommandState::Active);
+  EXPECT_EQ(axis(1), AxisState::SynchronizedMotion);
+  EXPECT_FALSE(reached(in));
+  ASSERT_TRUE(until([&] { return reached(in); }));
+  give(1, AxisService::MoveAbsolute, 0, 60);
+  for (int i = 0; i < 500; ++i) {
+    step();
+    ASSERT_NEAR(moved(1), -0.75 * moved(0), 1e-9);
+    ASSERT_TRUE(reached(in));
+  }
+  EXPECT_EQ(state(in), CommandState::Active);
+  EXPECT_EQ(axis(0), AxisState::Standstill);
+  EXPECT_EQ(axis(1), AxisState::SynchronizedMotion);
+}
+
+TEST_F(Gears, Going_out_of_gear_keeps_the_speed) {
+  give(1, AxisService::MoveVelocity, 0, 30);
+  const Given in = gear(2, 1, 1, 2);
+  ASSERT_TRUE(until([&] { return reached(in) && moved(0) > 0.3 - 1e-9; }));
+  const Given out = give(2, AxisService::Decouple);
+  step();
+  EXPECT_EQ(state(in), CommandState::Aborted);
+  EXPECT_EQ(state(out), CommandState::Done);
+  EXPECT_EQ(axis(1), AxisState::ContinuousMotion);
+  give(1, AxisService::Halt);
+  for (int i = 0; i < 100; ++i) {
+    step();
+    EXPECT_NEAR(moved(1), 0.15, 1e-9);
+  }
+  EXPECT_EQ(axis(0), AxisState::Standstill);
+  const Given again = give(2, AxisService::Decouple);
+  step();
+  EXPECT_EQ(error(again), ErrorCode::State);
+}
+
+TEST_F(Gears, What_cannot_be_is_refused_and_moves_nothing) {
+  give(2, AxisService::MoveVelocity, 0, 20);
+  ASSERT_TRUE(until([&] { return moved(1) > 0.2 - 1e-9; }));
+  const std::pair<Given, ErrorCode> all[] = {
+      {gear(2, 1, 1, 0), ErrorCode::Value},   {gear(2, 1, std::nan(""), 1), ErrorCode::Value},
+      {gear(2, 2, 1), ErrorCode::Value},      {gear(2, 0, 1), ErrorCode::Value},
+      {gear(2, 9, 1), ErrorCode::Value},      {gear(2, -3, 1), ErrorCode::Value},
+      {gear(2, 1, 1e9, 1), ErrorCode::Value}, {gear(2, 5, 1), ErrorCode::Master},
+      {gear(5, 2, 1), ErrorCode::State}};
+  for (const auto& [given, code] : all) {
+    step();
+    EXPECT_EQ(error(given), code) << given.number;
+    EXPECT_NEAR(moved(1), 0.2, 1e-9);
+  }
+  EXPECT_EQ(axis(1), AxisState::ContinuousMotion);
+}
+
+TEST_F(Gears, Nobody_follows_himself_by_way_of_others) {
+  const Given first = gear(2, 1, 1);
+  const Given second = gear(3, 2, -1);
+  const Given third = gear(1, 3, 1);
+  step();
+  EXPECT_EQ(state(first), CommandState::Active);
+  EXPECT_EQ(state(second), CommandState::Active);
+  EXPECT_EQ(error(third), ErrorCode::Value);
+  give(1, AxisService::MoveAbsolute, 30, 40);
+  ASSERT_TRUE(until([&] { return joint(0) > 29.999; }));
+  EXPECT_NEAR(joint(1), 30, 0.01);
+  EXPECT_NEAR(joint(2), -30, 0.01);
+}
+
+TEST_F(Gears, A_master_that_is_too_fast_is_left) {
+  give(1, AxisService::MoveVelocity, 0, 10);
+  const Given in = gear(2, 1, 5);
+  ASSERT_TRUE(until([&] { return reached(in); }));
+  give(1, AxisService::MoveVelocity, 0, 0);  // as fast as it can
+  ASSERT_TRUE(until([&] { return ended(in); }));
+  EXPECT_EQ(state(in), CommandState::Error);
+  EXPECT_TRUE(error(in) == ErrorCode::Speed || error(in) == ErrorCode::Acceleration || error(in) == ErrorCode::Jerk);
+  EXPECT_EQ(axis(1), AxisState::Stopping);
+  ASSERT_TRUE(until([&] { return axis(1) == AxisState::Standstill; }));
+  EXPECT_EQ(axis(0), AxisState::ContinuousMotion) << "the master has nothing to do with it";
+}
+
+TEST_F(Gears, The_end_of_the_follower_ends_it) {
+  give(1, AxisService::MoveVelocity, 0, 40);
+  const Given in = gear(2, 1, 1);
+  ASSERT_TRUE(until([&] { return ended(in); }));
+  EXPECT_EQ(error(in), ErrorCode::JointLimit);
+  ASSERT_TRUE(until([&] { return axis(1) == AxisState::Standstill; }))
+      << static_cast<int>(axis(1)) << " group " << static_cast<int>(cell.out.state) << " error "
+      << static_cast<int>(cell.out.error) << " " << joint(1);
+  EXPECT_GT(joint(1), cell.out.axes[1].upper - 5);
+}
+
+TEST_F(Gears, A_master_without_power_is_left) {
+  give(1, AxisService::MoveVelocity, 0, 40);
+  const Given in = gear(2, 1, 1);
+  ASSERT_TRUE(until([&] { return reached(in) && moved(0) > 0.39; }));
+  cell.in.drives[0].status = Cell::kFault;
+  step();
+  EXPECT_EQ(axis(0), AxisState::ErrorStop);
+  EXPECT_EQ(error(in), ErrorCode::Master);
+  EXPECT_EQ(axis(1), AxisState::Stopping);
+  ASSERT_TRUE(until([&] { return axis(1) == AxisState::Standstill; }));
+}
+
+TEST_F(Gears, Other_motions_take_over_and_a_buffered_one_follows) {
+  give(1, AxisService::MoveVelocity, 0, 40);
+  const Given in = gear(2, 1, 1);
+  ASSERT_TRUE(until([&] { return joint(1) > 10; }));
+  const Given back = give(2, AxisService::MoveAbsolute, -20);
+  const Given geared = gear(2, 1, 1, 2, BufferMode::Buffered);
+  step();
+  EXPECT_EQ(state(in), CommandState::Aborted);
+  EXPECT_EQ(state(back), CommandState::Active);
+  EXPECT_EQ(axis(1), AxisState::DiscreteMotion);
+  EXPECT_EQ(state(geared), CommandState::Waits);
+  ASSERT_TRUE(until([&] { return state(back) == CommandState::Done; }));
+  EXPECT_NEAR(joint(1), -20, 1e-6);
+  ASSERT_TRUE(until([&] { return reached(geared); }));
+  step();
+  EXPECT_NEAR(moved(1), moved(0) / 2, 1e-9);
+}
+
+TEST_F(Gears, A_new_ratio_counts_at_once) {
+  give(1, AxisService::MoveVelocity, 0, 20);
+  const Given in = gear(2, 1, 1);
+  ASSERT_TRUE(until([&] { return reached(in); }));
+  command(in).to[0] = -2;
+  ++command(in).updates;
+  step();
+  EXPECT_FALSE(reached(in));
+  EXPECT_EQ(state(in), CommandState::Active);
+  ASSERT_TRUE(until([&] { return reached(in); }));
+  step();
+  EXPECT_NEAR(moved(1), -2 * moved(0), 1e-9);
+}
+
+TEST_F(Gears, The_group_does_not_move_meanwhile) {
+  ASSERT_TRUE(done(give(Service::GroupEnable)));
+  const Given in = gear(2, 1, 1);
+  step();
+  const Given group = give(Service::DirectAbsolute, {10, 0, 0, 0, 0, 0});
+  step();
+  EXPECT_EQ(error(group), ErrorCode::State);
+  EXPECT_EQ(state(in), CommandState::Active);
+  const Given stop = give(Service::Stop);
+  step();
+  EXPECT_EQ(state(in), CommandState::Aborted);
+  ASSERT_TRUE(until([&] { return state(stop) == CommandState::Done; }));
+}
+
+class Cams : public FollowCell {
+ protected:
+  const std::vector<std::pair<double, double>> hill_{{0, 0}, {20, 15}, {40, 0}};
+};
+
+TEST_F(Cams, A_follower_gets_onto_the_cam_and_stays_on_it) {
+  ASSERT_TRUE(done(select(1, hill_, true)));
+  give(1, AxisService::MoveVelocity, 0, 20);
+  ASSERT_TRUE(until([&] { return joint(0) > 33; }));
+  const Given in = cam(2, 1, 1, {.slave_offset = 10, .slave_scale = -2});
+  step();
+  EXPECT_EQ(axis(1), AxisState::SynchronizedMotion);
+  EXPECT_FALSE(reached(in));
+  ASSERT_TRUE(until([&] { return reached(in); }));
+  bool at_top = false;
+  while (joint(0) < 120) {
+    step();
+    ASSERT_TRUE(reached(in));
+    // Its points are 20 degrees from each other.
+    const double to_point = std::remainder(joint(0), 20);
+    const bool top = std::lround((joint(0) - to_point) / 20) % 2 != 0;
+    if (std::abs(to_point) < 0.11) {
+      EXPECT_NEAR(joint(1), top ? -20 : 10, 0.02);
+      at_top = at_top || top;
+    }
+  }
+  EXPECT_TRUE(at_top);
+  const Given out = give(2, AxisService::Decouple);
+  step();
+  EXPECT_EQ(state(out), CommandState::Done);
+  EXPECT_EQ(axis(1), AxisState::ContinuousMotion);
+}
+
+TEST_F(Cams, Count_from_where_both_are_if_they_are_relative) {
+  ASSERT_TRUE(done(give(1, AxisService::MoveAbsolute, 50)));
+  ASSERT_TRUE(done(give(2, AxisService::MoveAbsolute, 7)));
+  ASSERT_TRUE(done(select(1, hill_, false)));
+  step();
+  const Given in = cam(2, 1, 1, {.master_absolute = false, .slave_absolute = false});
+  ASSERT_TRUE(until([&] { return reached(in); }));
+  EXPECT_NEAR(joint(1), 7, 1e-9);
+  ASSERT_TRUE(done(give(1, AxisService::MoveRelative, 20, 30)));
+  EXPECT_NEAR(joint(1), 22, 1e-9);
+  ASSERT_TRUE(done(give(1, AxisService::MoveRelative, 40, 30)));
+  EXPECT_NEAR(joint(1), 7, 1e-9) << "it stays where the cam ends";
+  EXPECT_TRUE(reached(in));
+}
+
+TEST_F(Cams, That_cannot_be_are_refused_and_move_nothing) {
+  EXPECT_FALSE(done(select(1, {{0, 0}, {20, 5}, {10, 0}}, false)));
+  const Given none_there = select(4, hill_, false);
+  command(none_there).option = 5;
+  EXPECT_FALSE(done(none_there));
+  ASSERT_TRUE(done(select(2, hill_, true)));
+  const std::pair<Given, ErrorCode> all[] = {{cam(2, 1, 1, {}), ErrorCode::Value},
+                                             {cam(2, 1, 0, {}), ErrorCode::Value},
+                                             {cam(2, 1, 2, {.master_scale = 0}), ErrorCode::Value},
+                                             {cam(2, 1, 2, {.slave_scale = std::nan("")}), ErrorCode::Value},
+                                             {cam(2, 2, 2, {}), ErrorCode::Value},
+                                             {cam(2, 4, 2, {}), ErrorCode::Master},
+                                             {cam(2, 1, 2, {.slave_scale = 100}), ErrorCode::JointLimit},
+                                             {cam(2, 1, 2, {.slave_offset = -400}), ErrorCode::JointLimit}};
+  for (const auto& [given, code] : all) {
+    step();
+    EXPECT_EQ(error(given), code) << given.number;
+    EXPECT_EQ(moved(1), 0);
+  }
+  EXPECT_EQ(axis(1), AxisState::Standstill);
+}
+
+TEST_F(Cams, A_hold_lets_nobody_catch_up) {
+  ASSERT_TRUE(done(select(1, hill_, true)));
+  const Given in = cam(2, 1, 1, {.slave_offset = 60});
+  ASSERT_TRUE(until([&] { return joint(1) > 10; }));
+  cell.in.hold = true;
+  ASSERT_TRUE(until([&] { return moved(1) == 0; }));
+  const double rests = joint(1);
+  for (int i = 0; i < 100; ++i) {
+    step();
+    EXPECT_EQ(joint(1), rests);
+    EXPECT_FALSE(reached(in));
+  }
+  EXPECT_LT(rests, 59);
+  cell.in.hold = false;
+  ASSERT_TRUE(until([&] { return reached(in); }));
+  EXPECT_NEAR(joint(1), 60, 1e-9);
+}
+
+TEST_F(Cams, The_one_before_is_followed_until_the_next_one_is_asked_for) {
+  ASSERT_TRUE(done(select(1, hill_, true)));
+  const Given in = cam(2, 1, 1, {});
+  ASSERT_TRUE(until([&] { return reached(in); }));
+  ASSERT_TRUE(done(select(1, {{0, 30}, {20, 30}, {40, 30}}, true)));
+  ASSERT_TRUE(done(give(1, AxisService::MoveAbsolute, 20, 20)));
+  EXPECT_NEAR(joint(1), 15, 1e-9);
+  const Given other = cam(2, 1, 1, {});
+  ASSERT_TRUE(until([&] { return reached(other); }));
+  EXPECT_EQ(state(in), CommandState::Aborted);
+  EXPECT_NEAR(joint(1), 30, 1e-9);
+}
+
+// Each period one thing or none happens: a motion of the master, a gear or a cam, a motion of the follower or on
+// top of one of them, a stop.
+class RandomGears : public FollowCell {
+ public:
+  RandomGears(unsigned seed, double period_ms)
+      : FollowCell(period_ms), random_(seed), between_(static_cast<int>(std::max(60.0, 240 / period_ms))) {}
+  void TestBody() override {}
+  void run(int periods) {
+    power_on({1, 2, 3});
+    for (int i = 0; i < periods && !HasFailure(); ++i) {
+      if (one_of(between_) == 0) {
+        act();
+      }
+      const bool was = reached(in_) && state(in_) == CommandState::Active;
+      step();
+      const bool is = reached(in_) && state(in_) == CommandState::Active;
+      if (was && is) {
+        ++geared_;
+        if (place_) {
+          ASSERT_NEAR(joint(1), place_(joint(0)), 1e-7) << "period " << i;
+        } else {
+          ASSERT_NEAR(moved(1), ratio_ * moved(0), 2e-8) << "period " << i;
+        }
+      }
+      ASSERT_NE(cell.out.state, GroupState::ErrorStop)
+          << "period " << i << ", error " << static_cast<int>(cell.out.error) << " of axis " << cell.out.error_axis;
+    }
+  }
+  [[nodiscard]] long geared() const { return geared_; }
+
+ private:
+  int one_of(int many) { return std::uniform_int_distribution<int>(0, many - 1)(random_); }
+  double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  void softly(const Given& given) {
+    Command& c = command(given);
+    c.acceleration = in(30, 900);
+    c.deceleration = in(30, 900);
+    c.jerk = in(500, 9000);
+  }
+  void act() {
+    switch (one_of(10)) {
+      case 0:
+      case 1:
+        softly(give(1, AxisService::MoveAbsolute, in(-90, 90), in(5, 150)));
+        break;
+      case 2:
+        softly(give(1, AxisService::MoveVelocity, 0, in(-60, 60)));
+        break;
+      case 3:
+        place_ = nullptr;
+        ratio_ = in(-1.5, 1.5);
+        in_ = gear(2, 1, ratio_);
+        softly(in_);
+        break;
+      case 4:
+        random_cam();
+        break;
+      case 5:
+        softly(give(2, AxisService::MoveAbsolute, in(-60, 60), in(5, 150)));
+        break;
+      case 6:
+        softly(give(1, AxisService::MoveSuperimposed, in(-40, 40), in(5, 60)));
+        break;
+      case 7:
+        if (!place_) {
+          softly(give(2, AxisService::MoveSuperimposed, in(-40, 40), in(5, 60)));
+        } else {
+          give(2, AxisService::HaltSuperimposed);
+        }
+        break;
+      case 8:
+        give(2, one_of(2) == 0 ? AxisService::Decouple : AxisService::Halt);
+        break;
+      default:
+        command(give(2, AxisService::Stop)).execute = 0;
+    }
+  }
+
+  // Of the numbers of its users, as the standard has them.
+  void random_cam() {
+    std::vector<std::pair<double, double>> points{{in(-60, 0), in(-20, 20)}};
+    for (int many = one_of(5) + 2; many > 0; --many) {
+      points.emplace_back(points.back().first + in(30, 80), in(-20, 20));
+    }
+    const bool periodic = one_of(2) == 0;
+    if (periodic) {
+      points.back().second = points.front().second;
+    }
+    select(2, points, periodic);
+    Cam cam;
+    ASSERT_EQ(cam.set(cell.in.cams[1], periodic), ErrorCode::Ok);
+    const CamUse use{in(-30, 30), in(-20, 20), in(0.5, 2), in(-1.5, 1.5), true, true};
+    place_ = [cam, use](double master) {
+      return use.slave_offset + use.slave_scale * cam.at((master - use.master_offset) / use.master_scale);
+    };
+    in_ = this->cam(2, 1, 2, use);
+    softly(in_);
+    command(in_).velocity = in(10, 150);
+  }
+
+  std::mt19937 random_;
+  int between_;                          // periods from one thing to the next, about
+  std::function<double(double)> place_;  // of a cam
+  Given in_;
+  double ratio_ = 0;
+  long geared_ = 0;
+};
+
+TEST(RandomGear, Breaks_no_limit_and_keeps_the_ratio) {
+  const long runs = from_environment("INDUROP_ROBOT_GEARS", 40);
+  const long first = from_environment("INDUROP_ROBOT_SEED", 1);
+  long geared = 0;
+  for (long i = first; i < first + runs && !HasFailure(); ++i) {
+    SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
+    const double period_ms = std::array{10.0, 4.0, 10.0, 4.0, 0.1}[static_cast<std::size_t>(i) % 5];
+    RandomGears sut(static_cast<unsigned>(i), period_ms);
+    sut.run(period_ms < 1 ? 40'000 : 4000);
+    geared += sut.geared();
+  }
+  EXPECT_GT(geared, runs * 100);
+}
+
+}  // namespace
+}  // namespace indurop::robot

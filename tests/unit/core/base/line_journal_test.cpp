@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/line_journal.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "folder.h"
+
+namespace indurop::base {
+namespace {
+
+class LineJournals : public FolderTest {
+ protected:
+  [[nodiscard]] LineJournal journal(std::uintmax_t most_bytes) const {
+    return {at("deep/journal"), most_bytes, 0600, Durable::No};
+  }
+  [[nodiscard]] std::vector<std::string> lines() const {
+    std::vector<std::string> all;
+    each_line(at("deep/journal"), [&all](std::string_view line) { all.emplace_back(line); });
+    return all;
+  }
+};
+
+TEST_F(LineJournals, Lines_come_back_in_their_order) {
+  EXPECT_TRUE(lines().empty());
+  const std::vector<std::string> written{"one", "", "three"};
+  for (const std::string& line : written) {
+    ASSERT_EQ(append_line(journal(1000), line), "");
+  }
+  EXPECT_EQ(lines(), written);
+}
+
+TEST_F(LineJournals, A_file_that_has_grown_is_put_aside_and_the_one_before_it_goes) {
+  // Lines of ten bytes: the fourth finds a file beyond 25 and begins a new one.
+  for (const char* line : {"line    1", "line    2", "line    3", "line    4"}) {
+    ASSERT_EQ(append_line(journal(25), line), "");
+  }
+  EXPECT_EQ(content("deep/journal.1"), "line    1\nline    2\nline    3\n");
+  EXPECT_EQ(content("deep/journal"), "line    4\n");
+  EXPECT_EQ(lines(), (std::vector<std::string>{"line    1", "line    2", "line    3", "line    4"}));
+  for (const char* line : {"line    5", "line    6", "line    7"}) {
+    ASSERT_EQ(append_line(journal(25), line), "");
+  }
+  EXPECT_EQ(lines(), (std::vector<std::string>{"line    4", "line    5", "line    6", "line    7"}));
+}
+
+TEST_F(LineJournals, Says_why_a_line_cannot_be_kept) {
+  write("deep", "a file where the folder should be");
+  EXPECT_EQ(append_line(journal(1000), "line"), "Not a directory");
+}
+
+}  // namespace
+}  // namespace indurop::base

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "history/recorder/run_words.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace indurop::recorder {
+namespace {
+
+TEST(RunWords, Come_back_as_they_were) {
+  std::vector<std::uint8_t> cdr;
+  to_cdr(RunWords{{1, 2, 3, -4, 5, 6}, 77, true, true}, cdr);
+  const auto run = run_from_cdr(cdr);
+  ASSERT_TRUE(run.ok());
+  EXPECT_EQ(run->tail.number, 1U);
+  EXPECT_EQ(run->tail.release_ns, -4);
+  EXPECT_EQ(run->tail.end_ns, 6);
+  EXPECT_EQ(run->module, 77U);
+  EXPECT_TRUE(run->faulted);
+  EXPECT_TRUE(run->anew);
+  cdr.pop_back();
+  const auto old = run_from_cdr(cdr);
+  ASSERT_TRUE(old.ok()) << "of a recording that did not tell that";
+  EXPECT_TRUE(old->faulted);
+  EXPECT_FALSE(old->anew);
+  to_cdr(std::int64_t{-12}, cdr);
+  EXPECT_EQ(clock_from_cdr(cdr).value(), -12);
+  EXPECT_FALSE(run_from_cdr(cdr).ok());
+  cdr.pop_back();
+  EXPECT_FALSE(clock_from_cdr(cdr).ok());
+  const std::vector<std::uint8_t> bytes{1, 2, 3};
+  to_cdr(ToldWords{-7, bytes}, cdr);
+  const auto told = told_from_cdr(cdr);
+  ASSERT_TRUE(told.ok());
+  EXPECT_EQ(told->code, -7);
+  EXPECT_TRUE(std::equal(told->bytes.begin(), told->bytes.end(), bytes.begin(), bytes.end()));
+  cdr.pop_back();
+  EXPECT_FALSE(told_from_cdr(cdr).ok());
+}
+
+TEST(RunWords, A_sequence_number_says_whose_value_it_is_and_as_what) {
+  for (const std::uint32_t module : {0U, 5U, kOthers}) {
+    for (const tape::EntryKind kind :
+         {tape::EntryKind::Before, tape::EntryKind::Again, tape::EntryKind::Clock, tape::EntryKind::Told}) {
+      const ValueWords back = from_sequence(to_sequence({module, kind}));
+      EXPECT_EQ(back.module, module);
+      EXPECT_EQ(back.kind, kind);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace indurop::recorder

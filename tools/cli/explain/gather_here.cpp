@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Facts from the shared memory of a node of this machine.
+
+#include <algorithm>
+#include <limits>
+
+#include "core/rt/clock.h"
+#include "history/explain/facts_json.h"
+#include "history/explain/kernel_log.h"
+#include "history/explain/run_facts.h"
+#include "network/mirror/frames/mirror_block.h"
+#include "store/operate/journal.h"
+#include "store/tape/follower.h"
+#include "store/vars/shm_file.h"
+#include "tools/cli/explain/gather.h"
+
+namespace indurop::tools {
+namespace {
+
+using explain::Facts;
+
+void add_mirror(const std::string& node, Facts& facts) {
+  const auto file = vars::ShmCopy::of(vars::mirror_file(node));
+  const mirror::MirrorBlock* block =
+      file ? mirror::mirror_block_in({file.value().data(), file.value().size()}) : nullptr;
+  if (block != nullptr) {
+    explain::add_boards(*block, facts);
+  }
+}
+
+// Adds which variables are forced, and for how long.
+void add_forces(const vars::Store& store, Facts& facts) {
+  for (const vars::Force& force : store.forces()) {
+    const std::string& name = store.schema().variables[force.variable->schema_index].name;
+    for (explain::VariableFact& variable : facts.variables) {
+      if (variable.name == name) {
+        variable.forced_until_ns =
+            force.until == vars::kForever ? std::numeric_limits<std::int64_t>::max() : rt::to_ns(force.until);
+      }
+    }
+  }
+}
+
+// Adds changes of the variable from the tape, and the runs that ended by a fault.
+void add_tape(const std::string& node, const vars::Store& store, const std::string& variable, Facts& facts) {
+  auto follower = tape::Follower::open(node, true);
+  if (!follower || follower->header().layout_hash != store.header().layout_hash) {
+    return;
+  }
+  const auto* entry = store.find(abi::fnv1a64(variable.data(), variable.size()));
+  const auto index = entry == nullptr ? std::numeric_limits<std::uint32_t>::max()
+                                      : static_cast<std::uint32_t>(entry - store.directory().data());
+  tape::Run run;
+  for (std::size_t track = 0; track < follower->tracks(); ++track) {
+    while (follower->next(track, run)) {
+      const bool known = run.module < facts.modules.size();
+      const bool wrote = std::any_of(run.values.begin(), run.values.end(), [&](const tape::Value& value) {
+        return value.variable == index && value.kind == tape::EntryKind::After;
+      });
+      if (wrote) {
+        facts.changes.push_back(
+            {variable, known ? facts.modules[run.module].name : "", run.tail.tick, run.tail.end_ns});
+      }
+    }
+  }
+}
+
+Facts of_memory(const std::string& node, const RunView& run, bool with_runs, std::int64_t now_ns) {
+  Facts facts = explain::facts_of(run.block(), run.size(), with_runs);
+  if (facts.stop_reason.empty() && !run.node_alive()) {
+    facts.stop_reason = "its process died in the middle of its work";
+  }
+  facts.board = fixed_text(run.block().board);
+  add_mirror(node, facts);
+  facts.orders = operate::read_orders(node, run.block().started_wall_ns);
+  facts.now_ns = now_ns;
+  facts.wall_minus_node_ns = facts.is_virtual ? 0 : rt::wall_ns() - now_ns;
+  if (!facts.is_virtual) {
+    explain::add_kernel(node, facts);
+  }
+  return facts;
+}
+
+}  // namespace
+
+std::string facts_text_here(const std::string& node, const RunView& run) {
+  const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
+  return explain::facts_text(of_memory(node, run, false, store ? rt::to_ns(store->now()) : run.now_ns()));
+}
+
+Facts facts_here(const ChosenRun& chosen, const std::string& variable) {
+  const auto store = vars::Store::attach(chosen.node, vars::Mode::ReadOnly);
+  Facts facts = of_memory(chosen.node, chosen.run, true, store ? rt::to_ns(store->now()) : chosen.run.now_ns());
+  facts.alive = chosen.run.node_alive();
+  add_config(fixed_text(chosen.run.block().config_file), facts);
+  if (store) {
+    add_forces(*store, facts);
+    add_tape(chosen.node, *store, variable, facts);
+  }
+  explain::make_sound(facts);
+  return facts;
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/pictures/svg_parts.h"
+
+#include <fmt/format.h>
+
+#include "tools/cli/command/units.h"
+
+namespace indurop::tools {
+
+std::string svg_class(std::string_view kind) {
+  return fmt::format("class=\"{}\"", kind);
+}
+
+void svg_text(base::SvgPart& out, double x, double y, const char* anchor, const char* kind, std::string_view content) {
+  out.text(x, y, printable(content), fmt::format("text-anchor=\"{}\" {}", anchor, svg_class(kind)));
+}
+
+void svg_line(base::SvgPart& out, double x1, double y1, double x2, double y2, const char* kind) {
+  out.line(x1, y1, x2, y2, svg_class(kind));
+}
+
+}  // namespace indurop::tools

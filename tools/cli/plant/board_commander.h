@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sends one command to a board and waits for the result: requests a number that is valid once, signs, repeats.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "deploy/link/command_link.h"
+#include "deploy/link/deploy_link.h"
+#include "deploy/words/command_words.h"
+#include "tools/cli/command/verb.h"
+
+namespace indurop::tools {
+
+struct Answered {
+  deploy::CommandReply reply;  // Done, Unchanged, Failed or Refused
+  std::int64_t took_ns = 0;
+};
+
+class BoardCommander {
+ public:
+  // Signs with the key in this folder of the plant's keys; empty: unsigned, which boards without keys accept.
+  static Result<BoardCommander, Failure> make(Context& context, const std::filesystem::path& keys);
+
+  // `self`: session of the link. Fails if no final answer comes in time, or the user interrupts.
+  Result<Answered, Failure> give(deploy::DeployLink& link, std::uint64_t self, const deploy::BoardReport& board,
+                                 deploy::Action action, const std::string& target, std::int64_t timeout_ns);
+
+ private:
+  explicit BoardCommander(std::string key) : key_(std::move(key)) {}
+
+  std::string key_;
+  std::unique_ptr<deploy::CommandLink> commands_;
+};
+
+}  // namespace indurop::tools

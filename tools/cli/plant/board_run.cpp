@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/plant/board_run.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/read_file.h"
+#include "core/rt/clock.h"
+#include "tools/cli/command/interrupt.h"
+#include "tools/cli/command/suggest.h"
+#include "tools/cli/command/units.h"
+#include "tools/cli/plant/board_texts.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::int64_t kHearNs = 3'000'000'000;  // agents report twice a second
+
+std::vector<ForceView> forces_in(const JsonValue& head) {
+  std::vector<ForceView> forces;
+  const JsonValue* list = head.find("forces");
+  for (const JsonValue& one : list == nullptr ? std::vector<JsonValue>() : list->values()) {
+    ForceView force;
+    std::int64_t left_ns = 0;
+    if (read(one, "name", force.name) && read(one, "value", force.value)) {
+      force.raw = one["raw"];
+      force.left_ns = read(one, "left_ns", left_ns) ? std::optional(left_ns) : std::nullopt;
+      read(one, "who", force.note.who);
+      read(one, "from", force.note.from);
+      read(one, "reason", force.note.reason);
+      read(one, "lease", force.note.lease);
+      forces.push_back(std::move(force));
+    }
+  }
+  return forces;
+}
+
+vars::LockNote lock_in(const JsonValue& head) {
+  vars::LockNote note;
+  std::string word;
+  const JsonValue& lock = head["lock"];
+  if (read(lock, "lock", word)) {
+    note.lock = vars::write_lock_of(word).value_or(vars::WriteLock::None);
+  }
+  read(lock, "who", note.who);
+  read(lock, "from", note.from);
+  read(lock, "reason", note.reason);
+  read(lock, "wall_ns", note.wall_ns);
+  return note;
+}
+
+Failure not_heard(const BoardChoice& choice) {
+  std::vector<std::string> heard;
+  for (const auto& [key, entry] : choice.roster.all()) {
+    heard.push_back(key.first);
+  }
+  if (choice.board.empty() && !heard.empty()) {
+    return {kUsage, fmt::format("there are several boards; say which with --board: {}", fmt::join(heard, ", "))};
+  }
+  const std::string others = heard.empty() ? "Agents are started with indurop-agent --board NAME"
+                                           : fmt::format("Boards heard: {}", fmt::join(heard, ", "));
+  if (choice.board.empty() || !choice.roster.complete()) {
+    return {kUnreachable, fmt::format("{} was heard on domain {} within {}. {}",
+                                      choice.board.empty() ? "no board" : "nothing of board " + choice.board,
+                                      choice.link.network.domain, human_age(kHearNs), others)};
+  }
+  return {kUnreachable,
+          fmt::format("no agent calls itself {}.{} {}", choice.board, did_you_mean(choice.board, heard), others)};
+}
+
+const BoardRoster::Entry* chosen(const BoardChoice& choice) {
+  const auto& all = choice.roster.all();
+  return !choice.board.empty() ? choice.roster.find(choice.board) : all.size() == 1 ? &all.begin()->second : nullptr;
+}
+
+}  // namespace
+
+Result<BoardRun, Failure> read_run(const std::string& who, const std::string& text) {
+  const auto line = text.find('\n');
+  const JsonValue head = JsonValue::parse(text.substr(0, line)).value_or(JsonValue());
+  bool running = false;
+  std::int64_t now_ns = 0;
+  if (line == std::string::npos || !read(head, "running", running) || !read(head, "now_ns", now_ns)) {
+    return Failure{kFailed, fmt::format("{} does not say how a node does", who)};
+  }
+  if (line + 1 == text.size()) {
+    return Failure{kUnreachable, fmt::format("{} has no node that runs or ran", who)};
+  }
+  auto run = RunView::from_image(std::string_view(text).substr(line + 1), running, now_ns);
+  if (!run) {
+    return run.error().code == Errc::VersionMismatch
+               ? Failure{kSchemaMismatch, fmt::format("{} is of another release of InduRoP", who)}
+               : Failure{kFailed, fmt::format("what {} says is damaged ({})", who, run.error().where)};
+  }
+  const std::string node = fixed_text(run->block().node_name);
+  return BoardRun{{node, std::move(run).value()}, forces_in(head), lock_in(head)};
+}
+
+namespace {
+
+Result<BoardRun, Failure> kept_in(const std::string& file) {
+  const auto text = base::read_file(file);
+  if (!text) {
+    return Failure{kFailed, base::cannot_read(file, text.error())};
+  }
+  auto run = read_run(file, *text);
+  if (run) {
+    run->kept = true;
+  }
+  return run;
+}
+
+}  // namespace
+
+void add_board_options(base::Options& app, BoardChoice& choice, bool link) {
+  app.flag("--remote", choice.remote, "A board in the network, by its agent, not a node of this machine");
+  app.add("--board", "NAME", choice.board, "Which board (default: the only one there is); implies --remote");
+  if (link) {
+    deploy::add_link_options(app, choice.link);
+  }
+}
+
+void add_kept_option(base::Options& app, BoardChoice& choice) {
+  app.add("--from", "FILE", choice.file, "What an agent has kept of a node that died (STATE/BOARD/blackbox)");
+}
+
+Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardChoice& choice) {
+  if (!context.node.empty()) {
+    return Failure{kUsage, "--node names a node of this machine; a board in the network is chosen with --board"};
+  }
+  if (choice.open == nullptr) {
+    choice.open = open_link(context, choice.link);
+    if (choice.open == nullptr) {
+      return Failure{kUnreachable, {}};
+    }
+    const auto enough = [&] {
+      return (!choice.board.empty() && chosen(choice) != nullptr) || choice.roster.complete();
+    };
+    choice.roster.gather(*choice.open, kHearNs, enough);
+  } else {
+    choice.roster.listen(*choice.open, rt::now_ns());
+  }
+  if (interrupted()) {
+    return Failure{interrupt_code(), {}};
+  }
+  const BoardRoster::Entry* board = chosen(choice);
+  if (board == nullptr) {
+    return with_keys_hint(not_heard(choice), choice.link);
+  }
+  if (const std::string hosts = choice.roster.twins(board->report.board, rt::now_ns()); !hosts.empty()) {
+    return Failure{kFailed,
+                   fmt::format("two agents call themselves {}, on {}; stop one of them", board->report.board, hosts)};
+  }
+  return board;
+}
+
+Result<BoardRun, Failure> open_run(Context& context, BoardChoice& choice) {
+  if (!choice.file.empty()) {
+    return kept_in(choice.file);
+  }
+  if (!choice.wanted()) {
+    auto here = open_run(context.node);
+    return here ? Result<BoardRun, Failure>(BoardRun{std::move(here).value(), std::nullopt, {}})
+                : std::move(here).error();
+  }
+  const auto board = find_board(context, choice);
+  if (!board) {
+    return board.error();
+  }
+  const deploy::BoardReport& report = (*board)->report;
+  auto answers = fetch_texts(*choice.open, choice.link.self, deploy::kRunBlob, {report.agent});
+  if (interrupted()) {
+    return Failure{interrupt_code(), {}};
+  }
+  const auto answer = answers.find(report.agent);
+  return answer == answers.end()
+             ? Failure{kUnreachable, fmt::format("the agent of board {} does not answer", report.board)}
+             : read_run("board " + report.board, answer->second);
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The run block of a board anywhere in the network, as its agent reports it, for the verbs that inspect a node.
+
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deploy/link/deploy_link.h"
+#include "tools/cli/plant/board_roster.h"
+#include "tools/cli/values/force_view.h"
+#include "tools/cli/values/node_choice.h"
+
+namespace indurop::tools {
+
+// Selects a board in the network instead of a node of this machine.
+struct BoardChoice {
+  bool remote = false;
+  std::string board;  // empty: the only one that is discovered
+  std::string file;   // alternatively: a file in which an agent saved the run block of a node that died
+  deploy::LinkSettings link;
+  [[nodiscard]] bool wanted() const noexcept { return remote || !board.empty(); }
+
+  // The open link, for further rounds to request again.
+  std::unique_ptr<deploy::DeployLink> open;
+  BoardRoster roster;
+};
+
+// Adds --remote and --board, and with `link` --domain and related options.
+void add_board_options(base::Options& app, BoardChoice& choice, bool link = true);
+// Adds --from, for verbs that only read.
+void add_kept_option(base::Options& app, BoardChoice& choice);
+
+// Returns the agent of the chosen board; the failure names the boards that are present.
+Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardChoice& choice);
+
+struct BoardRun : ChosenRun {
+  std::optional<std::vector<ForceView>> forces;  // for a board only
+  vars::LockNote lock;                           // for a board only
+  bool kept = false;                             // an old one from a file
+};
+// Parses a report of a board's agent about its node: a line of JSON and the run block (deploy/agent/run_image.h). `who`
+// names the source.
+Result<BoardRun, Failure> read_run(const std::string& who, const std::string& text);
+// Returns the current run block of the chosen board or of a node of this machine (--node), or the one in the file.
+Result<BoardRun, Failure> open_run(Context& context, BoardChoice& choice);
+
+}  // namespace indurop::tools

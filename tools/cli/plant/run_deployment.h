@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Executes a deployment on all its boards: shared by deploy and rollback.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "core/base/problem.h"
+#include "deploy/link/blob_server.h"
+#include "deploy/link/deploy_link.h"
+#include "deploy/words/deployment_words.h"
+#include "tools/cli/command/table.h"
+#include "tools/cli/command/verb.h"
+#include "tools/cli/plant/board_roster.h"
+
+namespace indurop::tools {
+
+struct Deployment {
+  deploy::Order order;  // who, what, for whom
+  std::string key;      // private key that signs the commands; empty: unsigned
+  deploy::BlobServer::Find files;
+  std::int64_t patience_ns = 0;  // maximum time without any progress
+  JsonValue head;                // of the result as JSON
+  std::string title;             // "plant cell, deployment 0123456789ab"
+};
+
+// Prints progress and the result; returns the exit code.
+int run_deployment(Context& context, deploy::DeployLink& link, BoardRoster& roster, Deployment deployment);
+
+// Reads the private key of the deployer in a folder of keys (indurop keys init). Without a folder there is none, and a
+// note explains what that means.
+Result<std::string, base::Problem> read_deploy_key(Context& context, const std::filesystem::path& folder);
+// Returns a generation above all those reported.
+std::uint64_t next_generation(const BoardRoster& roster);
+// Returns those of `wanted` that are present, at least one. Fails if some are missing (and `allow_missing` is not set),
+// or two have the same name.
+Result<std::vector<std::string>, Failure> present_boards(Context& context, deploy::DeployLink& link,
+                                                         BoardRoster& roster, const std::vector<std::string>& wanted,
+                                                         bool allow_missing, std::int64_t timeout_ns);
+
+}  // namespace indurop::tools

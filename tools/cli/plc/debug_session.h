@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The prompt of indurop plc debug: breakpoints, steps, values. Reads standard input, so it can be a script.
+
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/cli/command/verb.h"
+#include "tools/cli/plc/debug_code.h"
+#include "tools/cli/plc/debug_link.h"
+
+namespace indurop::tools {
+
+class DebugSession {
+ public:
+  // `node`: the name of the simulated node, whose process is `process`.
+  DebugSession(Context& context, const plc::Compiled& compiled, DebugLink& link, std::string node, pid_t process);
+
+  // Runs until the user leaves or the node ends. Returns the exit code.
+  int run();
+
+ private:
+  enum class Aim { Run, Into, Over, Out, Scan };
+
+  // Returns false if the session is over.
+  bool meet(const DebugStop& stop);
+  void go_on(DebugMode mode);
+  void begin_of_scan(const DebugStop& stop);
+  [[nodiscard]] bool is_same_line(const DebugStop& stop);
+  [[nodiscard]] DebugMode mode_of_aim() const;
+  // Reads commands until one lets the program continue; returns false to leave.
+  bool prompt();
+  // Executes a command. Nothing: stay at the prompt.
+  std::optional<bool> obey(const std::string& line);
+  bool aim(Aim aim);
+  std::optional<bool> travel(const std::string& verb, const std::string& rest);
+  void look(const std::string& verb, const std::string& rest);
+  void tell_place();
+  void print(const std::string& names);
+  void where();
+  void add_breakpoint(const std::string& what, bool once);
+  void remove_breakpoint(const std::string& what);
+  void set(const std::string& assignment);
+  [[nodiscard]] std::string time_of(const DebugStop& stop) const;
+  [[nodiscard]] const plc::DebugTable& table() const { return code_.module(stop_.module)->debug; }
+
+  struct Breakpoint {
+    DebugCode::Breakpoint at;
+    bool once = false;
+  };
+  Context& context_;
+  DebugCode code_;
+  DebugLink& link_;
+  std::string node_;
+  pid_t process_;
+  std::string first_file_;
+  std::vector<Breakpoint> breakpoints_;
+  Aim aim_ = Aim::Into;
+  std::uint64_t scans_left_ = 0;
+  std::size_t frame_ = 0;
+  DebugStop stop_;  // the stop shown last
+  std::string stop_line_;
+  std::optional<std::int64_t> began_ns_;
+  bool prompts_ = false;
+};
+
+}  // namespace indurop::tools

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/plc/plc_debug.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <thread>
+
+#include "control/plc/front/compiler.h"
+#include "core/base/program_folder.h"
+#include "core/base/replace_file.h"
+#include "core/base/spawn.h"
+#include "tools/cli/command/child.h"
+#include "tools/cli/command/interrupt.h"
+#include "tools/cli/command/temporary_folder.h"
+#include "tools/cli/plc/debug_link.h"
+#include "tools/cli/plc/debug_session.h"
+#include "tools/cli/plc/plc_build.h"
+#include "tools/cli/plc/plc_file.h"
+#include "tools/cli/plc/plc_sources.h"
+
+namespace indurop::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Request {
+  plc::CompileOptions compile;
+  std::string config;
+  std::string until;
+};
+
+// Builds the program alone and a configuration for it.
+bool build(Context& context, Request& request, const plc::Compiled& compiled, const fs::path& folder) {
+  if (!write_modules(context, request.compile, compiled, folder, false)) {
+    return false;
+  }
+  request.config = (folder / "module.xml").string();
+  const auto saved = base::replace_file(request.config, "<root>\n" + plc::module_xml(compiled.modules) + "</root>\n",
+                                        base::Durable::No);
+  if (!saved) {
+    context.out.error(base::cannot_write(request.config, saved.error()));
+  }
+  return saved.ok();
+}
+
+void end(pid_t process) {
+  ::kill(process, SIGTERM);
+  constexpr int kLooks = 500;
+  for (int i = 0; i < kLooks; ++i) {
+    if (::waitpid(process, nullptr, WNOHANG) != 0) {
+      return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ::kill(process, SIGKILL);
+  (void)::waitpid(process, nullptr, 0);
+}
+
+int debug(Context& context, Request& request) {
+  request.compile.debug = true;
+  const auto files = with_project_files(context, request.compile.files);
+  if (!files) {
+    return kCheckFailed;
+  }
+  request.compile.files = *files;
+  std::optional<EndsAtOnce> ends(std::in_place);
+  const plc::Compiled compiled = plc::compile(request.compile);
+  ends.reset();
+  print_diagnostics(context, compiled.diagnostics);
+  if (!compiled.ok) {
+    return kCheckFailed;
+  }
+  const TemporaryFolder folder;
+  if (folder.path().empty()) {
+    context.out.error("cannot make a folder for temporary files");
+    return kFailed;
+  }
+  if (request.config.empty() && !build(context, request, compiled, folder.path())) {
+    return kFailed;
+  }
+  const fs::path socket = folder.path() / "socket";
+  DebugLink link(socket);
+  if (!link.is_open()) {
+    context.out.error("cannot make a socket in " + folder.path().string());
+    return kFailed;
+  }
+  ::setenv("INDUROP_PLC_DEBUG", socket.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): one thread
+  const std::string node = fmt::format("debug{}", ::getpid());
+  base::Launch launch;
+  launch.program = base::program_folder() / "indurop";
+  launch.words = {"indurop", "run", request.config, "--sim", "-q", "--node", node};
+  if (!request.until.empty()) {
+    launch.words.insert(launch.words.end(), {"--until", request.until});
+  }
+  launch.fresh_signals = true;
+  launch.group = base::Launch::Group::Own;
+  launch.ends_with_us = SIGTERM;  // however this program ends: no other process knows the node
+  const auto started = base::spawn(launch);
+  if (!started) {
+    context.out.error(fmt::format("cannot start {}", launch.program.string()));
+    return kFailed;
+  }
+  context.node = node;
+  const int code = DebugSession(context, compiled, link, node, started.value()).run();
+  link.close();
+  end(started.value());
+  (void)run_child({launch.program.string(), "clean", "--node", node, "-q"});
+  return code;
+}
+
+}  // namespace
+
+void add_plc_debug(base::Options& app, const std::shared_ptr<Action>& chosen) {
+  const auto request = std::make_shared<Request>();
+  base::Options& made =
+      app.command("debug", "Run a program in simulation, with breakpoints and line by line",
+                  [request, chosen] { *chosen = [request](Context& c) { return debug(c, *request); }; });
+  add_plc_sources(made, request->compile);
+  made.add("--run", "FILE", request->config,
+           "The configuration to run, with modules built with --debug (default: the program alone)");
+  made.add("--until", "TIME", request->until, "End the simulation then");
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/recordings/recording_cut.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+
+#include "history/recorder/cut.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::filesystem::path file;
+  std::filesystem::path to;
+  std::int64_t from_ns = 0;
+  std::int64_t to_ns = 0;
+};
+
+int cut(Context& context, const Options& options) {
+  if (options.to_ns != 0 && options.to_ns <= options.from_ns) {
+    context.out.error("--to is not later than --from");
+    return kUsage;
+  }
+  const auto done = recorder::cut(options.file, options.from_ns, options.to_ns, options.to);
+  if (!done) {
+    context.out.error(done.error().text);
+    return kFailed;
+  }
+  context.out.note(fmt::format("{}: {} messages, {} runs", options.to.string(), done->messages, done->runs));
+  if (done->runs > 0 && !done->from_first_run) {
+    context.out.note(
+        "it does not begin with the first run: a replay gives modules what they read, but does not know what they kept "
+        "inside. Cut from 0 if they keep something");
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void add_recording_cut(base::Options& app, const std::shared_ptr<Action>& chosen) {
+  auto options = std::make_shared<Options>();
+  base::Options& verb = app.command("cut", "Make a recording of a part of one", [options, chosen] {
+    *chosen = [options](Context& c) { return cut(c, *options); };
+  });
+  verb.add("file", "FILE.mcap", options->file, "The recording").required().completes(base::Completion::File);
+  verb.add("-o,--file", "FILE.mcap", options->to, "The new file; it must not be there yet").required();
+  add_time_option(verb, "--from", options->from_ns, "Time since the begin of the recording (default: 0)");
+  add_time_option(verb, "--to", options->to_ns, "Likewise (default: its end)");
+  verb.details(
+      "Takes the runs that ended between these times, each with all it saw and wrote. Before them stands what was "
+      "known\n"
+      "then, so that the part can be drawn and replayed by itself.\n");
+}
+
+}  // namespace indurop::tools

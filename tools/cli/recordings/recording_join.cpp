@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/recordings/recording_join.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "history/recorder/join.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::filesystem::path to;
+};
+
+int join(Context& context, const Options& options) {
+  const auto joined = recorder::join({options.files.begin(), options.files.end()}, options.to);
+  if (!joined) {
+    context.out.error(joined.error().text);
+    return kFailed;
+  }
+  for (const std::string& gap : joined->gaps) {
+    context.out.note("warning: " + gap);
+  }
+  context.out.note(
+      fmt::format("{}: {} messages of {}", options.to.string(), joined->messages, fmt::join(joined->names, ", ")));
+  return kOk;
+}
+
+}  // namespace
+
+void add_recording_join(base::Options& app, const std::shared_ptr<Action>& chosen) {
+  auto options = std::make_shared<Options>();
+  base::Options& join_command =
+      app.command("join", "Join the recordings of several boards to one on common time",
+                  [options, chosen] { *chosen = [options](Context& c) { return join(c, *options); }; });
+  join_command.add("files", "FILE.mcap", options->files, "The recordings, one of each board or node")
+      .required()
+      .completes(base::Completion::File);
+  join_command.add("-o,--file", "FILE.mcap", options->to, "The file; it must not be there yet").required();
+  join_command.details(
+      "Topics become BOARD/TOPIC (NODE/TOPIC of a node of its own), so that the signals of all boards lie over each\n"
+      "other in Foxglove and PlotJuggler. Times are those of the recordings: clocks of boards that are not kept by "
+      "PTP\n"
+      "or NTP differ; boards of a simulation have one. indurop replay --board replays one of them.\n");
+}
+
+}  // namespace indurop::tools

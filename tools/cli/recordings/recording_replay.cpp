@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/recordings/recording_replay.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/base/replace_file.h"
+#include "history/recorder/sources.h"
+#include "history/recording/mcap_reader.h"
+#include "tools/cli/command/child.h"
+#include "tools/cli/command/node_program.h"
+#include "tools/cli/command/temporary_folder.h"
+#include "tools/cli/pictures/chart_svg.h"
+#include "tools/cli/recordings/recorded_csv.h"
+#include "tools/cli/recordings/replayed_over.h"
+
+namespace indurop::tools {
+namespace {
+
+// Returns the recording's facts about its node.
+Result<recording::TextMap, base::Problem> about(const ReplayWish& wish) {
+  auto reader = recording::McapReader::open(wish.file);
+  if (!reader) {
+    return std::move(reader).error();
+  }
+  const recorder::Sources sources = recorder::find_sources(*reader);
+  const auto source = recorder::choose_source(sources, wish.board, wish.file.string());
+  if (!source) {
+    return source.error();
+  }
+  return sources.all[*source].about;
+}
+
+// Draws the variables that differ according to the replay's recording: the replayed values over the recorded ones.
+// Returns the exit code.
+int draw(Context& context, const ReplayWish& wish, const std::filesystem::path& output, int code) {
+  const auto reader = recording::McapReader::open(output);
+  if (!reader) {
+    context.out.error(reader.error().text);
+    return kFailed;
+  }
+  const std::string prefix = wish.board.empty() ? "" : wish.board + "/";
+  CsvWish now_wish;
+  CsvWish then_wish;
+  for (const auto& [name, runs] : recorder::last_metadata(*reader, recorder::kDifferingMetadata)) {
+    now_wish.names.push_back(name);
+    then_wish.names.push_back(prefix + name);
+  }
+  if (now_wish.names.empty()) {
+    context.out.note("no value differs: there is no picture");
+    return code;
+  }
+  const auto now = recorded_csv(output, now_wish);
+  const auto then = recorded_csv(wish.file, then_wish);
+  if (!now || !then) {
+    context.out.error(now ? then.error().text : now.error().text);
+    return kFailed;
+  }
+  std::size_t left_out = 0;
+  const auto both = laid_over(then->text, prefix, now->text, left_out);
+  if (!both) {
+    context.out.error(both.error().text);
+    return kFailed;
+  }
+  if (both->series.empty()) {
+    context.out.note("no value that can be drawn differs: there is no picture");
+    return code;
+  }
+  const std::string heading = fmt::format("{}: recorded, and what is left now", wish.file.filename().string());
+  if (const auto saved = base::replace_file(wish.svg, chart_svg(heading, *both), base::Durable::No); !saved) {
+    context.out.error(base::cannot_write(wish.svg, saved.error()));
+    return kFailed;
+  }
+  context.out.note(fmt::format("drew what differs into {}{}", wish.svg,
+                               left_out > 0 ? fmt::format(", but for {} more columns", left_out) : ""));
+  return code;
+}
+
+// Runs the node as a child process, because there is work to do afterwards.
+int as_child(Context& context, const ReplayWish& wish, const std::filesystem::path& program, config::RunOptions run) {
+  const TemporaryFolder folder;
+  if (folder.path().empty()) {
+    context.out.error("no temporary folder can be made; is TMPDIR writable?");
+    return kFailed;
+  }
+  if (run.replay.output.empty() && !wish.svg.empty()) {
+    run.replay.output = folder.path() / "now.mcap";
+  }
+  std::vector<std::string> words = config::words_of(run);
+  words.insert(words.begin(), program.string());
+  const auto code = run_child(words);
+  if (!code) {
+    context.out.error(code.error().text);
+    return kFailed;
+  }
+  std::error_code ignored;
+  const bool drawn = !wish.svg.empty() && std::filesystem::exists(run.replay.output, ignored);
+  return drawn ? draw(context, wish, run.replay.output, *code) : *code;
+}
+
+}  // namespace
+
+int replay_recording(Context& context, const ReplayWish& wish) {
+  const auto program = node_program(context);
+  if (program.empty()) {
+    return kFailed;
+  }
+  auto known = about(wish);
+  if (!known) {
+    context.out.error(known.error().text);
+    return kFailed;
+  }
+  config::RunOptions run;
+  run.quiet = context.out.quiet();
+  run.replay.file = wish.file;
+  run.replay.board = wish.board;
+  run.replay.with = wish.with;
+  run.replay.output = wish.output;
+  run.config = wish.config.empty() ? std::filesystem::path((*known)["config"]) : wish.config;
+  run.board = (*known)["board"];
+  run.node = wish.node;
+  std::error_code ignored;
+  if (!std::filesystem::exists(run.config, ignored)) {
+    context.out.error(fmt::format("{} was recorded with {}, which is not here; name the configuration with --config",
+                                  wish.file.string(), run.config.string()));
+    return kFailed;
+  }
+  return wish.svg.empty() && !wish.comes_back ? become_node(context, program, run)
+                                              : as_child(context, wish, program, std::move(run));
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/robot/hand.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+
+#include "core/rt/clock.h"
+#include "tools/cli/command/interrupt.h"
+#include "tools/cli/values/forcing.h"
+#include "tools/cli/values/node_choice.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Direction {
+  int frame = 0;  // ROBOT_JOG.eFrame
+  int index = 0;  // in dSpeed
+  double sign = 1;
+};
+
+// Returns nothing if it is not a direction.
+std::optional<Direction> read_direction(const Hand& hand) {
+  constexpr std::array<std::string_view, 6> kTip{"x", "y", "z", "rx", "ry", "rz"};
+  std::string word = hand.direction;
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (word.size() < 2 || (word.back() != '+' && word.back() != '-')) {
+    return std::nullopt;
+  }
+  const int frame = hand.frame.empty() || hand.frame == "base" ? 1 : hand.frame == "tool" ? 2 : 3;
+  Direction out{frame, 0, word.back() == '+' ? 1.0 : -1.0};
+  word.pop_back();
+  if (word.size() == 2 && word[0] == 'j' && word[1] >= '1' && word[1] <= '8') {
+    out.frame = 0;
+    out.index = word[1] - '1';
+    return out;
+  }
+  const auto* const found = std::find(kTip.begin(), kTip.end(), word);
+  out.index = static_cast<int>(found - kTip.begin());
+  return found == kTip.end() ? std::nullopt : std::optional(out);
+}
+
+// Sends the heartbeat to the robot repeatedly. Returns the exit code.
+int hold(Context& context, vars::Store& store, const Item& beat, const Hand& hand) {
+  constexpr std::int64_t kBeatNs = 100'000'000;
+  const std::int64_t end = hand.for_ns > 0 ? rt::now_ns() + hand.for_ns : INT64_MAX;
+  std::uint32_t number = 1;
+  while (rt::now_ns() < end) {
+    if (wait_until(std::min(end, rt::now_ns() + kBeatNs)) == Woken::Signal) {
+      take_interrupt();
+      return kOk;
+    }
+    ++number;
+    number += number == 0 ? 1 : 0;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(&number);
+    const auto done = context.values->set(store, beat.name, *beat.entry, beat.place, {bytes, sizeof number});
+    if (const std::string absence = context.values->absence(&store); !done || !absence.empty()) {
+      return done ? report(context.out, {kUnreachable, context.values->gone(absence)})
+                  : report(context.out, done.error());
+    }
+  }
+  return kOk;
+}
+
+// A lost client may have left the switch pressed: the robot requires it to be released before it accepts it again.
+// Returns the exit code.
+int let_go_before(Context& context, vars::Store& store, const Item& enable, const std::vector<Assignment>& rest) {
+  constexpr std::int64_t kPeriodsNs = 100'000'000;  // longer than the period of any robot
+  const auto now = operate::read(store, enable);
+  if (!now || std::all_of(now->begin(), now->end(), [](std::uint8_t byte) { return byte == 0; })) {
+    return kOk;
+  }
+  if (const int code = set_values(context, store, rest); code != kOk) {
+    return code;
+  }
+  return wait_until(rt::now_ns() + kPeriodsNs) == Woken::Signal ? interrupt_code() : kOk;
+}
+
+// Returns whether the robot's files define the work frame; true if they cannot be read, such as those of another host.
+bool knows_frame(Context& context, const RobotChoice& choice, const std::string& frame) {
+  const auto files = files_of_node(context.node, choice, false);
+  const robot::ListedPoints listed = files ? robot::list_points(files->names) : robot::ListedPoints{};
+  if (!files || !listed.errors.empty() ||
+      std::find(listed.frames.begin(), listed.frames.end(), frame) != listed.frames.end()) {
+    return true;
+  }
+  context.out.error(fmt::format("there is no work frame '{}': base, tool{}{}", frame, listed.frames.empty() ? "" : ", ",
+                                fmt::join(listed.frames, ", ")));
+  return false;
+}
+
+}  // namespace
+
+int jog(Context& context, const RobotChoice& choice, const Hand& hand) {
+  const auto direction = read_direction(hand);
+  if (!direction) {
+    context.out.error(fmt::format("'{}' is no direction: J1+ to J8-, x+ y+ z+ rx+ ry+ rz+, or with -", hand.direction));
+    return kUsage;
+  }
+  constexpr int kWork = 3;
+  const bool work = direction->frame == kWork;
+  if (work && !knows_frame(context, choice, hand.frame)) {
+    return kUsage;
+  }
+  const std::string name = choice.space + "::ROBOT_JOG";
+  auto store = open_store(context, vars::Mode::ReadWrite, {name});
+  if (!store) {
+    return report(context.out, store.error());
+  }
+  std::vector<Item> parts;
+  if (const int code = select_items(context, *store, {name + ".dSpeed", name + ".nBeat", name + ".bEnable"}, parts);
+      code != kOk) {
+    return code;
+  }
+  const auto count = static_cast<int>(parts[0].place.type.size() / sizeof(double));
+  if (direction->index >= count) {
+    context.out.error(fmt::format("'{}': {} has {} axes", hand.direction, choice.space, count));
+    return kUsage;
+  }
+  std::string speeds;
+  for (int i = 0; i < count; ++i) {
+    speeds += fmt::format("{}{}", i == 0 ? "" : ", ", i == direction->index ? direction->sign * hand.percent : 0);
+  }
+  const auto go =
+      read_assignments(context, *store, "robot jog",
+                       {fmt::format("{}={{bEnable: 1, eFrame: {}, dSpeed: [{}], nBeat: 1{}}}", name, direction->frame,
+                                    speeds, work ? fmt::format(", frame: \"{}\"", hand.frame) : "")});
+  const auto rest = read_assignments(context, *store, "robot jog", {name + ".bEnable=0"});
+  if (!go || !rest || any_forced(context, *store, *go)) {
+    return kFailed;
+  }
+  if (const int code = let_go_before(context, *store, parts[2], *rest); code != kOk) {
+    return code;
+  }
+  if (const int code = set_values(context, *store, *go); code != kOk) {
+    return code;
+  }
+  context.out.note(fmt::format("{} at {} % while this runs; Ctrl-C lets go", hand.direction, hand.percent));
+  const int code = hold(context, *store, parts[1], hand);
+  const int ended = set_values(context, *store, *rest);
+  return code != kOk ? code : ended;
+}
+
+}  // namespace indurop::tools

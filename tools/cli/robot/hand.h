@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jogs a robot from a terminal, as long as the command runs.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tools/cli/robot/robot_desk.h"
+
+namespace indurop::tools {
+
+struct Hand {
+  std::string direction;    // "J1+", "x-", "rz+"
+  std::string frame;        // frame of x to rz: "base", "tool" or a work frame
+  double percent = 10;      // share of the maximum jog speed
+  std::int64_t for_ns = 0;  // 0: until Ctrl-C
+};
+// The robot stops when this ends for whatever reason: the command is repeated ten times a second, and the robot stops
+// 0.3 s after the last one. Returns the exit code, after a message.
+int jog(Context& context, const RobotChoice& choice, const Hand& hand);
+
+}  // namespace indurop::tools

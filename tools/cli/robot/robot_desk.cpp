@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/robot/robot_desk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "config/xml/plant_reader.h"
+#include "tools/cli/command/config_file.h"
+#include "tools/cli/values/node_choice.h"
+
+namespace indurop::tools {
+namespace {
+
+// Returns the elements of an array of double.
+std::vector<double> numbers_of(const std::vector<std::uint8_t>& bytes) {
+  std::vector<double> out(bytes.size() / sizeof(double));
+  std::memcpy(out.data(), bytes.data(), out.size() * sizeof(double));
+  return out;
+}
+
+// Returns, for a plant, the configuration of the node's board.
+config::Config config_of(const std::string& file, const std::string& board) {
+  const config::CheckOptions options{.files = false, .adjust = true};
+  if (!config::is_plant_file(file)) {
+    return load_config(file, options).config;
+  }
+  CheckedPlant checked = load_plant(file, options);
+  const auto found = std::find_if(checked.plant.boards.begin(), checked.plant.boards.end(),
+                                  [&](const auto& one) { return one.name == board; });
+  return found == checked.plant.boards.end() ? config::Config{} : found->config;
+}
+
+}  // namespace
+
+int read_place(Context& context, const vars::Store& store, const RobotChoice& choice, RobotPlace& to) {
+  std::vector<std::string> names;
+  for (const char* part : {"joint", "speed", "position", "orientation", "tool"}) {
+    names.push_back(fmt::format("{}::ROBOT_ARM.{}", choice.space, part));
+  }
+  std::vector<Item> items;
+  if (const int code = select_items(context, store, names, items); code != kOk) {
+    return code;
+  }
+  std::vector<std::vector<std::uint8_t>> values;
+  for (const Item& item : items) {
+    auto bytes = operate::read(store, item);
+    if (!bytes) {
+      context.out.error(bytes.error().text);
+      return kFailed;
+    }
+    values.push_back(std::move(*bytes));
+  }
+  to.stand.joints = numbers_of(values[0]);
+  for (const auto& [bytes, place] : {std::pair(&values[2], &to.stand.position), {&values[3], &to.stand.orientation}}) {
+    const auto numbers = numbers_of(*bytes);
+    std::copy_n(numbers.begin(), std::min(numbers.size(), place->size()), place->begin());
+  }
+  const auto* text = reinterpret_cast<const char*>(values[4].data());
+  to.tool.assign(text, ::strnlen(text, values[4].size()));
+  to.tool = to.tool == "FLANGE" ? "" : to.tool;
+  const auto speed = numbers_of(values[1]);
+  to.moves = std::any_of(speed.begin(), speed.end(), [](double one) { return std::abs(one) > 1e-6; });
+  return kOk;
+}
+
+Result<RobotFiles, Failure> files_of_node(const std::string& node, const RobotChoice& choice, bool to_change) {
+  const auto chosen = open_run(node);
+  if (!chosen) {
+    return chosen.error();
+  }
+  const scheduler::RunBlock& run = chosen->run.block();
+  if (to_change && choice.config.empty() && run.deployment[0] != '\0') {
+    return Failure{kFailed, fmt::format("node '{}' runs what was deployed to it ({}), a copy that the next deployment "
+                                        "replaces; name your own manifest with --config, and deploy it",
+                                        chosen->node, run.deployment)};
+  }
+  const std::string usual = run.plant_file[0] != '\0' ? run.plant_file : run.config_file;
+  const std::string config = choice.config.empty() ? usual : choice.config;
+  std::vector<RobotFiles> robots = robot_files_of(config_of(config, run.board));
+  std::string known;
+  for (const RobotFiles& one : robots) {
+    known += (known.empty() ? "" : ", ") + one.module;
+  }
+  std::erase_if(robots, [&](const RobotFiles& one) { return !choice.module.empty() && one.module != choice.module; });
+  if (robots.size() == 1) {
+    return std::move(robots.front());
+  }
+  if (known.empty()) {
+    return Failure{kFailed, fmt::format("node '{}' has no robot (a module with the property urdf or jobs in {})",
+                                        chosen->node, config)};
+  }
+  return Failure{kUsage, fmt::format("node '{}' has the robots {}: choose one with --module", chosen->node, known)};
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A running robot, from its shared variables and its files.
+
+#pragma once
+
+#include <string>
+
+#include "control/robot/files/teach.h"
+#include "tools/cli/command/failure.h"
+#include "tools/cli/command/robot_files.h"
+#include "tools/cli/values/variables.h"
+
+namespace indurop::tools {
+
+struct RobotChoice {
+  std::string space = "PLC_ROBOT";  // the namespace of its variables
+  std::string module;               // empty: the only one of the node
+  std::string config;               // configuration with the robot's files; empty: the one that the node runs
+};
+
+struct RobotPlace {
+  robot::Stand stand;
+  std::string tool;  // empty: none
+  bool moves = false;
+};
+// Reads the current place of the robot. Returns the exit code, after an error message.
+int read_place(Context& context, const vars::Store& store, const RobotChoice& choice, RobotPlace& to);
+
+// Returns the files that the node's robot reads. Failures: no node, no robot in it, several and none chosen, files of a
+// deployment (`to_change`: they are copies, which the next deployment replaces).
+Result<RobotFiles, Failure> files_of_node(const std::string& node, const RobotChoice& choice, bool to_change);
+
+}  // namespace indurop::tools

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop alarms: the status of a node's alarms, their history, and what operators do about them.
+#include <fmt/format.h>
+
+#include "core/base/user_name.h"
+#include "core/rt/clock.h"
+#include "history/alarms/alarm_list.h"
+#include "history/alarms/alarm_orders.h"
+#include "history/alarms/alarm_watch.h"
+#include "tools/cli/command/gentle.h"
+#include "tools/cli/command/interrupt.h"
+#include "tools/cli/command/units.h"
+#include "tools/cli/values/node_choice.h"
+#include "tools/cli/values/node_trouble.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::string action;
+  std::vector<std::string> names;
+  std::string reason;
+  std::int64_t for_ns = 3'600'000'000'000;
+  std::uint64_t count = 20;
+  bool all = false;
+};
+
+Style style_of(const alarms::ListedAlarm& alarm) {
+  switch (alarm.record.state) {
+    case alarms::AlarmState::Unacknowledged:
+      return alarm.priority <= schema::Priority::High ? Style::Bad : Style::Warn;
+    case alarms::AlarmState::Returned:
+    case alarms::AlarmState::Acknowledged:
+      return Style::Warn;
+    case alarms::AlarmState::Shelved:
+    case alarms::AlarmState::Normal:
+      break;
+  }
+  return Style::None;
+}
+
+std::string more_of(const alarms::ListedAlarm& alarm) {
+  const alarms::AlarmEntry& last = alarm.record.last;
+  if (alarm.record.state == alarms::AlarmState::Shelved) {
+    return fmt::format("until {}{}{}", local_time(last.until_ns), last.who.empty() ? "" : " by " + last.who,
+                       last.reason.empty() ? "" : ": " + last.reason);
+  }
+  return last.who.empty() ? std::string()
+                          : fmt::format("by {}{}", last.who, last.reason.empty() ? "" : ": " + last.reason);
+}
+
+int show_list(Context& context, const std::string& node, const std::vector<alarms::DeclaredAlarm>& declared, bool all) {
+  alarms::AlarmJournal journal(node);
+  journal.refresh();
+  Table table({{"PRIORITY", "priority"},
+               {"STATE", "state"},
+               {"SINCE", "since_wall_ns"},
+               {"ALARM", "alarm"},
+               {"VALUE", "value"},
+               {"TEXT", "text"},
+               {"MORE", "more"}});
+  for (const alarms::ListedAlarm& one : alarms::list_alarms(declared, journal.book(), all)) {
+    const std::int64_t since = one.record.since_ns;
+    table.add({Cell(schema::word_of(one.priority)), Cell(word_of(one.record.state), style_of(one)),
+               Cell(since != 0 ? local_time(since) : "-", since != 0 ? JsonValue(since) : JsonValue(), Style::None),
+               Cell(one.name), Cell(printable(one.record.last.value)), Cell(one.text), Cell(printable(more_of(one)))});
+  }
+  const bool watched = journal.watched();
+  if (context.format == Format::Table) {
+    if (table.empty()) {
+      context.out.note(declared.empty() ? "no variable of this node has an @alarm" : "all alarms are normal");
+    }
+    if (!watched && !declared.empty()) {
+      context.out.note(fmt::format(
+          "nobody looks at the alarms of node {}: run indurop-agent, indurop serve, or indurop alarms watch", node));
+    }
+  }
+  print_table(context, table, {{"node", node}, {"watched", watched}, {"counts", json_of(journal.book().counts())}},
+              "alarms");
+  return kOk;
+}
+
+int show_history(Context& context, const std::string& node, const Options& options) {
+  const alarms::AlarmJournal journal(node);
+  Table table({{"TIME", "wall_ns"},
+               {"EVENT", "event"},
+               {"PRIORITY", "priority"},
+               {"ALARM", "alarm"},
+               {"VALUE", "value"},
+               {"TEXT", "text"},
+               {"WHO", "who"},
+               {"REASON", "reason"}});
+  for (const alarms::AlarmEntry& one : journal.history(options.count)) {
+    table.add({Cell(local_time(one.wall_ns), JsonValue(one.wall_ns), Style::None), Cell(word_of(*one.event)),
+               Cell(schema::word_of(one.priority)), Cell(one.alarm), Cell(printable(one.value)), Cell(one.text),
+               Cell(printable(one.who)), Cell(printable(one.reason))});
+  }
+  print_table(context, table, {{"node", node}}, "events");
+  return kOk;
+}
+
+int watch(Context& context, const std::string& node) {
+  constexpr std::int64_t kEveryNs = 100'000'000;
+  be_gentle(node);
+  alarms::AlarmWatch watched(node);
+  context.out.note(fmt::format("looking at the alarms of node {}; Ctrl-C ends it", node));
+  static_cast<void>(context.out.flush());
+  std::string before;
+  while (!interrupted()) {
+    if (std::string problem = watched.look(modules_now(node)); problem != before) {
+      before = std::move(problem);
+      if (!before.empty()) {
+        context.out.error(before);
+      }
+    }
+    wait_until(rt::now_ns() + kEveryNs);
+  }
+  return interrupt_code();
+}
+
+int order(Context& context, const std::string& node, const std::vector<alarms::DeclaredAlarm>& declared,
+          alarms::AlarmEvent what, const Options& options) {
+  if (options.names.empty() != options.all) {
+    context.out.error(fmt::format("name the alarms to {}, or --all", options.action));
+    return kUsage;
+  }
+  alarms::AlarmJournal journal(node);
+  const auto done = alarms::carry_out(
+      journal, declared, {what, options.names, options.all, options.for_ns, base::user_name(), "here", options.reason});
+  if (!done) {
+    for (const std::string& text : done.error().texts) {
+      context.out.error(text);
+    }
+    return kFailed;
+  }
+  for (const std::string& name : *done) {
+    context.out.line(fmt::format("{} {}", word_of(what), name));
+  }
+  if (done->empty()) {
+    context.out.note(fmt::format("there was nothing to {}", options.action));
+  }
+  return kOk;
+}
+
+int alarms(Context& context, const Options& options) {
+  const auto store = open_store(context, vars::Mode::ReadOnly);
+  if (!store) {
+    return report(context.out, store.error());
+  }
+  const std::string node = context.node.empty() ? context.values->title() : context.node;
+  const auto declared = alarms::declared_alarms(*store);
+  if (options.action.empty() || options.action == "list") {
+    return show_list(context, node, declared, options.all);
+  }
+  if (options.action == "history") {
+    return show_history(context, node, options);
+  }
+  if (options.action == "watch") {
+    return watch(context, node);
+  }
+  const alarms::AlarmEvent what = options.action == "ack"      ? alarms::AlarmEvent::Acknowledged
+                                  : options.action == "shelve" ? alarms::AlarmEvent::Shelved
+                                                               : alarms::AlarmEvent::Unshelved;
+  return order(context, node, declared, what, options);
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add("action", "ACTION", options->action, "list (usual), history, ack, shelve, unshelve, watch")
+      .choices({"list", "history", "ack", "shelve", "unshelve", "watch"});
+  app.add("names", "ALARM", options->names, "Alarms, what they look at, or globs");
+  app.flag("--all", options->all, "list: normal ones too; ack, unshelve: all there are");
+  app.add("--reason", "TEXT", options->reason, "Why, for the history");
+  add_time_option(app, "--for", options->for_ns, "shelve: for so long (default 1h)");
+  app.add("-n,--count", "COUNT", options->count, "history: the newest COUNT (default 20)");
+  add_node_option(app, context);
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [options](Context& c) { return alarms(c, *options); };
+}
+
+}  // namespace
+
+const Verb kAlarmsVerb{
+    "alarms", "A running node", "Show alarms, acknowledge and shelve them, and tell what happened",
+    "Alarms are declared in .glb files: bool open @alarm(\"the door is open\", high, 500ms). A module that does not\n"
+    "do its work for two seconds is one by itself: module Robot. One process on the node's machine looks at the\n"
+    "conditions: its agent, indurop serve, or indurop alarms watch. What happened is kept in the state folder of the\n"
+    "node, over restarts. An alarm that ended before it was acknowledged stays in the list as 'returned'. A shelved\n"
+    "one is not raised until its time is over or it is unshelved.\n"
+    "Examples:\n"
+    "  indurop alarms\n"
+    "  indurop alarms ack press::door_open --reason 'closed it'\n"
+    "  indurop alarms ack --all\n"
+    "  indurop alarms shelve 'press::oil > 80' --for 8h --reason 'sensor is ordered'\n"
+    "  indurop alarms history -n 100 -o csv\n",
+    &declare};
+
+}  // namespace indurop::tools

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop blackbox: what nodes of this host, or boards in the network, recorded when a fault occurred.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/rt/clock.h"
+#include "history/recorder/boxes.h"
+#include "history/recorder/join.h"
+#include "store/vars/box_wish.h"
+#include "store/vars/retain.h"
+#include "tools/cli/command/interrupt.h"
+#include "tools/cli/command/table.h"
+#include "tools/cli/command/temporary_folder.h"
+#include "tools/cli/command/units.h"
+#include "tools/cli/plant/board_boxes.h"
+#include "tools/cli/plant/board_commander.h"
+#include "tools/cli/plant/board_file.h"
+#include "tools/cli/plant/heard_boards.h"
+#include "tools/cli/recordings/recording_export.h"
+#include "tools/cli/recordings/recording_info.h"
+#include "tools/cli/recordings/recording_replay.h"
+#include "tools/cli/values/node_choice.h"
+#include "tools/cli/values/variables.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::string action;
+  std::string what;  // reason, or a file
+  std::string when;
+  std::string at;  // name of a box; empty: the newest
+  ExportWish out;  // with export
+  std::string svg;
+  std::vector<std::string> with;
+  bool remote = false;
+  std::string board;  // empty: all
+  deploy::LinkSettings link;
+  [[nodiscard]] bool far() const noexcept { return remote || !board.empty(); }
+};
+
+Result<HeardBoards, Failure> hear(Context& context, Options& options) {
+  if (!context.node.empty() && options.when.empty()) {
+    return Failure{kUsage, "--node names a node of this machine; a board in the network is chosen with --board"};
+  }
+  return hear_boards(context, options.link, options.board);
+}
+
+// Returns the boxes of this host, as if their nodes were boards.
+std::vector<BoardBox> boxes_here(const std::string& node) {
+  std::vector<BoardBox> all;
+  for (const recorder::Box& box : node.empty() ? recorder::boxes_here() : recorder::boxes_of(node)) {
+    all.push_back({box.node, 0, box.file.filename().string(), box.reason, box.bytes, box.end_ns});
+  }
+  return all;
+}
+
+std::filesystem::path file_here(const BoardBox& box) {
+  return recorder::box_folder(box.board) / box.name;
+}
+
+int list(Context& context, Options& options) {
+  std::vector<BoardBox> boxes;
+  if (options.far()) {
+    const auto boards = hear(context, options);
+    if (!boards) {
+      return report(context.out, boards.error());
+    }
+    boxes = fetch_box_lists(*boards->link, options.link.self, boards->reports);
+  } else {
+    boxes = boxes_here(context.node);
+  }
+  Table table({{options.far() ? "BOARD" : "NODE", "node"},
+               {"WHY", "reason"},
+               {"SIZE", "bytes", Align::Right},
+               {"FILE", "file"}});
+  for (const BoardBox& box : boxes) {
+    table.add({Cell(printable(box.board), Style::Bold),
+               Cell(printable(box.reason)),
+               {human_bytes(box.bytes), box.bytes},
+               Cell(options.far() ? printable(box.name) : file_here(box).string())});
+  }
+  print_table(context, table, {}, "boxes");
+  if (boxes.empty() && context.format == Format::Table) {
+    context.out.line("no black box: no module faulted and no node crashed, as far as is remembered");
+  }
+  return kOk;
+}
+
+// Returns the newest box, or the one that is named; null after an error message.
+const BoardBox* choose(Context& context, const Options& options, const std::vector<BoardBox>& boxes) {
+  const auto found = std::find_if(boxes.begin(), boxes.end(), [&](const BoardBox& box) {
+    return options.at.empty() || box.name == std::filesystem::path(options.at).filename();
+  });
+  if (found == boxes.end()) {
+    context.out.error(boxes.empty() ? "there is no black box" : "there is no black box " + printable(options.at));
+    return nullptr;
+  }
+  return &*found;
+}
+
+int join_to(Context& context, const std::vector<std::filesystem::path>& files, const std::string& to) {
+  const auto joined = recorder::join(files, to);
+  if (!joined) {
+    context.out.error(joined.error().text);
+    return kFailed;
+  }
+  context.out.note(fmt::format("{}: {} messages of {}", to, joined->messages, fmt::join(joined->names, ", ")));
+  return kOk;
+}
+
+int fetch_here(Context& context, const Options& options) {
+  const auto boxes = boxes_here(context.node);
+  const BoardBox* const first = choose(context, options, boxes);
+  if (first == nullptr) {
+    return kFailed;
+  }
+  std::vector<std::filesystem::path> files;
+  for (const BoardBox& box : boxes_of_moment(boxes, first->end_ns)) {
+    files.push_back(file_here(box));
+  }
+  return join_to(context, files, options.what);
+}
+
+// Returns the boards of the plant without a box among these.
+std::vector<std::string> missing(const HeardBoards& boards, const BoardBox& first,
+                                 const std::vector<BoardBox>& chosen) {
+  const auto of = std::find_if(boards.reports.begin(), boards.reports.end(),
+                               [&](const deploy::BoardReport& report) { return report.agent == first.agent; });
+  std::vector<std::string> names = of->members;
+  std::erase_if(names, [&](const std::string& name) {
+    return std::any_of(chosen.begin(), chosen.end(), [&](const BoardBox& box) { return box.board == name; });
+  });
+  return names;
+}
+
+int fetch_far(Context& context, Options& options) {
+  const auto boards = hear(context, options);
+  if (!boards) {
+    return report(context.out, boards.error());
+  }
+  auto boxes = fetch_box_lists(*boards->link, options.link.self, boards->reports);
+  const BoardBox* const found = choose(context, options, boxes);
+  if (found == nullptr) {
+    return kFailed;
+  }
+  const BoardBox first = *found;
+  const auto plant_of = [&](std::uint64_t agent) {
+    return std::find_if(boards->reports.begin(), boards->reports.end(),
+                        [&](const deploy::BoardReport& report) { return report.agent == agent; })
+        ->plant;
+  };
+  std::erase_if(boxes, [&](const BoardBox& box) { return plant_of(box.agent) != plant_of(first.agent); });
+  const auto chosen = boxes_of_moment(boxes, first.end_ns);
+  const TemporaryFolder folder;
+  if (folder.path().empty()) {
+    context.out.error("no temporary folder can be made; is TMPDIR writable?");
+    return kFailed;
+  }
+  std::vector<std::filesystem::path> files;
+  for (const BoardBox& box : chosen) {
+    files.push_back(folder.path() / (std::to_string(files.size()) + ".mcap"));
+    const BoardFile file{box.board, box.agent, std::string(deploy::kBoxBlob) + box.name, box.bytes};
+    if (const auto fetched = fetch_file(*boards->link, options.link.self, file, files.back()); !fetched) {
+      return report(context.out, fetched.error());
+    }
+  }
+  int code = join_to(context, files, options.what);
+  if (options.board.empty()) {
+    for (const std::string& name : missing(*boards, first, chosen)) {
+      context.out.error(fmt::format("of board {} there is no black box of that moment", printable(name)));
+      code = kFailed;
+    }
+  }
+  return code;
+}
+
+int fetch(Context& context, Options& options) {
+  if (options.what.empty()) {
+    context.out.error("say into which file: indurop blackbox fetch moment.mcap");
+    return kUsage;
+  }
+  return options.far() ? fetch_far(context, options) : fetch_here(context, options);
+}
+
+// Processes one box, or the boxes of several boards from one moment, like any recording.
+int use(Context& context, Options& options) {
+  const TemporaryFolder folder;
+  std::filesystem::path file = folder.path() / "moment.mcap";
+  if (options.far()) {
+    options.what = file.string();
+    if (const int code = folder.path().empty() ? kFailed : fetch_far(context, options); code != kOk) {
+      return code;
+    }
+  } else {
+    const auto boxes = boxes_here(context.node);
+    const BoardBox* const box = choose(context, options, boxes);
+    if (box == nullptr) {
+      return kFailed;
+    }
+    file = file_here(*box);
+    context.out.note(fmt::format("{}: {}", file.string(), printable(box->reason)));
+  }
+  if (options.action == "show") {
+    return show_recording(context, file);
+  }
+  if (options.action == "export") {
+    options.out.file = file;
+    return export_recording(context, options.out);
+  }
+  ReplayWish wish;
+  wish.file = file;
+  wish.board = options.board;
+  wish.node = context.node.empty() ? "" : context.node + "-replay";
+  wish.with = options.with;
+  wish.svg = options.svg;
+  wish.comes_back = true;
+  return replay_recording(context, wish);
+}
+
+// Waits until a variable becomes non-zero. Returns the exit code.
+int await(Context& context, const std::string& name) {
+  const auto store = open_store(context, vars::Mode::ReadOnly, {name});
+  if (!store) {
+    return report(context.out, store.error());
+  }
+  std::vector<Item> items;
+  if (const int code = select_items(context, *store, {name}, items); code != kOk) {
+    return code;
+  }
+  constexpr std::int64_t kPauseNs = 5'000'000;
+  while (!interrupted()) {
+    for (const Item& item : items) {
+      const auto bytes = operate::read(*store, item);
+      if (bytes && std::any_of(bytes->begin(), bytes->end(), [](std::uint8_t byte) { return byte != 0; })) {
+        return kOk;
+      }
+    }
+    if (!context.values->absence(&*store).empty()) {
+      context.out.error("the node has ended meanwhile");
+      return kUnreachable;
+    }
+    wait_until(rt::now_ns() + kPauseNs);
+  }
+  return interrupt_code();
+}
+
+// The node writes the box: only it has all data of its runs.
+int keep(Context& context, const std::string& why) {
+  const auto node = choose_node(context.node);
+  if (!node) {
+    return report(context.out, node.error());
+  }
+  const auto run = RunView::open(*node);
+  if (!run || !run->node_alive()) {
+    context.out.error(fmt::format("node '{}' does not run", *node));
+    return kUnreachable;
+  }
+  if (const Status wished = vars::wish_box(*node, why.empty() ? "wanted by a user" : why); !wished) {
+    context.out.error(wished.error().code == Errc::Busy
+                          ? fmt::format("node '{}': {}", *node, vars::kBoxesTooClose)
+                          : fmt::format("{} cannot be written", vars::state_directory(*node).string()));
+    return kFailed;
+  }
+  context.out.note(fmt::format("node '{}' keeps its black box; indurop blackbox lists it in a moment", *node));
+  return kOk;
+}
+
+// Saves a box on all discovered boards, at about the same time. They are discovered first, so that a box still contains
+// what preceded it.
+int keep_far(Context& context, Options& options) {
+  constexpr std::int64_t kTimeoutNs = 5'000'000'000;
+  auto commander = BoardCommander::make(context, options.link.keys);
+  if (!commander) {
+    return report(context.out, commander.error());
+  }
+  auto boards = hear(context, options);
+  if (!boards) {
+    return report(context.out, boards.error());
+  }
+  if (const int code = options.when.empty() ? kOk : await(context, options.when); code != kOk) {
+    return code;
+  }
+  boards->refresh(options.board);
+  int code = kOk;
+  for (const deploy::BoardReport& board : boards->reports) {
+    const auto answered =
+        commander->give(*boards->link, options.link.self, board, deploy::Action::KeepBox,
+                        options.what.empty() ? "wanted by a user of " + deploy::host_name() : options.what, kTimeoutNs);
+    if (!answered) {
+      context.out.error(fmt::format("board {}: {}", printable(board.board), answered.error().text));
+      code = answered.error().code;
+    } else if (answered->reply.outcome != deploy::Outcome::Done) {
+      context.out.error(fmt::format("board {}: {}", printable(board.board), printable(answered->reply.text)));
+      code = kFailed;
+    } else {
+      context.out.note(fmt::format("board {} keeps its black box", printable(board.board)));
+    }
+  }
+  return code;
+}
+
+int act(Context& context, Options& options) {
+  if (options.action.empty() || options.action == "list") {
+    return list(context, options);
+  }
+  if (options.action == "fetch") {
+    return fetch(context, options);
+  }
+  if (options.action == "show" || options.action == "export" || options.action == "replay") {
+    return use(context, options);
+  }
+  if (options.action != "keep") {
+    context.out.error(fmt::format("blackbox cannot '{}'; it can list, show, export, replay, keep or fetch",
+                                  printable(options.action)));
+    return kUsage;
+  }
+  options.what = options.what.empty() ? options.when : options.what;
+  if (options.far()) {
+    return keep_far(context, options);
+  }
+  if (const int code = options.when.empty() ? kOk : await(context, options.when); code != kOk) {
+    return code;
+  }
+  return keep(context, options.what);
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add("action", "list|show|export|replay|keep|fetch", options->action, "What to do (default: list)");
+  app.add("what", "TEXT", options->what, "With keep: why, for whoever lists it; with fetch: the file to write");
+  app.add("--when", "NAME", options->when,
+          "With keep: wait until this variable of a node of this machine is not 0 any more")
+      .completes(base::Completion::Variable);
+  app.add("--at", "BOX", options->at, "This box, as listed, or its moment (default: the newest)");
+  app.add("--csv", "FILE", options->out.csv, "With export: write the values, as indurop recording export");
+  app.add("--trace", "FILE", options->out.trace,
+          "With export: write when each module ran, for https://ui.perfetto.dev");
+  app.add("--with", "FILE.so", options->with, "With replay: use this file for the module of its name")
+      .completes(base::Completion::File);
+  app.add("--svg", "FILE", options->svg, "With replay: draw what differs");
+  app.flag("--remote", options->remote, "All boards that are heard, by their agents, not the nodes of this machine");
+  app.add("--board", "NAME", options->board, "Only this one of them; implies --remote");
+  deploy::add_link_options(app, options->link);
+  add_node_option(app, context);
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [options](Context& c) { return act(c, *options); };
+}
+
+}  // namespace
+
+const Verb kBlackboxVerb{
+    "blackbox", "Timing", "List what nodes kept when something went wrong, keep it now, or fetch it from all boards",
+    "When a module faults, has many overruns, or a node starts again that crashed, the last seconds of its tape are\n"
+    "kept as a recording: what every run saw and wrote; agents have it kept on all boards of the plant. The newest "
+    "ten\n"
+    "of each node stay. The newest is listed first. They are read by `indurop explain --from`, `replay`, `recording`,\n"
+    "Foxglove and PlotJuggler; blackbox show, export and replay do the same with the newest one. blackbox keep keeps "
+    "what there is now. blackbox fetch writes what the boards kept\n"
+    "within ten seconds of one moment into one file on common time; exit code 1 if a board of the plant has none.\n"
+    "Examples:\n"
+    "  indurop blackbox\n"
+    "  indurop blackbox show\n"
+    "  indurop blackbox export --csv box.csv --trace box.json\n"
+    "  indurop blackbox replay --with new/main.so\n"
+    "  indurop blackbox keep 'the drill broke'\n"
+    "  indurop blackbox keep --when PLC_ROBOT::alarm\n"
+    "  indurop blackbox --remote\n"
+    "  indurop blackbox keep 'the drill broke' --remote\n"
+    "  indurop blackbox keep --when PLC_ROBOT::alarm --remote\n"
+    "  indurop blackbox fetch moment.mcap --remote\n"
+    "  indurop blackbox --node cell -o json\n",
+    &declare};
+
+}  // namespace indurop::tools

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop check: finds all errors that can be found before anything runs, and lists who reads and writes what.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "config/measured_times.h"
+#include "config/xml/plant_reader.h"
+#include "config/xml/reader.h"
+#include "tools/cli/command/config_file.h"
+#include "tools/cli/plant/check_chain.h"
+#include "tools/cli/plant/check_plant.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::string file;
+  bool adjust = false;
+  bool simulation = false;
+  std::vector<std::string> chain;
+  std::int64_t network_ns = 0;  // 0: not given
+  config::CheckOptions::Times times;
+};
+
+std::string summary_line(const CheckedConfig& checked) {
+  const auto& table = checked.check.table;
+  std::string line = counted(checked.config.modules.size(), "module");
+  if (!checked.check.periodic.empty()) {
+    line += fmt::format(", basic period {}, macro period {}, {}", base::format_duration(table.basic_period),
+                        base::format_duration(table.macro_period), counted(table.slot_count, "slot"));
+  }
+  return line + ", " + counted(checked.check.schema.variables.size(), "shared variable");
+}
+
+Table variable_table(const CheckedConfig& checked) {
+  Table table({{"VARIABLE", "name"}, {"TYPE", "type"}, {"WRITTEN BY", "writers"}, {"READ BY", "readers"}});
+  for (const auto& use : checked.check.uses) {
+    const auto* variable = schema::find_variable(checked.check.schema, use.name);
+    const std::string type = variable != nullptr ? schema::display_name(variable->type) : "?";
+    const auto names = [](const std::vector<std::string>& list) {
+      return Cell(list.empty() ? "-" : fmt::format("{}", fmt::join(list, ", ")), JsonValue(list), Style::None);
+    };
+    table.add({Cell(use.name), Cell(type), names(use.writers), names(use.readers)});
+  }
+  return table;
+}
+
+JsonValue summary_json(const CheckedConfig& checked) {
+  return {{"ok", checked.ok()},
+          {"file", checked.config.file.string()},
+          {"modules", checked.config.modules.size()},
+          {"basic_period_ns", checked.check.table.basic_period.count()},
+          {"macro_period_ns", checked.check.table.macro_period.count()},
+          {"slots", checked.check.table.slot_count},
+          {"diagnostics", diagnostics_json(checked.diagnostics)}};
+}
+
+int check_one(Context& context, const std::string& file, const config::CheckOptions& options) {
+  const CheckedConfig checked = load_config(file, options);
+  const Table variables = variable_table(checked);
+  if (context.format == Format::Csv) {
+    print_diagnostics(context, checked.diagnostics, false);
+    context.out.write(variables.csv());
+  } else if (context.format == Format::Json) {
+    print_table(context, variables, summary_json(checked), "variables");
+  } else {
+    print_diagnostics(context, checked.diagnostics, true);
+    if (!context.out.quiet() && !variables.empty()) {
+      context.out.write(variables.text(context.out));
+      context.out.line();
+    }
+    print_verdict(context, checked.diagnostics, summary_line(checked));
+  }
+  return checked.ok() ? kOk : kCheckFailed;
+}
+
+int check(Context& context, const Options& options) {
+  const auto file = find_config(options.file);
+  if (!file) {
+    return report(context.out, file.error());
+  }
+  const config::CheckOptions all{
+      .files = true, .adjust = options.adjust, .simulation = options.simulation, .times = &options.times};
+  if (!options.chain.empty()) {
+    if (options.chain.size() != 2) {
+      context.out.error("--chain wants two variables: where it begins and where it ends");
+      return kUsage;
+    }
+    ChainQuestion question{options.chain[0], options.chain[1], {}};
+    if (options.network_ns > 0) {
+      question.network = base::Nanos(options.network_ns);
+    }
+    return check_chain(context, *file, all, question);
+  }
+  return config::is_plant_file(*file) ? check_plant_file(context, *file, all) : check_one(context, *file, all);
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add("file", "FILE", options->file,
+          "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
+  app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
+  app.flag("--sim", options->simulation, "Also note what a simulation (run --sim) cannot repeat");
+  app.add("--chain", "NAME", options->chain,
+          "Two variables: how old what one says is when it has become the other, over modules and boards")
+      .completes(base::Completion::Variable);
+  add_time_option(
+      app, "--network", options->network_ns,
+      "With --chain: what a way between boards takes at most (default: as boards here measure it, else 1 ms)");
+  config::add_times_option(app, options->times);
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [options](Context& c) { return check(c, *options); };
+}
+
+}  // namespace
+
+const Verb kCheckVerb{
+    "check", "Before it runs", "Show what is wrong with a configuration, and who reads and writes what",
+    "Prints every error, warning and note as file:line:col, the shared variables with the modules that write and\n"
+    "read them, and one summary line. With -q only diagnostics and summary; -o csv prints the variables.\n"
+    "For a plant it shows the boards and the variables that travel between them; -o csv prints these variables.\n"
+    "If modules say how long they execute (<wcet>, or --times), it is an error if one can miss its deadline.\n"
+    "Exit code 0 if there are no errors (warnings allowed), 4 if there are.\n"
+    "Examples:\n"
+    "  indurop check\n"
+    "  indurop check plant.xml\n"
+    "  indurop check plant.xml --chain cell::encoder cell::torque\n"
+    "  indurop check module.xml -o json\n",
+    &declare};
+
+}  // namespace indurop::tools

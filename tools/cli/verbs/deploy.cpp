@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop deploy: deploys a plant on all its boards, or changes nothing.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "config/xml/plant_reader.h"
+#include "core/base/text.h"
+#include "core/rt/clock.h"
+#include "deploy/link/link_keys.h"
+#include "deploy/transaction/package.h"
+#include "tools/cli/command/config_file.h"
+#include "tools/cli/command/units.h"
+#include "tools/cli/plant/run_deployment.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::string file = "plant.xml";
+  deploy::LinkSettings link;
+  std::int64_t timeout_ns = 5'000'000'000;
+  std::int64_t health_ns = 3'000'000'000;
+  std::vector<std::string> also;  // folders
+  std::string comment;
+  bool allow_missing = false;
+};
+
+std::vector<std::string> addresses(const config::Plant& plant) {
+  std::vector<std::string> all;
+  for (const config::Board& board : plant.boards) {
+    if (!board.address.empty()) {
+      all.push_back(board.address);
+    }
+  }
+  return all;
+}
+
+constexpr std::size_t kLongestComment = 200;
+constexpr std::int64_t kLeftOutNs = 1'000'000'000;  // time to discover boards that are not in the manifest
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// Adds boards that run this plant but are not in it any more: those that are present take part, so that their nodes end
+// at the same switch and return if it is rolled back.
+void add_left_out(Context& context, deploy::DeployLink& link, BoardRoster& roster, const deploy::Package& package,
+                  std::vector<std::string>& boards) {
+  const auto heard = [&](const auto& entry) {
+    const deploy::BoardReport& report = entry.second.report;
+    return report.plant != package.plant || std::all_of(report.members.begin(), report.members.end(),
+                                                        [&](const auto& m) { return roster.find(m) != nullptr; });
+  };
+  roster.gather(link, kLeftOutNs, [&] { return std::all_of(roster.all().begin(), roster.all().end(), heard); });
+  std::set<std::string> silent;
+  for (const auto& [key, entry] : roster.all()) {
+    const deploy::BoardReport& report = entry.report;
+    if (report.plant != package.plant || report.current.empty()) {
+      continue;
+    }
+    for (const std::string& member : report.members) {
+      if (!among(package.boards, member) && roster.find(member) == nullptr) {
+        silent.insert(member);
+      }
+    }
+    if (among(report.members, key.first) && !among(package.boards, key.first) && !among(boards, key.first)) {
+      context.out.note(fmt::format("board {} is not part of the plant any more: its node ends with this deployment",
+                                   printable(key.first)));
+      boards.push_back(key.first);
+    }
+  }
+  for (const std::string& board : silent) {
+    context.out.note(
+        fmt::format("board {} is not part of the plant any more and was not heard: its node ends when it comes back",
+                    printable(board)));
+  }
+}
+
+// Returns what a board requests by name: the package itself, or a file in it.
+std::optional<deploy::BlobServer::Blob> blob_of(const deploy::PackedPlant& packed, const std::string& name) {
+  if (name == packed.id) {
+    return deploy::BlobServer::Blob{{}, packed.text};
+  }
+  const auto found = packed.sources.find(name);
+  return found != packed.sources.end() ? std::optional(deploy::BlobServer::Blob{found->second, {}}) : std::nullopt;
+}
+
+void tell_size(Context& context, const Deployment& deployment, const deploy::Package& package) {
+  std::uint64_t bytes = 0;
+  for (const deploy::PackageFile& file : package.files) {
+    bytes += file.size;
+  }
+  if (!context.out.quiet()) {
+    context.out.message_line(fmt::format("{}: {}, {}, {}", deployment.title,
+                                         counted(deployment.order.boards.size(), "board"),
+                                         counted(package.files.size(), "file"), human_bytes(bytes)));
+  }
+}
+
+// Reads the key from --keys, else from the folder that the manifest names.
+Result<std::string, base::Problem> deploy_key(Context& context, const config::Plant& plant,
+                                              deploy::LinkSettings& link) {
+  if (link.keys.empty() && !plant.security.empty()) {
+    link.keys = plant.security;
+    if (auto used = deploy::use_keys(link); !used) {
+      return std::move(used).error();
+    }
+  }
+  return read_deploy_key(context, link.keys);
+}
+
+int deploy_plant(Context& context, Options& options) {
+  if (const auto found = find_config(options.file); !found) {
+    return report(context.out, found.error());
+  }
+  if (!config::is_plant_file(options.file)) {
+    context.out.error(
+        fmt::format("'{}' is not the manifest of a plant; deploy needs one (see indurop check)", options.file));
+    return kUsage;
+  }
+  const CheckedPlant checked = load_plant(options.file, {});
+  auto diagnostics = checked.diagnostics;
+  std::erase_if(diagnostics, [](const auto& d) { return d.severity == base::Diagnostic::Severity::Note; });
+  print_diagnostics(context, diagnostics, false);
+  if (!checked.ok()) {
+    context.out.error("nothing was deployed");
+    return kCheckFailed;
+  }
+  const auto packed = deploy::pack_plant(checked.plant, {options.also.begin(), options.also.end()}, options.comment);
+  if (!packed) {
+    context.out.error(packed.error().text);
+    return kFailed;
+  }
+  options.link.network.multicast = checked.plant.multicast;
+  options.link.network.peers = addresses(checked.plant);
+  auto key = deploy_key(context, checked.plant, options.link);
+  if (!key) {
+    context.out.error(key.error().text);
+    return kFailed;
+  }
+  auto link = open_link(context, options.link);
+  if (link == nullptr) {
+    return kUnreachable;
+  }
+  BoardRoster roster;
+  Deployment deployment;
+  auto present =
+      present_boards(context, *link, roster, packed->package.boards, options.allow_missing, options.timeout_ns);
+  if (!present) {
+    return report(context.out, with_keys_hint(present.error(), options.link));
+  }
+  deployment.key = std::move(key).value();
+  deployment.order.boards = std::move(present).value();
+  add_left_out(context, *link, roster, packed->package, deployment.order.boards);
+  deployment.order.deployer = options.link.self;
+  deployment.order.host = deploy::host_name();
+  deployment.order.plant = packed->package.plant;
+  deployment.order.deployment = packed->id;
+  deployment.order.size = packed->text.size();
+  deployment.order.generation = next_generation(roster);
+  deployment.order.health_ns = options.health_ns;
+  deployment.patience_ns = options.timeout_ns;
+  deployment.title = fmt::format("plant {}, deployment {}", packed->package.plant, deploy::shown_id(packed->id));
+  deployment.head = {
+      {"plant", packed->package.plant}, {"deployment", packed->id}, {"generation", deployment.order.generation}};
+  deployment.files = [&packed](const std::string& name) { return blob_of(*packed, name); };
+  tell_size(context, deployment, packed->package);
+  return run_deployment(context, *link, roster, std::move(deployment));
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add("file", "FILE", options->file, "Manifest of the plant (default: plant.xml)");
+  deploy::add_link_options(app, options->link);
+  add_time_option(app, "--timeout", options->timeout_ns,
+                  "How long to wait for boards to be heard or to answer (default: 5s)");
+  add_time_option(app, "--health", options->health_ns,
+                  "How long to watch the new deployment before it is committed (default: 3s)");
+  app.add("-m,--comment", "TEXT", options->comment, "What this deployment is, for history and boards")
+      .check([](const std::string& text) {
+        return base::characters(text) <= kLongestComment && printable(text) == text
+                   ? std::string()
+                   : fmt::format("a comment is one line of at most {} characters", kLongestComment);
+      });
+  app.add("--also", "FOLDER", options->also,
+          "Files of the plant may lie in this folder, too, not only in the manifest's; may be given several times")
+      .completes(base::Completion::Folder);
+  app.flag("--allow-missing", options->allow_missing,
+           "Deploy to the boards that are heard; the others take it over when they appear");
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [options](Context& c) { return deploy_plant(c, *options); };
+}
+
+}  // namespace
+
+const Verb kDeployVerb{
+    "deploy", "Plants", "Put a plant to work on all its boards, or change nothing",
+    "Checks the plant, sends what the boards lack, lets every board check its own copy, switches all of them at\n"
+    "one instant, watches them for a while and commits. If anything goes wrong on any board, all of them go back.\n"
+    "Every board needs a running agent: indurop-agent --board NAME.\n"
+    "Exit codes: 0 committed, 1 not deployed (another deployment is under way, a board could not fetch it), 4 the\n"
+    "check found errors, 5 rolled back, 6 boards are missing. Keys are those of --keys, else <security> of the "
+    "manifest.\n"
+    "Examples:\n"
+    "  indurop deploy plant.xml\n"
+    "  indurop deploy plant.xml --keys keys --health 5s\n"
+    "  indurop deploy plant.xml -m 'gripper opens wider'\n",
+    &declare};
+
+}  // namespace indurop::tools

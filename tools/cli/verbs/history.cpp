@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop history: earlier deployments, as the boards remember them.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/rt/clock.h"
+#include "tools/cli/command/units.h"
+#include "tools/cli/plant/board_history.h"
+#include "tools/cli/plant/board_roster.h"
+#include "tools/cli/plant/board_table.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::string board;
+  deploy::LinkSettings link;
+  std::int64_t wait_ns = 3'000'000'000;  // less if all are discovered
+};
+
+struct Row {
+  PastDeployment past;
+  std::vector<std::string> boards;
+  bool current = false;
+};
+
+// Merges the reports of several boards about one deployment in one row.
+void merge(std::vector<Row>& rows, const std::string& board, const PastDeployment& past, bool current) {
+  const auto same = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
+    return std::tie(row.past.deployment, row.past.generation, row.past.outcome, row.past.host) ==
+           std::tie(past.deployment, past.generation, past.outcome, past.host);
+  });
+  if (same == rows.end()) {
+    rows.push_back({past, {board}, current});
+    return;
+  }
+  if (same->boards.back() != board) {
+    same->boards.push_back(board);
+  }
+  same->current = same->current || current;
+}
+
+Table table_of(const std::vector<Row>& rows) {
+  Table table({{"", "generation"},
+               {"", "current"},
+               {"DEPLOYMENT", "deployment"},
+               {"PLANT", "plant"},
+               {"WHEN", "wall_ns"},
+               {"FROM", "host"},
+               {"BOARDS", "boards"},
+               {"OUTCOME", "outcome"},
+               {"COMMENT", "comment"}});
+  for (const Row& row : rows) {
+    const bool committed = row.past.outcome == "committed";
+    table.add({{"", row.past.generation},
+               {"", row.current},
+               {deploy::shown_id(row.past.deployment) + (row.current ? " *" : ""), row.past.deployment, Style::Bold},
+               Cell(printable(row.past.plant)),
+               {local_time(row.past.wall_ns), row.past.wall_ns},
+               Cell(printable(row.past.host)),
+               {fmt::format("{}", fmt::join(row.boards, ", ")), row.boards},
+               {printable(row.past.outcome), row.past.outcome, committed ? Style::Good : Style::Bad},
+               Cell(printable(row.past.comment))});
+  }
+  return table;
+}
+
+int history(Context& context, Options& options) {
+  auto link = open_link(context, options.link);
+  if (link == nullptr) {
+    return kUnreachable;
+  }
+  BoardRoster roster;
+  roster.gather(*link, options.wait_ns,
+                [&] { return options.board.empty() ? roster.complete() : roster.find(options.board) != nullptr; });
+  const auto histories = fetch_histories(*link, options.link.self, roster.agents());
+  roster.listen(*link, rt::now_ns());
+  std::vector<Row> rows;
+  std::vector<std::string> missing = options.board.empty() ? boards_not_heard(roster) : std::vector<std::string>();
+  bool heard = false;
+  for (const auto& [key, entry] : roster.all()) {
+    if (!options.board.empty() && key.first != options.board) {
+      continue;
+    }
+    heard = true;
+    const auto told = histories.find(key.second);
+    if (told == histories.end()) {
+      missing.push_back(key.first);
+      continue;
+    }
+    for (const PastDeployment& past : told->second) {
+      const bool current = past.deployment == entry.report.current && past.generation == entry.report.generation;
+      merge(rows, key.first, past, current && past.outcome == "committed");
+    }
+  }
+  if (!heard) {
+    context.out.error(
+        (options.board.empty() ? "no board was heard" : fmt::format("board {} was not heard", options.board)) +
+        keys_hint(options.link));
+    return kUnreachable;
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row& a, const Row& b) { return a.past.generation < b.past.generation; });
+  const Table table = table_of(rows);
+  for (const std::string& board : missing) {
+    context.out.error(fmt::format("board {} was not heard or did not answer: what it remembers is not in this list",
+                                  printable(board)));
+  }
+  if (table.empty() && missing.empty()) {
+    context.out.note("nothing was deployed yet");
+  }
+  print_table(context, table, {{"missing", missing}}, "deployments");
+  return missing.empty() ? kOk : kUnreachable;
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add("--board", "NAME", options->board, "Only what this board remembers");
+  deploy::add_link_options(app, options->link);
+  add_time_option(app, "--wait", options->wait_ns, "Listen at most so long for boards (default: 3s)");
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [options](Context& c) { return history(c, *options); };
+}
+
+}  // namespace
+
+const Verb kHistoryVerb{
+    "history", "Plants", "Show what was deployed to the boards before, and what became of it",
+    "Oldest first; * marks what runs now. indurop rollback ID goes back to one that was committed.\n"
+    "Exit code 6 if a board is not heard or does not answer: it is named, and the list is without it.\n"
+    "Examples:\n"
+    "  indurop history\n"
+    "  indurop history --board press_1 -o json\n",
+    &declare};
+
+}  // namespace indurop::tools

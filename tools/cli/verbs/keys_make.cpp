@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop keys init and add: creates keys for the boards of a plant and for others.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "config/xml/plant_reader.h"
+#include "config/xml/plant_rules.h"
+#include "core/keys/plant_keys.h"
+#include "tools/cli/command/config_file.h"
+#include "tools/cli/verbs/keys_request.h"
+
+namespace indurop::tools {
+
+namespace fs = std::filesystem;
+
+keys::Instant until(const KeysRequest& request) {
+  return keys::instant_now() + std::chrono::days(request.days);
+}
+
+keys::PlantKeys keys_of(const KeysRequest& request) {
+  if (!request.folder.empty()) {
+    return keys::PlantKeys(request.folder);
+  }
+  std::error_code ignored;
+  if (fs::exists(request.plant, ignored)) {
+    const config::ReadPlant read = config::read_plant(request.plant);
+    return keys::PlantKeys(read.plant.security.empty() ? fs::path(request.plant).parent_path() / "keys"
+                                                       : read.plant.security.lexically_proximate(fs::current_path()));
+  }
+  return keys::PlantKeys("keys");
+}
+
+bool usable(Context& context, const keys::PlantKeys& keys) {
+  if (keys.plant().empty()) {
+    context.out.error(
+        fmt::format("there are no keys in {}; make them with indurop keys init PLANT, or say with --dir "
+                    "where they are",
+                    keys.folder().string()));
+    return false;
+  }
+  if (const std::string exposed = keys::exposed_key(keys.authority_key()); !exposed.empty()) {
+    context.out.note("warning: " + exposed);
+  }
+  return true;
+}
+
+namespace {
+
+void say_what_is_there(Context& context, const keys::PlantKeys& keys) {
+  std::string names;
+  for (const keys::KeyListing& each : keys.list(keys::instant_now())) {
+    names += (names.empty() ? "" : ", ") + each.name;
+  }
+  context.out.error(
+      fmt::format("{} holds the keys of plant {} already, for {}; private keys are never replaced. A board that has "
+                  "come: indurop keys add BOARD; an end that is near: indurop keys renew; all: indurop keys list",
+                  keys.folder().string(), keys.plant(), names));
+}
+
+}  // namespace
+
+int init_keys(Context& context, const KeysRequest& request) {
+  std::error_code ignored;
+  if (!fs::exists(request.plant, ignored)) {
+    context.out.error(fmt::format("there is no file '{}'; name the manifest of the plant", request.plant));
+    return kFailed;
+  }
+  const config::ReadPlant read = config::read_plant(request.plant);
+  if (!read.ok()) {
+    print_diagnostics(context, read.diagnostics, false);
+    return kCheckFailed;
+  }
+  const keys::PlantKeys keys = keys_of(request);
+  if (keys.exist()) {
+    say_what_is_there(context, keys);
+    return kFailed;
+  }
+  std::vector<std::string> boards;
+  for (const config::Board& board : read.plant.boards) {
+    boards.push_back(board.name);
+  }
+  if (const auto done = keys.make(read.plant.name, boards, until(request)); !done) {
+    context.out.error(done.error().text);
+    return kFailed;
+  }
+  context.out.line(fmt::format("made the keys of plant {} in {}: for {}, a viewer and a deployer, valid until {}",
+                               read.plant.name, keys.folder().string(), counted(boards.size(), "board"),
+                               keys::utc_text(until(request)).substr(0, 10)));
+  if (read.plant.security.empty()) {
+    const fs::path here = fs::absolute(request.plant, ignored).lexically_normal().parent_path();
+    const fs::path there = fs::absolute(keys.folder(), ignored).lexically_normal();
+    context.out.note(fmt::format("next: write <security>{}</security> into {}",
+                                 there.lexically_proximate(here).string(), request.plant));
+  }
+  context.out.note(
+      fmt::format("copy {}/boards/BOARD to /etc/indurop/keys/{}/BOARD of each board, for its node's user "
+                  "alone; keep {}/ca.key away from the plant",
+                  keys.folder().string(), read.plant.name, keys.folder().string()));
+  return kOk;
+}
+
+namespace {
+
+bool is_name(Context& context, const char* what, const std::string& name) {
+  if (!config::is_node_name(name)) {
+    context.out.error(
+        fmt::format("'{}' is not a valid {} name: use up to 40 letters, digits, '_' and '-'", name, what));
+    return false;
+  }
+  return true;
+}
+
+int add_tool(Context& context, const KeysRequest& request, const keys::PlantKeys& keys) {
+  if (!request.boards.empty() || (request.read.empty() && request.write.empty())) {
+    context.out.error(
+        "say what the tool may do, and no board: indurop keys add --tool NAME --read 'cell::*' --write cell::target");
+    return kUsage;
+  }
+  if (!is_name(context, "tool", request.tool)) {
+    return kUsage;
+  }
+  if (const auto done = keys.add_tool(request.tool, {request.read, request.write}, until(request)); !done) {
+    context.out.error(done.error().text);
+    return kFailed;
+  }
+  context.out.line(fmt::format("made {}", keys.tool(request.tool).string()));
+  context.out.note(
+      fmt::format("copy it to where the tool runs, for its user alone. Other lists: change variables.txt in it, then "
+                  "indurop keys renew {}, and copy permissions.p7s and identity.pem",
+                  request.tool));
+  return kOk;
+}
+
+int add_viewer(Context& context, const KeysRequest& request, const keys::PlantKeys& keys) {
+  if (!is_name(context, "viewer", request.viewer)) {
+    return kUsage;
+  }
+  if (const auto done = keys.add_viewer(request.viewer, until(request)); !done) {
+    context.out.error(done.error().text);
+    return kFailed;
+  }
+  context.out.line(fmt::format("made {}", keys.viewer(request.viewer).string()));
+  context.out.note("copy it to the machine that looks, for its user alone");
+  return kOk;
+}
+
+int add_deployer(Context& context, const KeysRequest& request, const keys::PlantKeys& keys) {
+  if (!is_name(context, "deployer", request.deployer)) {
+    return kUsage;
+  }
+  if (const auto done = keys.add_deployer(request.deployer, until(request)); !done) {
+    context.out.error(done.error().text);
+    return kFailed;
+  }
+  context.out.line(fmt::format("made {}", keys.deployer(request.deployer).string()));
+  context.out.note(
+      fmt::format("copy {}/deploy.pub to every board first (no restart is needed), then the folder to the machine that "
+                  "deploys, for its user alone",
+                  keys.folder().string()));
+  return kOk;
+}
+
+// Participants other than boards are named by an option, one at a time.
+std::optional<int> add_other(Context& context, const KeysRequest& request, const keys::PlantKeys& keys) {
+  const int kinds =
+      (request.tool.empty() ? 0 : 1) + (request.viewer.empty() ? 0 : 1) + (request.deployer.empty() ? 0 : 1);
+  if (kinds == 0) {
+    return std::nullopt;
+  }
+  if (kinds > 1 ||
+      (request.tool.empty() && (!request.boards.empty() || !request.read.empty() || !request.write.empty()))) {
+    context.out.error("name one viewer, deployer or tool, and nothing else; --read and --write are for tools");
+    return kUsage;
+  }
+  return !request.tool.empty()     ? add_tool(context, request, keys)
+         : !request.viewer.empty() ? add_viewer(context, request, keys)
+                                   : add_deployer(context, request, keys);
+}
+
+}  // namespace
+
+int add_keys(Context& context, const KeysRequest& request) {
+  const keys::PlantKeys keys = keys_of(request);
+  if (!usable(context, keys)) {
+    return kFailed;
+  }
+  if (const auto done = add_other(context, request, keys)) {
+    return *done;
+  }
+  if (request.boards.empty() || !request.read.empty() || !request.write.empty()) {
+    context.out.error(request.boards.empty()
+                          ? "name a board: indurop keys add BOARD, or a --viewer NAME, --deployer NAME or --tool NAME"
+                          : "--read and --write are for tools: --tool NAME");
+    return kUsage;
+  }
+  for (const std::string& board : request.boards) {
+    if (!is_name(context, "board", board)) {
+      return kUsage;
+    }
+  }
+  for (const std::string& board : request.boards) {
+    if (const auto done = keys.add(board, until(request)); !done) {
+      context.out.error(done.error().text);
+      return kFailed;
+    }
+    context.out.line(fmt::format("made {}", keys.board(board).string()));
+  }
+  return kOk;
+}
+
+}  // namespace indurop::tools

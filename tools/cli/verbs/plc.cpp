@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop plc: PLC programs (IEC 61131-3).
+#include "tools/cli/plc/plc_build.h"
+#include "tools/cli/plc/plc_coverage.h"
+#include "tools/cli/plc/plc_debug.h"
+#include "tools/cli/plc/plc_export.h"
+#include "tools/cli/plc/plc_print.h"
+#include "tools/cli/plc/plc_watch.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+Action declare(base::Options& app, Context& context) {
+  auto chosen = std::make_shared<Action>();
+  add_plc_build(app, chosen);
+  add_plc_coverage(app, context, chosen);
+  add_plc_debug(app, chosen);
+  add_plc_export(app, chosen);
+  add_plc_print(app, chosen);
+  add_plc_watch(app, context, chosen);
+  return [chosen](Context& c) { return (*chosen)(c); };
+}
+
+}  // namespace
+
+const Verb kPlcVerb{
+    "plc", "Before it runs", "PLC programs: check, build, debug, export, print, watch, cover them",
+    "Programs are Structured Text (.st), or PLCopen TC6 XML as Beremiz, the OpenPLC editor and CODESYS\n"
+    "export it. build prints the modules as module.xml has them; each TASK is one.\n"
+    "Exit code 0, 4 if the program has errors, 1 if it could not be built.\n"
+    "Examples:\n"
+    "  indurop plc build motor.st -o build\n"
+    "  indurop plc print conveyor.xml --pou main --svg conveyor.svg\n"
+    "  indurop plc export motor.st -o motor.xml\n"
+    "  indurop plc build conveyor.xml --watch\n"
+    "  indurop plc watch conveyor.xml\n"
+    "  indurop plc debug motor.st\n"
+    "  indurop plc coverage coverage --lcov coverage.info\n",
+    &declare};
+
+}  // namespace indurop::tools

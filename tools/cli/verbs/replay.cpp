@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop replay: runs the modules of a recording again with the recorded inputs, and compares the results.
+#include "tools/cli/recordings/recording_replay.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+Action declare(base::Options& app, Context& /*context*/) {
+  auto wish = std::make_shared<ReplayWish>();
+  app.add("file", "FILE.mcap", wish->file, "The recording").required().completes(base::Completion::File);
+  app.add("--config", "FILE", wish->config, "module.xml or plant.xml (default: that of the recording)")
+      .completes(base::Completion::File);
+  app.add("--with", "FILE.so", wish->with, "Use this file for the module of its name; may be given several times")
+      .completes(base::Completion::File);
+  app.add("-o,--file", "FILE.mcap", wish->output,
+          "Write what the modules leave now to this recording, to be laid over the other")
+      .completes(base::Completion::File);
+  app.add("--svg", "FILE", wish->svg, "Draw what differs, recorded and now, one over the other");
+  app.add("--board", "NAME", wish->board, "The board whose runs are meant, if the recording is of several");
+  app.add("--node", "NAME", wish->node, "Name of the replaying node (default: replay)");
+  return [wish](Context& c) { return replay_recording(c, *wish); };
+}
+
+}  // namespace
+
+const Verb kReplayVerb{
+    "replay", "Start and stop", "Run what was recorded once more, and compare",
+    "Each run of the recording is repeated by the real modules, with what it began with and at its time; then what it\n"
+    "leaves is compared bit by bit. Modules that speak to devices or the network do not run. Exit code 0: all is\n"
+    "equal; 4: the first difference is told, with tick, module, variable, recorded and new value.\n"
+    "Examples:\n"
+    "  indurop run module.xml --duration 60s --record run.mcap\n"
+    "  indurop replay run.mcap\n"
+    "  indurop replay run.mcap --with new/main.so\n"
+    "  indurop replay run.mcap --with new/main.so --svg differs.svg\n",
+    &declare};
+
+}  // namespace indurop::tools

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop restart: restarts modules, and nodes of boards.
+#include "tools/cli/plant/commands.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+Action declare(base::Options& app, Context& context) {
+  return declare_command(app, context, scheduler::ModuleCommand::Restart,
+                         "restart what? MODULE, MODULE@BOARD or @BOARD");
+}
+
+}  // namespace
+
+const Verb kRestartVerb{
+    "restart", "Start and stop", "Stop and start modules, or the node of a board",
+    "The stop() and start() of the module are called while the others keep their ticks; a process module ends and is\n"
+    "launched again. A .so stays loaded. MODULE@BOARD and @BOARD are those of indurop start.\n"
+    "Examples:\n"
+    "  indurop restart vision\n"
+    "  indurop restart vision@control --keys keys\n",
+    &declare};
+
+}  // namespace indurop::tools

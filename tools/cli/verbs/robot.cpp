@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop robot: shows and teaches points, and jogs the robot.
+#include "tools/cli/robot/hand.h"
+#include "tools/cli/robot/reload.h"
+#include "tools/cli/robot/teaching.h"
+#include "tools/cli/values/node_choice.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  RobotChoice choice;
+  robot::TeachOrder order;
+  Hand hand{"", "base"};
+  std::function<int(Context&)> chosen;
+};
+
+void add_choice(base::Options& app, Context& context, Options& options) {
+  app.add("--space", "NAMESPACE", options.choice.space, "Of the robot's variables (default: PLC_ROBOT)");
+  add_node_option(app, context);
+}
+
+void add_files(base::Options& app, Options& options) {
+  app.add("--module", "NAME", options.choice.module, "The robot, if the node has several");
+  app.add("--config", "FILE", options.choice.config,
+          "module.xml or plant.xml whose files are meant (default: what the node runs)")
+      .completes(base::Completion::File);
+}
+
+void declare_points(base::Options& app, Context& context, Options& options) {
+  base::Options& points = app.command("points", "Show the points of its files", [&options] {
+    options.chosen = [&options](Context& c) { return show_points(c, options.choice); };
+  });
+  add_choice(points, context, options);
+  add_files(points, options);
+  add_format_option(points, context, {Format::Table, Format::Json, Format::Csv});
+}
+
+void declare_teach(base::Options& app, Context& context, Options& options) {
+  base::Options& teach = app.command("teach", "Write where it stands into its files as a point", [&options] {
+    options.chosen = [&options](Context& c) { return teach_point(c, options.choice, options.order); };
+  });
+  robot::TeachOrder& order = options.order;
+  teach.add("point", "NAME", order.point, "The point; one that is new goes to the file with the most points")
+      .required();
+  teach.flag("--joint", order.as_joint, "As joint angles (a new point), whatever it was");
+  teach.flag("--pose", order.as_pose, "As the pose of the present tool's tip, whatever it was");
+  teach.add("--in", "FRAME", order.frame, "As a pose in this work frame");
+  teach.add("--file", "FILE", order.file, "Where a new point goes to").completes(base::Completion::File);
+  add_choice(teach, context, options);
+  add_files(teach, options);
+}
+
+void declare_reload(base::Options& app, Context& context, Options& options) {
+  base::Options& command = app.command("reload", "Have it read its jobs and points anew, while it stands", [&options] {
+    options.chosen = [&options](Context& c) { return reload_jobs(c, options.choice); };
+  });
+  add_choice(command, context, options);
+}
+
+void declare_jog(base::Options& app, Context& context, Options& options) {
+  base::Options& command = app.command("jog", "Move it by hand, as long as the command runs", [&options] {
+    options.chosen = [&options](Context& c) { return jog(c, options.choice, options.hand); };
+  });
+  Hand& hand = options.hand;
+  command.add("direction", "AXIS+|AXIS-", hand.direction, "J1+ to J8-, or of the tip x+ y+ z+ rx+ ry+ rz+ and with -")
+      .required();
+  command.add("--frame", "base|tool|FRAME", hand.frame, "Whose axes x to rz are: a work frame by name (default: base)");
+  command.add("--speed", "PERCENT", hand.percent, "Of the fastest by hand, 250 mm/s (default: 10)").range(0.1, 100);
+  add_time_option(command, "--for", hand.for_ns, "Let go after this time (default: Ctrl-C)");
+  add_choice(command, context, options);
+  add_far_options(command, context);
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  declare_points(app, context, *options);
+  declare_teach(app, context, *options);
+  declare_reload(app, context, *options);
+  declare_jog(app, context, *options);
+  return [options](Context& c) { return options->chosen(c); };
+}
+
+}  // namespace
+
+const Verb kRobotVerb{
+    "robot", "Variables", "Show, teach and reload the points of a robot, move it by hand",
+    "teach keeps a point as the file has it, joint angles or a pose in its frame, and the comment behind it; the file\n"
+    "is replaced whole or not at all. The robot knows the point after reload, or when its module starts again.\n"
+    "jog is no safety function: that takes an enabling switch wired to the drives.\n"
+    "Examples:\n"
+    "  indurop robot jog z+ --speed 20\n"
+    "  indurop robot jog J1- --for 2s\n"
+    "  indurop robot teach PICK\n"
+    "  indurop robot teach CORNER --in pallet --file points.job\n"
+    "  indurop robot reload\n"
+    "  indurop robot points\n",
+    &declare};
+
+}  // namespace indurop::tools

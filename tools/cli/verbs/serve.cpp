@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop serve: executes indurop-serve in its place.
+#include <memory>
+
+#include "tools/cli/command/become_server.h"
+#include "tools/cli/command/serve_options.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+Action declare(base::Options& app, Context& /*context*/) {
+  auto options = std::make_shared<ServeOptions>();
+  declare_serve_options(app, *options);
+  return [options](Context& c) { return become_server(c, *options); };
+}
+
+}  // namespace
+
+const Verb kServeVerb{
+    "serve", "A running node", "Show boards of this host to browsers and programs, over HTTP and WebSocket",
+    "Becomes indurop-serve and prints its address. Shows the nodes that run and those that come; no tick notices it.\n"
+    "Without options it can be reached from this machine only, and nothing can be written. With --write it prints a\n"
+    "token: who has it may set, force, start and stop. The interface is described in docs/serve.md.\n"
+    "Examples:\n"
+    "  indurop serve\n"
+    "  indurop serve --write --port 9000\n"
+    "  indurop serve --bind 0.0.0.0 --write --token-file tokens --cert board.pem --key board.key\n",
+    &declare};
+
+}  // namespace indurop::tools

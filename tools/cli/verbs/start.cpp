@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop start: starts modules that were stopped or have faulted, and nodes of boards.
+#include "tools/cli/plant/commands.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+Action declare(base::Options& app, Context& context) {
+  return declare_command(app, context, scheduler::ModuleCommand::Start,
+                         "start what? MODULE, MODULE@BOARD or @BOARD; a node is started by: indurop run module.xml");
+}
+
+}  // namespace
+
+const Verb kStartVerb{
+    "start", "Start and stop", "Start modules that were stopped or have faulted",
+    "Calls the module's start() beside the schedule and puts it back into its place; a process module is launched.\n"
+    "If the module has faulted, its stop() is called first. The module finds its own memory as it left it.\n"
+    "MODULE@BOARD and @BOARD (its node) go through the agent of a board in the network, signed with --keys if it\n"
+    "has keys. Exit code 1 if start() failed or the command was refused, 6 if board or node did not answer in time.\n"
+    "Examples:\n"
+    "  indurop start gripper\n"
+    "  indurop start gripper@control\n"
+    "  indurop start @control\n",
+    &declare};
+
+}  // namespace indurop::tools

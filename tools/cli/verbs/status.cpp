@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop status: the state of the node, its real-time rights, and the state of its modules.
+#include <fmt/format.h>
+
+#include "core/rt/clock.h"
+#include "history/alarms/alarm_journal.h"
+#include "history/alarms/alarm_list.h"
+#include "store/vars/retain.h"
+#include "tools/cli/command/interrupt.h"
+#include "tools/cli/command/repeat.h"
+#include "tools/cli/command/units.h"
+#include "tools/cli/plant/board_run.h"
+#include "tools/cli/plant/plant_status.h"
+#include "tools/cli/values/external_view.h"
+#include "tools/cli/values/force_view.h"
+#include "tools/cli/values/mirror_view.h"
+#include "tools/cli/values/module_table.h"
+#include "tools/cli/values/node_trouble.h"
+#include "tools/cli/values/run_report.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+std::vector<ForceView> forces_here(const std::string& node) {
+  const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
+  return store ? view_forces(node, *store) : std::vector<ForceView>();
+}
+
+alarms::AlarmCounts alarms_here(const std::string& node) {
+  alarms::AlarmJournal journal(node);
+  journal.refresh();
+  return journal.book().counts();
+}
+
+int show_once(Context& context, const BoardRun& chosen, bool check) {
+  const std::string& node = chosen.node;
+  const RunView& run = chosen.run;
+  const NodeReport report = report_of(node, run);
+  const auto mirror = run.here() ? view_mirror(node) : std::nullopt;
+  const auto external = run.here() ? view_external(node) : std::nullopt;
+  const auto lost = run.here() ? vars::RetainFile(vars::state_directory(node)).losses() : std::vector<std::string>();
+  const alarms::AlarmCounts alarms = run.here() ? alarms_here(node) : alarms::AlarmCounts{};
+  const auto forces = chosen.forces ? *chosen.forces : forces_here(node);
+  const vars::LockNote lock = chosen.forces ? chosen.lock : vars::lock_of(node);
+  std::vector<std::string> trouble = trouble_now(run, mirror);
+  if (context.format == Format::Table) {
+    for (const std::string& line : header_lines(report, context.out)) {
+      context.out.line(line);
+    }
+    for (const std::string& text : trouble) {
+      context.out.line(context.out.paint(Style::Bad, "  wrong     " + text));
+    }
+    if (!forces.empty()) {
+      context.out.line(context.out.paint(Style::Warn, "  forced    " + force_line(forces)));
+    }
+    if (const std::string text = lock_line(lock); !text.empty()) {
+      context.out.line(context.out.paint(Style::Warn, "  locked    " + text));
+    }
+    if (const std::string text = alarms::sentence_of(alarms); !text.empty()) {
+      context.out.line(context.out.paint(Style::Warn, fmt::format("  alarms    {} (indurop alarms)", text)));
+    }
+    for (const std::string& one : lost) {
+      context.out.line(context.out.paint(Style::Warn, "  retained  " + one));
+    }
+    if (mirror) {
+      for (const std::string& line : mirror_lines(*mirror, context.out)) {
+        context.out.line(line);
+      }
+    }
+    if (external) {
+      for (const std::string& line : external_lines(*external, context.out)) {
+        context.out.line(line);
+      }
+    }
+    context.out.line();
+  }
+  if (alarms.active + alarms.unacknowledged > 0) {
+    trouble.push_back(alarms::sentence_of(alarms));
+  }
+  JsonValue head = json_of(report);
+  head["mirror"] = mirror ? json_of(*mirror) : JsonValue();
+  head["forces"] = json_of(forces);
+  head["lock"] = json_of(lock);
+  head["alarms"] = json_of(alarms);
+  head["trouble"] = JsonValue(trouble);
+  head["retain_lost"] = lost;
+  head["external"] = external ? json_of(*external) : JsonValue();
+  print_table(context, module_table(run, report.alive), head, "modules");
+  if (!report.alive && !chosen.kept) {
+    return kUnreachable;
+  }
+  return check && !trouble.empty() ? kCheckFailed : kOk;
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto repeat = std::make_shared<Repeat>();
+  auto plant = std::make_shared<PlantStatus>();
+  auto board = std::make_shared<BoardChoice>();
+  auto check = std::make_shared<bool>(false);
+  app.flag("--check", *check, "Exit code 4 if something is wrong now: a module, another board, or an alarm");
+  add_node_option(app, context);
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  add_repeat_options(app, *repeat);
+  app.flag("--plant", plant->wanted, "All boards of the network, from any machine; boards not heard are named");
+  deploy::add_link_options(app, board->link);
+  add_board_options(app, *board, false);
+  add_kept_option(app, *board);
+  return [repeat, plant, board, check](Context& c) {
+    plant->link = board->link;
+    plant->check = *check;
+    return repeat_rounds(c, *repeat, [&c, &plant, &board, &check] {
+      if (plant->wanted) {
+        return plant->show(c);
+      }
+      const auto chosen = open_run(c, *board);
+      return chosen ? show_once(c, *chosen, *check) : report(c.out, chosen.error());
+    });
+  };
+}
+
+}  // namespace
+
+const Verb kStatusVerb{
+    "status", "A running node", "Show the state of the node and its modules",
+    "EXEC is the execution time of run(), JITTER |J_n|: how far a start was from its place on the grid. A state in\n"
+    "brackets is the last one of a node that has ended. On a narrow terminal some columns are left out.\n"
+    "Exit code 0 if the node runs, 6 if it does not (then the last figures are shown). With --check it is 4 if the\n"
+    "node runs and something is wrong now (lines 'wrong'): a module is stopped, faulted or has not started, another\n"
+    "board is not there, an alarm is active or not acknowledged. Overruns, lost ticks and faults that are over do\n"
+    "not count.\n"
+    "With --plant it shows the boards of the network instead, as their agents report: 6 if one that belongs to a\n"
+    "plant is missing, with --check 4 if a node does not run or has alarms. With --board it shows the node of one\n"
+    "board.\n"
+    "Examples:\n"
+    "  indurop status\n"
+    "  indurop status -w\n"
+    "  indurop status --check\n"
+    "  indurop status --plant\n"
+    "  indurop status --board control\n",
+    &declare};
+
+}  // namespace indurop::tools

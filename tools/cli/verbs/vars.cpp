@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop vars: lists a node's variables, their values, and which modules write and read them.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "tools/cli/command/units.h"
+#include "tools/cli/values/known_uses.h"
+#include "tools/cli/values/node_choice.h"
+#include "tools/cli/values/variables.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::size_t kAlignedValue = 24;
+constexpr std::size_t kLongestValue = 40;
+
+struct Options {
+  std::vector<std::string> globs;
+  std::string type;
+  bool names = false;
+};
+
+std::string shortened(const std::string& text) {
+  return text.size() <= kLongestValue ? text : fmt::format("{:.{}}...", text, kLongestValue - 3);
+}
+
+Cell name_list(const std::vector<std::string>& names) {
+  return {names.empty() ? "-" : fmt::format("{}", fmt::join(names, ", ")), JsonValue(names)};
+}
+
+std::string properties_of(const schema::Variable& variable) {
+  std::string text = variable.retain ? "retain" : "";
+  if (variable.range) {
+    text += (text.empty() ? "" : " ") + range_text(variable.range);
+  }
+  return text;
+}
+
+std::vector<Cell> row(const Item& item, const std::vector<std::uint8_t>& bytes, const config::VariableUse& use,
+                      bool uses_known) {
+  const schema::Variable& variable = *item.place.variable;
+  const auto modules = [uses_known](const std::vector<std::string>& names) {
+    return uses_known ? name_list(names) : Cell("", JsonValue());
+  };
+  return {Cell(item.name),
+          Cell(schema::display_name(variable.type)),
+          {shortened(schema::format_value(variable.type, bytes)), raw_value(variable.type, bytes)},
+          Cell(variable.unit),
+          {properties_of(variable), JsonValue()},
+          {"", variable.retain},
+          {"", variable.range ? JsonValue{variable.range->min, variable.range->max} : JsonValue()},
+          modules(use.writers),
+          modules(use.readers),
+          Cell(variable.description),
+          Cell(variable.source)};
+}
+
+int list(Context& context, const Options& options) {
+  const auto store = open_store(context, vars::Mode::ReadOnly);
+  if (!store) {
+    return report(context.out, store.error());
+  }
+  int code = kOk;
+  std::vector<Item> items;
+  const std::vector<std::string> everything{"*"};
+  if (options.globs.empty() && store->schema().variables.empty()) {
+    context.out.note(fmt::format("{} has no shared variables", context.values->whose()));
+  } else if (const int found = select_items(context, *store, options.globs.empty() ? everything : options.globs, items,
+                                            options.names ? Values::NotNeeded : Values::Needed);
+             found != kOk) {
+    return found;
+  }
+  std::erase_if(items, [&](const Item& item) {
+    return !options.type.empty() && !schema::glob_match(options.type, schema::display_name(item.place.type));
+  });
+  std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.name < b.name; });
+  if (options.names) {
+    for (const Item& item : items) {
+      context.out.line(item.name);
+    }
+    return kOk;
+  }
+  const KnownUses uses = context.values->here() ? known_uses(context.node) : KnownUses{};
+  Table table({{"NAME", "name"},
+               {"TYPE", "type"},
+               {"VALUE", "value", Align::Right, 0, kAlignedValue},
+               {"UNIT", "unit"},
+               {"NOTES", "", Align::Left, 3},
+               {"", "retain"},
+               {"", "range"},
+               {"WRITTEN BY", "writers", Align::Left, 1},
+               {"READ BY", "readers", Align::Left, 2},
+               {"DESCRIPTION", "description", Align::Left, 4},
+               {"", "source"}});
+  for (const Item& item : items) {
+    const auto bytes = operate::read(*store, item);
+    if (!bytes) {
+      context.out.error(bytes.error().text);
+      code = kFailed;
+      continue;
+    }
+    const auto use = uses.find(item.place.variable->name);
+    table.add(row(item, *bytes, use == uses.end() ? config::VariableUse{} : use->second, !uses.empty()));
+  }
+  const std::string absence = context.values->absence(&*store);
+  if (!absence.empty() && context.values->here()) {
+    context.out.note(context.values->gone(absence) + ": these are the last values");
+  }
+  print_table(context, table, {{"node", context.values->title()}, {"running", absence.empty()}}, "variables");
+  return code;
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add("names", "GLOB", options->globs, "Names or globs: * ? [a-z]; without '::' the last part alone may match")
+      .completes(base::Completion::Variable);
+  app.add("-t,--type", "TYPE", options->type, "Only variables of this type (glob)");
+  app.flag("--names", options->names, "Print nothing but the names");
+  add_node_option(app, context);
+  add_far_options(app, context);
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [options](Context& c) { return list(c, *options); };
+}
+
+}  // namespace
+
+const Verb kVarsVerb{
+    "vars", "Variables", "List shared variables: type, value, unit, who writes and reads them",
+    "Writers and readers come from the module files of the node's configuration and are left out if these cannot be\n"
+    "read (null in JSON).\n"
+    "Examples:\n"
+    "  indurop vars\n"
+    "  indurop vars 'knu::Robot::*' -o json\n"
+    "  indurop vars -t double\n",
+    &declare};
+
+}  // namespace indurop::tools

@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// `indurop`, the one command line of the platform.
-#include "tools/command/app.h"
-#include "tools/command/interrupt.h"
-
-int main(int argc, char** argv) {
-  indurop::tools::catch_interrupts();
-  return indurop::tools::run_program({argv + (argc > 0 ? 1 : 0), argv + argc});
-}

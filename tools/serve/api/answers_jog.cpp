@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers about remote jogging of robots.
+#include <utility>
+
+#include "store/operate/set.h"
+#include "tools/serve/api/answers.h"
+#include "tools/serve/api/write.h"
+#include "tools/serve/boards/board.h"
+#include "tools/serve/jog/jog_desk.h"
+
+namespace indurop::serve::answers {
+namespace {
+
+Reply about_hand(Api& api, const Call& call,
+                 bool (JogDesk::*what)(const std::string&, const std::string&, const std::string&)) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  const std::string& name = call.part.find("jog")->second;
+  if (!(api.jogs().*what)((*found)->name(), name, call.who)) {
+    return refusal(status::kNotFound, "that hand is not at the switch any more: it was not heard in time");
+  }
+  base::Json body = about(**found);
+  body["jog"] = name;
+  body["keep_ns"] = JogDesk::kKeepNs;
+  return json_reply(body);
+}
+
+}  // namespace
+
+Reply begin_jog(Api& api, const Call& call) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  Write write(api, call, "jog");
+  const auto json = base::Json::parse(call.request->body);
+  JogWish wish;
+  std::string robot;
+  bool sound = json && base::read(*json, "frame", wish.frame) && base::read(*json, "robot", robot);
+  for (const base::Json& one : sound ? (*json)["speed"].values() : std::span<const base::Json>()) {
+    sound = sound && one.number().has_value();
+    wish.speed.push_back(one.number().value_or(0));
+  }
+  if (!sound || wish.speed.empty()) {
+    return write.failed(status::kBadRequest, "robot, frame and speed are wanted");
+  }
+  write.about(call.request->body, "");
+  if (!(*found)->alive()) {
+    return write.failed(status::kConflict, "the board does not run");
+  }
+  if (const auto locked = operate::refusal((*found)->name(), vars::Act::Command)) {
+    return write.failed(*locked);
+  }
+  if (auto refused = write.begin()) {
+    return *refused;
+  }
+  auto begun = api.jogs().begin((*found)->name(), robot, call.who, call.request->from, wish);
+  if (!begun) {
+    return write.failed(status::kConflict, begun.error().text);
+  }
+  base::Json body = about(**found);
+  body["jog"] = *begun;
+  body["keep_ns"] = JogDesk::kKeepNs;
+  return json_reply(body);
+}
+
+Reply keep_jog(Api& api, const Call& call) {
+  return about_hand(api, call, &JogDesk::keep);
+}
+
+Reply end_jog(Api& api, const Call& call) {
+  return about_hand(api, call, &JogDesk::end);
+}
+
+}  // namespace indurop::serve::answers

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers about the PLC program: its drawings, and the values that change in them.
+#include <utility>
+
+#include "core/base/exit_code.h"
+#include "tools/cli/plc/plc_pictures.h"
+#include "tools/serve/api/answers.h"
+#include "tools/serve/boards/board.h"
+
+namespace indurop::serve::answers {
+namespace {
+
+using Ask = Result<base::Json, tools::Failure> (tools::PlcPictures::*)(const std::string& node,
+                                                                       const std::string& program);
+
+Reply ask(const Call& call, Ask what) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  auto told = (call.plc->*what)((*found)->name(), query_value(*call.request, "program").value_or(""));
+  if (!told) {
+    const int code = told.error().code;
+    const int answer = code == kCheckFailed ? status::kFailed : code == kUsage ? status::kNotFound : status::kConflict;
+    return refusal(answer, told.error().text);
+  }
+  base::Json body = about(**found);
+  body.update(*told);
+  return json_reply(body);
+}
+
+}  // namespace
+
+Reply plc(Api& /*api*/, const Call& call) {
+  return ask(call, &tools::PlcPictures::pictures);
+}
+
+Reply plc_live(Api& /*api*/, const Call& call) {
+  return ask(call, &tools::PlcPictures::live);
+}
+
+}  // namespace indurop::serve::answers

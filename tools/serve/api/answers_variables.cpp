@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers about variables and their values.
+#include <fmt/format.h>
+
+#include "tools/serve/api/answers.h"
+#include "tools/serve/boards/board.h"
+#include "tools/serve/boards/variable.h"
+
+namespace indurop::serve::answers {
+namespace {
+
+base::Json modules_of(const tools::KnownUses& uses, const std::string& variable,
+                      std::vector<std::string> config::VariableUse::*which) {
+  if (uses.empty()) {
+    return {};
+  }
+  const auto found = uses.find(variable);
+  return found != uses.end() ? base::Json(found->second.*which) : base::Json::array();
+}
+
+base::Json variable_json(const vars::Store& store, const tools::Item& item, const tools::KnownUses& uses,
+                         const std::vector<vars::Force>& forces, bool values) {
+  const schema::Variable& variable = *item.place.variable;
+  base::Json out = base::Json::object();
+  out["name"] = item.name;
+  out["type"] = schema::display_name(item.place.type);
+  out["form"] = form_of(item.place.type);
+  Quality quality = quality_of(store, item);
+  if (values) {
+    const auto bytes = operate::read(store, item);
+    quality = bytes ? quality : Quality::Unread;
+    out["value"] = bytes ? tools::raw_value(item.place.type, *bytes) : base::Json();
+    out["text"] = bytes ? schema::format_value(item.place.type, *bytes) : std::string();
+  }
+  out["unit"] = item.place.unit;
+  out["range"] = range_of(item.place.range);
+  out["retain"] = variable.retain;
+  out["writers"] = modules_of(uses, variable.name, &config::VariableUse::writers);
+  out["readers"] = modules_of(uses, variable.name, &config::VariableUse::readers);
+  out["description"] = variable.description;
+  out["source"] = variable.source;
+  const auto age = age_of(store, item);
+  out["age_ns"] = age ? base::Json(*age) : base::Json();
+  out["quality"] = word_of(quality);
+  base::Json forced = base::Json::array();
+  for (const vars::Force& force : forces) {
+    if (operate::touches(force, item)) {
+      forced.push_back(schema::part_at(variable, force.offset).name);
+    }
+  }
+  out["forced"] = std::move(forced);
+  return out;
+}
+
+Reply no_store(const Board& board) {
+  if (board.remote() != nullptr) {
+    return refusal(status::kConflict,
+                   fmt::format("the variables of board {} have not come yet: it is {}", board.name(), board.state()));
+  }
+  return refusal(status::kConflict,
+                 fmt::format("the variables of board {} cannot be read; see indurop nodes", board.name()));
+}
+
+}  // namespace
+
+Reply variables(Api& api, const Call& call) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  const Board& board = **found;
+  if (board.store() == nullptr) {
+    return no_store(board);
+  }
+  const std::string values = query_value(*call.request, "values").value_or("true");
+  if (values != "true" && values != "false") {
+    return refusal(status::kBadRequest, "values is true or false");
+  }
+  const auto match = query_value(*call.request, "match");
+  std::vector<std::string> problems;
+  const auto items = items_named(*board.store(), board.name(), {match.value_or("*")}, problems);
+  const tools::KnownUses& uses = api.uses_of(board);
+  const auto forces = board.store()->forces();
+  base::Json list = base::Json::array();
+  for (const tools::Item& item : items) {
+    list.push_back(variable_json(*board.store(), item, uses, forces, values == "true"));
+  }
+  base::Json body = about(board);
+  body["layout"] = board.layout();
+  body["alive"] = board.alive();
+  body["uses_known"] = !uses.empty();
+  body["variables"] = std::move(list);
+  return json_reply(body);
+}
+
+Reply variable(Api& api, const Call& call) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  const Board& board = **found;
+  if (board.store() == nullptr) {
+    return no_store(board);
+  }
+  const std::string& name = call.part.find("name")->second;
+  std::vector<std::string> problems;
+  const auto items =
+      tools::is_glob(name) ? std::vector<tools::Item>() : items_named(*board.store(), board.name(), {name}, problems);
+  if (items.empty()) {
+    return refusal(status::kNotFound,
+                   problems.empty() ? fmt::format("'{}' is no name of a variable", name) : problems.front());
+  }
+  return json_reply(variable_json(*board.store(), items.front(), api.uses_of(board), board.store()->forces(), true));
+}
+
+}  // namespace indurop::serve::answers

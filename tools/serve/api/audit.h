@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The audit log of this server. A write is done only if it can be logged.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "tools/cli/command/audit.h"
+
+namespace indurop::serve {
+
+using tools::AuditEntry;
+using tools::json_of;
+using tools::read_audit;
+
+class Audit {
+ public:
+  explicit Audit(std::filesystem::path file) : file_(std::move(file)) {}
+  [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
+  // May be called by any thread. Returns why the entry could not be logged, else an empty text.
+  std::string note(AuditEntry entry) const;
+
+ private:
+  std::filesystem::path file_;
+};
+
+}  // namespace indurop::serve

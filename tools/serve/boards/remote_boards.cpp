@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/serve/boards/remote_boards.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/rt/clock.h"
+#include "store/vars/node_lock.h"
+
+namespace indurop::serve {
+namespace {
+
+constexpr std::int64_t kLearnAgainNs = 2'000'000'000;  // for boards without variables so far
+
+bool runs_here(const std::string& name) {
+  return vars::running_node(name) > 0;
+}
+
+std::vector<std::string> names_of(const std::vector<std::shared_ptr<tools::RemoteBoard>>& boards) {
+  std::vector<std::string> names;
+  names.reserve(boards.size());
+  for (const auto& board : boards) {
+    names.push_back(board->name());
+  }
+  return names;
+}
+
+}  // namespace
+
+RemoteBoards::Some RemoteBoards::all() const {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  Some some;
+  for (const auto& [name, board] : boards_) {
+    some.push_back(board);
+  }
+  return some;
+}
+
+std::vector<std::string> RemoteBoards::names() const {
+  std::vector<std::string> names = names_of(all());
+  std::erase_if(names, runs_here);
+  return names;
+}
+
+std::shared_ptr<tools::RemoteBoard> RemoteBoards::find(const std::string& name) const {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  const auto known = boards_.find(name);
+  return known != boards_.end() && !runs_here(name) ? known->second : nullptr;
+}
+
+void RemoteBoards::hear(const tools::PlantWatch& watch) {
+  for (const base::Json& row : watch.rows()) {
+    const std::string name = row["board"].text().value_or("");
+    if (name.empty() || runs_here(name)) {
+      continue;
+    }
+    std::shared_ptr<tools::RemoteBoard> board;
+    {
+      const std::lock_guard<std::mutex> guard(mutex_);
+      auto& known = boards_[name];
+      known = known != nullptr ? known : std::make_shared<tools::RemoteBoard>(name);
+      board = known;
+    }
+    board->look_at(row);
+    if (const auto said = board->said(); !said.heard && said.values) {
+      board->silent();
+    }
+  }
+}
+
+void RemoteBoards::learn(tools::PlantWatch& watch, const Some& boards) {
+  const auto texts = watch.texts("variables", names_of(boards));
+  for (const auto& board : boards) {
+    const auto text = texts.find(board->name());
+    if (text != texts.end()) {
+      (void)board->take_variables(text->second);
+    }
+  }
+}
+
+void RemoteBoards::ask(tools::PlantWatch& watch, const Some& boards) {
+  Some others;
+  const auto take = [&](const Some& asked) {
+    const auto texts = watch.texts("values", names_of(asked));
+    const std::int64_t now = rt::now_ns();
+    others.clear();
+    for (const auto& board : asked) {
+      const auto text = texts.find(board->name());
+      const auto taken =
+          text != texts.end() ? board->take_values(text->second, now) : tools::RemoteBoard::Taken::Nonsense;
+      if (taken == tools::RemoteBoard::Taken::OtherVariables) {
+        others.push_back(board);
+      } else if (taken == tools::RemoteBoard::Taken::Nonsense) {
+        board->silent();
+      }
+    }
+  };
+  take(boards);
+  if (!others.empty()) {
+    learn(watch, others);
+    const Some again = others;
+    take(again);
+  }
+}
+
+void RemoteBoards::look(tools::PlantWatch& watch) {
+  hear(watch);
+  const std::int64_t now = rt::now_ns();
+  Some due;
+  for (const auto& board : all()) {
+    const bool heard = board->said().heard && !runs_here(board->name());
+    const bool wanted = board->knows_variables() ? board->due(now) : now >= learn_ns_[board->name()];
+    if (heard && wanted) {
+      learn_ns_[board->name()] = now + kLearnAgainNs;
+      due.push_back(board);
+    }
+  }
+  if (!due.empty()) {
+    ask(watch, due);
+  }
+}
+
+void RemoteBoards::fetch(tools::PlantWatch& watch, const std::string& name) {
+  hear(watch);
+  const auto board = find(name);
+  if (board == nullptr || !board->said().heard) {
+    return;
+  }
+  board->want(rt::now_ns());
+  ask(watch, {board});
+}
+
+}  // namespace indurop::serve

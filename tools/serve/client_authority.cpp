@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/serve/client_authority.h"
+
+#include <fmt/format.h>
+
+#include "core/base/file_problem.h"
+#include "core/base/read_file.h"
+#include "core/keys/credentials.h"
+#include "core/keys/plant_keys.h"
+
+namespace indurop::serve {
+
+Result<ClientAuthority, base::Problem> ClientAuthority::open(const std::filesystem::path& authority,
+                                                             const std::filesystem::path& revoked) {
+  const auto text = base::read_file(authority);
+  if (!text) {
+    return base::Problem{base::cannot_read(authority.string(), text.error())};
+  }
+  ClientAuthority made;
+  made.authority_ = *text;
+  const auto facts = keys::read_certificate(made.authority_);
+  if (!facts) {
+    return base::Problem{fmt::format("{} is not a certificate", authority.string())};
+  }
+  const std::filesystem::path beside = authority.parent_path() / "revoked.pem";
+  std::error_code ignored;
+  const bool of_plant = keys::is_plant_authority(*facts);
+  if (!revoked.empty() || of_plant || std::filesystem::exists(beside, ignored)) {
+    made.revoked_ = revoked.empty() ? beside : revoked;
+  }
+  std::string list;
+  if (std::string problem = made.read_list(list); !problem.empty()) {
+    return base::Problem{problem + "; copy the revoked.pem of the plant's keys beside " + authority.string() +
+                         ", or name it with --revoked"};
+  }
+  return made;
+}
+
+std::string ClientAuthority::read_list(std::string& list) const {
+  if (revoked_.empty()) {
+    return {};
+  }
+  auto text = base::read_file(revoked_);
+  if (!text) {
+    return base::cannot_read(revoked_.string(), text.error());
+  }
+  if (!keys::revocation_list_of(*text, authority_)) {
+    return fmt::format("{} is not a list of revoked certificates of this authority", revoked_.string());
+  }
+  list = std::move(*text);
+  return {};
+}
+
+Client ClientAuthority::identify(const std::string& certificate) const {
+  const auto facts = keys::read_certificate(certificate);
+  if (authority_.empty() || !facts || facts->common_name.empty()) {
+    return {{}, Role::Unknown, "the certificate names nobody"};
+  }
+  std::string list;
+  if (!read_list(list).empty()) {
+    return {facts->common_name, Role::Unknown, "which certificates were revoked cannot be read, so none counts"};
+  }
+  if (!list.empty() && keys::is_revoked(certificate, list)) {
+    return {facts->common_name, Role::Unknown, fmt::format("the certificate of {} was revoked", facts->common_name)};
+  }
+  // Certificates of other authorities define no role: their clients have the rights of one with a token.
+  const auto role = keys::plant_role(*facts);
+  const bool writes = !keys::is_plant_certificate(*facts) || role == keys::Role::Deployer;
+  return {facts->common_name, writes ? Role::Writer : Role::Reader, {}};
+}
+
+}  // namespace indurop::serve

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rights of a client with a certificate of --client-ca. Of a plant's certificates, those of deployers may write and
+// all others may read; the revocation list is read again for each client.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/base/problem.h"
+#include "tools/serve/door/request.h"
+
+namespace indurop::serve {
+
+class ClientAuthority {
+ public:
+  // Accepts no certificate.
+  ClientAuthority() = default;
+  // `revoked`: a revocation list of this authority; empty: the file revoked.pem in the folder of `authority`, which
+  // must exist for a plant's authority.
+  static Result<ClientAuthority, base::Problem> open(const std::filesystem::path& authority,
+                                                     const std::filesystem::path& revoked);
+
+  // `certificate`: PEM, signed by the authority and valid now.
+  [[nodiscard]] Client identify(const std::string& certificate) const;
+
+ private:
+  // Reads the revocation list. Returns why no certificate can be checked; empty: `list` is the list, or there is none.
+  [[nodiscard]] std::string read_list(std::string& list) const;
+
+  std::filesystem::path revoked_;  // empty: there is no list
+  std::string authority_;          // PEM
+};
+
+}  // namespace indurop::serve

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/serve/server.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "core/base/exit_code.h"
+#include "core/rt/clock.h"
+#include "tools/cli/command/gentle.h"
+#include "tools/cli/command/interrupt.h"
+
+namespace indurop::serve {
+namespace {
+
+ServerFacts facts_of(const tools::ServeOptions& options, const std::string& version, const AlarmDesk& alarms,
+                     std::function<std::vector<ClientFigures>()> clients) {
+  ServerFacts facts;
+  facts.alarms = [&alarms](const std::string& board) { return alarms.counts(board); };
+  facts.version = version;
+  facts.clients = std::move(clients);
+  facts.most_clients = options.clients;
+  facts.started_wall_ns = rt::wall_ns();
+  facts.started_ns = rt::now_ns();
+  facts.web = Page(options.web).there();
+  facts.plant = options.plant;
+  facts.recordings = options.recordings;
+  facts.plc = !options.plc.empty();
+  return facts;
+}
+
+DoorSettings door_of(const tools::ServeOptions& options, const GateSettings& gate) {
+  DoorSettings settings;
+  settings.bind = options.bind;
+  settings.port = static_cast<int>(options.port);
+  settings.cert = options.cert;
+  settings.key = options.key;
+  settings.client_ca = options.client_ca;
+  settings.most_streams = options.clients;
+  settings.reserve_streams = gate.loopback && (!gate.tokens.empty() || !options.client_ca.empty());
+  return settings;
+}
+
+}  // namespace
+
+Server::Server(tools::ServeOptions options, Admission admission, const std::string& version)
+    : options_(std::move(options)),
+      gate_(std::move(admission.gate)),
+      authority_(std::move(admission.authority)),
+      audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
+      leases_(audit_),
+      jogs_(audit_),
+      api_(gate_, audit_, leases_, jogs_, facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
+      page_(options_.web),
+      boards_(options_.node, &remote_boards_),
+      hub_(boards_, version, {options_.foxglove, options_.foxglove_hz},
+           [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
+      files_(options_.node),
+      orders_(options_.node),
+      holds_(options_.node) {}
+
+std::string Server::choose_subprotocol(const Request& request) {
+  return serve::choose_subprotocol(all_routes(), request);
+}
+
+Client Server::identify(const std::string& certificate) {
+  return authority_.identify(certificate);
+}
+
+std::optional<Reply> Server::refuse(Request& request) {
+  if (auto refused = gate_.refuse(request, right_of(all_routes(), request))) {
+    return refused;
+  }
+  request.client = gate_.client_of(request);
+  if (!request.subprotocol.empty() && match_route(all_routes(), request).route == nullptr) {
+    return refusal(status::kNotFound, "the WebSocket is at /api/v1/stream");
+  }
+  return std::nullopt;
+}
+
+void Server::note_refused(const Request& request, const std::string& why, std::uint64_t count) {
+  AuditEntry entry;
+  entry.who = request.certificate.name;
+  entry.from = request.from;
+  entry.action = "refused";
+  entry.what = request.path;
+  entry.outcome = count > 1 ? fmt::format("{} ({} times)", why, count) : why;
+  // Not on this thread, which must not wait for a disk. An entry that is lost because too many jobs wait is reported
+  // with the next one.
+  (void)holds_.worker.add([this, entry = std::move(entry)] { (void)audit_.note(entry); });
+}
+
+std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
+  Match match = match_route(all_routes(), request);
+  if (match.route == nullptr) {
+    return match.other_method ? refusal(status::kMethodNotAllowed, "this path is for another method")
+                              : refusal(status::kNotFound, "there is nothing at this path; see /api/v1/openapi.json");
+  }
+  match.call.who = request.client.name;
+  if (is_remote(match)) {
+    return ask_remote(std::move(match), ticket);
+  }
+  switch (match.route->pace) {
+    case Pace::Files:
+      return hand_over(files_, std::move(match), ticket);
+    case Pace::Orders:
+      return hand_over(orders_, std::move(match), ticket);
+    case Pace::Holds:
+      return hand_over(holds_, std::move(match), ticket);
+    case Pace::Wait:
+      return let_wait(match, ticket);
+    case Pace::Plant:
+      return ask_plant(std::move(match), ticket);
+    case Pace::PlantOrders:
+      return order_plant(std::move(match), ticket);
+    case Pace::Plc:
+      return ask_plc(std::move(match), ticket);
+    case Pace::Page:
+      return page_.answer(request.path);
+    case Pace::Stream:
+    case Pace::Quick:
+      break;
+  }
+  match.call.boards = &boards_;
+  return match.route->answer(api_, match.call);
+}
+
+std::function<void()> Server::job_of(Helper& helper, Match match, Ticket ticket) {
+  match.call.boards = &helper.boards;
+  const auto request = std::make_shared<Request>(*match.call.request);
+  match.call.request = request.get();
+  return [this, request, match = std::move(match), ticket] {
+    door_->reply(ticket, match.route->answer(api_, match.call));
+  };
+}
+
+std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticket) {
+  if (!helper.worker.add(job_of(helper, std::move(match), ticket))) {
+    return refusal(status::kUnavailable, "too many requests wait already; try again later");
+  }
+  return std::nullopt;
+}
+
+std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {
+  if (plant_ == nullptr) {
+    return refusal(status::kNotFound, "this server looks at its own host only; start it with --plant");
+  }
+  match.call.plant = &plant_->watch;
+  const auto request = std::make_shared<Request>(*match.call.request);
+  match.call.request = request.get();
+  if (!plant_->worker.add([this, request, match = std::move(match), ticket] {
+        door_->reply(ticket, match.route->answer(api_, match.call));
+      })) {
+    return refusal(status::kUnavailable, "too many requests wait already; try again later");
+  }
+  return std::nullopt;
+}
+
+bool Server::is_remote(const Match& match) const {
+  const auto board = match.call.part.find("board");
+  return plant_ != nullptr && board != match.call.part.end() &&
+         (options_.node.empty() || board->second == options_.node) && remote_boards_.find(board->second) != nullptr;
+}
+
+std::optional<Reply> Server::ask_remote(Match match, Ticket ticket) {
+  const Remote remote = match.route->remote;
+  const std::string board = match.call.part.find("board")->second;
+  if (!remote.possible) {
+    return refusal(status::kConflict,
+                   fmt::format("board {} is on another host, where this is seen: indurop serve there", board));
+  }
+  if (match.route->pace == Pace::Quick && remote.answer == nullptr) {
+    match.call.boards = &boards_;
+    return match.route->answer(api_, match.call);
+  }
+  match.call.plant = &plant_->watch;
+  match.call.boards = &plant_->boards;
+  const auto request = std::make_shared<Request>(*match.call.request);
+  match.call.request = request.get();
+  const bool added = plant_->worker.add([this, request, remote, board, match = std::move(match), ticket] {
+    if (remote.answer == nullptr) {
+      remote_boards_.fetch(plant_->watch, board);
+    }
+    door_->reply(ticket, (remote.answer != nullptr ? remote.answer : match.route->answer)(api_, match.call));
+  });
+  return added ? std::nullopt
+               : std::optional(refusal(status::kUnavailable, "too many requests wait already; try again later"));
+}
+
+std::optional<Reply> Server::order_plant(Match match, Ticket ticket) {
+  if (plant_ == nullptr) {
+    return refusal(status::kNotFound, "this server looks at its own host only; start it with --plant");
+  }
+  match.call.link = &options_.link;
+  const auto request = std::make_shared<Request>(*match.call.request);
+  match.call.request = request.get();
+  if (!plant_->orders.add_if_idle([this, request, match = std::move(match), ticket] {
+        door_->reply(ticket, match.route->answer(api_, match.call));
+      })) {
+    return refusal(status::kConflict, "the plant is being changed already");
+  }
+  return std::nullopt;
+}
+
+std::optional<Reply> Server::ask_plc(Match match, Ticket ticket) {
+  if (plc_ == nullptr) {
+    return refusal(status::kNotFound, "this server knows no PLC program; start it with --plc FILE");
+  }
+  match.call.boards = &plc_->boards;
+  match.call.plc = &plc_->pictures;
+  const auto request = std::make_shared<Request>(*match.call.request);
+  match.call.request = request.get();
+  if (!plc_->worker.add([this, request, match = std::move(match), ticket] {
+        door_->reply(ticket, match.route->answer(api_, match.call));
+      })) {
+    return refusal(status::kUnavailable, "too many requests wait already; try again later");
+  }
+  return std::nullopt;
+}
+
+std::optional<Reply> Server::let_wait(const Match& match, Ticket ticket) {
+  constexpr std::size_t kMost = 4;
+  for (std::size_t i = 0; i < kMost; ++i) {
+    if (i == waiting_.size()) {
+      waiting_.push_back(std::make_unique<Helper>(options_.node));
+    }
+    if (waiting_[i]->worker.add_if_idle(job_of(*waiting_[i], match, ticket))) {
+      return std::nullopt;
+    }
+  }
+  return refusal(status::kUnavailable,
+                 fmt::format("{} scopes wait for their triggers already; try again later", kMost));
+}
+
+std::unique_ptr<Visitor> Server::receive(const Request& request, Line& line) {
+  return hub_.receive(request, line);
+}
+
+void Server::announce() const {
+  const GateSettings& gate = gate_.settings();
+  // A token that is in no file can be obtained from this output only.
+  const bool told = !gate.tokens.empty() && options_.token_file.empty();
+  fmt::print("{}://{}:{}/{}\n", gate.tls ? "https" : "http", options_.bind, door_->port(),
+             told ? "#token=" + gate.tokens.front().value : "");
+  (void)std::fflush(stdout);
+}
+
+int Server::run() {
+  auto programs = tools::plc_programs(options_.plc);
+  if (!programs) {
+    fmt::print(stderr, "indurop-serve: error: {}\n", programs.error().text);
+    return programs.error().code;
+  }
+  auto opened = Door::open(door_of(options_, gate_.settings()), *this);
+  if (!opened) {
+    fmt::print(stderr, "indurop-serve: error: {}\n", opened.error().text);
+    return kFailed;
+  }
+  door_ = std::move(opened).value();
+  if (!programs->empty()) {
+    plc_ = std::make_unique<Plc>(*programs, options_.node);
+  }
+  announce();
+  tools::be_gentle(options_.node);
+  sampling_ = std::make_unique<Door::Alarm>(*door_, [this] { hub_.run(rt::now_ns()); });
+  // Also ensures that a signal is noticed when nothing else happens.
+  constexpr std::int64_t kLookNs = 500'000'000;
+  std::unique_ptr<Door::Alarm> looking;
+  if (options_.plant) {
+    plant_ = std::make_unique<Plant>(options_.link, options_.node, remote_boards_);
+  }
+  looking = std::make_unique<Door::Alarm>(*door_, [this, &looking] {
+    hub_.look_around();
+    (void)holds_.worker.add_if_idle([this] { leases_.look(); });
+    looking->set(kLookNs);
+  });
+  constexpr std::int64_t kHearNs = 125'000'000;
+  Door::Alarm hearing(*door_, [this, &hearing] {
+    if (plant_ != nullptr) {
+      (void)plant_->worker.add_if_idle([this] {
+        plant_->watch.look();
+        remote_boards_.look(plant_->watch);
+      });
+      hearing.set(kHearNs);
+    }
+  });
+  hearing.set(kHearNs);
+  looking->set(kLookNs);
+  constexpr std::int64_t kAlarmsNs = 100'000'000;
+  Door::Alarm watching(*door_, [this, &watching] {
+    alarms_.look(boards_.here());
+    for (const std::string& word : alarms_.news()) {
+      hub_.tell_all(word);
+    }
+    if (jogs_.busy()) {
+      (void)holds_.worker.add([this] { jogs_.look(); });
+    }
+    watching.set(kAlarmsNs);
+  });
+  watching.set(kAlarmsNs);
+  door_->serve([] { return tools::interrupted(); });
+  looking.reset();
+  sampling_.reset();
+  return tools::interrupt_code();
+}
+
+}  // namespace indurop::serve

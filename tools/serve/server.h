@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop-serve as a whole: gate, door, answers, page.
+
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/cli/command/serve_options.h"
+#include "tools/cli/plant/plant_watch.h"
+#include "tools/cli/plc/plc_pictures.h"
+#include "tools/serve/admission.h"
+#include "tools/serve/alarms/alarm_desk.h"
+#include "tools/serve/api/api.h"
+#include "tools/serve/api/audit.h"
+#include "tools/serve/api/router.h"
+#include "tools/serve/api/worker.h"
+#include "tools/serve/boards/board.h"
+#include "tools/serve/door/door.h"
+#include "tools/serve/jog/jog_desk.h"
+#include "tools/serve/leases/lease_desk.h"
+#include "tools/serve/page.h"
+#include "tools/serve/stream/hub.h"
+
+namespace indurop::serve {
+
+class Server final : public House {
+ public:
+  Server(tools::ServeOptions options, Admission admission, const std::string& version);
+
+  // Serves until a signal ends it. Returns the exit code.
+  int run();
+
+  std::string choose_subprotocol(const Request& request) override;
+  Client identify(const std::string& certificate) override;
+  std::optional<Reply> refuse(Request& request) override;
+  void note_refused(const Request& request, const std::string& why, std::uint64_t count) override;
+  std::optional<Reply> answer(const Request& request, Ticket ticket) override;
+  std::unique_ptr<Visitor> receive(const Request& request, Line& line) override;
+
+ private:
+  // One more thread with its own boards and jobs. The worker ends first.
+  struct Helper {
+    explicit Helper(const std::string& node, const RemoteBoards* remote = nullptr, std::size_t reader = 0)
+        : boards(node, remote, reader) {}
+    Boards boards;
+    Worker worker;
+  };
+  std::optional<Reply> hand_over(Helper& helper, Match match, Ticket ticket);
+  std::optional<Reply> let_wait(const Match& match, Ticket ticket);
+  std::optional<Reply> ask_plant(Match match, Ticket ticket);
+  std::optional<Reply> order_plant(Match match, Ticket ticket);
+  std::optional<Reply> ask_plc(Match match, Ticket ticket);
+  // Returns true if the request is about a board of another host.
+  [[nodiscard]] bool is_remote(const Match& match) const;
+  std::optional<Reply> ask_remote(Match match, Ticket ticket);
+  // Returns the job that answers on the helper's thread.
+  std::function<void()> job_of(Helper& helper, Match match, Ticket ticket);
+  void announce() const;
+
+  tools::ServeOptions options_;
+  Gate gate_;
+  ClientAuthority authority_;
+  Audit audit_;
+  AlarmDesk alarms_;
+  LeaseDesk leases_;
+  JogDesk jogs_;
+  Api api_;
+  Page page_;
+  RemoteBoards remote_boards_;
+  Boards boards_;
+  Hub hub_;
+  std::unique_ptr<Door> door_;  // declared after everything its connections use
+  std::unique_ptr<Door::Alarm> sampling_;
+  Helper files_;
+  Helper orders_;
+  Helper holds_;
+  struct Plant {
+    Plant(const deploy::LinkSettings& settings, const std::string& node, const RemoteBoards& boards_of_it)
+        : watch(settings), boards(node, &boards_of_it, kReader) {}
+    static constexpr std::size_t kReader = 1;  // the door's thread is 0
+    tools::PlantWatch watch;                   // used by the worker's thread
+    Boards boards;                             // used by the worker's thread
+    Worker worker;
+    Worker orders;  // one at a time
+  };
+  struct Plc {
+    Plc(const std::vector<tools::PlcFiles>& programs, const std::string& node) : pictures(programs), boards(node) {}
+    tools::PlcPictures pictures;  // used by the worker's thread
+    Boards boards;
+    Worker worker;
+  };
+  std::unique_ptr<Plc> plc_;                      // null: no program is shown
+  std::unique_ptr<Plant> plant_;                  // null: no plant is served
+  std::vector<std::unique_ptr<Helper>> waiting_;  // one for each request that waits; created when needed
+};
+
+}  // namespace indurop::serve

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/serve/stream/foxglove.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/rt/clock.h"
+#include "history/recording/cdr.h"
+#include "tools/serve/stream/foxglove_words.h"
+
+namespace indurop::serve {
+namespace {
+
+constexpr std::size_t kMostSubscriptions = 5000;
+// Maximum messages that wait for a client: one with more only sends and does not read.
+constexpr std::size_t kMostWords = 256;
+constexpr int kTooManyWords = 1008;
+constexpr std::int64_t kTellEveryNs = 1'000'000'000;
+
+// Returns the requested items of a board, or all it has; no item twice.
+std::vector<tools::Item> items_of(const Board& board, const std::vector<std::string>& names) {
+  std::vector<tools::Item> all;
+  std::vector<std::string> ignored;  // another board may have it
+  for (const std::string& name : names.empty() ? std::vector<std::string>{"*"} : names) {
+    for (tools::Item& item : items_named(*board.store(), board.name(), {name}, ignored)) {
+      const auto same = [&item](const tools::Item& other) { return other.name == item.name; };
+      if (names.size() < 2 || std::none_of(all.begin(), all.end(), same)) {
+        all.push_back(std::move(item));
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+FoxgloveClient::FoxgloveClient(Hub& hub, Line& line, std::uint64_t id, std::string address,
+                               const FoxgloveSettings& settings)
+    : hub_(&hub), line_(&line), id_(id), address_(std::move(address)), settings_(&settings), since_ns_(rt::now_ns()) {
+  say(foxglove::server_info(hub.version(), since_ns_));
+  looked_around();
+}
+
+FoxgloveClient::~FoxgloveClient() {
+  hub_->leave(*this);
+}
+
+void FoxgloveClient::say(const std::string& text) {
+  control_.push_back(std::make_shared<Message>(text));
+  line_->ask();
+}
+
+void FoxgloveClient::looked_around() {
+  const std::vector<std::string> names = hub_->boards().names();
+  for (auto at = offered_.begin(); at != offered_.end();) {
+    const bool there = std::find(names.begin(), names.end(), at->first) != names.end();
+    if (!there) {
+      withdraw(at->second);
+    }
+    at = there ? std::next(at) : offered_.erase(at);
+  }
+  for (const std::string& name : names) {
+    const Board* const board = hub_->boards().find(name);
+    if (board == nullptr || board->store() == nullptr) {
+      continue;
+    }
+    const auto known = offered_.find(name);
+    if (known == offered_.end()) {
+      offer(*board);
+    } else if (known->second.layout != board->layout()) {
+      withdraw(known->second);
+      offer(*board);
+    }
+  }
+}
+
+void FoxgloveClient::offer(const Board& board) {
+  Offered offered{board.layout(), {}};
+  base::Json channels = base::Json::array();
+  for (const tools::Item& item : items_of(board, settings_->names)) {
+    const std::uint32_t channel = ++last_channel_;
+    const std::string topic = (hub_->boards().only().empty() ? board.name() + "/" : "") + item.name;
+    channels.push_back(foxglove::channel(channel, topic, item.place.type));
+    channels_[channel] = {board.name(), item.name};
+    offered.channels.push_back(channel);
+  }
+  say(foxglove::advertise(std::move(channels)));
+  offered_[board.name()] = std::move(offered);
+}
+
+void FoxgloveClient::withdraw(const Offered& offered) {
+  for (const std::uint32_t channel : offered.channels) {
+    channels_.erase(channel);
+  }
+  std::vector<std::uint32_t> gone;
+  for (const auto& [id, subscription] : subscriptions_) {
+    if (!channels_.contains(subscription.channel)) {
+      gone.push_back(id);
+    }
+  }
+  for (const std::uint32_t id : gone) {
+    unsubscribe(id);
+  }
+  if (!offered.channels.empty()) {
+    say(foxglove::unadvertise(offered.channels));
+  }
+}
+
+int FoxgloveClient::heard(std::string_view text) {
+  if (control_.size() > kMostWords) {
+    return kTooManyWords;
+  }
+  const auto word = read_foxglove_word(text);
+  if (!word) {
+    return close_code::kBadText;
+  }
+  if (word->op != "subscribe" && word->op != "unsubscribe") {
+    say(foxglove::warning(fmt::format("'{}' is not served: variables can only be followed", word->op)));
+  }
+  for (const auto& [id, channel] : word->subscribe) {
+    subscribe(id, channel);
+  }
+  for (const std::uint32_t id : word->unsubscribe) {
+    unsubscribe(id);
+  }
+  return 0;
+}
+
+void FoxgloveClient::subscribe(std::uint32_t id, std::uint32_t channel) {
+  const auto wanted = channels_.find(channel);
+  if (wanted == channels_.end()) {
+    return;  // it was withdrawn just before
+  }
+  if (subscriptions_.contains(id) || subscriptions_.size() >= kMostSubscriptions) {
+    say(foxglove::warning(fmt::format("subscription {} is refused: {}", id,
+                                      subscriptions_.contains(id)
+                                          ? std::string("there is one of this id")
+                                          : fmt::format("a client has at most {}", kMostSubscriptions))));
+    return;
+  }
+  ClientWord word;
+  word.board = wanted->second.board;
+  word.names = {wanted->second.name};
+  word.rate_hz = settings_->rate_hz;
+  auto feed = hub_->feed_for(word);
+  if (!feed || (*feed)->size() != 1) {
+    say(foxglove::warning(fmt::format("{}: {}", wanted->second.name, feed ? "it has gone" : feed.error().message)));
+    return;
+  }
+  if (!of_feed_.emplace(feed->get(), id).second) {
+    say(foxglove::warning(fmt::format("subscription {} is refused: channel {} has one", id, channel)));
+    return;
+  }
+  subscriptions_[id] = {channel, *feed, (*feed)->readable(0)};
+  line_->ask();
+}
+
+void FoxgloveClient::unsubscribe(std::uint32_t id) {
+  if (const auto found = subscriptions_.find(id); found != subscriptions_.end()) {
+    of_feed_.erase(found->second.feed.get());
+    subscriptions_.erase(found);
+  }
+}
+
+void FoxgloveClient::sampled(const Feed& feed) {
+  const auto found = of_feed_.find(&feed);
+  if (found == of_feed_.end() || !feed.readable(0)) {
+    return;
+  }
+  Subscription& subscription = subscriptions_.at(found->second);
+  if (subscription.waiting) {
+    ++dropped_;
+    ++untold_;
+  }
+  subscription.waiting = true;
+  line_->ask();
+}
+
+void FoxgloveClient::ended(const Feed& feed, const Board* /*board*/) {
+  if (const auto found = of_feed_.find(&feed); found != of_feed_.end()) {
+    unsubscribe(found->second);
+    looked_around();
+  }
+}
+
+SharedMessage FoxgloveClient::message_of(std::uint32_t id, Subscription& subscription) {
+  subscription.waiting = false;
+  const Feed& feed = *subscription.feed;
+  if (!recording::to_cdr(feed.item(0).place.type, feed.value(0), cdr_).ok()) {
+    return nullptr;
+  }
+  ++sent_;
+  return std::make_shared<Message>(foxglove::message(id, feed.wall_ns(), cdr_), true);
+}
+
+SharedMessage FoxgloveClient::next() {
+  if (const std::int64_t now = rt::now_ns(); untold_ > 0 && now - told_ns_ > kTellEveryNs) {
+    say(foxglove::warning(fmt::format("{} messages were left out: they came faster than they were taken", untold_)));
+    untold_ = 0;
+    told_ns_ = now;
+  }
+  SharedMessage message;
+  if (!control_.empty()) {
+    message = std::move(control_.front());
+    control_.pop_front();
+  } else {
+    auto turn = subscriptions_.upper_bound(last_served_);
+    for (std::size_t i = 0; i < subscriptions_.size() && !message; ++i) {
+      turn = turn == subscriptions_.end() ? subscriptions_.begin() : turn;
+      last_served_ = turn->first;
+      message = turn->second.waiting ? message_of(turn->first, turn->second) : nullptr;
+      ++turn;
+    }
+  }
+  sent_bytes_ += message ? message->size() : 0;
+  return message;
+}
+
+ClientFigures FoxgloveClient::figures() const {
+  return {id_, address_, since_ns_, subscriptions_.size(), sent_, dropped_, sent_bytes_};
+}
+
+}  // namespace indurop::serve

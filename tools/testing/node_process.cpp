@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/testing/node_process.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+#include "core/base/spawn.h"
+#include "core/rt/clock.h"
+#include "store/vars/node_lock.h"
+#include "store/vars/store.h"
+
+namespace indurop::testing {
+namespace {
+
+constexpr const char* kProgram = "indurop-node";
+constexpr std::chrono::microseconds kLook{20};
+constexpr std::chrono::seconds kEnd{5};
+
+// Searches in bin/ of the build tree or of the installation that this library belongs to, then in PATH.
+std::filesystem::path find_program() {
+  Dl_info info{};
+  std::error_code error;
+  if (::dladdr(reinterpret_cast<const void*>(&find_program), &info) != 0 && info.dli_fname != nullptr) {
+    auto folder = std::filesystem::canonical(info.dli_fname, error).parent_path();
+    for (int up = 0; up < 4 && !folder.empty(); ++up, folder = folder.parent_path()) {
+      for (const auto& place : {folder / kProgram, folder / "bin" / kProgram}) {
+        if (::access(place.c_str(), X_OK) == 0) {
+          return place;
+        }
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+NodeProcess::NodeProcess(const std::string& node, bool plant, const std::vector<std::string>& arguments,
+                         std::chrono::seconds patience)
+    : node_(node), patience_(patience), output_(::memfd_create("output of a node", MFD_CLOEXEC)), plant_(plant) {
+  std::array<int, 2> ends{-1, -1};
+  if (output_ < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
+    throw std::runtime_error("cannot make a pipe to a node");
+  }
+  commands_ = ends[1];
+  base::Launch launch;
+  launch.words = {kProgram, "--sim", "--step", "--node", node};
+  launch.words.insert(launch.words.end(), arguments.begin(), arguments.end());
+  launch.program = find_program();
+  launch.input = ends[0];
+  launch.output = output_;
+  launch.fresh_signals = true;
+  launch.group = base::Launch::Group::Own;
+  const auto started = base::spawn(launch);
+  ::close(ends[0]);
+  if (!started) {
+    end();
+    throw std::runtime_error("indurop-node cannot be started: put the folder of the InduRoP programs into PATH");
+  }
+  pid_ = started.value();
+  try {
+    wait_until_it_stands();
+  } catch (...) {
+    end();
+    throw;
+  }
+}
+
+NodeProcess::~NodeProcess() {
+  end();
+}
+
+void NodeProcess::end() noexcept {
+  if (commands_ >= 0) {
+    ::close(commands_);  // it ends at the end of its input
+  }
+  const rt::MonoTime give_up = rt::MonoClock::now() + kEnd;
+  while (!has_ended()) {
+    if (rt::MonoClock::now() > give_up) {
+      ::kill(pid_, SIGKILL);
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+  if (output_ >= 0) {
+    ::close(output_);
+  }
+}
+
+bool NodeProcess::has_ended() {
+  if (pid_ > 0 && ::waitpid(pid_, nullptr, WNOHANG) == pid_) {
+    pid_ = -1;
+  }
+  return pid_ <= 0;
+}
+
+std::int64_t NodeProcess::basic_period_ns() const noexcept {
+  std::int64_t shortest = boards_[0].run().basic_period_ns;
+  for (const Board& board : boards_) {
+    shortest = std::min(shortest, board.run().basic_period_ns);
+  }
+  return shortest;
+}
+
+// The boards of a plant are all present when it reports that it has stopped before tick 0.
+void NodeProcess::find_boards() {
+  if (plant_ && printed().find("tick 0, ") == std::string::npos) {
+    return;
+  }
+  const std::string prefix = node_ + "-";
+  for (const std::string& node : plant_ ? vars::list_nodes() : std::vector<std::string>{node_}) {
+    if (plant_ && !node.starts_with(prefix)) {
+      continue;
+    }
+    if (auto opened =
+            vars::RunFile::open(node, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock))) {
+      boards_.push_back({plant_ ? node.substr(prefix.size()) : "", node, std::move(opened).value()});
+    }
+  }
+  std::sort(boards_.begin(), boards_.end(), [](const Board& a, const Board& b) { return a.name < b.name; });
+}
+
+// A board that was killed by a script and has returned has new memory.
+void NodeProcess::look_for_returned() {
+  for (Board& board : boards_) {
+    const pid_t pid = vars::running_node(board.node);
+    if (pid == 0 || pid == board.run().node_pid.load()) {
+      continue;
+    }
+    auto opened =
+        vars::RunFile::open(board.node, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+    if (opened && static_cast<scheduler::RunBlock*>(opened->data())->node_pid.load() == pid) {
+      board.file = std::move(opened).value();
+      ++board.starts;
+    }
+  }
+}
+
+// Returns true if all running boards have stopped just before the next tick.
+bool NodeProcess::stands() const {
+  std::int64_t epoch = boards_[0].run().epoch_ns;
+  for (const Board& board : boards_) {
+    epoch = std::min(epoch, board.run().epoch_ns);
+  }
+  if (epoch == 0) {
+    return false;
+  }
+  const std::int64_t place = epoch + static_cast<std::int64_t>(ticks_) * basic_period_ns() - 1;
+  return std::all_of(boards_.begin(), boards_.end(), [&](const Board& board) {
+    return board.run().virtual_ns.load(std::memory_order_acquire) == place ||
+           (plant_ && vars::running_node(board.node) == 0);
+  });
+}
+
+std::string NodeProcess::printed() const {
+  struct stat status {};
+  std::string text;
+  if (::fstat(output_, &status) == 0) {
+    text.resize(static_cast<std::size_t>(status.st_size));
+    const ssize_t count = ::pread(output_, text.data(), text.size(), 0);
+    text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  }
+  return text;
+}
+
+void NodeProcess::fail(const std::string& what) const {
+  constexpr std::size_t kLast = 2000;
+  const std::string said = printed();
+  throw std::runtime_error(said.empty() ? what
+                                        : fmt::format("{}; the node said:\n{}", what,
+                                                      said.substr(said.size() - std::min(said.size(), kLast))));
+}
+
+// Waits until it has stopped just before the next tick: everything of the last tick is done.
+void NodeProcess::wait_until_it_stands() {
+  const rt::MonoTime give_up = rt::MonoClock::now() + patience_;
+  for (;;) {
+    const bool ended = has_ended();
+    if (boards_.empty() && !ended) {
+      find_boards();
+    }
+    if (plant_) {
+      look_for_returned();
+    }
+    if (!boards_.empty() && stands()) {
+      return;
+    }
+    if (ended) {
+      fail(ticks_ == 0 ? "the configuration cannot be run" : fmt::format("the node ended before tick {}", ticks_));
+    }
+    if (rt::MonoClock::now() > give_up) {
+      fail(fmt::format("tick {} was not reached within {} s", ticks_, patience_.count()));
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+void NodeProcess::go(std::uint64_t ticks) {
+  if (ticks == 0) {
+    return;
+  }
+  ticks_ += ticks;
+  const std::string command = fmt::format("{}\n", ticks);
+  (void)::signal(SIGPIPE, SIG_IGN);
+  if (::write(commands_, command.data(), command.size()) != static_cast<ssize_t>(command.size())) {
+    fail(fmt::format("the node ended before tick {}", ticks_));
+  }
+  wait_until_it_stands();
+}
+
+}  // namespace indurop::testing

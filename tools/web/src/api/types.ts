@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the server says, as tools/serve/openapi.json and docs/serve.md describe it; fields the page does not use are left out.
+
+export type Quality = "good" | "stale" | "silent" | "unread";
+
+export interface ServerStatus {
+  version: string;
+  api: string;
+  write: boolean;
+  may_write: boolean;
+  who: string;
+  max_rate_hz: number;
+  plant: boolean;
+  plc: boolean;
+}
+
+export interface BoardSummary {
+  board: string;
+  here: boolean;  // on this host
+  host?: string;  // of a board that is not
+  alive: boolean;
+  state: string;
+  deployment: string;
+  config_file: string;
+  modules: number;
+  overruns: number;
+  faults: number;
+  forces: number;
+  alarms: AlarmCounts;
+  trouble: string[];
+  layout: string;
+}
+
+export interface PlcNetwork {
+  number: number;
+  remarks: string[];
+  svg: string;
+  width: number;
+  height: number;
+  rail: boolean;
+  wires: [number, number, number, number][];
+  switches: { x: number; y: number; name: string; coil: boolean }[];
+  values: [number, number][];
+}
+
+export interface PlcChart {
+  svg: string;
+  width: number;
+  height: number;
+  steps: { name: string; box: [number, number, number, number] }[];
+  conditions: string[];
+}
+
+export interface PlcBody {
+  title: string;
+  action: string;
+  language: string;
+  networks?: PlcNetwork[];
+  chart?: PlcChart;
+  lines?: string[];
+}
+
+export interface PlcProgram {
+  program: string;
+  programs: string[];
+  namespace: string;
+  others: string;
+  bodies: PlcBody[];
+}
+
+export interface PlcNetworkLive {
+  power: string;
+  closed: string;
+  values: string[];
+}
+
+export interface PlcBodyLive {
+  networks?: PlcNetworkLive[];
+  active?: string;
+  times?: string[];
+  conditions?: string[];
+  values?: string[];
+}
+
+export interface PlcLive {
+  alive: boolean;
+  bodies: PlcBodyLive[];
+}
+
+export interface RecordingFile {
+  name: string;
+  node: string;
+  reason: string;
+  black_box: boolean;
+  bytes: number;
+  wall_ns: number;
+}
+
+export interface RecordingContents extends RecordingFile {
+  begin_ns: number;
+  end_ns: number;
+  complete: boolean;
+  channels: { name: string; unit: string; numbers: string[] }[];
+}
+
+export interface RecordedValues {
+  begin_ns: number;
+  end_ns: number;
+  lines: { name: string; values: (number | null)[] }[];
+}
+
+export interface FarBoard {
+  board: string;
+  host: string;
+  state: string;
+  phase: string;
+  plant: string;
+  deployment: string;
+  tick: number;
+  lost_ticks: number;
+  overruns: number;
+  faults: number;
+  message: string;
+  heard: boolean;
+  age_ns: number;
+}
+
+export interface PlantNow {
+  domain: number;
+  problem: string;
+  trouble: string[];
+  boards: FarBoard[];
+  not_heard: string[];
+}
+
+export interface Deployment {
+  generation: number;
+  current: boolean;
+  deployment: string;
+  plant: string;
+  wall_ns: number;
+  host: string;
+  boards: string[];
+  outcome: string;
+}
+
+export interface ChangedFile {
+  path: string;
+  change: "added" | "removed" | "changed";
+  size_before: number | null;
+  size_after: number | null;
+  lines: { change: "added" | "removed" | "same"; text: string }[];
+}
+
+export interface Force {
+  name: string;
+  value: unknown;
+  left_ns: number | null;
+  who?: string;
+  from?: string;
+  reason?: string;
+  lease?: boolean;
+}
+
+export interface Lock {
+  lock: "none" | "tune" | "all";
+  who?: string;
+  from?: string;
+  reason?: string;
+}
+
+// Fields beyond these are those of `indurop status -o json`.
+export interface Board {
+  node: string;
+  alive: boolean;
+  state: string;
+  forces: Force[];
+  trouble: string[];
+  [more: string]: unknown;
+}
+
+export interface Module {
+  name: string;
+  type: string;
+  operation: string;
+  period_ns: number;
+  priority: number;
+  core?: number;
+  offset_ns?: number;
+  deadline_ns?: number;
+  state: string;
+  runs: number;
+  skipped: number;
+  overruns: number;
+  deadline_misses: number;
+  restarts: number;
+  last_exec_ns?: number;
+  mean_exec_ns?: number;
+  max_exec_ns?: number;
+  jitter_p50_ns?: number;
+  jitter_p99_ns?: number;
+  jitter_max_ns?: number;
+  last_fault: string;
+}
+
+export interface Fault {
+  severity: "error" | "warning" | "note";
+  module: string;
+  text: string;
+  tick?: number;
+}
+
+export interface AlarmCounts {
+  active: number;
+  unacknowledged: number;
+  shelved: number;
+  worst: Priority | null;
+}
+
+export type Priority = "critical" | "high" | "medium" | "low";
+
+export interface Alarm {
+  alarm: string;
+  name: string;
+  text: string;
+  priority: Priority;
+  condition: string;
+  unit: string;
+  delay_ns: number;
+  state: "normal" | "unacknowledged" | "acknowledged" | "returned" | "shelved";
+  count: number;
+  since_wall_ns?: number;
+  value?: string;
+  who?: string;
+  reason?: string;
+  until_wall_ns?: number;
+}
+
+export interface Alarms {
+  watched: boolean;
+  declared: number;
+  counts: AlarmCounts;
+  alarms: Alarm[];
+}
+
+export interface Recipe {
+  recipe: string;
+  comment: string;
+  who: string;
+  saved_wall_ns: number;
+  values: number;
+}
+
+export interface RecipeValues {
+  recipe: string;
+  values: { name: string; recipe: unknown; now: unknown; same: boolean }[];
+}
+
+// What a module printed, or the node.
+export interface Message {
+  who: string;
+  tick: number;
+  time_ns: number;
+  text: string;
+}
+
+export interface AlarmEvent {
+  wall_ns: number;
+  alarm: string;
+  event: string;
+  text: string;
+  priority: Priority;
+  value?: string;
+  who?: string;
+  reason?: string;
+}
+
+export interface Range {
+  min: number | null;
+  max: number | null;
+}
+
+export interface Field {
+  name: string;
+  offset: number;
+  type: Form;
+  unit?: string;
+  description?: string;
+  range?: Range | null;
+}
+
+// Form of a variable's bytes.
+export interface Form {
+  kind: string;
+  name?: string;
+  size: number;
+  dims?: number[];
+  fields?: Field[];
+  enumerators?: Record<string, number>;
+}
+
+export interface Variable {
+  name: string;
+  type: string;
+  form: Form;
+  value?: unknown;
+  text?: string;
+  unit: string;
+  range: Range | null;
+  retain: boolean;
+  writers: string[] | null;
+  readers: string[] | null;
+  description: string;
+  source: string;
+  age_ns: number | null;
+  quality: Quality;
+  forced: string[];
+}
+
+export interface Variables {
+  board: string;
+  layout: string;
+  alive: boolean;
+  uses_known: boolean;
+  variables: Variable[];
+}
+
+export interface Run {
+  number: number;
+  tick: number;
+  slot: number;
+  module: string;
+  release_ns: number;
+  start_ns: number;
+  end_ns: number;
+}
+
+export interface Runs {
+  epoch_ns: number;
+  now_ns: number;
+  next: number;
+  runs: Run[];
+}
+
+export interface Overrun {
+  number: number;
+  tick: number;
+  slot: number;
+  module: string;
+  own_ns: number;
+  latency_ns: number;
+  previous: string;
+  previous_ns: number;
+  started: boolean;
+}
+
+export interface Schedule {
+  basic_period_ns: number;
+  macro_period_ns: number;
+  slots: number;
+  epoch_ns: number;
+  message: string;
+}
+
+export interface Histogram {
+  count: number;
+  min_ns: number;
+  max_ns: number;
+  mean_ns: number;
+  p50_ns: number;
+  p99_ns: number;
+  bins: [number, number, number][];
+}
+
+export interface Robot {
+  module: string;
+  urdf: string;
+  frames: string[];
+  name?: string;  // from the text, by the page
+}
+
+export interface CaptureLine {
+  name: string;
+  channel: string;
+  unit: string;
+  words?: string[];
+  values: (number | null)[];
+}
+
+export interface Capture {
+  period_ns: number;
+  first_tick: number;
+  first_wall_ns: number;
+  rows: number;
+  trigger: string;
+  trigger_row: number | null;
+  lost_runs: number;
+  lines: CaptureLine[];
+}
+
+export interface StreamVariable {
+  name: string;
+  type: string;
+  form: Form;
+  offset: number;
+  unit: string;
+}
+
+export interface Subscribed {
+  type: "subscribed";
+  id: number;
+  stream: number;
+  board: string;
+  layout: string;
+  rate_hz: number;
+  binary: boolean;
+  record_size: number;
+  quality_offset: number;
+  variables: StreamVariable[];
+  missing?: { name: string; message: string }[];
+}
+
+export interface ValuesFrame {
+  type: "values";
+  stream: number;
+  seq: number;
+  time_ns: number;
+  wall_ns: number;
+  alive: boolean;
+  full?: boolean;
+  values: Record<string, unknown>;
+  quality?: Record<string, Quality>;
+  forced?: string[];
+}
+
+export interface StreamBoard {
+  board: string;
+  alive: boolean;
+  state: string;
+  layout: string;
+}
