@@ -34,7 +34,7 @@ struct Package {
 };
 
 std::string to_text(const Package& package);
-// Checks everything in the text, whoever the sender is; returns a problem if it is not a valid package.
+// Checks everything in the text, regardless of the sender; returns a problem if it is not a valid package.
 Result<Package, base::Problem> read_package(std::string_view text);
 
 struct PackedPlant {

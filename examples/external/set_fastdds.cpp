@@ -44,7 +44,7 @@ int set_target(fast::DomainParticipant& participant, double wanted) {
   auto* const topic = participant.create_topic("station/target", type.get_type_name(), fast::TOPIC_QOS_DEFAULT);
   auto* const writer = participant.create_publisher(fast::PUBLISHER_QOS_DEFAULT)
                            ->create_datawriter(topic, fast::DATAWRITER_QOS_DEFAULT);  // reliable
-  // Whoever sets a variable also hears what it is afterwards: a value out of range is not taken.
+  // A program that sets a variable also receives its value afterwards: a value out of range is rejected.
   fast::DataReaderQos qos = fast::DATAREADER_QOS_DEFAULT;
   qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
   auto* const reader = participant.create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT)->create_datareader(topic, qos);

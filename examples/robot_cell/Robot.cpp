@@ -30,7 +30,7 @@ std::unique_ptr<JobSignals> signals;
 robot::Inputs in;
 robot::Outputs out;
 
-// In a simulation no time passes while a module runs, and a thread beside it would be done at any time or other.
+// In a simulation no time passes while a module runs, and a thread in the background would end at an arbitrary time.
 bool time_stands() {
   const std::int64_t before = irp::now_ns();
   std::this_thread::sleep_for(std::chrono::microseconds(100));
@@ -157,7 +157,7 @@ void read_requests() {
   const ROBOT_MODE_t mode = ROBOT_MODE;
   in.mode = {static_cast<robot::OperatingMode>(mode.eMode), mode.bEnable != 0, mode.nBeat};
   if (!valid(ROBOT_MODE)) {
-    in.mode.mode = robot::OperatingMode::Manual;  // nobody knows, so nothing moves
+    in.mode.mode = robot::OperatingMode::Manual;  // the mode is unknown, so nothing moves
     in.mode.enabled = false;
   }
   const ROBOT_PAUSE_t pause = ROBOT_PAUSE;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The emergency stop: a sporadic module that runs when the circuit opens or somebody reaches into the light curtain,
+// The emergency stop: a sporadic module that runs when the circuit opens or a person reaches into the light curtain,
 // right after the inputs were read. It tells everybody; the robot brakes on its path and takes the power away.
 #include <indurop/indurop.h>
 

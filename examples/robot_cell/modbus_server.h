@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Modbus TCP server for a few masters, run from one loop: nobody waits longer than told.
+// A Modbus TCP server for a few masters, run from one loop: no call waits longer than its limit.
 #pragma once
 
 #include <modbus/modbus.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people do around the cell when nobody is at the keyboard: twenty seconds that show everything.
+// What people do around the cell when no operator is at the keyboard: twenty seconds that show everything.
 #pragma once
 
 #include <array>

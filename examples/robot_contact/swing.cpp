@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets the arm swing. When something has pushed against it, waits until nobody pushes any more, and lets it go on.
+// Lets the arm swing. When something has pushed against it, waits until the contact ends, and continues the motion.
 #include <indurop/indurop.h>
 
 #include <indurop/generated.h>

@@ -262,7 +262,7 @@ bool Enrolment::wait() {
     }
     if (end_wanted_) {
       if (exit_code_ != EXIT_SUCCESS) {
-        std::exit(exit_code_);  // NOLINT(concurrency-mt-unsafe): whoever started it must see that it did not run
+        std::exit(exit_code_);  // NOLINT(concurrency-mt-unsafe): its parent process must see that it did not run
       }
       phase_ = Phase::Ending;
       return false;

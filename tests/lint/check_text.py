@@ -113,7 +113,29 @@ def border(root):
                 yield f"{name}:{number}: {found.group(0)} is for core/rt/ only; use what core/rt/ offers, or add it there for both systems"
 
 
-RULES = {rule.__name__: rule for rule in (spdx, todo, disabled, length, names, characters, border, changelog)}
+def retired_words():
+    """Pairs of a pattern and what to write instead."""
+    for line in (pathlib.Path(__file__).parent / "retired_words.txt").read_text().splitlines():
+        if line and not line.startswith("#"):
+            pattern, instead = line.split("  ", 1)
+            yield re.compile(pattern, re.IGNORECASE), instead
+
+
+def words(root):
+    """Comments, without what is quoted in them, use the terms of docs/words.md."""
+    retired = list(retired_words())
+    for name in common.cxx_files(root):
+        if name.startswith(("tests/", *VERBATIM)):
+            continue
+        for number, line in enumerate(common.read(root, name).split("\n"), 1):
+            comment = re.search(r"(?<!:)// (?!NOLINT).*", line)
+            text = re.sub(r"`[^`]*`|\"[^\"]*\"", "", comment.group(0)) if comment else ""
+            for pattern, instead in retired:
+                if found := pattern.search(text):
+                    yield f"{name}:{number}: '{found.group(0)}' is retired: {instead}"
+
+
+RULES = {rule.__name__: rule for rule in (spdx, todo, disabled, length, names, characters, border, changelog, words)}
 
 if __name__ == "__main__":
     common.report(list(RULES[sys.argv[1]](pathlib.Path(sys.argv[2]))))

@@ -193,6 +193,10 @@ class Functions(Sample):
         self.put("core/rt/a.cpp", HEAD + text)
         return check_functions.check(self.root)
 
+    def test_retired_word(self):
+        self.put("core/rt/a.cpp", HEAD + 'int a;  // what nobody reads\nint b;  // `nobody`, "anew", again\n')
+        self.found(check_text.words(self.root), "core/rt/a.cpp:4", "nobody", "no user")
+
     def test_long_function(self):
         self.found(self.check(f"namespace a {{\nint b::c(int d) const {{\n{self.BODY}}}\n}}\n"), "core/rt/a.cpp:5", "b::c has 62 lines")
 
