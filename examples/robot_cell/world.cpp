@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The remote I/O station of the cell and all that is wired to it: a program of its own outside of the schedule, reached by
-// the I/O module over Modbus TCP. Coils 0 to 15 are O0 to O15, discrete inputs 0 to 15 are I0 to I15.
+// The remote I/O station of the cell and all that is wired to it: a program of its own outside of the schedule, reached
+// by the I/O module over Modbus TCP. Coils 0 to 15 are O0 to O15, discrete inputs 0 to 15 are I0 to I15.
 #include <indurop/indurop.h>
 
 #include <indurop/generated.h>
