@@ -51,7 +51,8 @@ bool catch_fault(int number, void* address) noexcept {
     t_guard->on_signal(number, address);
   }
   const CatchFault library = g_library.load(std::memory_order_acquire);
-  return survived || (library != nullptr && number != Guard::kOrder && library(number, address));
+  const bool survived_there = library != nullptr && number != Guard::kOrder && library(number, address);
+  return survived || survived_there;
 }
 
 void catch_faults_also_by(CatchFault library) noexcept {

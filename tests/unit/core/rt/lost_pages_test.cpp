@@ -84,6 +84,24 @@ TEST(LostPages, Are_told_with_their_name_at_once) {
   on_lost_page(nullptr, nullptr);
 }
 
+std::atomic<int> g_asked{0};
+
+bool ask_library(int number, void* /*address*/) noexcept {
+  g_asked = number;
+  return false;
+}
+
+// A thread that a library guards must not continue with zeros, whichever copy of this code has mapped the file.
+TEST(LostPages, Are_shown_to_the_guards_of_a_library_too) {
+  const Mapped file(1);
+  const GuardedMapping sut = file.guard();
+  catch_faults_also_by(ask_library);
+  file.cut(0);
+  EXPECT_EQ(file.memory[0], 0);
+  catch_faults_also_by(nullptr);
+  EXPECT_EQ(g_asked, SIGBUS);
+}
+
 TEST(LostPages, Many_mappings_come_and_go_while_others_are_cut) {
   std::atomic<bool> end{false};
   std::thread other([&end] {
