@@ -63,8 +63,7 @@ void Fetcher::begin(std::vector<std::uint64_t> sources, const std::string& id, s
   } else if (const bool here = state_.has_sound(id, "the package"); !here && size == 0) {
     problem_ = fmt::format(
         "the package of deployment {} (SHA-256 {}) is not on this board as it was deployed, and none of the boards "
-        "that "
-        "were asked has it: deploy its files again (indurop deploy)",
+        "that were asked has it: deploy its files again (indurop deploy)",
         shown_id(id), id);
   } else if (!here) {
     wanted_.push_back({id, size, "the package"});

@@ -34,8 +34,8 @@ Cell duration(std::int64_t ns, bool known = true) {
 }
 
 std::vector<Cell> module_row(const scheduler::ModuleRecord& module, bool alive) {
-  constexpr auto kLoose = std::memory_order_relaxed;
-  const auto state = module.state.load(kLoose);
+  constexpr auto kRelaxed = std::memory_order_relaxed;
+  const auto state = module.state.load(kRelaxed);
   const auto exec = scheduler::summarize(module.exec);
   const auto jitter = scheduler::summarize(module.jitter);
   const bool ran = exec.count > 0;
@@ -49,19 +49,19 @@ std::vector<Cell> module_row(const scheduler::ModuleRecord& module, bool alive) 
           {real ? std::to_string(module.priority) : "-", module.priority},
           {alive ? to_text(state) : fmt::format("({})", to_text(state)), to_text(state),
            alive ? style_of(state) : Style::Dim},
-          {"", module.pid.load(kLoose)},
-          counter(module.runs.load(kLoose)),
-          counter(module.skipped.load(kLoose), Style::Warn),
-          counter(module.overruns.load(kLoose), Style::Warn),
-          counter(module.deadline_misses.load(kLoose), Style::Warn),
-          duration(module.last_exec_ns.load(kLoose), ran),
+          {"", module.pid.load(kRelaxed)},
+          counter(module.runs.load(kRelaxed)),
+          counter(module.skipped.load(kRelaxed), Style::Warn),
+          counter(module.overruns.load(kRelaxed), Style::Warn),
+          counter(module.deadline_misses.load(kRelaxed), Style::Warn),
+          duration(module.last_exec_ns.load(kRelaxed), ran),
           duration(exec.mean, ran),
           duration(exec.max, ran),
           duration(jitter.p50, jitter.count > 0),
           duration(jitter.p99, jitter.count > 0),
           duration(jitter.max, jitter.count > 0),
-          counter(module.restarts.load(kLoose), Style::Warn),
-          counter(module.lost_messages.load(kLoose), Style::Warn),
+          counter(module.restarts.load(kRelaxed), Style::Warn),
+          counter(module.lost_messages.load(kRelaxed), Style::Warn),
           {fault_text(module), fault_text(module), Style::Bad}};
 }
 
