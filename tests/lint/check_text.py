@@ -89,6 +89,19 @@ def characters(root):
                 yield f"{name}:{number}: only ASCII outside of string literals"
 
 
+def prose(root):
+    """Prose of Markdown ends before column 120. Not meant: tables, code, what has no place to break, generated pages."""
+    for name, text in own_text(root):
+        if not name.endswith(".md") or name == "docs/options.md":
+            continue
+        in_code = False
+        for number, line in enumerate(text.split("\n"), 1):
+            in_code ^= line.lstrip().startswith("```")
+            words_only = re.sub(r"`[^`]*`|\]\([^)]*\)", "x", line).strip()
+            if len(line) >= 120 and not in_code and not line.lstrip().startswith("|") and " " in words_only:
+                yield f"{name}:{number}: {len(line)} columns of prose; end the line before column 120"
+
+
 def changelog(root):
     version = re.search(r"^project\(\S+ VERSION ([0-9.]+)", common.read(root, "CMakeLists.txt"), re.MULTILINE)
     top = re.search(r"^## \[?([0-9.]+)", common.read(root, "CHANGELOG.md"), re.MULTILINE)
@@ -135,7 +148,7 @@ def words(root):
                     yield f"{name}:{number}: '{found.group(0)}' is retired: {instead}"
 
 
-RULES = {rule.__name__: rule for rule in (spdx, todo, disabled, length, names, characters, border, changelog, words)}
+RULES = {rule.__name__: rule for rule in (spdx, todo, disabled, length, prose, names, characters, border, changelog, words)}
 
 if __name__ == "__main__":
     common.report(list(RULES[sys.argv[1]](pathlib.Path(sys.argv[2]))))

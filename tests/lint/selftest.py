@@ -114,6 +114,14 @@ class Text(Sample):
         for rule in ("spdx", "todo", "disabled", "length", "characters"):
             self.assertEqual(list(self.check(rule)), [])
 
+    def test_long_prose(self):
+        table = "| " + "a " * 70 + "|"
+        code = "```\n" + "x " * 70 + "\n```"
+        self.put("docs/a.md", f"# Title\n\n{table}\n\n{code}\n\n`indurop {'-o ' * 50}`\n")
+        self.assertEqual(list(self.check("prose")), [])
+        self.put("docs/a.md", "# Title\n\n" + "word " * 24 + "\n")
+        self.found(self.check("prose"), "docs/a.md:3", "column 120")
+
     def test_missing_spdx(self):
         self.put("core/rt/a.h", "#pragma once\n")
         self.found(self.check("spdx"), "core/rt/a.h:1", "SPDX")
