@@ -260,12 +260,18 @@ std::string proposal(std::string_view name, NameRole role, bool global) {
   if (!objection(word, role, global)) {
     return word;
   }
-  const char* suffix = role == NameRole::Namespace    ? "_space"
-                       : role == NameRole::Type       ? "_type"
-                       : role == NameRole::Function   ? "_now"
-                       : role == NameRole::Enumerator ? "_state"
-                                                      : "_value";
-  return word + suffix;
+  switch (role) {
+    case NameRole::Namespace:
+      return word + "_space";
+    case NameRole::Type:
+      return word + "_type";
+    case NameRole::Function:
+      return word + "_now";
+    case NameRole::Enumerator:
+      return word + "_state";
+    default:
+      return word + "_value";
+  }
 }
 
 }  // namespace indurop::glb2idl

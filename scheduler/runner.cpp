@@ -78,7 +78,11 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::Mono
     }
     // Ordered with the band's release number, so that Engine::disable() knows which runs may still enter it.
     if (tasks_[position_]->enabled.load(std::memory_order_seq_cst)) [[likely]] {
-      virtual_time_ ? call_current<true>() : call_current<false>();
+      if (virtual_time_) {
+        call_current<true>();
+      } else {
+        call_current<false>();
+      }
     } else {
       times_[position_] = {};
     }

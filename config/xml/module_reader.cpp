@@ -241,7 +241,8 @@ class ModuleReader {
       if (a.name == "delay" || a.name == "window") {
         base::DurationText read = base::read_duration(a.value, a.name == "delay");
         if (read.value) {
-          (a.name == "delay" ? module_.restart.delay : module_.restart.window) = *read.value;
+          auto& duration = a.name == "delay" ? module_.restart.delay : module_.restart.window;
+          duration = *read.value;
         } else {
           report_.error(a.value_place, a.name + ": " + read.problem);
         }

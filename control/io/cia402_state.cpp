@@ -42,11 +42,16 @@ DriveState after(DriveState state, Command command) noexcept {
              : command == Command::EnableOperation ? DriveState::OperationEnabled
                                                    : state;
     case DriveState::OperationEnabled:
-      return off                             ? DriveState::SwitchOnDisabled
-             : command == Command::QuickStop ? DriveState::QuickStopActive
-             : command == Command::Shutdown  ? DriveState::ReadyToSwitchOn
-             : command == Command::SwitchOn  ? DriveState::SwitchedOn
-                                             : state;
+      if (off) {
+        return DriveState::SwitchOnDisabled;
+      }
+      if (command == Command::QuickStop) {
+        return DriveState::QuickStopActive;
+      }
+      if (command == Command::Shutdown) {
+        return DriveState::ReadyToSwitchOn;
+      }
+      return command == Command::SwitchOn ? DriveState::SwitchedOn : state;
     case DriveState::QuickStopActive:
       return off ? DriveState::SwitchOnDisabled : state;
     case DriveState::NotReady:

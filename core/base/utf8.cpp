@@ -5,15 +5,27 @@
 #include <array>
 
 namespace indurop::base {
+namespace {
+
+// Returns the length of the code point that begins with this byte; 0 if none does.
+std::size_t length_after(unsigned char first) noexcept {
+  if (first < 0x80) {
+    return 1;
+  }
+  if (first < 0xC2 || first >= 0xF5) {
+    return 0;
+  }
+  if (first < 0xE0) {
+    return 2;
+  }
+  return first < 0xF0 ? 3 : 4;
+}
+
+}  // namespace
 
 std::size_t utf8_length(std::string_view text) noexcept {
   const auto first = static_cast<unsigned char>(text[0]);
-  const std::size_t length = first < 0x80   ? 1
-                             : first < 0xC2 ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                             : first < 0xF5 ? 4
-                                            : 0;
+  const std::size_t length = length_after(first);
   if (length == 0 || length > text.size()) {
     return 0;
   }

@@ -236,11 +236,18 @@ KeyListing listing_of(Role role, const fs::path& folder, const std::string& auth
   listing.validity = facts->validity;
   listing.revoked = is_revoked(certificate, revoked);
   const KeyCheck check = check_keys(folder, {role, facts->organisation, facts->common_name, listing.variables}, now);
-  listing.problem = listing.revoked                      ? "revoked"
-                    : !issued_by(certificate, authority) ? "issued by another authority"
-                    : facts->common_name != listing.name ? "the certificate is that of " + facts->common_name
-                    : check.fault == KeyFault::Outdated  ? check.problem + "; indurop keys renew " + listing.name
-                                                         : check.problem;
+  if (listing.revoked) {
+    listing.problem = "revoked";
+  } else if (!issued_by(certificate, authority)) {
+    listing.problem = "issued by another authority";
+  } else if (facts->common_name != listing.name) {
+    listing.problem = "the certificate is that of " + facts->common_name;
+  } else {
+    listing.problem = check.problem;
+    if (check.fault == KeyFault::Outdated) {
+      listing.problem += "; indurop keys renew " + listing.name;
+    }
+  }
   return listing;
 }
 

@@ -58,7 +58,9 @@ class Writer {
   void number(Number number) {
     if constexpr (std::is_floating_point_v<Number>) {
       if (!std::isfinite(number)) {
-        out_ += json_ ? "null" : std::isnan(number) ? "nan" : number > 0 ? "inf" : "-inf";
+        const char* infinite = number > 0 ? "inf" : "-inf";
+        const char* text = std::isnan(number) ? "nan" : infinite;
+        out_ += json_ ? "null" : text;
         return;
       }
     }

@@ -185,18 +185,29 @@ CommandReply BoardCommands::begin(const Command& command, const std::string& pla
     return reply(command, Outcome::Refused, why);
   }
   deadline_ = now + kPatience;
-  CommandReply answer = is_write(command.action)            ? write(command)
-                        : command.action == Action::KeepBox ? keep_box(command)
-                        : is_about_alarms(command.action)   ? about_alarms(command)
-                        : is_recording(command.action)      ? begin_recording(command, now)
-                        : command.target.empty()            ? begin_node(command)
-                                                            : begin_module(command);
+  CommandReply answer = perform(command, now);
   if (answer.outcome == Outcome::UnderWay) {
     command_ = command;
   } else {
     run_.reset();
   }
   return answer;
+}
+
+CommandReply BoardCommands::perform(const Command& command, rt::MonoTime now) {
+  if (is_write(command.action)) {
+    return write(command);
+  }
+  if (command.action == Action::KeepBox) {
+    return keep_box(command);
+  }
+  if (is_about_alarms(command.action)) {
+    return about_alarms(command);
+  }
+  if (is_recording(command.action)) {
+    return begin_recording(command, now);
+  }
+  return command.target.empty() ? begin_node(command) : begin_module(command);
 }
 
 bool BoardCommands::open_run() {

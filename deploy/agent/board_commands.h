@@ -41,6 +41,7 @@ class BoardCommands {
   CommandReply begin_module(const Command& command);
   CommandReply begin_node(const Command& command);
   void tell(const CommandReply& done) const;
+  CommandReply perform(const Command& command, rt::MonoTime now);
   CommandReply write(const Command& command);
   [[nodiscard]] CommandReply keep_box(const Command& command) const;
   [[nodiscard]] CommandReply about_alarms(const Command& command) const;

@@ -69,7 +69,11 @@ void Surroundings::exchange_pallet(double seconds, bool wanted) {
 void Surroundings::glue(bool open, const Tool& tool) {
   if (open && !glues_) {
     const double x = std::clamp(tool.x, double{CELL::GLUE_FROM_X}, double{CELL::GLUE_TO_X});
-    near(tool, x, CELL::GLUE_Y, CELL::GLUE_Z) ? ++dots_ : ++spilled_;
+    if (near(tool, x, CELL::GLUE_Y, CELL::GLUE_Z)) {
+      ++dots_;
+    } else {
+      ++spilled_;
+    }
   }
   glues_ = open;
 }

@@ -26,10 +26,14 @@ Source source_of(const recording::McapReader& reader, const recording::McapChann
 
 ChannelPlace place_of(const Source& source, std::size_t number, const std::string& topic) {
   const std::string name = topic.substr(source.prefix.size());
-  const ChannelKind kind = name == kRunsTopic    ? ChannelKind::Run
-                           : name == kClockTopic ? ChannelKind::Clock
-                           : name == kToldTopic  ? ChannelKind::Told
-                                                 : ChannelKind::Value;
+  ChannelKind kind = ChannelKind::Value;
+  if (name == kRunsTopic) {
+    kind = ChannelKind::Run;
+  } else if (name == kClockTopic) {
+    kind = ChannelKind::Clock;
+  } else if (name == kToldTopic) {
+    kind = ChannelKind::Told;
+  }
   return {number, kind, name};
 }
 

@@ -118,10 +118,14 @@ Follower::Reading Follower::read_run(const Place& place, std::uint64_t head, Run
     if (is_value && entry.which >= index_.variables.size()) {
       return Reading::Corrupt;
     }
-    const std::uint64_t words = is_run                          ? kRunWords
-                                : is_value                      ? words_of(index_.variables[entry.which].size)
-                                : entry.kind == EntryKind::Told ? 1 + words_of(entry.which)
-                                                                : 1;
+    std::uint64_t words = 1;
+    if (is_run) {
+      words = kRunWords;
+    } else if (is_value) {
+      words = words_of(index_.variables[entry.which].size);
+    } else if (entry.kind == EntryKind::Told) {
+      words = 1 + words_of(entry.which);
+    }
     if (at + 1 + words > head || words > place.mask) {
       return Reading::Corrupt;
     }

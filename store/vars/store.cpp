@@ -374,8 +374,11 @@ void Store::reset(bool keep_retained) noexcept {
     }
     abi::RingHeader& ring = impl_->ring(variable);
     if (auto* slot = static_cast<unsigned char*>(begin_write(ring, 0, variable.value_size)); slot != nullptr) {
-      initial.empty() ? zero_slot(slot, variable.value_size)
-                      : detail::copy_to_shared(slot, initial.data(), initial.size());
+      if (initial.empty()) {
+        zero_slot(slot, variable.value_size);
+      } else {
+        detail::copy_to_shared(slot, initial.data(), initial.size());
+      }
       commit(ring);
     }
   }

@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 import check_commits
+import check_expressions
 import check_format
 import check_functions
 import check_headers
@@ -225,6 +226,26 @@ class Functions(Sample):
 
     def test_excuse(self):
         self.assertEqual(self.check(f"// Long: one line for each key.\nvoid a() {{\n{self.BODY}}}\n"), [])
+
+
+class Expressions(Sample):
+    def check(self, text):
+        self.put("core/rt/a.cpp", HEAD + text)
+        return check_expressions.check(self.root)
+
+    def test_choices_of_values(self):
+        self.assertEqual(self.check("int a(bool b, bool c) {\n  const int d = b ? 1 : c ? 2 : 3;\n  e(b ? f() : g(), c ? 1 : 2);\n"
+                                    "  d = T{} < b ? 1 : 2;\n  return b ? std::max(1, 2) : (c ? 3 : 4);\n}\n"), [])
+
+    def test_nested_three_deep(self):
+        self.found(self.check("int a = b ? 1 : c ? 2 : d ? 3 : 4;\n"), "core/rt/a.cpp:4", "3 deep")
+        self.found(self.check("void a() {\n  b(c ? (d ? e ? 1 : 2 : 3) : 4);\n}\n"), "core/rt/a.cpp:5", "3 deep")
+
+    def test_assignment_to_one(self):
+        self.found(self.check("void a() {\n  (b ? c : d) += 1;\n}\n"), "core/rt/a.cpp:5", "assigns")
+
+    def test_statement(self):
+        self.found(self.check("void a() {\n  if (b) {\n    c ? d() : e();\n  }\n}\n"), "core/rt/a.cpp:6", "as a statement")
 
 
 class Format(Sample):

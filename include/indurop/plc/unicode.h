@@ -19,10 +19,14 @@ struct CodePoint {
 constexpr CodePoint first_point(std::string_view utf8) noexcept {
   const auto byte = [&](std::size_t i) { return std::uint32_t{static_cast<unsigned char>(utf8[i])}; };
   const std::uint32_t lead = byte(0);
-  const std::size_t bytes = lead >= 0xF0 && lead < 0xF8   ? 4
-                            : lead >= 0xE0 && lead < 0xF0 ? 3
-                            : lead >= 0xC2 && lead < 0xE0 ? 2
-                                                          : 1;
+  std::size_t bytes = 1;
+  if (lead >= 0xF0 && lead < 0xF8) {
+    bytes = 4;
+  } else if (lead >= 0xE0 && lead < 0xF0) {
+    bytes = 3;
+  } else if (lead >= 0xC2 && lead < 0xE0) {
+    bytes = 2;
+  }
   if (bytes == 1 || bytes > utf8.size()) {
     return {lead, 1};
   }

@@ -36,7 +36,8 @@ class Killed : public AgentsTest {
     Json b;
     if (all.is_object()) {
       for (const Json& one : all["boards"]) {
-        (one["board"] == board("a") ? a : b) = one;
+        Json& known = one["board"] == board("a") ? a : b;
+        known = one;
       }
     }
     return a.is_object() && b.is_object() && so(a, b);

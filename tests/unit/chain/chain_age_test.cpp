@@ -120,7 +120,8 @@ TEST(ChainAge, Of_random_plants_is_never_above_what_is_predicted_and_on_one_boar
     ASSERT_GE(sut.least.count(), 0);
     younger += measured.younger;
     ASSERT_EQ(sut.exact, sut.crossings == 0);
-    (sut.exact ? single : crossing) += 1;
+    int& count = sut.exact ? single : crossing;
+    ++count;
     reached += sut.exact && static_cast<double>(measured.most) >= 0.95 * static_cast<double>(sut.most.count()) ? 1 : 0;
   }
   EXPECT_GE(reached * 100, 95 * single);

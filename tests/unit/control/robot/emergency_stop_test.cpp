@@ -149,7 +149,11 @@ class Emergency_stop : public testing::Test {
     for (double t = 0; kept && !sut.idle() && t < until; t += period) {
       kept = step() && used(1) < 1.001;
       if (t > before) {
-        hold ? sut.set_hold(true) : sut.stop();
+        if (hold) {
+          sut.set_hold(true);
+        } else {
+          sut.stop();
+        }
       }
     }
     return kept && !sut.idle();

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "control/robot/group/group.h"
+#include "drive_answer.h"
 #include "robot_fixture.h"
 
 namespace indurop::robot {
@@ -27,12 +28,7 @@ class LateDrive {
     const DriveOut now = told_.front();
     told_.pop_front();
     const unsigned control = now.control & 0x0FU;
-    in_.status = control == 0x0F   ? (in_.status == 0x23 || in_.status == 0x27 ? 0x27
-                                      : in_.status == 0x21                     ? 0x23
-                                                                               : 0x21)
-                 : control == 0x07 ? (in_.status == 0x40 ? 0x21 : 0x23)
-                 : control == 0x06 ? 0x21
-                                   : 0x40;
+    in_.status = test::next_status(in_.status, control);
     in_.mode = now.mode;
     in_.position = in_.status == 0x27 ? now.position : in_.position;
     says_.push_back(in_);

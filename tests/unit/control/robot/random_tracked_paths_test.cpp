@@ -94,7 +94,8 @@ TEST_F(RandomPaths, Circles_are_round_on_the_product) {
     command(motion).aux = {via[0], via[1], via[2], 180, 0, 180};
     const Circle circle(here, via, to);
     const double worst = watch(motion, [&](const Vector& p) { return circle.off(p); });
-    (worst >= 0 ? good : bad) += 1;
+    int& count = worst >= 0 ? good : bad;
+    ++count;
     if (worst >= 0) {
       EXPECT_LT(worst, 2 * near) << time;
       EXPECT_LT((tip() - to).Norm(), near);
@@ -127,7 +128,8 @@ TEST_F(RandomPaths, Blended_motions_keep_to_their_corners) {
       const double off = std::min(off_line(p, here, corner), off_line(p, corner, to));
       return (p - corner).Norm() < zone + near ? std::max(0.0, off - zone) : off;
     });
-    (worst >= 0 ? good : bad) += 1;
+    int& count = worst >= 0 ? good : bad;
+    ++count;
     if (worst >= 0) {
       EXPECT_LT(worst, near) << time;
       EXPECT_LT((tip() - to).Norm(), near);

@@ -65,7 +65,8 @@ TEST_F(RandomLines, The_path_is_on_the_product_and_no_limit_is_broken) {
       cell.in.hold = false;
       cell.in.speed_override = 100;
       known = state(motion) == CommandState::Done;
-      (known ? good : bad) += 1;
+      int& count = known ? good : bad;
+      ++count;
       if (known) {
         EXPECT_LT((tip() - to).Norm(), near) << time;
         here = to;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "control/robot/group/group.h"
+#include "drive_answer.h"
 #include "robot_fixture.h"
 #include "tests/unit/allocations.h"
 
@@ -75,10 +76,7 @@ class Robot {
     for (std::size_t k = 0; k < kJoints; ++k) {
       DriveIn& drive = in.drives[k];
       const unsigned control = out.drives[k].control & 0x0FU;
-      drive.status = control == 0x0F   ? (drive.status == 0x21 ? 0x23 : 0x27)
-                     : control == 0x07 ? 0x23
-                     : control == 0x06 ? 0x21
-                                       : 0x40;
+      drive.status = test::next_status(drive.status, control);
       drive.mode = out.drives[k].mode;
       drive.position = drive.status == 0x27 ? out.drives[k].position : drive.position;
     }

@@ -65,7 +65,8 @@ double forward(RestTask task, int steps) {
     }
     for (int k = 0; k < 30 && high > low; ++k) {
       const double middle = (low + high) / 2;
-      (allowed(s, middle, step, task) ? low : high) = middle;
+      double& bound = allowed(s, middle, step, task) ? low : high;
+      bound = middle;
     }
     s.go(step, (low - s.a) / step);
     time += step;

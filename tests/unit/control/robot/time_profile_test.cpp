@@ -309,7 +309,11 @@ TEST_F(TableCommands, An_override_or_a_hold_ends_it) {
     for (int i = 0; i < 60; ++i) {
       cell.step();
     }
-    (holds ? cell.in.factors.velocity[0] : cell.in.speed_override) = holds ? 0 : 50;
+    if (holds) {
+      cell.in.factors.velocity[0] = 0;
+    } else {
+      cell.in.speed_override = 50;
+    }
     cell.step();
     EXPECT_EQ(error(sut), ErrorCode::State);
     EXPECT_EQ(axis(0), AxisState::Stopping);

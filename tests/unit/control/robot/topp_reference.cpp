@@ -82,7 +82,8 @@ class Plane {
     double fits = 0;
     for (int tries = 0; tries < 50; ++tries) {
       const double middle = (fits + beyond) / 2;
-      (leads_on(i, middle) ? fits : beyond) = middle;
+      double& bound = leads_on(i, middle) ? fits : beyond;
+      bound = middle;
     }
     return fits;
   }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "command_cell.h"
+#include "drive_answer.h"
 #include "heavy_arm.h"
 #include "robot_fixture.h"
 
@@ -123,12 +124,7 @@ class TorqueCell : public CommandCell {
   void act(std::size_t i, const DriveOut& out) {
     DriveIn& in = in_[i];
     const unsigned control = out.control & 0x0FU;
-    in.status = control == 0x0F   ? (in.status == 0x23 || in.status == 0x27 ? 0x27
-                                     : in.status == 0x21                    ? 0x23
-                                                                            : 0x21)
-                : control == 0x07 ? (in.status == 0x40 ? 0x21 : 0x23)
-                : control == 0x06 ? 0x21
-                                  : 0x40;
+    in.status = test::next_status(in.status, control);
     const bool takes = (out.mode != 10 || has_torque_mode) && !(in.mode == 10 && stays_in_mode);
     in.mode = takes ? out.mode : in.mode;
     const bool powered = in.status == 0x27;

@@ -104,7 +104,8 @@ TEST_P(TrackedArms, Lines_are_straight_on_the_product) {
         return ended(motion);
       }));
       known = state(motion) == CommandState::Done;
-      (known ? good : bad) += 1;
+      int& count = known ? good : bad;
+      ++count;
       known = known && cell.out.error == ErrorCode::Ok;  // it may fall off as it gets there
       if (known) {
         EXPECT_LT((tip_there() - to).Norm(), 0.05);

@@ -79,7 +79,8 @@ TEST(Explain, A_value_that_changes_in_each_run_is_not_left_as_it_is) {
         const Answer sut = why_old(std::span(&facts, 1), 0, "x", facts.now_ns);
         ASSERT_EQ(sut.cause, changed ? Cause::AllIsWell : Cause::Unchanged) << last << " every " << every;
         ASSERT_EQ(sut.text, changed ? "writer changed x in its last run" : "writer runs and leaves x as it is");
-        (changed ? fresh : left) += 1;
+        int& count = changed ? fresh : left;
+        ++count;
       }
     }
   }

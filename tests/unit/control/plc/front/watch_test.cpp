@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstring>
+#include <map>
+#include <string>
 
 #include "control/plc/front/watch_plan.h"
 #include "control/plc/print/live_text.h"
@@ -122,17 +124,14 @@ TEST(PlcWatch, Values_are_written_as_in_a_program) {
 }
 
 TEST(PlcWatch, Values_stand_beside_the_lines_that_name_them) {
+  const std::map<std::string, std::string> values = {{"SPEED", "5"},     {"T.ET", "T#1s"}, {"A[2].X", "7"},
+                                                     {"A", "all of it"}, {"GO", "TRUE"},   {"B[-1,2]", "8"}};
   const auto lines = live_lines(
       "speed := Speed + t.ET; (* n *)\n\nIF a[2].x > 3 THEN m(on := go + a[i + 1]); "
       "END_IF; b[-1, 2] := b[2 - 1, 0];",
-      [](const std::string& path) {
-        return path == "SPEED"     ? "5"
-               : path == "T.ET"    ? "T#1s"
-               : path == "A[2].X"  ? "7"
-               : path == "A"       ? "all of it"
-               : path == "GO"      ? "TRUE"
-               : path == "B[-1,2]" ? "8"
-                                   : "";
+      [&values](const std::string& path) {
+        const auto found = values.find(path);
+        return found == values.end() ? std::string() : found->second;
       });
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0].values, "speed = 5   t.ET = T#1s");

@@ -68,7 +68,8 @@ TEST(PlcText, Parts_are_the_characters_at_their_positions) {
         std::string rest;
         for (int position = 1; position <= size; ++position) {
           const bool is_inside = position >= first && position < first + length;
-          (is_inside ? inside : rest) += all[static_cast<std::size_t>(position - 1)];
+          std::string& part = is_inside ? inside : rest;
+          part += all[static_cast<std::size_t>(position - 1)];
         }
         ASSERT_EQ(mid(text, length, first).view(), inside) << length << " from " << first << " of " << size;
         ASSERT_EQ(erase(text, length, first).view(), rest) << length << " from " << first << " of " << size;
