@@ -102,9 +102,10 @@ void retire(const Previous& previous) noexcept {
   }
 }
 
-void zero_slot(unsigned char* slot, std::size_t size) noexcept {
+void fill_slot(unsigned char* slot, std::size_t size, std::span<const std::uint8_t> initial) noexcept {
   static constexpr std::array<unsigned char, 4096> kZero{};
-  for (std::size_t at = 0; at < size; at += kZero.size()) {
+  detail::copy_to_shared(slot, initial.data(), initial.size());
+  for (std::size_t at = initial.size(); at < size; at += kZero.size()) {
     detail::copy_to_shared(slot + at, kZero.data(), std::min(kZero.size(), size - at));
   }
 }
@@ -374,11 +375,7 @@ void Store::reset(bool keep_retained) noexcept {
     }
     abi::RingHeader& ring = impl_->ring(variable);
     if (auto* slot = static_cast<unsigned char*>(begin_write(ring, 0, variable.value_size)); slot != nullptr) {
-      if (initial.empty()) {
-        zero_slot(slot, variable.value_size);
-      } else {
-        detail::copy_to_shared(slot, initial.data(), initial.size());
-      }
+      fill_slot(slot, variable.value_size, initial);
       commit(ring);
     }
   }

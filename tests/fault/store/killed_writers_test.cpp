@@ -34,7 +34,7 @@ schema::Schema fault_schema() {
   return schema;
 }
 
-struct Score {
+struct WriterScore {
   std::atomic<bool> stop;
   std::atomic<std::uint64_t> commits;
   std::atomic<std::uint64_t> refused;
@@ -101,7 +101,7 @@ class Writer {
   Store& store_;
 };
 
-int run_writer(const TestNode& node, Score& score, unsigned seed) {
+int run_writer(const TestNode& node, WriterScore& score, unsigned seed) {
   auto store = Store::attach(node.name(), Mode::ReadWrite);
   if (!store.ok()) {
     return 1;
@@ -118,7 +118,7 @@ int run_writer(const TestNode& node, Score& score, unsigned seed) {
 
 class Reader {
  public:
-  Reader(const Store& store, Score& score) : store_(store), score_(score), last_(3, Words(kLarge)) {}
+  Reader(const Store& store, WriterScore& score) : store_(store), score_(score), last_(3, Words(kLarge)) {}
 
   void look() {
     if (read(kWhole, kSmall)) {
@@ -162,12 +162,12 @@ class Reader {
     score_.backwards.fetch_add(backwards ? 1 : 0);
   }
   const Store& store_;
-  Score& score_;
+  WriterScore& score_;
   Words words_;
   std::vector<Words> last_;
 };
 
-int run_reader(const TestNode& node, Score& score, Mode mode) {
+int run_reader(const TestNode& node, WriterScore& score, Mode mode) {
   const auto store = Store::attach(node.name(), mode);
   if (!store.ok()) {
     return 1;
@@ -182,7 +182,7 @@ int run_reader(const TestNode& node, Score& score, Mode mode) {
 
 TEST(KilledWriters, Never_leave_a_torn_or_older_value) {
   const TestNode node("killed-writers");
-  const test::Shared<Score> score;
+  const test::Shared<WriterScore> score;
   auto store = Store::create(node.name(), fault_schema());
   ASSERT_TRUE(store.ok());
   Forked reader([&] { return run_reader(node, *score, Mode::ReadOnly); });
@@ -215,7 +215,7 @@ TEST(KilledWriters, Never_leave_a_torn_or_older_value) {
 
 TEST(KilledWriters, Killed_readers_disturb_nobody) {
   const TestNode node("killed-readers");
-  const test::Shared<Score> score;
+  const test::Shared<WriterScore> score;
   auto store = Store::create(node.name(), fault_schema());
   ASSERT_TRUE(store.ok());
   Forked writer([&] { return run_writer(node, *score, 1); });

@@ -8,8 +8,8 @@
 namespace indurop::test {
 namespace {
 
-constexpr std::uint8_t kGood = 1;
-constexpr std::uint8_t kLost = 2;
+constexpr std::uint8_t kModbusGood = 1;
+constexpr std::uint8_t kModbusLost = 2;
 constexpr std::uint8_t kRefused = 3;
 
 class Modbus : public IoTest {
@@ -30,7 +30,7 @@ class Modbus : public IoTest {
   void start_with(const std::string& kind) {
     server = &serve(kind, address);
     node_ = &start_and_wait(modules(device("modbus_" + kind, address)));
-    ASSERT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kGood));
+    ASSERT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kModbusGood));
     EXPECT_TRUE(becomes<bool>("TEST_CELL::link_good", true));
   }
 
@@ -50,7 +50,7 @@ class Modbus : public IoTest {
   void survives(const std::string& how, std::uint8_t quality) {
     server->input("set discrete 3 1\nserve\n");
     ASSERT_TRUE(becomes<std::int16_t>("TEST_CELL::I0", 1)) << how;
-    ASSERT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kGood)) << how;
+    ASSERT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kModbusGood)) << how;
     const auto errors = value<std::uint32_t>("TEST_CELL::link_errors");
     server->input(how + "\n");
     EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", quality)) << how;
@@ -59,7 +59,7 @@ class Modbus : public IoTest {
     EXPECT_GT(value<std::uint32_t>("TEST_CELL::link_errors"), errors) << how;
     server->input("set discrete 3 0\nserve\n");
     EXPECT_TRUE(becomes<std::int16_t>("TEST_CELL::I0", 0)) << how;
-    EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kGood)) << how;
+    EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kModbusGood)) << how;
   }
 
   void no_period_was_lost_by_the_module() {
@@ -84,18 +84,18 @@ TEST_F(Modbus, Rtu_exchanges_values_both_ways) {
 
 TEST_F(Modbus, Tcp_survives_what_a_device_may_do) {
   start_with("tcp");
-  survives("hang", kLost);
-  survives("garbage", kLost);
-  survives("trickle", kLost);
-  survives("stranger", kLost);
+  survives("hang", kModbusLost);
+  survives("garbage", kModbusLost);
+  survives("trickle", kModbusLost);
+  survives("stranger", kModbusLost);
   survives("refuse", kRefused);
   no_period_was_lost_by_the_module();
 }
 
 TEST_F(Modbus, Rtu_survives_what_a_device_may_do) {
   start_with("rtu");
-  survives("hang", kLost);
-  survives("garbage", kLost);
+  survives("hang", kModbusLost);
+  survives("garbage", kModbusLost);
   survives("refuse", kRefused);
   no_period_was_lost_by_the_module();
 }
@@ -103,9 +103,9 @@ TEST_F(Modbus, Rtu_survives_what_a_device_may_do) {
 TEST_F(Modbus, A_server_that_leaves_and_returns) {
   start_with("tcp");
   server->input("leave\n");
-  EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kLost));
+  EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kModbusLost));
   server->input("set discrete 3 1\nreturn\n");
-  EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kGood));
+  EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kModbusGood));
   EXPECT_TRUE(becomes<std::int16_t>("TEST_CELL::I0", 1));
   EXPECT_TRUE(node_->prints("I/O device cell: good again after "));
 }
@@ -113,7 +113,7 @@ TEST_F(Modbus, A_server_that_leaves_and_returns) {
 TEST_F(Modbus, A_server_that_is_killed) {
   start_with("tcp");
   server->kill();
-  EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kLost));
+  EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kModbusLost));
   EXPECT_TRUE(node_->prints("I/O device cell: "));
   no_period_was_lost_by_the_module();
 }
@@ -123,7 +123,7 @@ TEST_F(Modbus, A_node_starts_without_its_device) {
   server->input("leave\n");
   ASSERT_TRUE(server->prints("leave"));
   node_ = &start_and_wait(modules(device("modbus_tcp", address)));
-  EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kLost));
+  EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kModbusLost));
   server->input("set discrete 3 1\nreturn\n");
   EXPECT_TRUE(becomes<std::int16_t>("TEST_CELL::I0", 1));
 }
@@ -131,7 +131,7 @@ TEST_F(Modbus, A_node_starts_without_its_device) {
 TEST_F(Modbus, A_hanging_server_does_not_hold_up_the_end) {
   start_with("tcp");
   server->input("hang\n");
-  EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kLost));
+  EXPECT_TRUE(becomes<std::uint8_t>("TEST_CELL::I0_quality", kModbusLost));
   node_->signal(SIGTERM);
   EXPECT_EQ(node_->wait(), 0);
 }

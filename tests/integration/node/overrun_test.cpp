@@ -19,7 +19,7 @@ Module slow(const std::string& policy, const std::string& period = "1ms", const 
       .properties = {{"busy_us", busy_us}, {"every", "4"}},
       .more = "<overrun>" + policy + "</overrun><budget>off</budget><failsafe variable=\"nt::output\">-7</failsafe>"};
 }
-const Module kCounter = {.file = "counter.so", .name = "counter", .priority = 1};
+const Module kOverrunCounter = {.file = "counter.so", .name = "counter", .priority = 1};
 // Makes the basic period shorter, so that the slow module gets a band of its own.
 const Module kFast = {.file = "counter.so", .name = "fast", .period = "500us", .priority = 1};
 
@@ -32,7 +32,7 @@ class Overrun : public NodeTest {
 };
 
 TEST_F(Overrun, Skip_leaves_out_releases_and_goes_on) {
-  for (const auto& beside : {kCounter, kFast}) {
+  for (const auto& beside : {kOverrunCounter, kFast}) {
     Program& sut = start_and_wait({beside, slow("skip", "1ms", "2500")});
     EXPECT_TRUE(wait_until([&] { return module("slow").overruns.load() > 5 && module("slow").skipped.load() > 5; }));
     EXPECT_TRUE(runs_reach("slow", module("slow").runs.load() + 10));
@@ -43,7 +43,7 @@ TEST_F(Overrun, Skip_leaves_out_releases_and_goes_on) {
 }
 
 TEST_F(Overrun, Catch_up_makes_good_what_was_missed) {
-  for (const auto& beside : {kCounter, kFast}) {
+  for (const auto& beside : {kOverrunCounter, kFast}) {
     Program& sut = start_and_wait({beside, slow("catch-up")});
     ASSERT_TRUE(wait_until([&] { return module("slow").overruns.load() > 20; }));
     stop(sut);
@@ -56,7 +56,7 @@ TEST_F(Overrun, Catch_up_makes_good_what_was_missed) {
 }
 
 TEST_F(Overrun, Stop_module_shuts_it_out_and_writes_its_failsafe_values) {
-  for (const auto& beside : {kCounter, kFast}) {
+  for (const auto& beside : {kOverrunCounter, kFast}) {
     Program& sut = start_and_wait({beside, slow("stop-module")});
     ASSERT_TRUE(wait_until([&] { return module("slow").state.load() == ModuleState::Faulted; }));
     EXPECT_TRUE(runs_reach(beside.name, module(beside.name).runs.load() + 50));
@@ -70,7 +70,7 @@ TEST_F(Overrun, Stop_module_shuts_it_out_and_writes_its_failsafe_values) {
 }
 
 TEST_F(Overrun, Stop_node_ends_the_run) {
-  for (const auto& beside : {kCounter, kFast}) {
+  for (const auto& beside : {kOverrunCounter, kFast}) {
     const auto sut = run_to_end({beside, slow("stop-node")});
     EXPECT_EQ(sut.code, 1);
     EXPECT_CONTAINS(sut.err, "module slow: overrun (policy stop-node)");
@@ -79,7 +79,7 @@ TEST_F(Overrun, Stop_node_ends_the_run) {
 }
 
 TEST_F(Overrun, Record_names_module_tick_slot_and_predecessor) {
-  Program& sut = start_and_wait({kCounter, slow("skip")});
+  Program& sut = start_and_wait({kOverrunCounter, slow("skip")});
   ASSERT_TRUE(wait_until([&] { return module("slow").overruns.load() > 3; }));
   const auto shown = indurop({"overruns", "-o", "json"});
   stop(sut);
@@ -96,7 +96,7 @@ TEST_F(Overrun, Record_names_module_tick_slot_and_predecessor) {
 TEST_F(Overrun, Budget_ends_a_module_that_takes_too_long) {
   Module bad = slow("skip", "1ms", "30000");
   bad.more = "<budget>3ms</budget><failsafe variable=\"nt::output\">-7</failsafe>";
-  Program& sut = start_and_wait({kCounter, bad});
+  Program& sut = start_and_wait({kOverrunCounter, bad});
   ASSERT_TRUE(wait_until([&] { return module("slow").state.load() == ModuleState::Faulted; }));
   EXPECT_TRUE(sut.says("did not return within"));
   EXPECT_TRUE(runs_reach("counter", module("counter").runs.load() + 50));
@@ -105,7 +105,7 @@ TEST_F(Overrun, Budget_ends_a_module_that_takes_too_long) {
 
 TEST_F(Overrun, Of_a_process_module_is_skipped_and_counted) {
   Program& sut = start_and_wait(
-      {kCounter,
+      {kOverrunCounter,
        {.file = "writer.exe", .name = "process", .type = "process", .period = "1ms", .priority = 2},
        {.file = "faulty.so", .name = "before", .period = "5ms", .priority = 1, .properties = {{"busy_us", "2500"}}}});
   EXPECT_TRUE(wait_until([&] { return module("process").overruns.load() > 3; }));

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 class RecordingParts : public NodeTest {
  protected:
-  const std::vector<Module> kCounter = {{.file = "counter.so", .name = "counter", .priority = 1}};
+  const std::vector<Module> kPartsCounter = {{.file = "counter.so", .name = "counter", .priority = 1}};
 
   std::vector<fs::path> parts(const fs::path& in) const {
     std::vector<fs::path> all;
@@ -47,7 +47,7 @@ class RecordingParts : public NodeTest {
 };
 
 TEST_F(RecordingParts, Old_ones_go_and_each_can_be_replayed) {
-  Program& sut = start_and_wait(kCounter);
+  Program& sut = start_and_wait(kPartsCounter);
   ASSERT_TRUE(runs_reach("counter", 20));
   const fs::path base = folder() / "last.mcap";
   const Outcome kept =
@@ -74,7 +74,7 @@ TEST_F(RecordingParts, Old_ones_go_and_each_can_be_replayed) {
 
 // Beginnings of a part say what was known before: a run's inputs that did not change are there as well.
 TEST_F(RecordingParts, Begin_with_what_was_known) {
-  Program& sut = start_and_wait(kCounter);
+  Program& sut = start_and_wait(kPartsCounter);
   const Outcome kept =
       indurop({"record", "-o", (folder() / "run.mcap").string(), "--split", "300ms", "--duration", "1s"});
   EXPECT_EQ(kept.code, 0) << kept.err;
@@ -107,7 +107,7 @@ TEST_F(RecordingParts, Begin_when_they_were_begun) {
 }
 
 TEST_F(RecordingParts, Are_put_together_again) {
-  Program& sut = start_and_wait(kCounter);
+  Program& sut = start_and_wait(kPartsCounter);
   for (const char* name : {"run.mcap", "other.mcap"}) {
     ASSERT_EQ(indurop({"record", "-o", (folder() / name).string(), "--split", "300ms", "--duration", "1s"}).code, 0);
   }
@@ -159,7 +159,8 @@ TEST_F(RecordingParts, Are_put_together_again) {
                                      (folder() / "run.0002.mcap").string()});
   EXPECT_EQ(explained.code, 2);
   EXPECT_CONTAINS(explained.err, "put parts of one together first: indurop recording join");
-  ASSERT_EQ(run_to_end(kCounter, {"--sim", "--until", "100ms", "--record", (folder() / "sim.mcap").string()}).code, 0);
+  ASSERT_EQ(run_to_end(kPartsCounter, {"--sim", "--until", "100ms", "--record", (folder() / "sim.mcap").string()}).code,
+            0);
   EXPECT_CONTAINS(join({"run.0001.mcap", "sim.mcap"}, "x.mcap").err, "they have no common time");
 }
 
@@ -167,7 +168,7 @@ TEST_F(RecordingParts, Of_two_simulations_are_not_put_together) {
   std::vector<std::string> words = {"recording", "join", "-o", (folder() / "x.mcap").string()};
   for (const char* name : {"first", "second"}) {
     words.push_back((folder() / (std::string(name) + ".mcap")).string());
-    ASSERT_EQ(indurop({"run", write("two.xml", xml(kCounter)), "--sim", "-q", "--until", "100ms", "--node",
+    ASSERT_EQ(indurop({"run", write("two.xml", xml(kPartsCounter)), "--sim", "-q", "--until", "100ms", "--node",
                        node() + "-" + name, "--record", words.back()})
                   .code,
               0);
@@ -179,7 +180,7 @@ TEST_F(RecordingParts, Of_two_simulations_are_not_put_together) {
 }
 
 TEST_F(RecordingParts, Of_a_killed_recorder_are_readable) {
-  Program& sut = start_and_wait(kCounter);
+  Program& sut = start_and_wait(kPartsCounter);
   for (int i = 0; i < 5; ++i) {
     const fs::path file = folder() / ("killed" + std::to_string(i) + ".mcap");
     Program recorder(command({"-o", file.string()}), environment());
@@ -209,7 +210,7 @@ TEST_F(RecordingParts, Of_a_killed_recorder_are_readable) {
 
 // As one whose disk does not answer.
 TEST_F(RecordingParts, A_recorder_that_stands_still_says_what_it_lost_and_disturbs_nobody) {
-  Program& sut = start_and_wait(kCounter, {"--tape", "1"});
+  Program& sut = start_and_wait(kPartsCounter, {"--tape", "1"});
   ASSERT_TRUE(runs_reach("counter", 20));
   const std::string file = (folder() / "slow.mcap").string();
   Program recorder(command({"-o", file}), environment());
@@ -233,7 +234,7 @@ TEST_F(RecordingParts, A_recorder_that_stands_still_says_what_it_lost_and_distur
 }
 
 TEST_F(RecordingParts, Two_recorders_have_the_same) {
-  Program& sut = start_and_wait(kCounter);
+  Program& sut = start_and_wait(kPartsCounter);
   const std::string first = (folder() / "first.mcap").string();
   const std::string second = (folder() / "second.mcap").string();
   Program one(command({"-o", first, "--past"}), environment());
@@ -262,7 +263,7 @@ TEST_F(RecordingParts, Two_recorders_have_the_same) {
 }
 
 TEST_F(RecordingParts, A_full_disk_ends_the_recording_and_disturbs_nobody) {
-  Program& sut = start_and_wait(kCounter);
+  Program& sut = start_and_wait(kPartsCounter);
   const fs::path disk = folder() / "disk";
   fs::create_directory(disk);
   Environment small = environment();
@@ -291,7 +292,7 @@ TEST_F(RecordingParts, A_full_disk_ends_the_recording_and_disturbs_nobody) {
 
 // A file may grow no more: what was recorded before stays.
 TEST_F(RecordingParts, Only_a_full_disk_takes_the_oldest) {
-  Program& sut = start_and_wait(kCounter);
+  Program& sut = start_and_wait(kPartsCounter);
   Environment environment = this->environment();
   environment.prepare = [] { return std::signal(SIGXFSZ, SIG_IGN) != SIG_ERR; };  // it gets an error instead
   Program recorder(command({"-o", folder() / "run.mcap", "--split", "200ms", "--keep", "1h"}), environment);
@@ -341,7 +342,7 @@ class RecordingPartsOnASmallDisk : public RecordingParts {
 };
 
 TEST_F(RecordingPartsOnASmallDisk, The_oldest_make_room) {
-  Program& sut = start_and_wait(kCounter);
+  Program& sut = start_and_wait(kPartsCounter);
   const Outcome full = recorder({"--split", "500ms", "--keep", "1h", "--duration", "6s"}).finish();
   if (full.code == Program::kNotPrepared) {
     GTEST_SKIP() << "may not mount";
@@ -355,7 +356,7 @@ TEST_F(RecordingPartsOnASmallDisk, The_oldest_make_room) {
 
 // What came together meanwhile is more than a part.
 TEST_F(RecordingPartsOnASmallDisk, The_oldest_make_room_after_the_recorder_stood_still) {
-  Program& sut = start_and_wait(kCounter);
+  Program& sut = start_and_wait(kPartsCounter);
   Program slow = recorder({"--split", "500ms", "--keep", "1h", "--duration", "6s"});
   if (!wait_until([&] { return fs::exists(pid_file_); })) {
     GTEST_SKIP() << "may not mount";

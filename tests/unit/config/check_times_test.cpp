@@ -11,14 +11,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const CheckOptions kScheduleOnly{.files = false, .adjust = false};
+const CheckOptions kTimesOnly{.files = false, .adjust = false};
 
 std::string wcet(const char* time) {
   return std::string("<wcet>") + time + "</wcet>";
 }
 
 TEST(Times, Are_not_looked_at_where_no_module_says_how_long_it_executes) {
-  const Checked sut = check(root(periodic("a.so", "1ms", 1)), kScheduleOnly);
+  const Checked sut = check(root(periodic("a.so", "1ms", 1)), kTimesOnly);
   EXPECT_EQ(sut.result.dispatch_share, 0);
   EXPECT_FALSE(sut.result.timings[0].known);
 }
@@ -27,7 +27,7 @@ TEST(Times, Of_modules_and_platform_are_added) {
   const Checked sut =
       check(root("<spin>off</spin>" + periodic("a.so", "1ms", 1, wcet("200us")) +
                  periodic("b.so", "2ms", 2, wcet("300us")) + sporadic("e.so", "thread", 1, wcet("50us"))),
-            kScheduleOnly);
+            kTimesOnly);
   EXPECT_THAT(sut.lines(), IsEmpty());
   // A tick takes 5 us, waking a thread 10.
   EXPECT_EQ(sut.result.timings[0].worst, base::Nanos(microseconds(205)));
@@ -37,14 +37,14 @@ TEST(Times, Of_modules_and_platform_are_added) {
 }
 
 TEST(Times, Spinning_takes_its_part) {
-  const Checked sut = check(root(periodic("a.so", "1ms", 1, wcet("200us"))), kScheduleOnly);
+  const Checked sut = check(root(periodic("a.so", "1ms", 1, wcet("200us"))), kTimesOnly);
   EXPECT_EQ(sut.result.timings[0].worst, base::Nanos(microseconds(225)));
 }
 
 TEST(Times, A_deadline_that_cannot_be_met_is_an_error_with_the_numbers) {
   const Checked sut = check(root("<spin>off</spin>" + periodic("a.so", "1ms", 1, wcet("600us")) +
                                  periodic("b.so", "4ms", 2, wcet("300us") + "<deadline>900us</deadline>")),
-                            kScheduleOnly);
+                            kTimesOnly);
   EXPECT_FALSE(sut.result.ok());
   EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("error: b ends up to 915 us after its release, and its deadline is "
                                                  "900 us: it executes for 300 us")));
@@ -53,7 +53,7 @@ TEST(Times, A_deadline_that_cannot_be_met_is_an_error_with_the_numbers) {
 TEST(Times, Too_much_for_a_core_is_an_error_with_the_share) {
   const Checked sut = check(
       root("<spin>off</spin>" + periodic("a.so", "1ms", 1, wcet("600us")) + periodic("b.so", "1ms", 2, wcet("500us"))),
-      kScheduleOnly);
+      kTimesOnly);
   EXPECT_EQ(sut.result.timings[1].worst, base::Nanos(-1));
   EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("b is not done before its next release: it and what runs before it "
                                                  "need 110 % of a core")));
@@ -80,20 +80,19 @@ TEST(Times, With_a_core_that_the_node_chooses_it_is_a_warning) {
 }
 
 TEST(Times, Behind_a_module_that_does_not_say_nothing_is_known) {
-  const Checked sut =
-      check(root(periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2, wcet("900us"))), kScheduleOnly);
+  const Checked sut = check(root(periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2, wcet("900us"))), kTimesOnly);
   EXPECT_THAT(sut.lines(), IsEmpty());
   EXPECT_FALSE(sut.result.timings[1].known);
 }
 
 TEST(Times, What_takes_longer_than_its_period_is_refused_behind_any_module) {
-  const Checked sut = check(root(periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2, wcet("2ms"))), kScheduleOnly);
+  const Checked sut = check(root(periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2, wcet("2ms"))), kTimesOnly);
   EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("error: b executes for 2 ms, and has 1 ms for it; make it shorter")));
 }
 
 TEST(Times, That_were_measured_stand_in_for_those_not_declared) {
   const CheckOptions::Times measured{{"a", microseconds(250)}, {"b", microseconds(700)}};
-  CheckOptions options = kScheduleOnly;
+  CheckOptions options = kTimesOnly;
   options.times = &measured;
   const Checked sut =
       check(root("<spin>off</spin>" + periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2, wcet("100us"))), options);
@@ -104,12 +103,12 @@ TEST(Times, That_were_measured_stand_in_for_those_not_declared) {
 TEST(Times, An_event_that_runs_after_the_base_may_come_with_any_release) {
   const Checked apart = check(root("<spin>off</spin>" + periodic("a.so", "2ms", 1, wcet("800us")) +
                                    periodic("b.so", "2ms", 2, wcet("800us") + "<offset>1ms</offset>")),
-                              kScheduleOnly);
+                              kTimesOnly);
   EXPECT_EQ(apart.result.timings[1].worst, base::Nanos(microseconds(815)));
   const Checked sut = check(root("<spin>off</spin>" + periodic("a.so", "2ms", 1, wcet("400us")) +
                                  periodic("b.so", "2ms", 2, wcet("400us") + "<offset>1ms</offset>") +
                                  sporadic("e.so", "thread", 1, wcet("50us") + "<position>after-base</position>")),
-                            kScheduleOnly);
+                            kTimesOnly);
   EXPECT_GE(sut.result.timings[1].worst, base::Nanos(microseconds(465)));
 }
 

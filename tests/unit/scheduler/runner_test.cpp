@@ -26,14 +26,14 @@ class CountedClock final : public Kernel {
   std::int64_t ns = 1'000'000;
   int looks = 0;
 };
-CountedClock* g_clock = nullptr;
+CountedClock* g_counted_clock = nullptr;
 
 // What the hooks take, and say about it.
 struct Notes {
   std::int64_t before_ns = 0;
   std::int64_t after_ns = 0;
   static bool take(std::int64_t ns) noexcept {
-    g_clock->ns += ns;
+    g_counted_clock->ns += ns;
     return ns > 0;
   }
 };
@@ -41,9 +41,9 @@ struct Notes {
 class RunnerClock : public testing::Test {
  protected:
   RunnerClock() {
-    g_clock = &clock_;
+    g_counted_clock = &clock_;
     for (std::uint32_t i = 0; i < kTasks; ++i) {
-      tasks_.push_back(periodic(i, 1'000'000, 1, [] { g_clock->ns += kRun; }));
+      tasks_.push_back(periodic(i, 1'000'000, 1, [] { g_counted_clock->ns += kRun; }));
     }
     block_ = make_block(tasks_, 1'000'000, 1'000'000);
     for (std::size_t i = 0; i < kTasks; ++i) {

@@ -14,9 +14,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::uint16_t kEnabling[] = {0x00, 0x06, 0x07, 0x0F};
+constexpr std::uint16_t kEnablingWords[] = {0x00, 0x06, 0x07, 0x0F};
 
-config::IoAxis axis() {
+config::IoAxis axis_in_modes() {
   config::IoAxis a;
   a.counts = 360'000;  // 1000 per degree
   a.low_limit = -90;
@@ -31,7 +31,7 @@ class Cia402Modes : public ::testing::Test {
  protected:
   void enable(DriveMode mode) {
     command.mode = static_cast<std::int8_t>(mode);
-    for (const std::uint16_t control : kEnabling) {
+    for (const std::uint16_t control : kEnablingWords) {
       command.control = control;
       steps(1);
     }
@@ -53,7 +53,7 @@ class Cia402Modes : public ::testing::Test {
   }
   [[nodiscard]] bool has(std::uint16_t bit) const { return (now.status & bit) != 0; }
 
-  config::IoAxis settings = axis();
+  config::IoAxis settings = axis_in_modes();
   Cia402Drive sut{settings};
   DriveCommand command;
   DriveFeedback now;
@@ -77,7 +77,7 @@ TEST_F(Cia402Modes, Profile_torque_rises_with_its_slope_and_halts) {
   settings.torque_slope = 100;
   Cia402Drive slow(settings);
   command.mode = 4;
-  for (const std::uint16_t control : kEnabling) {
+  for (const std::uint16_t control : kEnablingWords) {
     command.control = control;
     now = slow.step(command, milliseconds(1));
   }
@@ -106,7 +106,7 @@ TEST_F(Cia402Modes, Torque_never_makes_it_faster_than_the_axis_may_be) {
   command.mode = 10;
   command.torque = 1000;
   for (int i = 0; i < 3000; ++i) {
-    command.control = kEnabling[std::min(i, 3)];
+    command.control = kEnablingWords[std::min(i, 3)];
     now = free.step(command, milliseconds(1));
     ASSERT_LE(now.velocity, 181'000);
   }
@@ -142,7 +142,7 @@ TEST_F(Cia402Modes, Offsets_add_to_what_is_commanded) {
   command.velocity = 10'000;
   command.velocity_offset = 5000;
   for (int i = 0; i < 200; ++i) {
-    command.control = kEnabling[std::min(i, 3)];
+    command.control = kEnablingWords[std::min(i, 3)];
     now = other.step(command, milliseconds(1));
   }
   EXPECT_NEAR(now.velocity, 15'000, 300);
@@ -156,7 +156,7 @@ TEST_F(Cia402Modes, A_limit_switch_stops_it_and_lets_it_back) {
     command.velocity = 100'000;
     command.torque = 30;
     for (int i = 0; i < 4000; ++i) {
-      command.control = kEnabling[std::min(i, 3)];
+      command.control = kEnablingWords[std::min(i, 3)];
       now = drive.step(command, milliseconds(1));
     }
     EXPECT_GE(now.position, 89'900);

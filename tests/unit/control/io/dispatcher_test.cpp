@@ -58,8 +58,8 @@ TEST_F(DispatcherTest, Axis_structs_of_figure_11_are_a_drive) {
   sut->run(milliseconds(1));
   EXPECT_EQ(TEST_CELL::AXIS1_IN.position, 330'000) << "90 degrees of 1 320 000 counts";
   EXPECT_EQ(TEST_CELL::AXIS1_IN.status & 0x4F, 0x40);
-  constexpr std::uint16_t kEnabling[] = {0x06, 0x07, 0x0F};
-  for (const std::uint16_t control : kEnabling) {
+  constexpr std::uint16_t kEnablingSteps[] = {0x06, 0x07, 0x0F};
+  for (const std::uint16_t control : kEnablingSteps) {
     TEST_CELL::AXIS1_OUT.control = control;
     TEST_CELL::AXIS1_OUT.mode = 8;
     TEST_CELL::AXIS1_OUT.position = 330'000;

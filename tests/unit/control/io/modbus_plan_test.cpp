@@ -14,7 +14,7 @@ using config::IoTable;
 using config::WireType;
 using testing::ElementsAre;
 
-IoPoint point(IoTable table, std::uint16_t number, WireType type = WireType::UInt16, int unit = 1) {
+IoPoint planned_point(IoTable table, std::uint16_t number, WireType type = WireType::UInt16, int unit = 1) {
   IoPoint p;
   p.address = {table, number, -1};
   p.type = type;
@@ -25,14 +25,16 @@ IoPoint point(IoTable table, std::uint16_t number, WireType type = WireType::UIn
 std::vector<IoPoint> row(IoTable table, int count, WireType type = WireType::UInt16) {
   std::vector<IoPoint> points;
   for (int i = 0; i < count; ++i) {
-    points.push_back(point(table, static_cast<std::uint16_t>(i * static_cast<int>(config::registers_of(type))), type));
+    points.push_back(
+        planned_point(table, static_cast<std::uint16_t>(i * static_cast<int>(config::registers_of(type))), type));
   }
   return points;
 }
 
 TEST(ModbusPlan, Neighbours_in_any_order_are_one_request) {
-  const std::vector<IoPoint> points{point(IoTable::Holding, 12), point(IoTable::Holding, 10, WireType::Float32),
-                                    point(IoTable::Holding, 13, WireType::Int32)};
+  const std::vector<IoPoint> points{planned_point(IoTable::Holding, 12),
+                                    planned_point(IoTable::Holding, 10, WireType::Float32),
+                                    planned_point(IoTable::Holding, 13, WireType::Int32)};
   const auto sut = plan_reads(points, 0);
   ASSERT_EQ(sut.size(), 1U);
   EXPECT_EQ(sut[0].first, 10);
@@ -41,7 +43,7 @@ TEST(ModbusPlan, Neighbours_in_any_order_are_one_request) {
 }
 
 TEST(ModbusPlan, Gaps_are_read_along_only_if_asked_for_and_never_written) {
-  const std::vector<IoPoint> points{point(IoTable::Holding, 0), point(IoTable::Holding, 4)};
+  const std::vector<IoPoint> points{planned_point(IoTable::Holding, 0), planned_point(IoTable::Holding, 4)};
   EXPECT_EQ(plan_reads(points, 0).size(), 2U);
   EXPECT_EQ(plan_reads(points, 2).size(), 2U);
   EXPECT_EQ(plan_reads(points, 3).size(), 1U);
@@ -49,8 +51,8 @@ TEST(ModbusPlan, Gaps_are_read_along_only_if_asked_for_and_never_written) {
 }
 
 TEST(ModbusPlan, Tables_and_units_do_not_mix) {
-  const std::vector<IoPoint> points{point(IoTable::Holding, 0), point(IoTable::Input, 1),
-                                    point(IoTable::Holding, 1, WireType::UInt16, 2)};
+  const std::vector<IoPoint> points{planned_point(IoTable::Holding, 0), planned_point(IoTable::Input, 1),
+                                    planned_point(IoTable::Holding, 1, WireType::UInt16, 2)};
   EXPECT_EQ(plan_reads(points, 10).size(), 3U);
 }
 
@@ -78,16 +80,17 @@ TEST(ModbusPlan, A_number_never_falls_apart) {
 }
 
 TEST(ModbusPlan, Points_of_the_same_place_share_it) {
-  const std::vector<IoPoint> points{point(IoTable::Holding, 5, WireType::Float32), point(IoTable::Holding, 5),
-                                    point(IoTable::Holding, 6)};
+  const std::vector<IoPoint> points{planned_point(IoTable::Holding, 5, WireType::Float32),
+                                    planned_point(IoTable::Holding, 5), planned_point(IoTable::Holding, 6)};
   const auto sut = plan_reads(points, 0);
   ASSERT_EQ(sut.size(), 1U);
   EXPECT_EQ(sut[0].count, 2);
 }
 
 TEST(ModbusPlan, Bits_of_one_register_are_written_together_and_apart_from_whole_ones) {
-  std::vector<IoPoint> points{point(IoTable::Holding, 5, WireType::Bool), point(IoTable::Holding, 6),
-                              point(IoTable::Holding, 5, WireType::Bool), point(IoTable::Holding, 6, WireType::Bool)};
+  std::vector<IoPoint> points{planned_point(IoTable::Holding, 5, WireType::Bool), planned_point(IoTable::Holding, 6),
+                              planned_point(IoTable::Holding, 5, WireType::Bool),
+                              planned_point(IoTable::Holding, 6, WireType::Bool)};
   points[0].address.bit = 3;
   points[2].address.bit = 9;
   points[3].address.bit = 0;
@@ -111,9 +114,10 @@ TEST(ModbusPlan, Points_of_another_cycle_travel_apart) {
 }
 
 TEST(ModbusPlan, Together_a_writing_takes_a_reading_of_the_same_unit_along) {
-  const std::vector<IoPoint> written{point(IoTable::Holding, 0), point(IoTable::Coil, 0, WireType::Bool)};
-  const std::vector<IoPoint> read{point(IoTable::Holding, 9, WireType::UInt16, 2), point(IoTable::Input, 9),
-                                  point(IoTable::Holding, 9)};
+  const std::vector<IoPoint> written{planned_point(IoTable::Holding, 0),
+                                     planned_point(IoTable::Coil, 0, WireType::Bool)};
+  const std::vector<IoPoint> read{planned_point(IoTable::Holding, 9, WireType::UInt16, 2),
+                                  planned_point(IoTable::Input, 9), planned_point(IoTable::Holding, 9)};
   EXPECT_EQ(plan_steps(plan_writes(written), plan_reads(read, 0), false).size(), 5U);
   const auto sut = plan_steps(plan_writes(written), plan_reads(read, 0), true);
   ASSERT_EQ(sut.size(), 4U);

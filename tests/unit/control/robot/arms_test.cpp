@@ -18,12 +18,12 @@ struct Row {
   double a, alpha, d;
 };
 
-struct Known {
+struct KnownArm {
   const char* file;
   std::vector<Row> rows;  // Denavit-Hartenberg, as published
 };
 
-const Known kCobots[] = {
+const KnownArm kCobots[] = {
     {"ur5",
      {{0, kPi / 2, 0.089159},
       {-0.425, 0, 0},
@@ -47,7 +47,7 @@ const Known kCobots[] = {
       {0, 0, 0.0921}}},
 };
 
-Pose by_kdl(const Known& known, const Joints& q) {
+Pose arm_by_kdl(const KnownArm& known, const Joints& q) {
   KDL::Chain chain;
   for (const Row& row : known.rows) {
     chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::RotZ), KDL::Frame::DH(row.a, row.alpha, row.d, 0)));
@@ -66,12 +66,12 @@ Pose by_kdl(const Known& known, const Joints& q) {
 }
 
 TEST(Arms, Forward_kinematics_agrees_with_KDL) {
-  for (const Known& known : kCobots) {
+  for (const KnownArm& known : kCobots) {
     const Arm sut = arm_of(known.file);
     std::mt19937 random(1);
     for (int i = 0; i < 300; ++i) {
       const Joints q = anywhere(sut, random);
-      ASSERT_LT(distance(sut.forward(q), by_kdl(known, q)), 1e-9) << known.file << " " << q.transpose();
+      ASSERT_LT(distance(sut.forward(q), arm_by_kdl(known, q)), 1e-9) << known.file << " " << q.transpose();
     }
   }
 }
@@ -125,7 +125,7 @@ TEST(Arms, Closed_forms_find_every_pose) {
     EXPECT_LT(found.worst, 1e-9) << name;
   };
   find("spherical wrist", cell_arm());
-  for (const Known& known : kCobots) {
+  for (const KnownArm& known : kCobots) {
     find(known.file, arm_of(known.file));
   }
 }

@@ -147,7 +147,7 @@ TEST(Axis, A_reset_waits_until_it_stands_still) {
 }
 
 TEST(Axis_limits, Each_axis_has_its_own_acceleration_and_jerk) {
-  constexpr double kPeriod = 0.001;
+  constexpr double kStep = 0.001;
   Settings settings;
   settings.acceleration = {400, 100, 800, 900, 1000, 1100};
   settings.jerk = {8000, 400, 9000, 9000, 9000, 9000};
@@ -162,9 +162,9 @@ TEST(Axis_limits, Each_axis_has_its_own_acceleration_and_jerk) {
     cell.ask_axis(axis, AxisService::MoveRelative, 40, 1000);
     for (int i = 0; i < 3000; ++i) {
       cell.step();
-      const double v = (cell.out.command[axis] - position) / kPeriod;
-      const double a = (v - speed) / kPeriod;
-      jerk = std::max(jerk, std::abs(a - acceleration) / kPeriod);
+      const double v = (cell.out.command[axis] - position) / kStep;
+      const double a = (v - speed) / kStep;
+      jerk = std::max(jerk, std::abs(a - acceleration) / kStep);
       hardest = std::max(hardest, std::abs(a));
       position = cell.out.command[axis];
       speed = v;

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 constexpr double kPeriod = 0.004;
 
-struct Ran {
+struct EffortRun {
   double worst = 0;  // part of the effort
   double seconds = 0;
   JobState end = JobState::Idle;
@@ -26,10 +26,10 @@ struct Ran {
 };
 
 // `disturb`: holds and overrides at random instants.
-Ran run(const HeavyArm& heavy, const std::string& urdf, const std::string& job, std::mt19937* disturb = nullptr) {
+EffortRun run(const HeavyArm& heavy, const std::string& urdf, const std::string& job, std::mt19937* disturb = nullptr) {
   Cell cell(job, 1000 * kPeriod, 0, true, {}, urdf);
   EXPECT_TRUE(cell.serve(Service::GroupEnable));
-  Ran result;
+  EffortRun result;
   std::array<Joints, 3> seen;
   int count = 0;
   cell.in.service.job = 1;
@@ -67,7 +67,7 @@ int jobs() {
 struct Sum {
   int ended = 0, beyond = 0;
   double worst = 0, seconds = 0;
-  void add(const Ran& one) {
+  void add(const EffortRun& one) {
     ended += one.end == JobState::Ended ? 1 : 0;
     beyond += one.worst > 1.02 ? 1 : 0;
     worst = std::max(worst, one.worst);
@@ -84,7 +84,7 @@ TEST(Effort, Torques_of_random_jobs_keep_to_it) {
   Sum free;
   for (int i = 0; i < jobs(); ++i) {
     const std::string job = random_job(random, arm);
-    const Ran one = run(limited, limited.urdf, job);
+    const EffortRun one = run(limited, limited.urdf, job);
     if (one.worst > 1.02) {
       fmt::print("{} beyond effort\n{}", one.worst, job);
     }
@@ -165,18 +165,18 @@ TEST(Effort, What_cannot_be_held_is_refused_with_its_line) {
   const HeavyArm heavy = heavy_cell_arm(joints_of({250, 150, 130, 26, 22, 12}));
   const std::string points =
       point("FRONT", joints_of({0, 0.3, -0.5, 0, 0.9, 0})) + point("OUT", joints_of({0, 1.57, -1.6, 0, 0, 0}));
-  const Ran empty = run(heavy, heavy.urdf, points + "MOVJ FRONT\nMOVJ OUT\n");
+  const EffortRun empty = run(heavy, heavy.urdf, points + "MOVJ FRONT\nMOVJ OUT\n");
   EXPECT_EQ(empty.end, JobState::Ended) << empty.message;
-  const Ran loaded = run(heavy, heavy.urdf, points + "LOAD 5 kg CENTRE 0 0 50\nMOVJ FRONT\nMOVJ OUT\n");
+  const EffortRun loaded = run(heavy, heavy.urdf, points + "LOAD 5 kg CENTRE 0 0 50\nMOVJ FRONT\nMOVJ OUT\n");
   EXPECT_EQ(loaded.end, JobState::Failed);
   EXPECT_THAT(loaded.message, HasSubstr("main.job:5"));
   EXPECT_THAT(loaded.message, HasSubstr("torque"));
-  const Ran tool =
+  const EffortRun tool =
       run(heavy, heavy.urdf,
           points + "TOOL grip = POSE 0 0 100 RPY 0 0 0 MASS 5 kg CENTRE 0 0 50\nTOOL grip\nMOVJ FRONT\nMOVJ OUT\n");
   EXPECT_EQ(tool.end, JobState::Failed);
   EXPECT_THAT(tool.message, HasSubstr("main.job:6"));
-  const Ran put_down = run(heavy, heavy.urdf, points + "LOAD 5 kg CENTRE 0 0 50\nMOVJ FRONT\nLOAD 0\nMOVJ OUT\n");
+  const EffortRun put_down = run(heavy, heavy.urdf, points + "LOAD 5 kg CENTRE 0 0 50\nMOVJ FRONT\nLOAD 0\nMOVJ OUT\n");
   EXPECT_EQ(put_down.end, JobState::Ended) << put_down.message;
 }
 

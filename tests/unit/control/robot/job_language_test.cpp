@@ -13,11 +13,11 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string errors_of(const std::vector<JobFile>& files) {
+std::string errors_of_line(const std::vector<JobFile>& files) {
   return base::to_text(parse_jobs(files).diagnostics);
 }
-std::string errors_of(const std::string& text) {
-  return errors_of({{"a.job", text}});
+std::string errors_of_line(const std::string& text) {
+  return errors_of_line({{"a.job", text}});
 }
 
 double result_of(const std::string& expression, double i4 = 0) {
@@ -150,14 +150,14 @@ TEST(JobLanguage, Mistakes_are_named_where_they_are) {
       {"CALL a 1 2\n", "a.job:1:10: error: expected ',' and another value, found '2'"},
   };
   for (const auto& [text, wanted] : cases) {
-    EXPECT_THAT(errors_of(text), HasSubstr(wanted)) << text;
+    EXPECT_THAT(errors_of_line(text), HasSubstr(wanted)) << text;
   }
   std::string long_one = "SET O1 = 1";
   for (int i = 0; i < 60; ++i) {
     long_one += " + 1";
   }
-  EXPECT_THAT(errors_of(long_one), HasSubstr("this expression is too long"));
-  EXPECT_THAT(errors_of("SET O1 = " + std::string(40, '(') + "1" + std::string(40, ')')),
+  EXPECT_THAT(errors_of_line(long_one), HasSubstr("this expression is too long"));
+  EXPECT_THAT(errors_of_line("SET O1 = " + std::string(40, '(') + "1" + std::string(40, ')')),
               HasSubstr("more than 10 brackets"));
 }
 

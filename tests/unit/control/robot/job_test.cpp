@@ -18,7 +18,7 @@ JobBook good(const std::string& text) {
   return book;
 }
 
-class Recorder final : public Signals, public MotionPort {
+class JobRecorder final : public Signals, public MotionPort {
  public:
   double read(std::size_t index) noexcept override { return values[index]; }
   void write(std::size_t index, double value) noexcept override { values[index] = value; }
@@ -40,7 +40,7 @@ TEST(Job, Points_speeds_and_zones_reach_the_motion) {
       "point B = POSE 500, 0, 300 RPY 180 0 0 posture 4\n"
       "SPEED 50%\nZONE 20 mm\nMOVJ A\nSPEED 250 mm/s\nACC 30%\nMOVL B\nMOVC A B\n");
   JobRunner sut(book);
-  Recorder port;
+  JobRecorder port;
   sut.start(0);
   sut.step(0.01, port, port);
   ASSERT_EQ(port.moves.size(), 3U);
@@ -61,7 +61,7 @@ TEST(Job, A_spline_is_a_motion_for_each_of_its_points) {
   const JobBook book = good(
       "POINT A = JOINT 0 10 20 30 40 50\nPOINT B = POSE 500 0 300 RPY 180 0 0\nMOVS A B, A\nMOVJ A STRAIGHT\nMOVJ A\n");
   JobRunner sut(book);
-  Recorder port;
+  JobRecorder port;
   sut.start(0);
   sut.step(0.01, port, port);
   ASSERT_EQ(port.moves.size(), 5U);
@@ -84,7 +84,7 @@ TEST(Job, Signals_loops_jumps_and_calls) {
   ASSERT_TRUE(errors.empty()) << base::to_text(errors);
   ASSERT_EQ(book.signals, (std::vector<std::string>{"I0", "O1", "O0"}));
   JobRunner sut(book);
-  Recorder port;
+  JobRecorder port;
   port.values[0] = 9;
   sut.start(0);
   sut.step(0.01, port, port);
@@ -96,7 +96,7 @@ TEST(Job, Signals_loops_jumps_and_calls) {
 TEST(Job, Waits_for_rest_signals_and_time) {
   const JobBook book = good("SET O0 ON\nWAIT I1 OFF\nWAIT 0.03s\nSET O0 OFF\n");
   JobRunner sut(book);
-  Recorder port;
+  JobRecorder port;
   port.at_rest = false;
   sut.start(0);
   sut.step(0.01, port, port);
@@ -118,7 +118,7 @@ TEST(Job, Waits_for_rest_signals_and_time) {
 TEST(Job, A_wait_that_takes_too_long_names_its_line) {
   const JobBook book = good("\nWAIT I1 TIMEOUT 50 ms\n");
   JobRunner sut(book);
-  Recorder port;
+  JobRecorder port;
   sut.start(0);
   for (int i = 0; i < 10; ++i) {
     sut.step(0.01, port, port);
@@ -130,7 +130,7 @@ TEST(Job, A_wait_that_takes_too_long_names_its_line) {
 TEST(Job, A_motion_that_fails_names_its_line) {
   const JobBook book = good("POINT A = JOINT 0 0 0 0 0 0\n\nMOVL A\n");
   JobRunner sut(book);
-  Recorder port;
+  JobRecorder port;
   port.answer = {ErrorCode::Unreachable};
   sut.start(0);
   sut.step(0.01, port, port);
@@ -140,7 +140,7 @@ TEST(Job, A_motion_that_fails_names_its_line) {
 TEST(Job, Endless_loops_and_recursion_do_not_hang) {
   const JobBook loop = good("LOOP\nSET O0 ON\nEND\n");
   JobRunner sut(loop);
-  Recorder port;
+  JobRecorder port;
   sut.start(0);
   sut.step(0.01, port, port);
   EXPECT_TRUE(sut.running());

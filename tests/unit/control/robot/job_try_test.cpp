@@ -11,25 +11,25 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string errors_of(const std::string& text) {
+std::string errors_of_try(const std::string& text) {
   return base::to_text(parse_jobs({{"main.job", text}}).diagnostics);
 }
 
 TEST(Try, What_is_wrong_is_told_with_its_place) {
-  EXPECT_EQ(errors_of("TRY\nWAIT 1s\nRECOVER\nWAIT 2s\nEND\n"), "");
-  EXPECT_EQ(errors_of("RECOVER\n"), "main.job:1:1: error: RECOVER without TRY\n");
-  EXPECT_EQ(errors_of("IF ON\nRECOVER\nEND\n"), "main.job:2:1: error: RECOVER without TRY\n");
-  EXPECT_EQ(errors_of("TRY\nRECOVER\nRECOVER\nEND\n"), "main.job:3:1: error: RECOVER without TRY\n");
-  EXPECT_EQ(errors_of("\nTRY\nWAIT 1s\nEND\n"), "main.job:2:1: error: TRY without RECOVER\n");
-  EXPECT_EQ(errors_of("TRY\nRECOVER\n"), "main.job:1:1: error: TRY without END\n");
+  EXPECT_EQ(errors_of_try("TRY\nWAIT 1s\nRECOVER\nWAIT 2s\nEND\n"), "");
+  EXPECT_EQ(errors_of_try("RECOVER\n"), "main.job:1:1: error: RECOVER without TRY\n");
+  EXPECT_EQ(errors_of_try("IF ON\nRECOVER\nEND\n"), "main.job:2:1: error: RECOVER without TRY\n");
+  EXPECT_EQ(errors_of_try("TRY\nRECOVER\nRECOVER\nEND\n"), "main.job:3:1: error: RECOVER without TRY\n");
+  EXPECT_EQ(errors_of_try("\nTRY\nWAIT 1s\nEND\n"), "main.job:2:1: error: TRY without RECOVER\n");
+  EXPECT_EQ(errors_of_try("TRY\nRECOVER\n"), "main.job:1:1: error: TRY without END\n");
 }
 
-struct Outcome {
+struct TryOutcome {
   Ended ended;
   std::map<std::string, double> values;
 };
 
-Outcome outcome_of(const std::vector<JobFile>& files) {
+TryOutcome outcome_of(const std::vector<JobFile>& files) {
   ReadJobs read = parse_jobs(files);
   EXPECT_TRUE(read.diagnostics.empty()) << base::to_text(read.diagnostics);
   World world(read.book.signals);
@@ -39,7 +39,7 @@ Outcome outcome_of(const std::vector<JobFile>& files) {
 
 TEST(Try, A_wait_in_vain_and_a_value_that_is_none_go_on_behind_RECOVER) {
   for (const char* line : {"WAIT I1 TIMEOUT 0.1s", "VAR k = 1 / I1", "SET O1 = 1 / 0"}) {
-    const Outcome done = outcome_of(
+    const TryOutcome done = outcome_of(
         {{"main.job", std::string("TRY\n") + line + "\nSET n = 1\nRECOVER\nSET m = ERROR\nEND\nSET z = 1\n"}});
     EXPECT_EQ(done.ended.state, JobState::Ended) << line;
     EXPECT_EQ(done.values.count("n"), 0U) << line;
@@ -50,14 +50,14 @@ TEST(Try, A_wait_in_vain_and_a_value_that_is_none_go_on_behind_RECOVER) {
 }
 
 TEST(Try, Without_an_error_RECOVER_is_passed_over) {
-  const Outcome done = outcome_of({{"main.job", "TRY\nSET n = 1\nRECOVER\nSET m = 1\nEND\nSET z = 1\n"}});
+  const TryOutcome done = outcome_of({{"main.job", "TRY\nSET n = 1\nRECOVER\nSET m = 1\nEND\nSET z = 1\n"}});
   EXPECT_EQ(done.ended.state, JobState::Ended);
   EXPECT_EQ(done.values.count("m"), 0U);
   EXPECT_EQ(done.values.at("z"), 1);
 }
 
 TEST(Try, The_innermost_one_counts_also_around_calls_and_loops_and_not_in_its_own_RECOVER) {
-  const Outcome inner = outcome_of(
+  const TryOutcome inner = outcome_of(
       {{"main.job",
         "TRY\nLOOP 3\nTRY\nSET a = a + 1\nCALL bad\nRECOVER\nSET n = n + 1\nEND\nEND\nRECOVER\nSET m = 1\nEND\n"},
        {"bad.job", "LOOP\nLOOP\nSET b = 1 / 0\nEND\nEND\n"}});
@@ -65,13 +65,13 @@ TEST(Try, The_innermost_one_counts_also_around_calls_and_loops_and_not_in_its_ow
   EXPECT_EQ(inner.values.at("a"), 3);
   EXPECT_EQ(inner.values.at("n"), 3);
   EXPECT_EQ(inner.values.count("m"), 0U);
-  const Outcome again =
+  const TryOutcome again =
       outcome_of({{"main.job", "TRY\nTRY\nSET a = 1 / 0\nRECOVER\nSET a = 1 / 0\nEND\nRECOVER\nSET m = 1\nEND\n"}});
   EXPECT_EQ(again.ended.state, JobState::Ended) << again.ended.message;
   EXPECT_EQ(again.values.at("m"), 1);
-  const Outcome out = outcome_of({{"main.job", "TRY\nRECOVER\nSET m = 1\nEND\nSET a = 1 / 0\n"}});
+  const TryOutcome out = outcome_of({{"main.job", "TRY\nRECOVER\nSET m = 1\nEND\nSET a = 1 / 0\n"}});
   EXPECT_EQ(out.ended.state, JobState::Failed);
-  const Outcome recovering = outcome_of({{"main.job", "TRY\nSET a = 1 / 0\nRECOVER\nSET a = 1 / 0\nEND\n"}});
+  const TryOutcome recovering = outcome_of({{"main.job", "TRY\nSET a = 1 / 0\nRECOVER\nSET a = 1 / 0\nEND\n"}});
   EXPECT_EQ(recovering.ended.state, JobState::Failed);
 }
 

@@ -155,7 +155,7 @@ TEST(Jog, Begins_soon_at_any_speed_and_goes_on) {
 // A hand that is far away, at random: pressed or not, its beats lost for random times. What the switch says is compared
 // with its rule, read off the whole history.
 TEST(Jog, A_switch_whose_beat_stops_counts_as_released_until_it_was_released) {
-  constexpr double kPeriod = 0.01;
+  constexpr double kStep = 0.01;
   for (unsigned seed = 1; seed <= 50; ++seed) {
     std::mt19937 random(seed);
     DeadMan sut;
@@ -177,9 +177,9 @@ TEST(Jog, A_switch_whose_beat_stops_counts_as_released_until_it_was_released) {
         while (same > 0 && beats[static_cast<std::size_t>(same - 1)] == beats[static_cast<std::size_t>(k)]) {
           --same;
         }
-        expected = k > 0 && (k - same) * kPeriod <= DeadMan::kPatience + 1e-9;
+        expected = k > 0 && (k - same) * kStep <= DeadMan::kPatience + 1e-9;
       }
-      ASSERT_EQ(sut.holds(hand, beat, kPeriod), expected) << "seed " << seed << ", period " << i;
+      ASSERT_EQ(sut.holds(hand, beat, kStep), expected) << "seed " << seed << ", period " << i;
     }
   }
 }

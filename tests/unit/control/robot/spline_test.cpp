@@ -92,7 +92,7 @@ TEST_F(Splines, A_point_where_the_one_before_is_does_not_count) {
 }
 
 TEST_F(Splines, Through_random_points_keep_all_limits_and_pass_them) {
-  constexpr double kPeriod = 0.001;
+  constexpr double kStep = 0.001;
   int followed = 0;
   double off = 0;
   const int wanted = splines_wanted(30);
@@ -106,7 +106,7 @@ TEST_F(Splines, Through_random_points_keep_all_limits_and_pass_them) {
     for (int a = 0; a < arm.count(); ++a) {
       const Axis& axis = arm.axis(a);
       gates.emplace_back(SetPointGate::Range{axis.lower, axis.upper, axis.endless},
-                         LineLimits{limits.velocity[a], limits.acceleration[a], limits.jerk[a]}, kPeriod);
+                         LineLimits{limits.velocity[a], limits.acceleration[a], limits.jerk[a]}, kStep);
       gates.back().stand(from[a]);
     }
     // What the joints make of the path at the points.
@@ -124,7 +124,7 @@ TEST_F(Splines, Through_random_points_keep_all_limits_and_pass_them) {
     follower.reset(from);
     follower.add(planner.segment());
     for (int n = 0; n < 100000 && !follower.idle(); ++n) {
-      ASSERT_TRUE(follower.step(kPeriod).ok());
+      ASSERT_TRUE(follower.step(kStep).ok());
       for (int a = 0; a < arm.count(); ++a) {
         SetPointGate& gate = gates[static_cast<std::size_t>(a)];
         ASSERT_EQ(gate.check(follower.joints()[a], 1), ErrorCode::Ok) << tries << " axis " << a + 1;

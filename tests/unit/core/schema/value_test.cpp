@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
 template <class T>
-Bytes bytes_of(std::initializer_list<T> values) {
+Bytes value_bytes(std::initializer_list<T> values) {
   Bytes bytes(values.size() * sizeof(T));
   std::memcpy(bytes.data(), std::data(values), bytes.size());
   return bytes;
@@ -52,8 +52,8 @@ void expect_round_trip(const Type& type, const Bytes& bytes, const std::string& 
 template <class T>
 void expect_extremes(Base base) {
   using Limits = std::numeric_limits<T>;
-  expect_round_trip(number(base), bytes_of<T>({Limits::min()}), std::to_string(Limits::min()));
-  expect_round_trip(number(base), bytes_of<T>({Limits::max()}), std::to_string(Limits::max()));
+  expect_round_trip(number(base), value_bytes<T>({Limits::min()}), std::to_string(Limits::min()));
+  expect_round_trip(number(base), value_bytes<T>({Limits::max()}), std::to_string(Limits::max()));
 }
 
 TEST(Value, Integers_of_every_size_round_trip_at_their_limits) {
@@ -71,9 +71,9 @@ template <class T>
 void expect_number(Base base) {
   const T lowest = std::numeric_limits<T>::lowest();
   const T highest = std::numeric_limits<T>::max();
-  EXPECT_EQ(as_number<long double>(base, bytes_of<T>({lowest}).data()), static_cast<long double>(lowest));
-  EXPECT_EQ(as_number<long double>(base, bytes_of<T>({highest}).data()), static_cast<long double>(highest));
-  EXPECT_EQ(as_number<double>(base, bytes_of<T>({T{7}}).data()), 7.0);
+  EXPECT_EQ(as_number<long double>(base, value_bytes<T>({lowest}).data()), static_cast<long double>(lowest));
+  EXPECT_EQ(as_number<long double>(base, value_bytes<T>({highest}).data()), static_cast<long double>(highest));
+  EXPECT_EQ(as_number<double>(base, value_bytes<T>({T{7}}).data()), 7.0);
 }
 
 TEST(Value, Numbers_of_every_type_are_read_out_of_bytes) {
@@ -114,29 +114,31 @@ TEST(Value, Integers_beyond_their_type_are_out_of_range) {
 }
 
 TEST(Value, Integers_may_be_hex_or_signed) {
-  EXPECT_EQ(parsed(number(Base::Int32), " 0x10 ").bytes, bytes_of<std::int32_t>({16}));
-  EXPECT_EQ(parsed(number(Base::Int32), "-0X10").bytes, bytes_of<std::int32_t>({-16}));
-  EXPECT_EQ(parsed(number(Base::Int32), "+7").bytes, bytes_of<std::int32_t>({7}));
-  EXPECT_EQ(parsed(number(Base::UInt32), "0xFFFFFFFF").bytes, bytes_of<std::uint32_t>({UINT32_MAX}));
+  EXPECT_EQ(parsed(number(Base::Int32), " 0x10 ").bytes, value_bytes<std::int32_t>({16}));
+  EXPECT_EQ(parsed(number(Base::Int32), "-0X10").bytes, value_bytes<std::int32_t>({-16}));
+  EXPECT_EQ(parsed(number(Base::Int32), "+7").bytes, value_bytes<std::int32_t>({7}));
+  EXPECT_EQ(parsed(number(Base::UInt32), "0xFFFFFFFF").bytes, value_bytes<std::uint32_t>({UINT32_MAX}));
   EXPECT_EQ(parsed(number(Base::UInt8), "-0").bytes, Bytes{0});
 }
 
 TEST(Value, Reals_take_their_shortest_form) {
-  expect_round_trip(number(Base::Double), bytes_of({0.1}), "0.1");
-  expect_round_trip(number(Base::Double), bytes_of({1.0}), "1");
-  expect_round_trip(number(Base::Double), bytes_of({-0.0}), "-0");
-  expect_round_trip(number(Base::Float), bytes_of({0.1F}), "0.1");
-  expect_round_trip(number(Base::Float), bytes_of({16777216.0F}), "16777216");
+  expect_round_trip(number(Base::Double), value_bytes({0.1}), "0.1");
+  expect_round_trip(number(Base::Double), value_bytes({1.0}), "1");
+  expect_round_trip(number(Base::Double), value_bytes({-0.0}), "-0");
+  expect_round_trip(number(Base::Float), value_bytes({0.1F}), "0.1");
+  expect_round_trip(number(Base::Float), value_bytes({16777216.0F}), "16777216");
   for (const double value : {std::numeric_limits<double>::max(), std::numeric_limits<double>::min(),
                              std::numeric_limits<double>::denorm_min(), 1.0 / 3, 1e22, -123456.789}) {
-    expect_round_trip(number(Base::Double), bytes_of({value}), format_value(number(Base::Double), bytes_of({value})));
+    expect_round_trip(number(Base::Double), value_bytes({value}),
+                      format_value(number(Base::Double), value_bytes({value})));
   }
   for (const float value : {std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min(), 1.0F / 3}) {
-    expect_round_trip(number(Base::Float), bytes_of({value}), format_value(number(Base::Float), bytes_of({value})));
+    expect_round_trip(number(Base::Float), value_bytes({value}),
+                      format_value(number(Base::Float), value_bytes({value})));
   }
-  EXPECT_EQ(parsed(number(Base::Double), "1e3").bytes, bytes_of({1000.0}));
-  EXPECT_EQ(parsed(number(Base::Double), "+.5").bytes, bytes_of({0.5}));
-  EXPECT_EQ(parsed(number(Base::Double), "0x10").bytes, bytes_of({16.0}));
+  EXPECT_EQ(parsed(number(Base::Double), "1e3").bytes, value_bytes({1000.0}));
+  EXPECT_EQ(parsed(number(Base::Double), "+.5").bytes, value_bytes({0.5}));
+  EXPECT_EQ(parsed(number(Base::Double), "0x10").bytes, value_bytes({16.0}));
   EXPECT_EQ(parsed(number(Base::Float), "1e39").code, Errc::OutOfRange);
   EXPECT_EQ(parsed(number(Base::Double), "1e999").code, Errc::OutOfRange);
   for (const char* text : {"", "one", "1,5", "1.2.3", "0x1p3", "+-1", "++1", "- 1"}) {
@@ -146,13 +148,13 @@ TEST(Value, Reals_take_their_shortest_form) {
 
 TEST(Value, Infinities_and_NaN_round_trip) {
   const double infinity = std::numeric_limits<double>::infinity();
-  expect_round_trip(number(Base::Double), bytes_of({infinity}), "inf");
-  expect_round_trip(number(Base::Double), bytes_of({-infinity}), "-inf");
-  expect_round_trip(number(Base::Float), bytes_of({-std::numeric_limits<float>::infinity()}), "-inf");
+  expect_round_trip(number(Base::Double), value_bytes({infinity}), "inf");
+  expect_round_trip(number(Base::Double), value_bytes({-infinity}), "-inf");
+  expect_round_trip(number(Base::Float), value_bytes({-std::numeric_limits<float>::infinity()}), "-inf");
   const Parsed nan = parsed(number(Base::Double), "nan");
   ASSERT_EQ(nan.code, Errc::Ok);
   EXPECT_EQ(format_value(number(Base::Double), nan.bytes), "nan");
-  EXPECT_EQ(format_value(number(Base::Float), bytes_of({-std::numeric_limits<float>::quiet_NaN()})), "nan");
+  EXPECT_EQ(format_value(number(Base::Float), value_bytes({-std::numeric_limits<float>::quiet_NaN()})), "nan");
 }
 
 TEST(Value, Bool_is_a_word_or_a_digit) {
@@ -231,22 +233,22 @@ TEST(Value, Text_without_its_NUL_ends_with_the_array) {
 
 TEST(Value, Enums_go_by_name_or_number) {
   const Type type = mode_type();
-  expect_round_trip(type, bytes_of<std::int32_t>({1}), "Manual");
-  EXPECT_EQ(parsed(type, "2").bytes, bytes_of<std::int32_t>({2}));
-  EXPECT_EQ(parsed(type, "Mode::Auto").bytes, bytes_of<std::int32_t>({2}));
-  EXPECT_EQ(parsed(type, "\"Auto\"").bytes, bytes_of<std::int32_t>({2}));
-  EXPECT_EQ(format_value(type, bytes_of<std::int32_t>({-7})), "-7");
+  expect_round_trip(type, value_bytes<std::int32_t>({1}), "Manual");
+  EXPECT_EQ(parsed(type, "2").bytes, value_bytes<std::int32_t>({2}));
+  EXPECT_EQ(parsed(type, "Mode::Auto").bytes, value_bytes<std::int32_t>({2}));
+  EXPECT_EQ(parsed(type, "\"Auto\"").bytes, value_bytes<std::int32_t>({2}));
+  EXPECT_EQ(format_value(type, value_bytes<std::int32_t>({-7})), "-7");
   EXPECT_EQ(parsed(type, "7").code, Errc::OutOfRange);
   EXPECT_EQ(parsed(type, "auto").message,
             "'auto' is not a value of knu::Robot::Mode; it has Off = 0, Manual = 1, Auto = 2");
   const Type negative = enumeration("e", {{"Low", INT32_MIN}, {"High", INT32_MAX}});
-  EXPECT_EQ(parsed(negative, "-2147483648").bytes, bytes_of<std::int32_t>({INT32_MIN}));
+  EXPECT_EQ(parsed(negative, "-2147483648").bytes, value_bytes<std::int32_t>({INT32_MIN}));
   EXPECT_EQ(parsed(negative, "99999999999999999999").code, Errc::InvalidArgument);
 }
 
 TEST(Value, Arrays_of_arrays_round_trip) {
   const Type type = number(Base::Int16, {2, 3});
-  expect_round_trip(type, bytes_of<std::int16_t>({1, 2, 3, -4, -5, -6}), "[[1, 2, 3], [-4, -5, -6]]");
+  expect_round_trip(type, value_bytes<std::int16_t>({1, 2, 3, -4, -5, -6}), "[[1, 2, 3], [-4, -5, -6]]");
   EXPECT_EQ(parsed(type, "[[1,2,3],[4,5,6]]").code, Errc::Ok);
   EXPECT_EQ(parsed(type, "[[1,2],[4,5,6]]").message, "[0]: 2 values where there must be 3 (column 6)");
   EXPECT_EQ(parsed(type, "[[1,2,3,4],[4,5,6]]").message, "[0]: more than 3 values (column 8)");
@@ -272,16 +274,16 @@ TEST(Value, Nested_structs_round_trip) {
   const std::string value = R"({on: true, mode: Auto, points: [{x: 1.5, y: -2}, {x: 0, y: inf}], name: "r2"})";
   const Parsed sut = parsed(type, value);
   ASSERT_EQ(sut.code, Errc::Ok) << sut.message;
-  expect_round_trip(structure("s", {{"a", number(Base::Int32)}, {"b", number(Base::UInt32)}}), bytes_of({1, 2}),
+  expect_round_trip(structure("s", {{"a", number(Base::Int32)}, {"b", number(Base::UInt32)}}), value_bytes({1, 2}),
                     "{a: 1, b: 2}");
   EXPECT_EQ(format_value(type, sut.bytes), value);
 }
 
 TEST(Value, Fields_may_come_in_any_order_quoted_or_be_left_out) {
   const Type type = structure("s", {{"a", number(Base::Int32)}, {"b", number(Base::Int32)}});
-  EXPECT_EQ(parsed(type, "{\"b\": 2, a:1}").bytes, bytes_of({1, 2}));
-  EXPECT_EQ(parsed(type, "{b:2}", 0xFF).bytes, bytes_of({-1, 2}));
-  EXPECT_EQ(parsed(type, "{ }", 0xFF).bytes, bytes_of({-1, -1}));
+  EXPECT_EQ(parsed(type, "{\"b\": 2, a:1}").bytes, value_bytes({1, 2}));
+  EXPECT_EQ(parsed(type, "{b:2}", 0xFF).bytes, value_bytes({-1, 2}));
+  EXPECT_EQ(parsed(type, "{ }", 0xFF).bytes, value_bytes({-1, -1}));
   for (const char* value : {"{", "{a", "{a:", "{a:1", "{a:1,", "{a:1,}", "{a 1}", "{a:1 b:2}", "{:1}", "{a:1,a:2}",
                             "[1,2]", "1", "{a:1}}", "{\"a:1}"}) {
     EXPECT_EQ(parsed(type, value).code, Errc::InvalidArgument) << value;
@@ -305,9 +307,9 @@ TEST(Value, Json_is_strict_and_can_be_parsed_back) {
   const std::string json = value_to_json(robot_type(), sut.bytes);
   EXPECT_EQ(json, R"({"on":true,"mode":"Auto","points":[{"x":1.5,"y":-2},{"x":0,"y":1e+300}],"name":"r\"2"})");
   EXPECT_EQ(parsed(robot_type(), json).bytes, sut.bytes);
-  EXPECT_EQ(
-      value_to_json(number(Base::Double, {3}), bytes_of({std::nan(""), std::numeric_limits<double>::infinity(), 1.0})),
-      "[null,null,1]");
+  EXPECT_EQ(value_to_json(number(Base::Double, {3}),
+                          value_bytes({std::nan(""), std::numeric_limits<double>::infinity(), 1.0})),
+            "[null,null,1]");
   EXPECT_EQ(value_to_json(text(4), Bytes{0xFF, 0x01, 'a', 0}), R"("\ufffd\u0001a")");
   EXPECT_EQ(value_to_json(number(Base::Char), Bytes{0xE9}), R"("\u00e9")");
 }

@@ -10,7 +10,7 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kCollectingMs = 1'000'000;
 
 class CollectorOf : public ::testing::Test {
  protected:
@@ -62,12 +62,12 @@ TEST_F(CollectorOf, What_changed_is_copied_once) {
   add("n", b_, changed_, nullptr);
   put("a", 1);
   put("n", 2);
-  EXPECT_FALSE(sut_->collect(kMs));
+  EXPECT_FALSE(sut_->collect(kCollectingMs));
   EXPECT_TRUE(changed_);
   EXPECT_EQ(a_, 1U);
   EXPECT_EQ(b_, 2U);
   changed_ = false;
-  EXPECT_FALSE(sut_->collect(2 * kMs));
+  EXPECT_FALSE(sut_->collect(2 * kCollectingMs));
   EXPECT_FALSE(changed_);
 }
 
@@ -76,10 +76,10 @@ TEST_F(CollectorOf, Nothing_is_copied_while_its_writers_are_in_a_run) {
   const Writers writers{[&] { return runs; }, true};
   add("a", a_, changed_, &writers);
   put("a", 1);
-  EXPECT_FALSE(sut_->collect(kMs)) << "they tell when they are done";
+  EXPECT_FALSE(sut_->collect(kCollectingMs)) << "they tell when they are done";
   EXPECT_EQ(a_, 0U);
   runs = 2;
-  (void)sut_->collect(2 * kMs);
+  (void)sut_->collect(2 * kCollectingMs);
   EXPECT_EQ(a_, 1U);
 }
 
@@ -88,9 +88,9 @@ TEST_F(CollectorOf, Who_does_not_tell_is_looked_at_again) {
   const Writers writers{[&] { return runs; }, false};
   add("a", a_, changed_, &writers);
   put("a", 1);
-  EXPECT_TRUE(sut_->collect(kMs));
+  EXPECT_TRUE(sut_->collect(kCollectingMs));
   runs = 2;
-  EXPECT_FALSE(sut_->collect(2 * kMs));
+  EXPECT_FALSE(sut_->collect(2 * kCollectingMs));
   EXPECT_EQ(a_, 1U);
 }
 
@@ -101,7 +101,7 @@ TEST_F(CollectorOf, A_run_that_begins_during_the_copy_spoils_all_of_it) {
   add("b", b_, changed_, &writers);
   put("a", 1);
   put("b", 1);
-  (void)sut_->collect(kMs);
+  (void)sut_->collect(kCollectingMs);
   EXPECT_EQ(a_, 0U);
   EXPECT_EQ(b_, 0U);
   EXPECT_FALSE(changed_);
@@ -113,19 +113,19 @@ TEST_F(CollectorOf, Others_are_copied_meanwhile) {
   add("b", b_, changed_, nullptr);
   put("a", 1);
   put("b", 1);
-  (void)sut_->collect(kMs);
+  (void)sut_->collect(kCollectingMs);
   EXPECT_EQ(a_, 0U);
   EXPECT_EQ(b_, 1U);
 }
 
 TEST_F(CollectorOf, Patience_with_a_run_that_never_ends_does_end) {
-  const Writers stuck{[] { return std::uint64_t{1}; }, true, 20 * kMs};
+  const Writers stuck{[] { return std::uint64_t{1}; }, true, 20 * kCollectingMs};
   add("a", a_, changed_, &stuck);
   put("a", 1);
-  (void)sut_->collect(kMs);
-  (void)sut_->collect(21 * kMs - 1);
+  (void)sut_->collect(kCollectingMs);
+  (void)sut_->collect(21 * kCollectingMs - 1);
   EXPECT_EQ(a_, 0U);
-  (void)sut_->collect(21 * kMs);
+  (void)sut_->collect(21 * kCollectingMs);
   EXPECT_EQ(a_, 1U);
 }
 

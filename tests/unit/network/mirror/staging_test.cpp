@@ -11,7 +11,7 @@ namespace indurop::mirror {
 namespace {
 
 using Verdict = Staging::Verdict;
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kStagingMs = 1'000'000;
 
 class StagingOf : public ::testing::Test {
  protected:
@@ -71,11 +71,11 @@ TEST_F(StagingOf, The_latest_of_each_part_counts) {
 }
 
 TEST_F(StagingOf, Patience_ends) {
-  EXPECT_EQ(arrived(0, 1, 2, 1, 1 * kMs), Verdict::Wait);
-  EXPECT_EQ(arrived(0, 2, 4, 2, 1 * kMs + Staging::kPatienceNs), Verdict::Overdue);
+  EXPECT_EQ(arrived(0, 1, 2, 1, 1 * kStagingMs), Verdict::Wait);
+  EXPECT_EQ(arrived(0, 2, 4, 2, 1 * kStagingMs + Staging::kPatienceNs), Verdict::Overdue);
   EXPECT_EQ(taken(), (Values{{0, 2}}));
-  EXPECT_EQ(arrived(1, 2, 4, 2, 20 * kMs), Verdict::Whole);
-  EXPECT_EQ(arrived(0, 3, 6, 3, 30 * kMs), Verdict::Wait) << "patience begins anew";
+  EXPECT_EQ(arrived(1, 2, 4, 2, 20 * kStagingMs), Verdict::Whole);
+  EXPECT_EQ(arrived(0, 3, 6, 3, 30 * kStagingMs), Verdict::Wait) << "patience begins anew";
 }
 
 TEST_F(StagingOf, Parts_nobody_here_reads_are_counted_all_the_same) {

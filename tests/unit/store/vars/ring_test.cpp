@@ -166,7 +166,7 @@ TEST(Ring, Slow_read_gets_through_against_a_writer_without_pause) {
       auto* slot = static_cast<unsigned char*>(begin_write(*sut, 0, kSize));
       if (slot != nullptr) {
         const Bytes value(kSize, static_cast<unsigned char>(i));
-        detail::copy_to_shared(slot, value.data(), kSize);
+        indurop::detail::copy_to_shared(slot, value.data(), kSize);
         commit(*sut);
       }
     }

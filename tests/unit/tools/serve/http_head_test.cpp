@@ -10,13 +10,13 @@ namespace {
 
 constexpr const char* kHost = "Host: localhost\r\n";
 
-int code_of(const std::string& text) {
+int code_of_head(const std::string& text) {
   const auto head = read_head(text);
   return head ? 0 : head.error().status;
 }
 
 int of_fields(const std::string& fields) {
-  return code_of("GET / HTTP/1.1\r\n" + fields + "\r\n");
+  return code_of_head("GET / HTTP/1.1\r\n" + fields + "\r\n");
 }
 
 TEST(HttpHead, Is_read_into_its_parts) {
@@ -70,7 +70,7 @@ TEST(HttpHead, Cannot_be_understood_in_two_ways) {
         "G@T / HTTP/1.1", "GET http://evil.com/ HTTP/1.1", "CONNECT evil.com:80 HTTP/1.1", "GET /# HTTP/1.1",
         "GET /% HTTP/1.1", "GET /%4 HTTP/1.1", "GET /%zz HTTP/1.1", "GET /%00 HTTP/1.1", "GET /?a=%0 HTTP/1.1",
         "GET /\xff HTTP/1.1", "OPTIONS * HTTP/1.1"}) {
-    EXPECT_EQ(code_of(std::string(line) + "\r\n" + kHost + "\r\n"), 400) << line;
+    EXPECT_EQ(code_of_head(std::string(line) + "\r\n" + kHost + "\r\n"), 400) << line;
   }
 }
 

@@ -250,17 +250,17 @@ TEST(PlcRefused, VAR_IN_OUT_that_methods_use_ends_with_its_variable) {
 }
 
 TEST(PlcRefused, Characters_are_no_numbers_and_texts_of_two_kinds_not_mixed) {
-  struct Row {
+  struct Mixed {
     const char* text;
     const char* message;
   };
   for (const auto& [text, message] : {
-           Row{"FUNCTION F : INT VAR_INPUT w : WSTRING; END_VAR F := LEN(w); w := 'a'; END_FUNCTION",
-               "convert it with STRING_TO_WSTRING()"},
-           Row{"FUNCTION F : CHAR F := 65; END_FUNCTION", "write the character, CHAR#'a'"},
-           Row{"FUNCTION F : CHAR F := 'b'; F := CHAR#'ab'; END_FUNCTION", "is not one character"},
-           Row{"FUNCTION F : WCHAR F := WCHAR#'a'; F := \"b\"; END_FUNCTION", "is not one character, write WCHAR#"},
-           Row{"FUNCTION F : CHAR VAR_INPUT s : STRING[3]; END_VAR F := s[4]; END_FUNCTION", "outside of 1..3"},
+           Mixed{"FUNCTION F : INT VAR_INPUT w : WSTRING; END_VAR F := LEN(w); w := 'a'; END_FUNCTION",
+                 "convert it with STRING_TO_WSTRING()"},
+           Mixed{"FUNCTION F : CHAR F := 65; END_FUNCTION", "write the character, CHAR#'a'"},
+           Mixed{"FUNCTION F : CHAR F := 'b'; F := CHAR#'ab'; END_FUNCTION", "is not one character"},
+           Mixed{"FUNCTION F : WCHAR F := WCHAR#'a'; F := \"b\"; END_FUNCTION", "is not one character, write WCHAR#"},
+           Mixed{"FUNCTION F : CHAR VAR_INPUT s : STRING[3]; END_VAR F := s[4]; END_FUNCTION", "outside of 1..3"},
        }) {
     const Compiled sut = compiled(std::string("PROGRAM Main VAR i : INT; END_VAR i := 1; END_PROGRAM\n") + text + "\n");
     EXPECT_FALSE(sut.ok) << text;

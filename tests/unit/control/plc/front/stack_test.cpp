@@ -11,10 +11,11 @@ using ::testing::HasSubstr;
 using testing::wrong;
 
 constexpr const char* kBig = "TYPE Big : STRUCT list : ARRAY[1..131072] OF DINT; END_STRUCT; END_TYPE\n";
-constexpr const char* kMain = "PROGRAM Main VAR b : Big; i : DINT; END_VAR i := i + 1; b.list[1] := i; END_PROGRAM\n";
+constexpr const char* kStackMain =
+    "PROGRAM Main VAR b : Big; i : DINT; END_VAR i := i + 1; b.list[1] := i; END_PROGRAM\n";
 
 std::string with(const std::string& more) {
-  return std::string(kBig) + more + kMain;
+  return std::string(kBig) + more + kStackMain;
 }
 
 TEST(PlcStack, Variables_of_programs_may_be_large) {

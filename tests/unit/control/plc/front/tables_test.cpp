@@ -22,7 +22,7 @@ namespace {
 using testing::compiled;
 using testing::messages;
 
-struct Row {
+struct TableRow {
   std::string name;
   std::string text;
   std::string answer;
@@ -30,8 +30,8 @@ struct Row {
 };
 
 // "| 13 | sections | `VAR ...` | yes | pous |"
-std::vector<Row> rows_of(const std::string& file) {
-  std::vector<Row> out;
+std::vector<TableRow> rows_of(const std::string& file) {
+  std::vector<TableRow> out;
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
     const std::size_t first = line.find("| `", line.find("| ", 2) + 2);
@@ -64,9 +64,9 @@ std::string project_of(const std::string& text) {
 }
 
 TEST(PlcTables, Rows_are_true) {
-  const std::vector<Row> rows = rows_of(PLC_CONFORMANCE);
+  const std::vector<TableRow> rows = rows_of(PLC_CONFORMANCE);
   EXPECT_GT(rows.size(), 70U);
-  for (const Row& row : rows) {
+  for (const TableRow& row : rows) {
     const Compiled sut = compiled(project_of(row.text));
     const bool yes = row.answer == "yes";
     EXPECT_TRUE(yes || row.answer.starts_with("no")) << row.name;
@@ -75,7 +75,7 @@ TEST(PlcTables, Rows_are_true) {
 }
 
 // Of the programs and tests with these names: "blocks, rows".
-std::string contents_of(const std::string& names) {
+std::string table_contents(const std::string& names) {
   std::string all;
   std::istringstream list(names);
   for (std::string name; std::getline(list >> std::ws, name, ',');) {
@@ -112,12 +112,12 @@ std::set<std::string> library_names(const std::string& text) {
 
 // That it compiles is not enough: a program runs it and looks at what comes out.
 TEST(PlcTables, What_compiles_is_run_by_the_test_that_the_row_names) {
-  for (const Row& row : rows_of(PLC_CONFORMANCE)) {
+  for (const TableRow& row : rows_of(PLC_CONFORMANCE)) {
     if (row.answer != "yes") {
       continue;
     }
     EXPECT_FALSE(row.run_in.empty()) << row.name;
-    const std::string contents = contents_of(row.run_in);
+    const std::string contents = table_contents(row.run_in);
     for (const std::string& name : library_names(row.text)) {
       EXPECT_NE(contents.find(name), std::string::npos) << row.name << ": no " << name << " in " << row.run_in;
     }

@@ -10,7 +10,7 @@
 namespace indurop::iec {
 namespace {
 
-constexpr Place kHere{"prog.st:12:5", "MAIN"};
+constexpr Place kCalendarPlace{"prog.st:12:5", "MAIN"};
 constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 
@@ -38,18 +38,18 @@ TEST(PlcTime, Multiplied_and_divided_by_any_number) {
   EXPECT_EQ(mul(Time{3}, 0.5F), Time{2});
   EXPECT_EQ(mul(Time{kMax}, 2.0), Time{kMax});
   EXPECT_EQ(mul(Time{kMax}, std::int8_t{2}), Time{-2});
-  EXPECT_EQ(div(kHere, Time{7}, std::int16_t{2}), Time{3});
-  EXPECT_EQ(div(kHere, Time{-7}, std::uint64_t{2}), Time{-3});
-  EXPECT_EQ(div(kHere, Time{-7}, ~std::uint64_t{0}), Time{0});
-  EXPECT_EQ(div(kHere, Time{kMin}, std::int8_t{-1}), Time{kMin});
-  EXPECT_EQ(div(kHere, Time{kMin}, std::uint64_t{1}), Time{kMin});
-  EXPECT_EQ(div(kHere, Time{kSecond}, 0.5), Time{2 * kSecond});
+  EXPECT_EQ(div(kCalendarPlace, Time{7}, std::int16_t{2}), Time{3});
+  EXPECT_EQ(div(kCalendarPlace, Time{-7}, std::uint64_t{2}), Time{-3});
+  EXPECT_EQ(div(kCalendarPlace, Time{-7}, ~std::uint64_t{0}), Time{0});
+  EXPECT_EQ(div(kCalendarPlace, Time{kMin}, std::int8_t{-1}), Time{kMin});
+  EXPECT_EQ(div(kCalendarPlace, Time{kMin}, std::uint64_t{1}), Time{kMin});
+  EXPECT_EQ(div(kCalendarPlace, Time{kSecond}, 0.5), Time{2 * kSecond});
 }
 
 TEST(PlcTime, Divided_by_zero_is_a_fault) {
-  EXPECT_THROW(div(kHere, Time{1}, std::int16_t{0}), Fault);
-  EXPECT_THROW(div(kHere, Time{1}, std::uint64_t{0}), Fault);
-  EXPECT_THROW(div(kHere, Time{1}, 0.0F), Fault);
+  EXPECT_THROW(div(kCalendarPlace, Time{1}, std::int16_t{0}), Fault);
+  EXPECT_THROW(div(kCalendarPlace, Time{1}, std::uint64_t{0}), Fault);
+  EXPECT_THROW(div(kCalendarPlace, Time{1}, 0.0F), Fault);
 }
 
 TEST(PlcCalendar, Known_days) {

@@ -11,7 +11,7 @@
 namespace indurop::iec {
 namespace {
 
-constexpr Scan kScan{};
+constexpr Scan kCountingScan{};
 using Int = std::int16_t;
 
 TEST(PlcCtu, Counts_rising_edges_up_to_the_preset_and_on) {
@@ -30,7 +30,7 @@ TEST(PlcCtu, Counts_rising_edges_up_to_the_preset_and_on) {
                                      Row{true, false, false, 1}}) {
     sut.cu = cu;
     sut.r = r;
-    sut(kScan);
+    sut(kCountingScan);
     EXPECT_EQ(sut.q, q) << "call " << ++call;
     EXPECT_EQ(sut.cv, cv) << "call " << call;
   }
@@ -40,14 +40,14 @@ TEST(PlcCtu, An_input_that_is_true_from_the_start_counts) {
   Ctu<Int> sut;
   sut.cu = true;
   sut.pv = 1;
-  sut(kScan);
+  sut(kCountingScan);
   EXPECT_EQ(sut.cv, 1);
   EXPECT_TRUE(sut.q);
 }
 
 TEST(PlcCtu, Without_a_preset_it_is_always_there) {
   Ctu<Int> sut;
-  sut(kScan);
+  sut(kCountingScan);
   EXPECT_TRUE(sut.q);
 }
 
@@ -67,9 +67,9 @@ TYPED_TEST(PlcCounter, Stops_at_the_ends_of_its_type) {
   both.cv = Limits::max();
   for (const bool level : {true, false, true, false, true}) {
     up.cu = down.cd = both.cu = level;
-    up(kScan);
-    down(kScan);
-    both(kScan);
+    up(kCountingScan);
+    down(kCountingScan);
+    both(kCountingScan);
   }
   EXPECT_EQ(up.cv, Limits::max());
   EXPECT_TRUE(up.q);
@@ -93,7 +93,7 @@ TEST(PlcCtd, Counts_down_from_what_was_loaded) {
         Row{false, false, true, -1}, Row{true, true, false, 2}, Row{true, false, false, 2}}) {
     sut.cd = cd;
     sut.ld = ld;
-    sut(kScan);
+    sut(kCountingScan);
     EXPECT_EQ(sut.q, q) << "call " << ++call;
     EXPECT_EQ(sut.cv, cv) << "call " << call;
   }
@@ -119,7 +119,7 @@ TEST(PlcCtud, Counts_both_ways_reset_before_load_before_counting) {
     sut.cd = cd;
     sut.r = r;
     sut.ld = ld;
-    sut(kScan);
+    sut(kCountingScan);
     ++call;
     EXPECT_EQ(sut.qu, qu) << "call " << call;
     EXPECT_EQ(sut.qd, qd) << "call " << call;
@@ -131,17 +131,17 @@ TEST(PlcBlocks, Restored_from_bytes_they_count_on_without_a_new_edge) {
   Ctu<Int> before;
   before.pv = 2;
   before.cu = true;
-  before(kScan);
+  before(kCountingScan);
   std::array<unsigned char, sizeof before> bytes{};
   std::memcpy(bytes.data(), &before, sizeof before);
   Ctu<Int> sut;
   std::memcpy(&sut, bytes.data(), sizeof sut);
-  sut(kScan);  // the input is still on: no edge
+  sut(kCountingScan);  // the input is still on: no edge
   EXPECT_EQ(sut.cv, 1);
   sut.cu = false;
-  sut(kScan);
+  sut(kCountingScan);
   sut.cu = true;
-  sut(kScan);
+  sut(kCountingScan);
   EXPECT_EQ(sut.cv, 2);
   EXPECT_TRUE(sut.q);
 }
