@@ -19,16 +19,13 @@ Json names_json(const Config& config, const std::vector<std::size_t>& modules) {
   return names;
 }
 
-std::string text(const Json& value) {
-  return value.dump();
-}
-
-// Returns the times of modules with a known execution time; empty if there are none.
-std::string times_json(const Config& config, const CheckResult& check) {
+// Adds the times of modules with a known execution time; nothing if there are none.
+void add_times(Json& plan, const Config& config, const CheckResult& check) {
   if (check.dispatch_share == 0) {
-    return {};
+    return;
   }
-  std::string lines;
+  plan["utilisation"] = utilisation(config) + check.dispatch_share;
+  Json times = Json::array();
   for (std::size_t i = 0; i < config.modules.size(); ++i) {
     const Module& module = config.modules[i];
     if (module.wcet == base::Nanos::zero()) {
@@ -42,20 +39,19 @@ std::string times_json(const Config& config, const CheckResult& check) {
     row["utilisation"] = utilisation(module);
     row["worst_response_ns"] = ends ? Json(timing.worst.count()) : Json();
     row["slack_ns"] = ends ? Json(slack_of(module, timing).count()) : Json();
-    lines += (lines.empty() ? "\n    " : ",\n    ") + text(row);
+    times.push_back(std::move(row));
   }
-  return ",\n  \"utilisation\": " + text(Json(utilisation(config) + check.dispatch_share)) + ",\n  \"times\": [" +
-         lines + "\n  ]";
+  plan["times"] = std::move(times);
 }
 
-// Returns the result of <cores>.
-std::string cores_json(const Config& config, const CheckResult& check) {
+// Adds the result of <cores>.
+void add_cores(Json& plan, const Config& config, const CheckResult& check) {
   if (!check.spreading) {
-    return {};
+    return;
   }
-  const Spreading& spreading = *check.spreading;
-  std::string lines;
-  for (const Spreading::One& one : spreading.modules) {
+  plan["busiest_ns"] = check.spreading->busiest.count();
+  Json cores = Json::array();
+  for (const Spreading::One& one : check.spreading->modules) {
     const Module& module = config.modules[one.module];
     Json row;
     row["module"] = module.name;
@@ -63,32 +59,31 @@ std::string cores_json(const Config& config, const CheckResult& check) {
     row["offset_ns"] = module.offset.count();
     row["priority"] = module.priority;
     row["why"] = one.why;
-    lines += (lines.empty() ? "\n    " : ",\n    ") + text(row);
+    cores.push_back(std::move(row));
   }
-  return ",\n  \"busiest_ns\": " + std::to_string(spreading.busiest.count()) + ",\n  \"cores\": [" + lines + "\n  ]";
+  plan["cores"] = std::move(cores);
 }
 
-// Returns everything between the braces.
-std::string plan_fields(const Config& config, const CheckResult& check) {
+void add_plan(Json& plan, const Config& config, const CheckResult& check) {
   const scheduler::PeriodTable& table = check.table;
-  std::string plan = "\n  \"basic_period_ns\": " + std::to_string(table.basic_period.count()) +
-                     ",\n  \"macro_period_ns\": " + std::to_string(table.macro_period.count()) + ",\n  \"slots\": [";
-  for (std::size_t i = 0; i < table.slots.size(); ++i) {  // one line each
+  plan["basic_period_ns"] = table.basic_period.count();
+  plan["macro_period_ns"] = table.macro_period.count();
+  Json slots = Json::array();
+  for (std::size_t i = 0; i < table.slots.size(); ++i) {
     Json row;
     row["slot"] = i;
     row["time_ns"] = table.slots[i].time.count();
     row["modules"] = names_of(config, check, table.slots[i]);
-    plan += (i == 0 ? "\n    " : ",\n    ") + text(row);
+    slots.push_back(std::move(row));
   }
-  plan += table.slots.empty() ? "]" : "\n  ]";
-  plan += ",\n  \"sporadic\": " + text(names_json(config, check.sporadic));
-  plan += ",\n  \"non_real\": " + text(names_json(config, check.non_real));
-  plan += times_json(config, check);
-  plan += cores_json(config, check);
+  plan["slots"] = std::move(slots);
+  plan["sporadic"] = names_json(config, check.sporadic);
+  plan["non_real"] = names_json(config, check.non_real);
+  add_times(plan, config, check);
+  add_cores(plan, config, check);
   if (table.slot_count > table.slots.size()) {
-    plan += ",\n  \"slots_left_out\": " + std::to_string(table.slot_count - table.slots.size());
+    plan["slots_left_out"] = table.slot_count - table.slots.size();
   }
-  return plan;
 }
 
 // `first`: beginning of every line.
@@ -105,17 +100,23 @@ std::string csv_lines(const Config& config, const CheckResult& check, const std:
 }  // namespace
 
 std::string plan_json(const Config& config, const CheckResult& check) {
-  return "{" + plan_fields(config, check) + "\n}\n";
+  Json plan;
+  add_plan(plan, config, check);
+  return plan.dump_rows() + "\n";
 }
 
 std::string plan_json(const Plant& plant, const PlantCheck& check) {
-  std::string plan = "{\n\"plant\": " + text(plant.name) + ",\n\"boards\": [";
+  Json boards = Json::array();
   for (std::size_t i = 0; i < plant.boards.size(); ++i) {
-    const Board& board = plant.boards[i];
-    plan += (i == 0 ? "{\n  \"name\": " : ", {\n  \"name\": ") + text(board.name) + "," +
-            plan_fields(board.config, check.boards[i]) + "\n}";
+    Json board;
+    board["name"] = plant.boards[i].name;
+    add_plan(board, plant.boards[i].config, check.boards[i]);
+    boards.push_back(std::move(board));
   }
-  return plan + "]\n}\n";
+  Json plan;
+  plan["plant"] = plant.name;
+  plan["boards"] = std::move(boards);
+  return plan.dump_rows() + "\n";
 }
 
 std::string plan_csv(const Config& config, const CheckResult& check) {

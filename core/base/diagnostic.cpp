@@ -23,22 +23,32 @@ const char* word(Diagnostic::Severity severity) noexcept {
   return "";
 }
 
+// A name in a file may contain line breaks.
+std::string in_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  return text;
+}
+
 }  // namespace
 
-std::string to_string(const Diagnostic& diagnostic, std::string_view program) {
-  std::string text = diagnostic.file.empty() ? std::string(program) : diagnostic.file;
+DiagnosticLine line_of(const Diagnostic& diagnostic, std::string_view program) {
+  std::string place = diagnostic.file.empty() ? std::string(program) : diagnostic.file;
   if (diagnostic.place.line > 0) {
-    text += ":" + std::to_string(diagnostic.place.line);
+    place += ":" + std::to_string(diagnostic.place.line);
     if (diagnostic.place.column > 0) {
-      text += ":" + std::to_string(diagnostic.place.column);
+      place += ":" + std::to_string(diagnostic.place.column);
     }
   }
-  text += (text.empty() ? "" : ": ") + std::string(word(diagnostic.severity)) + ": ";
-  text += diagnostic.within.empty() ? diagnostic.text : diagnostic.within + ": " + diagnostic.text;
-  for (char& c : text) {
-    c = static_cast<unsigned char>(c) < 0x20 ? ' ' : c;  // one line, even if a name in the file contains line breaks
-  }
-  return text;
+  place += place.empty() ? "" : ": ";
+  const std::string within = diagnostic.within.empty() ? "" : diagnostic.within + ": ";
+  return {in_one_line(std::move(place)), std::string(word(diagnostic.severity)) + ":",
+          in_one_line(" " + within + diagnostic.text)};
+}
+
+std::string to_string(const Diagnostic& diagnostic, std::string_view program) {
+  const DiagnosticLine line = line_of(diagnostic, program);
+  return line.place + line.word + line.text;
 }
 
 std::string to_text(const std::vector<Diagnostic>& diagnostics, std::string_view program) {

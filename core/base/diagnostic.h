@@ -20,7 +20,14 @@ struct Diagnostic {
   std::string picture{};  // the source line and a mark below, as picture_of_line() makes them; empty: not shown
 };
 
-// Returns "module.xml:12:5: error: ..." ; line and column are left out when 0. One line, even if a name in the file
+// The line of a diagnostic in parts, for programs that colour the word: "module.xml:12:5: ", "error:", " ...".
+struct DiagnosticLine {
+  std::string place;
+  std::string word;
+  std::string text;
+};
+[[nodiscard]] DiagnosticLine line_of(const Diagnostic& diagnostic, std::string_view program = {});
+// Returns the parts of line_of() as one text, "module.xml:12:5: error: ..." ; line and column are left out when 0. One line, even if a name in the file
 // contains line breaks, without the picture. A diagnostic that is not about a file begins with `program`, if given:
 // "glb2idl: error: ...".
 [[nodiscard]] std::string to_string(const Diagnostic& diagnostic, std::string_view program = {});

@@ -192,6 +192,36 @@ std::string Json::dump(int indent) const {
   return out;
 }
 
+bool Json::contains_object() const noexcept {
+  return std::any_of(values_.begin(), values_.end(),
+                     [](const Json& one) { return one.is_object() || one.contains_object(); });
+}
+
+void Json::write_rows(std::string& out, int depth) const {
+  const bool is_scalar = type_ != Type::Array && type_ != Type::Object;
+  if (is_scalar || (depth > 0 && !contains_object())) {
+    write(out, -1, 0);
+    return;
+  }
+  const std::string line = "\n" + std::string(2 * static_cast<std::size_t>(depth), ' ');
+  const bool object = type_ == Type::Object;
+  out += object ? '{' : '[';
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    out += (i == 0 ? "" : ",") + line + "  ";
+    if (object) {
+      out += scalar(keys_[i]) + ": ";
+    }
+    values_[i].write_rows(out, depth + 1);
+  }
+  out += (values_.empty() ? "" : line) + (object ? "}" : "]");
+}
+
+std::string Json::dump_rows() const {
+  std::string out;
+  write_rows(out, 0);
+  return out;
+}
+
 const Json* Json::find(std::string_view key) const noexcept {
   const auto at = std::find(keys_.begin(), keys_.end(), key);
   return at == keys_.end() ? nullptr : &values_[static_cast<std::size_t>(at - keys_.begin())];

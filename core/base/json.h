@@ -54,6 +54,9 @@ class Json {
   void update(const Json& other);
   // Writes one line, or lines indented by `indent` >= 0. Invalid UTF-8 is replaced.
   [[nodiscard]] std::string dump(int indent = -1) const;
+  // Writes arrays and objects with one line for each element or member, down to values that contain no object: tables
+  // have one line for each row.
+  [[nodiscard]] std::string dump_rows() const;
 
   // ---- reading: nothing is thrown; a missing value is null or nothing
   [[nodiscard]] Type type() const noexcept { return type_; }
@@ -79,6 +82,8 @@ class Json {
   Json(Type type, std::uint64_t integer) noexcept : type_(type), integer_(integer) {}
 
   void write(std::string& out, int indent, int depth) const;
+  void write_rows(std::string& out, int depth) const;
+  [[nodiscard]] bool contains_object() const noexcept;
 
   Type type_ = Type::Null;
   std::uint64_t integer_ = 0;  // of Integer in two's complement, of Boolean 0 or 1

@@ -94,13 +94,8 @@ void print_diagnostics(Context& context, const std::vector<base::Diagnostic>& di
     const Style style = diagnostic.severity == Severity::Error     ? Style::Bad
                         : diagnostic.severity == Severity::Warning ? Style::Warn
                                                                    : Style::Dim;
-    std::string line = base::to_string(diagnostic);
-    const std::string word = std::string(to_text(diagnostic.severity)) + ":";
-    const auto at = line.find(": " + word);
-    if (at != std::string::npos) {
-      line = line.substr(0, at + 2) + context.out.paint(style, word) + line.substr(at + 2 + word.size());
-    }
-    context.out.line(line);
+    const base::DiagnosticLine line = base::line_of(diagnostic);
+    context.out.line(line.place + context.out.paint(style, line.word) + line.text);
   }
 }
 

@@ -24,6 +24,20 @@ TEST(Json, Braces_are_an_object_only_if_all_of_them_are_pairs_with_a_name) {
   EXPECT_EQ((Json{{"a", {{"b", 1.5}}}}).dump(), R"({"a":{"b":1.5}})");
 }
 
+TEST(Json, Tables_have_a_line_for_each_row) {
+  const Json row{{"slot", 0}, {"modules", {"a", "b"}}};
+  const Json sut{{"name", "x"}, {"slots", {row, row}}, {"none", Json::array()}};
+  EXPECT_EQ(sut.dump_rows(), R"({
+  "name": "x",
+  "slots": [
+    {"slot":0,"modules":["a","b"]},
+    {"slot":0,"modules":["a","b"]}
+  ],
+  "none": []
+})");
+  EXPECT_EQ(Json(7).dump_rows(), "7");
+}
+
 TEST(Json, Lines_are_indented) {
   const Json sut{{"a", {1, 2}}, {"b", Json::object()}, {"c", Json::array()}};
   EXPECT_EQ(sut.dump(2), "{\n  \"a\": [\n    1,\n    2\n  ],\n  \"b\": {},\n  \"c\": []\n}");
@@ -107,8 +121,8 @@ TEST(Json, What_is_written_reads_the_same) {
   std::mt19937 random(7);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same values every time
   for (int i = 0; i < 300; ++i) {
     const Json value = any_value(random, 0);
-    for (const int indent : {-1, 2}) {
-      const auto read = Json::parse(value.dump(indent));
+    for (const std::string& text : {value.dump(), value.dump(2), value.dump_rows()}) {
+      const auto read = Json::parse(text);
       ASSERT_TRUE(read) << value.dump();
       EXPECT_EQ(read->dump(), value.dump());
     }
