@@ -290,6 +290,13 @@ bool issued_by(const std::string& certificate, const std::string& authority) {
   return read != nullptr && issuer != nullptr && ::X509_verify(read.get(), ::X509_get0_pubkey(issuer.get())) == 1;
 }
 
+std::string public_key_in(const std::string& certificate) {
+  const Cert read = read_cert(certificate);
+  EVP_PKEY* const key = read == nullptr ? nullptr : ::X509_get0_pubkey(read.get());
+  const Bio out = writing();
+  return key != nullptr && ::PEM_write_bio_PUBKEY(out.get(), key) == 1 ? content(out) : std::string{};
+}
+
 bool belongs_to(const std::string& certificate, const std::string& key) {
   const Cert read = read_cert(certificate);
   const Key own = read_key(key);

@@ -65,6 +65,8 @@ std::string subject_digest(const Identity& identity);
 
 std::optional<CertificateFacts> read_certificate(const std::string& certificate);
 bool issued_by(const std::string& certificate, const std::string& authority);
+// Returns the public key of a certificate as PEM.
+std::string public_key_in(const std::string& certificate);
 bool belongs_to(const std::string& certificate, const std::string& key);
 bool is_revoked(const std::string& certificate, const std::string& revocation_list);
 // Returns true if it is a revocation list that this authority signed.
@@ -72,7 +74,7 @@ bool revocation_list_of(const std::string& revocation_list, const std::string& a
 // Returns the text of a document made by sign_document(); empty if this authority did not sign exactly this document.
 std::string signed_text(const std::string& document, const std::string& authority);
 
-// Returns an Ed25519 signature as hexadecimal digits.
+// Returns the signature by an Ed25519 or P-256 key as hexadecimal digits.
 std::string signature_of(const std::string& text, const std::string& key);
 bool signature_holds(const std::string& text, const std::string& signature, const std::string& public_key);
 

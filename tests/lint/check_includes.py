@@ -19,6 +19,7 @@ THIRD_PARTY = {
     "openssl": ("openssl/",),
     "modbus": ("modbus/",),
     "curses": ("curses.h",),
+    "archive": ("archive.h", "archive_entry.h"),
     "zstd": ("zstd.h",),
     "lz4": ("lz4frame.h",),
     "eigen": ("Eigen/",),

@@ -14,8 +14,8 @@ using testing::HasSubstr;
 using testing::Key;
 using testing::Pair;
 
-constexpr std::chrono::seconds kSecond{1};
-constexpr std::chrono::nanoseconds kOneNs{1};
+constexpr std::chrono::seconds kPlantSecond{1};
+constexpr std::chrono::nanoseconds kPlantOneNs{1};
 
 Order make_order() {
   Order order;
@@ -23,7 +23,7 @@ Order make_order() {
   order.deployment = "new";
   order.generation = 4;
   order.boards = {"a", "b"};
-  order.health_ns = std::chrono::nanoseconds(kSecond).count();
+  order.health_ns = std::chrono::nanoseconds(kPlantSecond).count();
   return order;
 }
 
@@ -60,9 +60,9 @@ class Deployer : public testing::Test {
     all(Phase::Trial);
   }
 
-  rt::MonoTime now_{50 * kSecond};
-  rt::WallTime wall_{1'000 * kSecond};
-  PlantTransaction sut_{make_order(), 5 * kSecond, now_};
+  rt::MonoTime now_{50 * kPlantSecond};
+  rt::WallTime wall_{1'000 * kPlantSecond};
+  PlantTransaction sut_{make_order(), 5 * kPlantSecond, now_};
 };
 
 TEST_F(Deployer, Switches_when_all_are_prepared_and_commits_when_all_are_healthy) {
@@ -144,7 +144,7 @@ TEST_F(Deployer, A_board_that_dies_in_the_trial_rolls_all_boards_back) {
   sut_.board_lost("b", 2, now_);
   listen_for(PlantTransaction::kLost);
   EXPECT_EQ(sut_.order().step, Step::Switch) << "it may come back";
-  now_ += kOneNs;
+  now_ += kPlantOneNs;
   time();
   EXPECT_EQ(sut_.verdict(), Verdict::RolledBack);
   time();
@@ -213,7 +213,7 @@ TEST_F(Deployer, After_the_commit_was_said_nothing_takes_it_back) {
   sut_.board_lost("b", 2, now_);
   sut_.give_up(now_);
   EXPECT_EQ(sut_.verdict(), Verdict::Committed);
-  now_ += PlantTransaction::kWindUp + kOneNs;
+  now_ += PlantTransaction::kWindUp + kPlantOneNs;
   time();
   EXPECT_TRUE(sut_.finished());
   EXPECT_THAT(sut_.unconfirmed(), ElementsAre("a", "b"));
@@ -227,7 +227,7 @@ TEST_F(Deployer, Boards_of_another_deployer_are_busy_after_a_while) {
   say(other);
   time();
   EXPECT_EQ(sut_.order().step, Step::Prepare);
-  now_ += PlantTransaction::kBusy + kOneNs;
+  now_ += PlantTransaction::kBusy + kPlantOneNs;
   time();
   EXPECT_EQ(sut_.verdict(), Verdict::Busy);
   EXPECT_EQ(sut_.reasons().at("b"), "busy with deployment 0123456789ab of desk");
@@ -250,7 +250,7 @@ TEST_F(Deployer, Of_two_at_once_the_earlier_goes_on) {
 
 TEST_F(Deployer, Nothing_happening_ends_it) {
   say(report("a", Phase::Prepared));
-  now_ += 5 * kSecond + kOneNs;
+  now_ += 5 * kPlantSecond + kPlantOneNs;
   time();
   EXPECT_EQ(sut_.verdict(), Verdict::Refused);
   EXPECT_THAT(sut_.reasons(), ElementsAre(Key("b")));
@@ -261,7 +261,7 @@ TEST_F(Deployer, Bytes_that_come_are_something_happening) {
   for (int i = 0; i < 5; ++i) {
     fetching.bytes_done += 100;
     say(fetching);
-    now_ += 4 * kSecond;
+    now_ += 4 * kPlantSecond;
     time();
   }
   EXPECT_EQ(sut_.verdict(), Verdict::Open);

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// Unpacking: the file may come from anybody.
+#include <archive.h>
+#include <archive_entry.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/json.h"
+#include "core/base/read_file.h"
+#include "core/keys/digest.h"
+#include "deploy/bundle/bundle.h"
+#include "deploy/bundle/members.h"
+
+namespace indurop::deploy {
+namespace {
+
+using base::Json;
+using base::Problem;
+
+constexpr std::size_t kMaxTextBytes = std::size_t{64} << 20U;  // of package.json: 10 000 files have long paths
+constexpr std::size_t kPortionBytes = std::size_t{1} << 18U;
+constexpr std::string_view kZstdBegin = "\x28\xB5\x2F\xFD";
+
+class BundleReader {
+ public:
+  explicit BundleReader(std::filesystem::path file)
+      : file_(std::move(file)), archive_(::archive_read_new(), &::archive_read_free) {}
+
+  bool open() {
+    return ::archive_read_support_format_tar(archive_.get()) == ARCHIVE_OK &&
+           ::archive_read_support_filter_zstd(archive_.get()) == ARCHIVE_OK &&
+           ::archive_read_open_filename(archive_.get(), file_.c_str(), kPortionBytes) == ARCHIVE_OK;
+  }
+  // Goes to the next member. Returns false at the end and after an error.
+  bool next() {
+    const int code = ::archive_read_next_header(archive_.get(), &entry_);
+    failed_ = code != ARCHIVE_OK && code != ARCHIVE_EOF;
+    return code == ARCHIVE_OK;
+  }
+  [[nodiscard]] bool failed() const noexcept { return failed_; }
+  [[nodiscard]] std::string name() const {
+    const char* name = ::archive_entry_pathname(entry_);
+    return name == nullptr ? "" : name;
+  }
+  [[nodiscard]] bool is_regular() const {
+    return ::archive_entry_filetype(entry_) == AE_IFREG && ::archive_entry_hardlink(entry_) == nullptr;
+  }
+  // Gives the member's bytes to `use`, at most `limit` of them. Returns false if it is longer or damaged.
+  template <class Use>
+  bool read(std::uint64_t limit, const Use& use) {
+    std::vector<char> portion(kPortionBytes);
+    for (;;) {
+      const la_ssize_t got = ::archive_read_data(archive_.get(), portion.data(), portion.size());
+      if (got <= 0) {
+        return got == 0;
+      }
+      const auto size = static_cast<std::uint64_t>(got);
+      if (size > limit || !use(std::string_view(portion.data(), size))) {
+        return false;
+      }
+      limit -= size;
+    }
+  }
+  [[nodiscard]] Problem problem(std::string_view what) const { return {fmt::format("{}: {}", file_.string(), what)}; }
+  [[nodiscard]] Problem damaged() const { return problem("the bundle is damaged; copy or pack it again"); }
+
+ private:
+  std::filesystem::path file_;
+  std::unique_ptr<archive, decltype(&::archive_read_free)> archive_;
+  archive_entry* entry_ = nullptr;
+  bool failed_ = false;
+};
+
+std::optional<std::string> text_member(BundleReader& bundle, const char* name) {
+  std::string text;
+  if (!bundle.next() || bundle.name() != name || !bundle.is_regular() || !bundle.read(kMaxTextBytes, [&](auto bytes) {
+        text += bytes;
+        return true;
+      })) {
+    return std::nullopt;
+  }
+  return text;
+}
+
+// Creates the file of one member at the first of `places`; the others get a copy. Returns false if it cannot be
+// written, or if its content is not what the package says.
+class Unpacking {
+ public:
+  Unpacking(BundleReader& bundle, const std::filesystem::path& folder, OpenedBundle& out)
+      : bundle_(bundle), folder_(folder), out_(out) {
+    for (const PackageFile& file : out.packed.package.files) {
+      missing_[file.digest].push_back(&file);
+    }
+  }
+
+  Result<void, Problem> run() {
+    while (bundle_.next()) {
+      const std::string name = bundle_.name();
+      const auto found = name.starts_with(kFilesFolder)
+                             ? missing_.find(name.substr(std::string_view(kFilesFolder).size()))
+                             : missing_.end();
+      if (found == missing_.end() || !bundle_.is_regular()) {
+        return bundle_.damaged();
+      }
+      if (auto done = unpack(found->second); !done) {
+        return done;
+      }
+      missing_.erase(found);
+    }
+    if (bundle_.failed()) {
+      return bundle_.damaged();
+    }
+    return missing_.empty() ? Result<void, Problem>()
+                            : bundle_.problem(fmt::format("the bundle ends before {}; copy or pack it again",
+                                                          missing_.begin()->second.front()->path));
+  }
+
+ private:
+  Result<void, Problem> unpack(const std::vector<const PackageFile*>& files) {
+    const PackageFile& first = *files.front();
+    const std::filesystem::path place = folder_ / first.path;
+    std::error_code error;
+    std::filesystem::create_directories(place.parent_path(), error);
+    std::ofstream to(place, std::ios::binary | std::ios::trunc);
+    keys::Digest digest;
+    std::uint64_t size = 0;
+    const bool read = bundle_.read(first.size, [&](std::string_view bytes) {
+      digest.add({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+      size += bytes.size();
+      return to.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).good();
+    });
+    to.close();
+    if (!to.good()) {
+      return bundle_.problem(fmt::format("cannot write {}", place.string()));
+    }
+    if (!read || size != first.size || digest.finish() != first.digest) {
+      return bundle_.problem(fmt::format("{} is damaged in the bundle; copy or pack it again", first.path));
+    }
+    out_.packed.sources.emplace(first.digest, place);
+    return place_all(files, place);
+  }
+
+  Result<void, Problem> place_all(const std::vector<const PackageFile*>& files, const std::filesystem::path& first) {
+    using std::filesystem::perms;
+    for (const PackageFile* file : files) {
+      const std::filesystem::path place = folder_ / file->path;
+      std::error_code error;
+      if (place != first) {
+        std::filesystem::create_directories(place.parent_path(), error);
+        std::filesystem::copy_file(first, place, error);
+      }
+      if (!error) {
+        std::filesystem::permissions(
+            place, perms::owner_read | perms::owner_write | (file->executable ? perms::owner_exec : perms::none),
+            error);
+      }
+      if (error) {
+        return bundle_.problem(fmt::format("cannot write {}: {}", place.string(), error.message()));
+      }
+    }
+    return {};
+  }
+
+  BundleReader& bundle_;
+  const std::filesystem::path& folder_;
+  OpenedBundle& out_;
+  std::map<std::string, std::vector<const PackageFile*>> missing_;  // by digest
+};
+
+}  // namespace
+
+bool is_bundle(const std::filesystem::path& file) {
+  const auto opened = base::open_file(file);
+  std::array<char, kZstdBegin.size()> begin{};
+  return opened && ::pread(opened->file.get(), begin.data(), begin.size(), 0) == static_cast<ssize_t>(begin.size()) &&
+         std::string_view(begin.data(), begin.size()) == kZstdBegin;
+}
+
+Result<OpenedBundle, Problem> open_bundle(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  BundleReader bundle(file);
+  if (!is_bundle(file) || !bundle.open()) {
+    return bundle.problem("it is not a bundle made by indurop pack");
+  }
+  const auto package_text = text_member(bundle, kPackageMember);
+  const auto about_text = package_text ? text_member(bundle, kSignatureMember) : std::nullopt;
+  const Json about = about_text ? Json::parse(*about_text).value_or(Json()) : Json();
+  std::uint64_t format = 0;
+  if (!base::read(about, "indurop_bundle", format)) {
+    return bundle.damaged();
+  }
+  if (format != kBundleFormat) {
+    return bundle.problem(fmt::format("the bundle has format {}, this release reads {}; use the release that packed it",
+                                      format, kBundleFormat));
+  }
+  auto package = read_package(*package_text);
+  if (!package) {
+    return bundle.problem(package.error().text);
+  }
+  OpenedBundle out;
+  out.packed.package = std::move(package).value();
+  out.packed.text = *package_text;
+  out.packed.id = keys::digest_of(*package_text);
+  out.manifest = folder / out.packed.package.manifest;
+  std::string id;
+  if (!base::read(about, "deployment", id) || id != out.packed.id ||
+      !base::read(about, "certificate", out.signature.certificate) ||
+      !base::read(about, "signature", out.signature.signature)) {
+    return bundle.damaged();
+  }
+  if (auto unpacked = Unpacking(bundle, folder, out).run(); !unpacked) {
+    return std::move(unpacked).error();
+  }
+  return out;
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packing: libarchive writes the archive, with the same bytes for the same content.
+#include <archive.h>
+#include <archive_entry.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "core/base/file_problem.h"
+#include "core/base/json.h"
+#include "core/base/read_file.h"
+#include "core/base/replace_file.h"
+#include "core/keys/digest.h"
+#include "deploy/bundle/bundle.h"
+#include "deploy/bundle/members.h"
+
+namespace indurop::deploy {
+namespace {
+
+using base::Problem;
+
+constexpr std::size_t kPortion = std::size_t{1} << 18U;
+
+class BundleWriter {
+ public:
+  BundleWriter() : archive_(::archive_write_new(), &::archive_write_free) {}
+
+  // Errors: see message().
+  bool open(const std::filesystem::path& file) {
+    return ::archive_write_set_format_pax_restricted(archive_.get()) == ARCHIVE_OK &&
+           ::archive_write_add_filter_zstd(archive_.get()) == ARCHIVE_OK &&
+           ::archive_write_open_filename(archive_.get(), file.c_str()) == ARCHIVE_OK;
+  }
+  bool begin(const std::string& member, std::uint64_t size) {
+    const std::unique_ptr<archive_entry, decltype(&::archive_entry_free)> entry(::archive_entry_new(),
+                                                                                &::archive_entry_free);
+    ::archive_entry_set_pathname(entry.get(), member.c_str());
+    ::archive_entry_set_size(entry.get(), static_cast<std::int64_t>(size));
+    ::archive_entry_set_filetype(entry.get(), AE_IFREG);
+    ::archive_entry_set_perm(entry.get(), 0644);
+    ::archive_entry_set_mtime(entry.get(), 0, 0);
+    return ::archive_write_header(archive_.get(), entry.get()) == ARCHIVE_OK;
+  }
+  bool add(std::string_view bytes) {
+    return ::archive_write_data(archive_.get(), bytes.data(), bytes.size()) == static_cast<la_ssize_t>(bytes.size());
+  }
+  bool text(const std::string& member, const std::string& text) { return begin(member, text.size()) && add(text); }
+  bool close() { return ::archive_write_close(archive_.get()) == ARCHIVE_OK; }
+  [[nodiscard]] std::string message() const {
+    const char* text = ::archive_error_string(archive_.get());
+    return text == nullptr ? "unknown error" : text;
+  }
+
+ private:
+  std::unique_ptr<archive, decltype(&::archive_write_free)> archive_;
+};
+
+// Copies a file of the package into the bundle. The problem is empty if the bundle could not be written.
+Result<void, Problem> add_file(BundleWriter& bundle, const PackageFile& file, const std::filesystem::path& source) {
+  const Problem changed{fmt::format("{} has changed while it was packed; pack again", source.string())};
+  const auto opened = base::open_file(source);
+  if (!opened) {
+    return Problem{base::cannot_read(source, opened.error())};
+  }
+  if (!bundle.begin(file_member(file.digest), file.size)) {
+    return Problem{};
+  }
+  keys::Digest digest;
+  std::array<char, kPortion> portion{};
+  std::uint64_t rest = file.size;
+  while (rest > 0) {
+    const ssize_t got = ::read(opened->file.get(), portion.data(), std::min<std::uint64_t>(rest, portion.size()));
+    if (got < 0 && errno == EINTR) {
+      continue;
+    }
+    if (got <= 0) {
+      return changed;
+    }
+    const std::string_view bytes(portion.data(), static_cast<std::size_t>(got));
+    digest.add({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    if (!bundle.add(bytes)) {
+      return Problem{};
+    }
+    rest -= bytes.size();
+  }
+  return digest.finish() == file.digest ? Result<void, Problem>() : changed;
+}
+
+Result<void, Problem> write_members(BundleWriter& bundle, const PackedPlant& packed, const BundleSignature& signature) {
+  const base::Json about{{"indurop_bundle", kBundleFormat},
+                         {"deployment", packed.id},
+                         {"certificate", signature.certificate},
+                         {"signature", signature.signature}};
+  if (!bundle.text(kPackageMember, packed.text) || !bundle.text(kSignatureMember, about.dump())) {
+    return Problem{};
+  }
+  std::set<std::string> written;
+  for (const PackageFile& file : packed.package.files) {
+    if (!written.insert(file.digest).second) {
+      continue;
+    }
+    if (auto added = add_file(bundle, file, packed.sources.at(file.digest)); !added) {
+      return added;
+    }
+  }
+  return bundle.close() ? Result<void, Problem>() : Problem{};
+}
+
+}  // namespace
+
+Result<void, Problem> write_bundle(const PackedPlant& packed, const BundleSignature& signature,
+                                   const std::filesystem::path& file) {
+  const std::filesystem::path unfinished = file.string() + ".part";
+  BundleWriter bundle;
+  Result<void, Problem> result = Problem{};
+  if (bundle.open(unfinished)) {
+    result = write_members(bundle, packed, signature);
+  }
+  if (!result && result.error().text.empty()) {
+    result = Problem{fmt::format("cannot write {}: {}", file.string(), bundle.message())};
+  }
+  std::error_code error;
+  if (result) {
+    if (const auto synced = base::sync_to_disk(unfinished); !synced) {
+      result = Problem{base::cannot_write(file, synced.error())};
+    }
+  }
+  if (result) {
+    std::filesystem::rename(unfinished, file, error);
+    if (error) {
+      result = Problem{fmt::format("cannot write {}: {}", file.string(), error.message())};
+    }
+  }
+  if (!result) {
+    std::filesystem::remove(unfinished, error);
+  }
+  return result;
+}
+
+}  // namespace indurop::deploy
