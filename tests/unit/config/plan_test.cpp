@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-const CheckOptions kScheduleOnly{.files = false, .adjust = false};
+const CheckOptions kPlanOnly{.files = false, .adjust = false};
 
 bool is_well_formed(const std::string& xml) {
   base::XmlRules rules;
@@ -27,7 +27,7 @@ bool is_well_formed(const std::string& xml) {
 
 TEST(Plan, Json_has_the_promised_fields) {
   const Checked c =
-      check(root(periodic("a.so", "1ms", 1) + sporadic("s.so", "thread", 1) + non_real("n.exe")), kScheduleOnly);
+      check(root(periodic("a.so", "1ms", 1) + sporadic("s.so", "thread", 1) + non_real("n.exe")), kPlanOnly);
   const auto sut = nlohmann::ordered_json::parse(plan_json(c.config, c.result));
   std::vector<std::string> keys;
   for (const auto& [key, value] : sut.items()) {
@@ -41,7 +41,7 @@ TEST(Plan, Json_has_the_promised_fields) {
 }
 
 TEST(Plan, Names_with_special_characters_stay_readable_in_every_form) {
-  const Checked c = check(root(periodic("a &lt;b&gt; &quot;c&quot;, d.so", "1ms", 1)), kScheduleOnly);
+  const Checked c = check(root(periodic("a &lt;b&gt; &quot;c&quot;, d.so", "1ms", 1)), kPlanOnly);
   EXPECT_EQ(nlohmann::json::parse(plan_json(c.config, c.result))["slots"][0]["modules"][0], "a <b> \"c\", d");
   EXPECT_THAT(plan_csv(c.config, c.result), HasSubstr("0,0,\"a <b> \"\"c\"\", d\"\n"));
   EXPECT_THAT(plan_svg(c.config, c.result), HasSubstr("a &lt;b&gt; &quot;c&quot;, d"));
@@ -49,7 +49,7 @@ TEST(Plan, Names_with_special_characters_stay_readable_in_every_form) {
 }
 
 TEST(Plan, Equal_basic_periods_of_a_long_table_share_a_line) {
-  const Checked c = check(root(periodic("fast.so", "1ms", 1) + periodic("slow.so", "1s", 2)), kScheduleOnly);
+  const Checked c = check(root(periodic("fast.so", "1ms", 1) + periodic("slow.so", "1s", 2)), kPlanOnly);
   EXPECT_THAT(plan_table(c.config, c.result), HasSubstr("1-999"));
   EXPECT_THAT(plan_table(c.config, c.result), Not(HasSubstr("\n                  2 ")));
 }
@@ -62,7 +62,7 @@ TEST(Plan, Schedules_of_any_size_are_drawn) {
   const std::string whole_year = root(periodic("a.so", "1ms", 1) + periodic("b.so", "31536000s", 2));
   for (const std::string& xml : {root(many), whole_year, root(non_real("n.exe")), root(sporadic("s.so", "thread", 1)),
                                  root(periodic("a.so", "9223372036854775807", 1))}) {
-    const Checked c = check(xml, kScheduleOnly);
+    const Checked c = check(xml, kPlanOnly);
     EXPECT_TRUE(is_well_formed(plan_svg(c.config, c.result)));
     EXPECT_FALSE(plan_table(c.config, c.result).empty());
     EXPECT_TRUE(nlohmann::json::accept(plan_json(c.config, c.result)));
@@ -71,7 +71,7 @@ TEST(Plan, Schedules_of_any_size_are_drawn) {
 }
 
 TEST(Plan, Basic_periods_left_out_of_json_are_counted) {
-  const Checked c = check(root(periodic("a.so", "1ms", 1) + periodic("b.so", "1000s", 2)), kScheduleOnly);
+  const Checked c = check(root(periodic("a.so", "1ms", 1) + periodic("b.so", "1000s", 2)), kPlanOnly);
   const auto sut = nlohmann::json::parse(plan_json(c.config, c.result));
   EXPECT_EQ(sut["slots"].size(), 100'000U);
   EXPECT_EQ(sut["slots_left_out"], 900'000U);

@@ -55,12 +55,12 @@ TEST(Wire, Comes_back_as_it_was) {
 }
 
 TEST(Wire, Keeps_every_digit_of_64_bits) {
-  constexpr auto kLow = std::numeric_limits<std::int64_t>::min();
-  constexpr auto kHigh = std::numeric_limits<std::uint64_t>::max();
-  EXPECT_EQ(decode({WireType::Int64}, encoded({WireType::Int64}, static_cast<Number>(kLow + 1))),
-            static_cast<Number>(kLow + 1));
-  EXPECT_EQ(decode({WireType::UInt64}, encoded({WireType::UInt64}, static_cast<Number>(kHigh))),
-            static_cast<Number>(kHigh));
+  constexpr auto kLowLimit = std::numeric_limits<std::int64_t>::min();
+  constexpr auto kHighLimit = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_EQ(decode({WireType::Int64}, encoded({WireType::Int64}, static_cast<Number>(kLowLimit + 1))),
+            static_cast<Number>(kLowLimit + 1));
+  EXPECT_EQ(decode({WireType::UInt64}, encoded({WireType::UInt64}, static_cast<Number>(kHighLimit))),
+            static_cast<Number>(kHighLimit));
 }
 
 TEST(Wire, What_does_not_fit_becomes_the_nearest_value) {

@@ -20,7 +20,7 @@
 namespace indurop::robot {
 namespace {
 
-constexpr double kPeriod = 0.001;
+constexpr double kPathPeriod = 0.001;
 
 // A joint that turns by 1 rad alone, at most 2 rad/s and 8 rad/s^2: 1/2 s at full speed and 1/4 s for ramps.
 TEST(Topp_reference, Knows_what_is_known_of_one_axis) {
@@ -78,7 +78,7 @@ TEST(Jerk_reference, Knows_what_is_known_of_one_axis) {
   EXPECT_NEAR(least_time(task), 4 * std::cbrt(1.0 / 20), 0.015);
 }
 
-struct Ratios {
+struct PathRatios {
   std::vector<double> all;
   double took = 0, least = 0;
   void add(double one, double other) {
@@ -169,14 +169,14 @@ class Path_time : public testing::Test {
     sut.add(planner.segment());
     int periods = 0;
     for (; !sut.idle(); ++periods) {
-      if (!sut.step(kPeriod).ok()) {
+      if (!sut.step(kPathPeriod).ok()) {
         return 0;
       }
     }
-    return periods * kPeriod;
+    return periods * kPathPeriod;
   }
   struct Both {
-    Ratios without, with;  // limits of jerk
+    PathRatios without, with;  // limits of jerk
   };
   Both measure(Move move) {
     const char* text = std::getenv("INDUROP_ROBOT_LINES");

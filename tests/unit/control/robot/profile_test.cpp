@@ -11,7 +11,7 @@
 namespace indurop::robot {
 namespace {
 
-constexpr double kSlack = 1e-7;
+constexpr double kProfileSlack = 1e-7;
 
 struct Case {
   LineState from;
@@ -42,11 +42,11 @@ void expect_within_limits(const Profile& sut, const LineLimits& limits) {
   LineState last = sut.at(0);
   for (int i = 1; i <= kPlaces; ++i) {
     const LineState now = sut.at(i * step);
-    ASSERT_LE(now.velocity, limits.velocity * (1 + kSlack) + kSlack);
-    ASSERT_GE(now.velocity, -kSlack * (1 + limits.velocity));
-    ASSERT_LE(std::abs(now.acceleration), limits.acceleration * (1 + kSlack) + kSlack);
+    ASSERT_LE(now.velocity, limits.velocity * (1 + kProfileSlack) + kProfileSlack);
+    ASSERT_GE(now.velocity, -kProfileSlack * (1 + limits.velocity));
+    ASSERT_LE(std::abs(now.acceleration), limits.acceleration * (1 + kProfileSlack) + kProfileSlack);
     ASSERT_LE(std::abs(now.acceleration - last.acceleration), limits.jerk * step * (1 + 1e-6) + 1e-6);
-    ASSERT_GE(now.position, last.position - kSlack);
+    ASSERT_GE(now.position, last.position - kProfileSlack);
     last = now;
   }
 }
@@ -68,7 +68,7 @@ TEST(Profile, Limits_are_never_exceeded_and_the_target_is_met) {
     const LineState last = sut.at(sut.duration() * (1 - 1e-12));
     EXPECT_NEAR(last.position, c.length, 1e-6 * (1 + c.length));
     EXPECT_NEAR(last.acceleration, 0, 1e-3 * (1 + c.limits.acceleration));
-    EXPECT_LE(sut.end().velocity, c.arrival + kSlack);
+    EXPECT_LE(sut.end().velocity, c.arrival + kProfileSlack);
   }
   EXPECT_GT(short_ways, 100);
   EXPECT_LT(short_ways, 15000);
@@ -152,8 +152,8 @@ TEST(Profile, To_rest_from_any_state_within_the_limits) {
     EXPECT_EQ(last.position, c.from.position);
     for (int k = 1; k <= kPlaces; ++k) {
       const LineState now = sut.at(k * step * (1 - 1e-12));
-      ASSERT_LE(std::abs(now.velocity), c.limits.velocity * (1 + kSlack) + kSlack);
-      ASSERT_LE(std::abs(now.acceleration), c.limits.acceleration * (1 + kSlack) + kSlack);
+      ASSERT_LE(std::abs(now.velocity), c.limits.velocity * (1 + kProfileSlack) + kProfileSlack);
+      ASSERT_LE(std::abs(now.acceleration), c.limits.acceleration * (1 + kProfileSlack) + kProfileSlack);
       ASSERT_LE(std::abs(now.acceleration - last.acceleration), c.limits.jerk * step * (1 + 1e-6) + 1e-6);
       last = now;
     }

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Vec3 tip(const Cell& cell) {
+Vec3 resume_tip(const Cell& cell) {
   return {cell.out.position[0], cell.out.position[1], cell.out.position[2]};
 }
 
@@ -21,7 +21,7 @@ std::vector<double> joints(const Cell& cell) {
   return {cell.out.command.begin(), cell.out.command.begin() + 6};
 }
 
-constexpr const char* kPoints =
+constexpr const char* kResumePoints =
     "POINT H = JOINT 0 -20 10 0 100 0\n"
     "POINT A = POSE 500 -250 300 RPY 180 0 180\nPOINT B = POSE 500 -100 200 RPY 180 0 150\n"
     "POINT C = POSE 450 100 300 RPY 170 10 180\nPOINT D = POSE 450 250 350 RPY 180 0 200\n"
@@ -30,7 +30,7 @@ constexpr const char* kPoints =
 std::string random_job(std::mt19937& random, bool zones) {
   const auto one_of = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
   const auto point = [&] { return std::string(1, static_cast<char>('A' + one_of(5))); };
-  std::string job = std::string(kPoints) + (zones ? "MOVJ H\n" : "MOVJ H STRAIGHT\n");
+  std::string job = std::string(kResumePoints) + (zones ? "MOVJ H\n" : "MOVJ H STRAIGHT\n");
   for (int i = 0; i < 6; ++i) {
     if (zones && one_of(2) == 0) {
       job += fmt::format("ZONE {} mm\n", one_of(3) * 20);
@@ -79,7 +79,7 @@ void recover(Cell& cell, std::mt19937& random, double pushed_deg) {
   ASSERT_TRUE(cell.serve(Service::GroupEnable)) << to_string(cell.out.error);
 }
 
-double away(const std::vector<Vec3>& path, const Vec3& place) {
+double away_from_path(const std::vector<Vec3>& path, const Vec3& place) {
   double least = HUGE_VAL;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const Vec3 way = path[i] - path[i - 1];
@@ -129,7 +129,7 @@ void run(unsigned seed, double& most_away, int& stops) {
   std::vector<Vec3> path;
   ASSERT_TRUE(straight.until(
       [&] {
-        path.push_back(tip(straight));
+        path.push_back(resume_tip(straight));
         return straight.out.done == straight.in.service.number;
       },
       40'000));
@@ -154,7 +154,7 @@ void run(unsigned seed, double& most_away, int& stops) {
     }
     returning = returning && sut.out.job.state != JobState::Runs;
     if (i % 8 == 0 && !zones && !returning && sut.out.state == GroupState::Moving) {
-      most_away = std::max(most_away, away(path, tip(sut)));
+      most_away = std::max(most_away, away_from_path(path, resume_tip(sut)));
     }
     const bool now = std::uniform_real_distribution<double>(0, 1)(random) < 0.8 * period_ms / 1000;
     if (left > 0 && now && sut.out.state == GroupState::Moving) {
@@ -172,7 +172,7 @@ void run(unsigned seed, double& most_away, int& stops) {
       << "seed " << seed << ": " << to_string(sut.out.error) << ", " << sut.out.job.message << ", state "
       << static_cast<int>(sut.out.state) << ", " << sut.out.path_speed << " %\n"
       << job;
-  EXPECT_LT((tip(sut) - tip(straight)).norm(), 1e-3) << "seed " << seed;
+  EXPECT_LT((resume_tip(sut) - resume_tip(straight)).norm(), 1e-3) << "seed " << seed;
 }
 
 TEST(Resume, Jobs_that_are_stopped_anywhere_go_on_along_their_path_within_all_limits) {
@@ -202,25 +202,25 @@ void stop_in_line(Cell& cell) {
 }
 
 TEST(Resume, It_goes_back_to_the_path_slowly_and_then_on) {
-  Cell cell(kPoints + std::string(kLines), 10, 0, true, {}, cell_urdf());
+  Cell cell(kResumePoints + std::string(kLines), 10, 0, true, {}, cell_urdf());
   stop_in_line(cell);
   std::mt19937 random(1);
   recover(cell, random, 3);
-  const Vec3 pushed = tip(cell);
+  const Vec3 pushed = resume_tip(cell);
   cell.ask(Service::JobResume);
   double fastest = 0;
   ASSERT_TRUE(cell.until([&] {
     fastest = std::max(fastest, cell.out.job.state == JobState::Failed ? cell.out.tool_speed : 0);
     return cell.out.job.state == JobState::Runs;
   }));
-  EXPECT_GT((tip(cell) - pushed).norm(), 1);
+  EXPECT_GT((resume_tip(cell) - pushed).norm(), 1);
   EXPECT_LT(fastest, 200);
   EXPECT_TRUE(cell.until([&] { return cell.out.job.state == JobState::Ended; }));
   EXPECT_EQ(cell.values[0], 1);
 }
 
 TEST(Resume, It_is_refused_after_the_robot_was_moved_away_by_hand) {
-  Cell cell(kPoints + std::string(kLines), 10, 0, true, {}, cell_urdf());
+  Cell cell(kResumePoints + std::string(kLines), 10, 0, true, {}, cell_urdf());
   stop_in_line(cell);
   std::mt19937 random(2);
   recover(cell, random, 0);
@@ -241,7 +241,7 @@ TEST(Resume, It_is_refused_after_the_robot_was_moved_away_by_hand) {
 }
 
 TEST(Resume, There_is_nothing_to_go_on_with_before_a_job_and_after_its_end) {
-  Cell cell(kPoints + std::string("MOVJ H\n"), 10, 0, true, {}, cell_urdf());
+  Cell cell(kResumePoints + std::string("MOVJ H\n"), 10, 0, true, {}, cell_urdf());
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   EXPECT_FALSE(cell.serve(Service::JobResume));
   EXPECT_EQ(cell.out.error, ErrorCode::NoResume);
@@ -252,7 +252,7 @@ TEST(Resume, There_is_nothing_to_go_on_with_before_a_job_and_after_its_end) {
 }
 
 TEST(Resume, Another_stop_on_the_way_back_loses_nothing) {
-  Cell cell(kPoints + std::string(kLines), 10, 0, true, {}, cell_urdf());
+  Cell cell(kResumePoints + std::string(kLines), 10, 0, true, {}, cell_urdf());
   stop_in_line(cell);
   std::mt19937 random(3);
   recover(cell, random, 3);
@@ -266,7 +266,7 @@ TEST(Resume, Another_stop_on_the_way_back_loses_nothing) {
 
 // Lines: 7 MOVJ H, 8 SPEED, 9 MOVL A, 10 MOVL B, 11 SET, 12 MOVL C.
 TEST(Resume, Single_steps_go_line_by_line_and_back) {
-  Cell cell(kPoints + std::string(kLines), 10, 0, true, {}, cell_urdf());
+  Cell cell(kResumePoints + std::string(kLines), 10, 0, true, {}, cell_urdf());
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.job = 1;
   cell.in.single_step = true;
@@ -290,14 +290,14 @@ TEST(Resume, Single_steps_go_line_by_line_and_back) {
   cell.in.single_step = false;
   EXPECT_TRUE(cell.serve(Service::JobResume));
   EXPECT_EQ(cell.out.job.state, JobState::Ended);
-  EXPECT_LT((tip(cell) - Vec3(450, 100, 300)).norm(), 1e-6);
+  EXPECT_LT((resume_tip(cell) - Vec3(450, 100, 300)).norm(), 1e-6);
 }
 
 // Motions to H in one job and to A in the other, on lines that tell which.
 TEST(Resume, The_line_is_told_with_the_job_that_it_is_of) {
   Cell cell;
   cell.sut = controller_of(cell_urdf(),
-                           std::string(kPoints) + "LOOP 2\nMOVJ H\nCALL other\nEND\nMOVJ B\nMOVL NOWHERE\n" +
+                           std::string(kResumePoints) + "LOOP 2\nMOVJ H\nCALL other\nEND\nMOVJ B\nMOVL NOWHERE\n" +
                                "POINT NOWHERE = POSE 5000 0 0 RPY 180 0 180\n",
                            {}, {{"other", "\n\n\nMOVJ A\nWAIT 0.1s\nMOVJ C\n"}});
   cell.step();
@@ -320,7 +320,7 @@ TEST(Resume, The_line_is_told_with_the_job_that_it_is_of) {
 }
 
 TEST(Resume, A_breakpoint_pauses_each_time_before_its_line) {
-  Cell cell(kPoints + std::string("LOOP 3\nMOVJ A\nSET I4 = I4 + 1\nEND\n"), 10, 0, true, {}, cell_urdf());
+  Cell cell(kResumePoints + std::string("LOOP 3\nMOVJ A\nSET I4 = I4 + 1\nEND\n"), 10, 0, true, {}, cell_urdf());
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.job = 1;
   cell.in.breakpoints[3] = {1, 9};
@@ -335,7 +335,8 @@ TEST(Resume, A_breakpoint_pauses_each_time_before_its_line) {
 }
 
 TEST(Resume, A_job_begins_at_a_line_with_the_speed_and_zone_of_the_lines_before) {
-  Cell cell(kPoints + std::string("MOVJ H\nSPEED 50 mm/s\nMOVL A\nMOVL B\nMOVC E D\n"), 10, 0, true, {}, cell_urdf());
+  Cell cell(kResumePoints + std::string("MOVJ H\nSPEED 50 mm/s\nMOVL A\nMOVL B\nMOVC E D\n"), 10, 0, true, {},
+            cell_urdf());
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.job = 1;
   cell.in.service.line = 99;

@@ -11,7 +11,7 @@
 namespace indurop::robot {
 namespace {
 
-constexpr LineLimits kLimits{3, 12, 120};
+constexpr LineLimits kGateLimits{3, 12, 120};
 constexpr double kNoise = 5e-11;  // rad, what rounding may move a set point by
 
 // Set points of the fastest move there is between two places, then at rest.
@@ -28,9 +28,9 @@ TEST(Set_point_gate, Lets_the_fastest_moves_pass_from_end_to_end) {
   for (const double period : {0.001, 0.004, 0.01}) {
     for (const double from : {-2.0, 1.9, 2.0}) {
       for (const double to : {-2.0, -1.99, 0.3, 2.0}) {
-        SetPointGate sut({-2, 2, false}, kLimits, period);
+        SetPointGate sut({-2, 2, false}, kGateLimits, period);
         sut.stand(from);
-        for (const double point : move(from, to, period, kLimits)) {
+        for (const double point : move(from, to, period, kGateLimits)) {
           ASSERT_EQ(sut.check(point, 1), ErrorCode::Ok) << from << " to " << to << " at " << point << ", " << period;
           sut.pass(point, 1);
         }
@@ -44,9 +44,9 @@ TEST(Set_point_gate, Is_not_disturbed_by_rounding) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> noise(-kNoise, kNoise);
   for (const double period : {0.0001, 0.00025, 0.001, 0.01}) {
-    SetPointGate sut({-2, 2, false}, kLimits, period);
+    SetPointGate sut({-2, 2, false}, kGateLimits, period);
     sut.stand(-1.5);
-    for (const double exact : move(-1.5, 1.5, period, kLimits)) {
+    for (const double exact : move(-1.5, 1.5, period, kGateLimits)) {
       const double point = exact + noise(random);
       ASSERT_EQ(sut.check(point, 1), ErrorCode::Ok) << point << ", period " << period;
       sut.pass(point, 1);
@@ -57,11 +57,11 @@ TEST(Set_point_gate, Is_not_disturbed_by_rounding) {
 // What hides behind rounding adds up.
 TEST(Set_point_gate, Refuses_a_jerk_a_hundredth_too_large) {
   const double period = 0.0001;
-  SetPointGate sut({-2, 2, false}, kLimits, period);
+  SetPointGate sut({-2, 2, false}, kGateLimits, period);
   sut.stand(0);
   LineState state;
-  while (state.acceleration < kLimits.acceleration / 2) {
-    state.acceleration += 1.01 * kLimits.jerk * period;
+  while (state.acceleration < kGateLimits.acceleration / 2) {
+    state.acceleration += 1.01 * kGateLimits.jerk * period;
     state.velocity += state.acceleration * period;
     state.position += state.velocity * period;
     if (sut.check(state.position, 1) != ErrorCode::Ok) {
@@ -70,11 +70,11 @@ TEST(Set_point_gate, Refuses_a_jerk_a_hundredth_too_large) {
     sut.pass(state.position, 1);
   }
   EXPECT_EQ(sut.check(state.position, 1), ErrorCode::Jerk);
-  EXPECT_LT(state.acceleration, kLimits.acceleration / 2);
+  EXPECT_LT(state.acceleration, kGateLimits.acceleration / 2);
 }
 
 TEST(Set_point_gate, Names_the_limit_that_is_broken) {
-  SetPointGate sut({-2, 2, false}, kLimits, 0.001);
+  SetPointGate sut({-2, 2, false}, kGateLimits, 0.001);
   sut.stand(0);
   EXPECT_EQ(sut.check(std::nan(""), 1), ErrorCode::Value);
   EXPECT_EQ(sut.check(std::numeric_limits<double>::infinity(), 1), ErrorCode::Value);
@@ -86,11 +86,11 @@ TEST(Set_point_gate, Names_the_limit_that_is_broken) {
 }
 
 TEST(Set_point_gate, What_stands_beyond_its_end_may_only_come_back) {
-  SetPointGate sut({-2, 2, false}, kLimits, 0.001);
+  SetPointGate sut({-2, 2, false}, kGateLimits, 0.001);
   sut.stand(2.5);
   EXPECT_EQ(sut.check(2.5, 1), ErrorCode::Ok);
   EXPECT_EQ(sut.check(2.5 + 1e-9, 1), ErrorCode::JointLimit);
-  for (const double point : move(2.5, 1.5, 0.001, kLimits)) {
+  for (const double point : move(2.5, 1.5, 0.001, kGateLimits)) {
     ASSERT_EQ(sut.check(point, 1), ErrorCode::Ok) << point;
     sut.pass(point, 1);
   }
@@ -99,21 +99,21 @@ TEST(Set_point_gate, What_stands_beyond_its_end_may_only_come_back) {
 }
 
 TEST(Set_point_gate, A_harder_stop_has_harder_limits) {
-  SetPointGate sut({-2, 2, false}, kLimits, 0.01);
+  SetPointGate sut({-2, 2, false}, kGateLimits, 0.01);
   sut.stand(0);
-  const double point = 1.2 * kLimits.jerk * 1e-6;
+  const double point = 1.2 * kGateLimits.jerk * 1e-6;
   EXPECT_EQ(sut.check(point, 1), ErrorCode::Jerk);
   EXPECT_EQ(sut.check(point, 1.5), ErrorCode::Ok);
 }
 
 TEST(Set_point_gate, Refuses_what_could_not_come_to_rest_before_the_end) {
   const double period = 0.004;
-  SetPointGate sut({-2, 2, false}, kLimits, period);
+  SetPointGate sut({-2, 2, false}, kGateLimits, period);
   sut.stand(-2);
   // On to a place beyond the end: refused long before it.
   double last = -2;
   ErrorCode code = ErrorCode::Ok;
-  for (const double point : move(-2, 5, period, kLimits)) {
+  for (const double point : move(-2, 5, period, kGateLimits)) {
     code = sut.check(point, 1);
     if (code != ErrorCode::Ok) {
       break;
@@ -185,9 +185,9 @@ TEST(Set_point_gate, Whatever_comes_and_whenever_it_brakes_no_limit_is_broken) {
 // As quick as a plan in continuous time, up to two periods.
 TEST(Set_point_gate, Brakes_as_fast_as_can_be) {
   const double period = 0.001;
-  SetPointGate sut({-100, 100, false}, kLimits, period);
+  SetPointGate sut({-100, 100, false}, kGateLimits, period);
   sut.stand(0);
-  for (const double point : move(0, 3, period, kLimits)) {
+  for (const double point : move(0, 3, period, kGateLimits)) {
     sut.pass(point, 1);
     if (sut.state().velocity > 2.9) {
       break;
@@ -198,7 +198,7 @@ TEST(Set_point_gate, Brakes_as_fast_as_can_be) {
   for (; !sut.at_rest(); ++periods) {
     sut.brake(1);
   }
-  EXPECT_LE(periods, ramp(now, 0, kLimits).duration() / period + 3);
+  EXPECT_LE(periods, ramp(now, 0, kGateLimits).duration() / period + 3);
 }
 
 }  // namespace

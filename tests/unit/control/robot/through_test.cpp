@@ -16,7 +16,7 @@ namespace {
 
 constexpr LineLimits kMost{2, 8, 80};
 constexpr double kEnd = 3;
-constexpr double kPeriod = 0.001;
+constexpr double kThroughPeriod = 0.001;
 
 // From one velocity to another one, without acceleration at both: as long as the textbook says, and halfway between
 // them on average.
@@ -40,16 +40,16 @@ class Through : public testing::Test {
   double some(double most) { return most * std::pow(10, in(-1, 0)); }
   LineLimits any_limits() { return {some(kMost.velocity), some(kMost.acceleration), some(kMost.jerk)}; }
   void step() {
-    sut.step(kPeriod);
-    time += kPeriod;
-    const double v = (sut.state().position - last.position) / kPeriod;
-    const double a = (v - last.velocity) / kPeriod;
+    sut.step(kThroughPeriod);
+    time += kThroughPeriod;
+    const double v = (sut.state().position - last.position) / kThroughPeriod;
+    const double a = (v - last.velocity) / kThroughPeriod;
     EXPECT_LE(std::abs(v), kMost.velocity + 1e-6);
     if (known >= 1) {
       EXPECT_LE(std::abs(a), kMost.acceleration + 1e-5);
     }
     if (known >= 2) {
-      EXPECT_LE(std::abs(a - last.acceleration), kMost.jerk * kPeriod * 1.001 + 1e-5);
+      EXPECT_LE(std::abs(a - last.acceleration), kMost.jerk * kThroughPeriod * 1.001 + 1e-5);
     }
     last = {sut.state().position, v, a};
     ++known;
@@ -66,7 +66,7 @@ class Through : public testing::Test {
     EXPECT_NEAR(sut.state().acceleration, 0, 1e-9);
     const double beyond = velocity < 0 ? place - sut.state().position : sut.state().position - place;
     EXPECT_GE(beyond, -1e-9);
-    EXPECT_LE(beyond, std::abs(velocity) * kPeriod + 1e-9);
+    EXPECT_LE(beyond, std::abs(velocity) * kThroughPeriod + 1e-9);
     passed_at = time - (velocity == 0 ? 0 : beyond / std::abs(velocity));
     for (int i = 0; i < 50; ++i) {
       step();

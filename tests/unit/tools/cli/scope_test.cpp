@@ -37,7 +37,7 @@ double value(std::string_view text, std::vector<double> inputs = {3, 4, 5, 2}) {
   EXPECT_TRUE(formula) << text << ": " << formula.error().text;
   return formula ? formula->value(inputs) : std::nan("");
 }
-std::string problem(std::string_view text) {
+std::string scope_problem(std::string_view text) {
   const auto formula = Formula::parse(text, find);
   EXPECT_FALSE(formula) << text;
   return formula ? "" : formula.error().text;
@@ -61,7 +61,7 @@ TEST(ScopeFormula, Binds_as_in_other_languages) {
 TEST(ScopeFormula, Knows_the_names_of_an_enumeration) {
   EXPECT_EQ(value("mode == Moving"), 1);
   EXPECT_EQ(value("mode != Idle and a > 0"), 1);
-  EXPECT_THAT(problem("a == Moving"), HasSubstr("no variable 'Moving'"));
+  EXPECT_THAT(scope_problem("a == Moving"), HasSubstr("no variable 'Moving'"));
 }
 
 TEST(ScopeFormula, What_is_not_known_is_not_true) {
@@ -77,21 +77,21 @@ TEST(ScopeFormula, Takes_units_along) {
   EXPECT_EQ(unit("a / b"), "");
   EXPECT_EQ(unit("a / knu::Robot::joints[1].y"), "mm/rad");
   EXPECT_EQ(unit("a > b"), "");
-  EXPECT_THAT(problem("a + knu::Robot::joints[1].y"), HasSubstr("mm and rad do not go together"));
+  EXPECT_THAT(scope_problem("a + knu::Robot::joints[1].y"), HasSubstr("mm and rad do not go together"));
 }
 
 TEST(ScopeFormula, What_is_wrong_is_named_with_its_place) {
-  EXPECT_THAT(problem(""), HasSubstr("a name or a number is missing"));
-  EXPECT_THAT(problem("a +"), HasSubstr("place 4: a name or a number is missing"));
-  EXPECT_THAT(problem("a b"), HasSubstr("place 3: an operator is missing"));
-  EXPECT_THAT(problem("(a"), HasSubstr("')' is missing"));
-  EXPECT_THAT(problem("sin(a)"), HasSubstr("there is no function 'sin'; there are abs, sqrt, min, max"));
-  EXPECT_THAT(problem("min(a)"), HasSubstr("',' is missing"));
-  EXPECT_THAT(problem("a $ b"), HasSubstr("place 3"));
-  EXPECT_THAT(problem("nobody > 1"), HasSubstr("there is no variable 'nobody'"));
-  EXPECT_THAT(problem(std::string(2000, '(')), HasSubstr("too long"));
-  EXPECT_THAT(problem(std::string(900, '(')), HasSubstr("too many brackets"));
-  EXPECT_THAT(problem("joints[1"), HasSubstr("no variable"));
+  EXPECT_THAT(scope_problem(""), HasSubstr("a name or a number is missing"));
+  EXPECT_THAT(scope_problem("a +"), HasSubstr("place 4: a name or a number is missing"));
+  EXPECT_THAT(scope_problem("a b"), HasSubstr("place 3: an operator is missing"));
+  EXPECT_THAT(scope_problem("(a"), HasSubstr("')' is missing"));
+  EXPECT_THAT(scope_problem("sin(a)"), HasSubstr("there is no function 'sin'; there are abs, sqrt, min, max"));
+  EXPECT_THAT(scope_problem("min(a)"), HasSubstr("',' is missing"));
+  EXPECT_THAT(scope_problem("a $ b"), HasSubstr("place 3"));
+  EXPECT_THAT(scope_problem("nobody > 1"), HasSubstr("there is no variable 'nobody'"));
+  EXPECT_THAT(scope_problem(std::string(2000, '(')), HasSubstr("too long"));
+  EXPECT_THAT(scope_problem(std::string(900, '(')), HasSubstr("too many brackets"));
+  EXPECT_THAT(scope_problem("joints[1"), HasSubstr("no variable"));
 }
 
 std::vector<int> fires(std::string_view text, const std::vector<double>& samples) {

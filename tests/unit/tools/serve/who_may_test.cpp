@@ -89,7 +89,7 @@ int expected(const Request& request, const Asker& asker, const GateSettings& set
   return settings.write && !asker.known ? status::kUnauthorized : status::kForbidden;
 }
 
-int code(const std::optional<Reply>& reply) {
+int code_of_reply(const std::optional<Reply>& reply) {
   return reply ? reply->status : 0;
 }
 
@@ -113,7 +113,7 @@ void walk(const Check& check) {
 }
 
 int answer_of(const GateSettings& settings, const Request& request) {
-  return code(Gate(settings).refuse(request, right_of(all_routes(), request)));
+  return code_of_reply(Gate(settings).refuse(request, right_of(all_routes(), request)));
 }
 
 TEST(WhoMay, Is_the_same_for_every_line_of_the_table) {

@@ -27,7 +27,7 @@ FUNCTION_BLOCK Drive IMPLEMENTS IDrive VAR_INPUT in : INT; e : BOOL R_EDGE; END_
   out := in; io := tmp; tmp := BOOL_TO_INT(e);
 END_FUNCTION_BLOCK
 )";
-constexpr const char* kMain = "PROGRAM Main VAR d : Drive; i : IDrive; x : INT; b : BOOL; END_VAR\n";
+constexpr const char* kObjectsMain = "PROGRAM Main VAR d : Drive; i : IDrive; x : INT; b : BOOL; END_VAR\n";
 
 struct Row {
   std::string text;
@@ -46,7 +46,7 @@ void expect_one_error(const Row& row) {
 }
 
 std::string main_with(const std::string& code) {
-  return kMain + code + " END_PROGRAM";
+  return kObjectsMain + code + " END_PROGRAM";
 }
 
 // A function block that extends Drive; `code` stands before its body.

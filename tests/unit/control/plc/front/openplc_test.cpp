@@ -16,7 +16,7 @@ using testing::written;
 
 using Files = std::map<std::string, std::string>;
 
-Compiled project(const Files& files) {
+Compiled openplc_project(const Files& files) {
   CompileOptions options;
   for (const auto& [name, text] : files) {
     options.files.push_back(name);
@@ -110,7 +110,7 @@ std::string ladder() {
 }
 
 TEST(PlcOpenPlc, A_project_with_a_ladder) {
-  const Compiled made = project({{"project.json", kProject}, {"pous/programs/main.ld", ladder()}});
+  const Compiled made = openplc_project({{"project.json", kProject}, {"pous/programs/main.ld", ladder()}});
   ASSERT_TRUE(made.ok) << messages(made);
   const std::string text = written(made);
   EXPECT_THAT(text, HasSubstr("<period>20ms</period>"));
@@ -122,15 +122,15 @@ TEST(PlcOpenPlc, A_project_with_a_ladder) {
 
 TEST(PlcOpenPlc, Globals_and_types_of_the_project) {
   const Compiled made =
-      project({{"project.json", kProject},
-               {"datatypes/Other.dt", "TYPE\n  Other : (On, Off) := Off;\nEND_TYPE\n"},
-               {"pous/function-blocks/Add.il",
-                "FUNCTION_BLOCK Add1\nVAR_INPUT a : int; END_VAR\nVAR_OUTPUT b : int; END_VAR\n"
-                "LD a\nADD 1\nST b\nEND_FUNCTION_BLOCK\n"},
-               {"pous/programs/main.st",
-                "PROGRAM main\nVAR p : Point; add : Add1; o : Other; END_VAR\n"
-                "add(a := p.x);\nIF mode = Slow AND o = Off THEN level := 5; row[4] := add.b; END_IF;\n"
-                "END_PROGRAM\n"}});
+      openplc_project({{"project.json", kProject},
+                       {"datatypes/Other.dt", "TYPE\n  Other : (On, Off) := Off;\nEND_TYPE\n"},
+                       {"pous/function-blocks/Add.il",
+                        "FUNCTION_BLOCK Add1\nVAR_INPUT a : int; END_VAR\nVAR_OUTPUT b : int; END_VAR\n"
+                        "LD a\nADD 1\nST b\nEND_FUNCTION_BLOCK\n"},
+                       {"pous/programs/main.st",
+                        "PROGRAM main\nVAR p : Point; add : Add1; o : Other; END_VAR\n"
+                        "add(a := p.x);\nIF mode = Slow AND o = Off THEN level := 5; row[4] := add.b; END_IF;\n"
+                        "END_PROGRAM\n"}});
   ASSERT_TRUE(made.ok) << messages(made);
   EXPECT_THAT(made.glb, HasSubstr("int16_t row[5]"));
   EXPECT_THAT(made.glb, HasSubstr("level = 20"));
@@ -145,7 +145,7 @@ TEST(PlcOpenPlc, A_function_block_diagram) {
            {node("a", "input-variable", 0, variable("x", "")), node("b", "input-variable", 0, variable("3", "")),
             node("f", "block", 100, add), node("o", "output-variable", 200, variable("y", ""))},
            {edge("a", "output", "f", "IN1"), edge("b", "output", "f", "IN2"), edge("f", "OUT", "o", "input")});
-  const Compiled made = project(
+  const Compiled made = openplc_project(
       {{"project.json", kProject},
        {"pous/programs/main.fbd", "PROGRAM main\nVAR\n  x, y : INT;\nEND_VAR\n\n{\"name\": \"main\", \"rung\": " +
                                       drawing + "}\nEND_PROGRAM\n"}});
@@ -165,17 +165,19 @@ TEST(PlcOpenPlc, POUs_inside_the_project) {
       {"name": "n", "class": "local", "type": {"definition": "array", "value": "", "data": {"dimensions":
       [{"dimension": "1..3"}], "baseType": {"definition": "base-type", "value": "int"}}}, "location": ""}],
       "body": {"language": "st", "value": "n[1] := Twice(n[2]);"}}}])");
-  const Compiled made = project({{"project.json", text}});
+  const Compiled made = openplc_project({{"project.json", text}});
   ASSERT_TRUE(made.ok) << messages(made);
   EXPECT_THAT(written(made), HasSubstr("Twice("));
 }
 
 TEST(PlcOpenPlc, What_is_wrong_is_said_with_its_place) {
-  EXPECT_THAT(messages(project({{"project.json", "{}"}})), HasSubstr("this is no project of the OpenPLC Editor"));
-  EXPECT_THAT(messages(project({{"main.ld", "PROGRAM main\nEND_PROGRAM\n"}})), HasSubstr("there is no drawing in it"));
+  EXPECT_THAT(messages(openplc_project({{"project.json", "{}"}})),
+              HasSubstr("this is no project of the OpenPLC Editor"));
+  EXPECT_THAT(messages(openplc_project({{"main.ld", "PROGRAM main\nEND_PROGRAM\n"}})),
+              HasSubstr("there is no drawing in it"));
   std::string text = ladder();
   text.replace(text.find("\"stop\""), 6, "\"stopp\"");
-  EXPECT_THAT(messages(project({{"main.ld", text}})), HasSubstr("'stopp' is not declared"));
+  EXPECT_THAT(messages(openplc_project({{"main.ld", text}})), HasSubstr("'stopp' is not declared"));
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 namespace indurop::iec {
 namespace {
 
-constexpr Place kHere{"prog.st:12:5", "MAIN"};
+constexpr Place kSelectPlace{"prog.st:12:5", "MAIN"};
 
 template <class Call>
-std::string fault_of(Call call) {
+std::string fault_of_select(Call call) {
   try {
     call();
   } catch (const Fault& fault) {
@@ -84,37 +84,37 @@ TEST(PlcSelect, Limit_keeps_a_value_between_two_others) {
 }
 
 TEST(PlcSelect, Mux_takes_the_input_of_a_number) {
-  EXPECT_EQ(mux(kHere, std::int16_t{0}, 10, 20, 30), 10);
-  EXPECT_EQ(mux(kHere, std::uint64_t{2}, 10, 20, 30), 30);
-  EXPECT_EQ(mux(kHere, 1, String<1>("a"), String<4>("text")), "text");
+  EXPECT_EQ(mux(kSelectPlace, std::int16_t{0}, 10, 20, 30), 10);
+  EXPECT_EQ(mux(kSelectPlace, std::uint64_t{2}, 10, 20, 30), 30);
+  EXPECT_EQ(mux(kSelectPlace, 1, String<1>("a"), String<4>("text")), "text");
 }
 
 TEST(PlcSelect, Mux_beyond_its_inputs_is_a_fault) {
-  EXPECT_EQ(fault_of([] { mux(kHere, 3, 10, 20, 30); }),
+  EXPECT_EQ(fault_of_select([] { mux(kSelectPlace, 3, 10, 20, 30); }),
             "prog.st:12:5: selector K of MUX 3 is outside of 0..2 in MAIN");
-  EXPECT_EQ(fault_of([] { mux(kHere, std::int8_t{-1}, 10, 20); }),
+  EXPECT_EQ(fault_of_select([] { mux(kSelectPlace, std::int8_t{-1}, 10, 20); }),
             "prog.st:12:5: selector K of MUX -1 is outside of 0..1 in MAIN");
 }
 
 TEST(PlcIndex, Counts_from_the_lower_bound) {
-  EXPECT_EQ(index(kHere, std::int16_t{1}, 1, 10), 0U);
-  EXPECT_EQ(index(kHere, std::int16_t{10}, 1, 10), 9U);
-  EXPECT_EQ(index(kHere, std::int8_t{-5}, -5, 5), 0U);
-  EXPECT_EQ(index(kHere, std::uint8_t{5}, -5, 5), 10U);
+  EXPECT_EQ(index(kSelectPlace, std::int16_t{1}, 1, 10), 0U);
+  EXPECT_EQ(index(kSelectPlace, std::int16_t{10}, 1, 10), 9U);
+  EXPECT_EQ(index(kSelectPlace, std::int8_t{-5}, -5, 5), 0U);
+  EXPECT_EQ(index(kSelectPlace, std::uint8_t{5}, -5, 5), 10U);
 }
 
 TEST(PlcIndex, Outside_is_a_fault_that_names_the_bounds) {
-  EXPECT_EQ(fault_of([] { index(kHere, std::int16_t{11}, 1, 10); }),
+  EXPECT_EQ(fault_of_select([] { index(kSelectPlace, std::int16_t{11}, 1, 10); }),
             "prog.st:12:5: index 11 is outside of 1..10 in MAIN");
-  EXPECT_EQ(fault_of([] { index(kHere, std::int16_t{0}, 1, 10); }),
+  EXPECT_EQ(fault_of_select([] { index(kSelectPlace, std::int16_t{0}, 1, 10); }),
             "prog.st:12:5: index 0 is outside of 1..10 in MAIN");
-  EXPECT_EQ(fault_of([] { index(kHere, ~std::uint64_t{0}, -1, 10); }),
+  EXPECT_EQ(fault_of_select([] { index(kSelectPlace, ~std::uint64_t{0}, -1, 10); }),
             "prog.st:12:5: index 9223372036854775807 is outside of -1..10 in MAIN");
 }
 
 TEST(PlcIndex, Subranges_are_checked_alike) {
-  EXPECT_EQ(in_range(kHere, std::int16_t{-3}, -3, 3), -3);
-  EXPECT_EQ(fault_of([] { in_range(kHere, std::int16_t{4}, -3, 3); }),
+  EXPECT_EQ(in_range(kSelectPlace, std::int16_t{-3}, -3, 3), -3);
+  EXPECT_EQ(fault_of_select([] { in_range(kSelectPlace, std::int16_t{4}, -3, 3); }),
             "prog.st:12:5: value 4 is outside of -3..3 in MAIN");
 }
 

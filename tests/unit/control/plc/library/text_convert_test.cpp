@@ -20,8 +20,8 @@ using std::int8_t;
 using std::uint64_t;
 using std::uint8_t;
 
-constexpr int64_t kMin = std::numeric_limits<int64_t>::min();
-constexpr int64_t kMax = std::numeric_limits<int64_t>::max();
+constexpr int64_t kMinLong = std::numeric_limits<int64_t>::min();
+constexpr int64_t kMaxLong = std::numeric_limits<int64_t>::max();
 
 template <class T>
 T read(const char* text) {
@@ -33,7 +33,7 @@ TEST(PlcToString, Bools_and_integers) {
   EXPECT_EQ(to_string(false), "FALSE");
   EXPECT_EQ(to_string(int8_t{-128}), "-128");
   EXPECT_EQ(to_string(uint8_t{255}), "255");
-  EXPECT_EQ(to_string(kMin), "-9223372036854775808");
+  EXPECT_EQ(to_string(kMinLong), "-9223372036854775808");
   EXPECT_EQ(to_string(~uint64_t{0}), "18446744073709551615");
 }
 
@@ -52,7 +52,7 @@ TEST(PlcToString, Durations_name_the_units_that_are_not_zero) {
   EXPECT_EQ(to_string(Time{90 * kSecond}), "T#1m30s");
   EXPECT_EQ(to_string(Time{-1'500 * kMillisecond}), "T#-1s500ms");
   EXPECT_EQ(to_string(Time{kDay + 2 * kHour + 3 * kMinute + 4 * kSecond + 5'006'007}), "T#1d2h3m4s5ms6us7ns");
-  EXPECT_EQ(to_string(Time{kMin}), "T#-106751d23h47m16s854ms775us808ns");
+  EXPECT_EQ(to_string(Time{kMinLong}), "T#-106751d23h47m16s854ms775us808ns");
 }
 
 TEST(PlcToString, Dates) {
@@ -62,8 +62,8 @@ TEST(PlcToString, Dates) {
   EXPECT_EQ(to_string(TimeOfDay{500 * kMillisecond}), "TOD#00:00:00.500");
   EXPECT_EQ(to_string(TimeOfDay{1}), "TOD#00:00:00.000000001");
   EXPECT_EQ(to_string(DateTime{-1'000}), "DT#1969-12-31-23:59:59.999999");
-  EXPECT_EQ(to_string(DateTime{kMin}), "DT#1677-09-21-00:12:43.145224192");
-  EXPECT_EQ(to_string(DateTime{kMax}), "DT#2262-04-11-23:47:16.854775807");
+  EXPECT_EQ(to_string(DateTime{kMinLong}), "DT#1677-09-21-00:12:43.145224192");
+  EXPECT_EQ(to_string(DateTime{kMaxLong}), "DT#2262-04-11-23:47:16.854775807");
 }
 
 TEST(PlcFromString, Integers) {
@@ -81,7 +81,7 @@ TEST(PlcFromString, Integers) {
   EXPECT_EQ(read<uint8_t>("256"), 255);
   EXPECT_EQ(read<uint64_t>("18446744073709551615"), ~uint64_t{0});
   EXPECT_EQ(read<uint64_t>("16#FFFF_FFFF_FFFF_FFFF"), ~uint64_t{0});
-  EXPECT_EQ(read<int64_t>("-9223372036854775808"), kMin);
+  EXPECT_EQ(read<int64_t>("-9223372036854775808"), kMinLong);
 }
 
 TEST(PlcFromString, Reals) {
@@ -152,7 +152,7 @@ TEST(PlcFromString, Every_text_written_reads_back_as_the_value) {
     EXPECT_EQ(to<float>(to_string(static_cast<float>(value / 1e270))), static_cast<float>(value / 1e270));
   }
   for (const int64_t ns :
-       {int64_t{0}, int64_t{1}, int64_t{-1}, kMax, kMin + kDay, int64_t{1'700'000'000'123'456'789}}) {
+       {int64_t{0}, int64_t{1}, int64_t{-1}, kMaxLong, kMinLong + kDay, int64_t{1'700'000'000'123'456'789}}) {
     EXPECT_EQ(to<int64_t>(to_string(ns)), ns);
     EXPECT_EQ(to<Time>(to_string(Time{ns})), Time{ns});
     EXPECT_EQ(to<DateTime>(to_string(DateTime{ns})), DateTime{ns});
