@@ -27,9 +27,9 @@ struct DiagnosticLine {
   std::string text;
 };
 [[nodiscard]] DiagnosticLine line_of(const Diagnostic& diagnostic, std::string_view program = {});
-// Returns the parts of line_of() as one text, "module.xml:12:5: error: ..." ; line and column are left out when 0. One line, even if a name in the file
-// contains line breaks, without the picture. A diagnostic that is not about a file begins with `program`, if given:
-// "glb2idl: error: ...".
+// Returns the parts of line_of() as one text, "module.xml:12:5: error: ..." ; line and column are left out when 0. One
+// line, even if a name in the file contains line breaks, without the picture. A diagnostic that is not about a file
+// begins with `program`, if given: "glb2idl: error: ...".
 [[nodiscard]] std::string to_string(const Diagnostic& diagnostic, std::string_view program = {});
 // Returns all diagnostics, each with its picture and followed by a line break.
 [[nodiscard]] std::string to_text(const std::vector<Diagnostic>& diagnostics, std::string_view program = {});

@@ -189,8 +189,11 @@ bool is_bundle(const std::filesystem::path& file) {
 
 Result<OpenedBundle, Problem> open_bundle(const std::filesystem::path& file, const std::filesystem::path& folder) {
   BundleReader bundle(file);
-  if (!is_bundle(file) || !bundle.open()) {
+  if (!is_bundle(file)) {
     return bundle.problem("it is not a bundle made by indurop pack");
+  }
+  if (!bundle.open()) {
+    return bundle.damaged();
   }
   const auto package_text = text_member(bundle, kPackageMember);
   const auto about_text = package_text ? text_member(bundle, kSignatureMember) : std::nullopt;

@@ -60,6 +60,30 @@ TEST_F(Deploying, The_first_deployment_that_does_not_do_leaves_nothing_running) 
   EXPECT_EQ(vars::running_node(board("a")), 0);
 }
 
+TEST_F(Deploying, A_bundle_is_deployed_where_its_sources_are_not) {
+  start_both();
+  const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "other"}});
+  const std::string id = deployed(file);
+  const Outcome packed = indurop_here({"pack", file, "-o", path("p.bundle")});
+  ASSERT_EQ(packed.code, 0) << packed.err;
+  EXPECT_THAT(packed.err, HasSubstr("not signed"));
+  EXPECT_THAT(packed.out, HasSubstr(id.substr(0, 12)));
+  for (const char* source : {"v1.xml", "steady.so", "other.so"}) {
+    std::filesystem::remove(folder() / source);
+  }
+  const Outcome done = deploy(path("p.bundle"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(done.json()["deployment"], id);
+  EXPECT_TRUE(runs("a", id) && runs("b", id));
+  const std::string damaged = "printf X | dd of=" + path("p.bundle") + " bs=1 seek=500 conv=notrunc 2>/dev/null";
+  ASSERT_EQ(std::system(damaged.c_str()), 0);
+  const Outcome refused = deploy(path("p.bundle"));
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("p.bundle: "));
+  EXPECT_THAT(refused.err, HasSubstr("damaged"));
+  EXPECT_TRUE(runs("a", id) && runs("b", id));
+}
+
 TEST_F(Deploying, A_missing_board_is_named_and_nothing_is_deployed) {
   start_agent("a");
   const Outcome refused = deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}), {"--timeout", "1s"});

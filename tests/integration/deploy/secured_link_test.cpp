@@ -178,6 +178,32 @@ TEST_F(SecuredLink, Keys_that_are_brought_to_a_running_agent_count) {
   EXPECT_TRUE(wait_until([&] { return report("a").is_object(); }));
 }
 
+TEST_F(SecuredLink, A_bundle_counts_only_if_a_deployer_of_the_plant_signed_it) {
+  start_with_keys();
+  std::ofstream(path("other.xml")) << R"(<plant name="other"><board name="a"/></plant>)";
+  ASSERT_EQ(indurop_here({"keys", "init", path("other.xml"), "--dir", path("other")}).code, 0);
+  const auto pack = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> words{"pack", file(), "-o", path(name)};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome done = indurop_here(words);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return path(name);
+  };
+  const std::string good = pack("good.bundle", {"--keys", path("keys")});
+  const std::string open = pack("open.bundle", {});
+  const std::string foreign = pack("foreign.bundle", {"--keys", path("other")});
+  const Outcome unsigned_one = deploy(open);
+  EXPECT_EQ(unsigned_one.code, 1);
+  EXPECT_THAT(unsigned_one.err, HasSubstr("the bundle is not signed; pack it with --keys"));
+  const Outcome foreign_one = deploy(foreign);
+  EXPECT_EQ(foreign_one.code, 1);
+  EXPECT_THAT(foreign_one.err, HasSubstr("of plant other, with keys of another authority"));
+  EXPECT_EQ(report("a")["state"], "empty");
+  const Outcome done = deploy(good);
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_TRUE(runs("a", done.json()["deployment"]));
+}
+
 TEST_F(SecuredLink, A_viewer_looks_and_commands_nothing) {
   start_with_keys();
   ASSERT_EQ(deploy(file()).code, 0);

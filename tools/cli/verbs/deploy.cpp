@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <set>
 
-#include "config/xml/plant_reader.h"
-#include "core/base/text.h"
 #include "core/rt/clock.h"
 #include "deploy/link/link_keys.h"
 #include "deploy/transaction/package.h"
 #include "tools/cli/command/config_file.h"
 #include "tools/cli/command/units.h"
+#include "tools/cli/plant/plant_source.h"
 #include "tools/cli/plant/run_deployment.h"
+#include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
 
 namespace indurop::tools {
@@ -38,7 +38,6 @@ std::vector<std::string> addresses(const config::Plant& plant) {
   return all;
 }
 
-constexpr std::size_t kLongestComment = 200;
 constexpr std::int64_t kLeftOutNs = 1'000'000'000;  // time to discover boards that are not in the manifest
 
 bool among(const std::vector<std::string>& names, const std::string& name) {
@@ -113,32 +112,21 @@ Result<std::string, base::Problem> deploy_key(Context& context, const config::Pl
 }
 
 int deploy_plant(Context& context, Options& options) {
-  if (const auto found = find_config(options.file); !found) {
-    return report(context.out, found.error());
+  auto read = read_plant_source(context, options.file, options.also, options.comment);
+  if (!read) {
+    return report(context.out, read.error());
   }
-  if (!config::is_plant_file(options.file)) {
-    context.out.error(
-        fmt::format("'{}' is not the manifest of a plant; deploy needs one (see indurop check)", options.file));
-    return kUsage;
-  }
-  const CheckedPlant checked = load_plant(options.file, {});
-  auto diagnostics = checked.diagnostics;
-  std::erase_if(diagnostics, [](const auto& d) { return d.severity == base::Diagnostic::Severity::Note; });
-  print_diagnostics(context, diagnostics, false);
-  if (!checked.ok()) {
-    context.out.error("nothing was deployed");
-    return kCheckFailed;
-  }
-  const auto packed = deploy::pack_plant(checked.plant, {options.also.begin(), options.also.end()}, options.comment);
-  if (!packed) {
-    context.out.error(packed.error().text);
-    return kFailed;
-  }
-  options.link.network.multicast = checked.plant.multicast;
-  options.link.network.peers = addresses(checked.plant);
-  auto key = deploy_key(context, checked.plant, options.link);
+  const PlantSource source = std::move(read).value();
+  const deploy::PackedPlant* const packed = &source.packed;
+  options.link.network.multicast = source.plant.multicast;
+  options.link.network.peers = addresses(source.plant);
+  auto key = deploy_key(context, source.plant, options.link);
   if (!key) {
     context.out.error(key.error().text);
+    return kFailed;
+  }
+  if (const std::string refusal = bundle_refusal(source, options.link.keys); !refusal.empty()) {
+    context.out.error(fmt::format("{}: {}", options.file, refusal));
     return kFailed;
   }
   auto link = open_link(context, options.link);
@@ -173,21 +161,14 @@ int deploy_plant(Context& context, Options& options) {
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  app.add("file", "FILE", options->file, "Manifest of the plant (default: plant.xml)");
+  app.add("file", "FILE", options->file, "Manifest of the plant, or a bundle of indurop pack (default: plant.xml)");
   deploy::add_link_options(app, options->link);
   add_time_option(app, "--timeout", options->timeout_ns,
                   "How long to wait for boards to be heard or to answer (default: 5s)");
   add_time_option(app, "--health", options->health_ns,
                   "How long to watch the new deployment before it is committed (default: 3s)");
-  app.add("-m,--comment", "TEXT", options->comment, "What this deployment is, for history and boards")
-      .check([](const std::string& text) {
-        return base::characters(text) <= kLongestComment && printable(text) == text
-                   ? std::string()
-                   : fmt::format("a comment is one line of at most {} characters", kLongestComment);
-      });
-  app.add("--also", "FOLDER", options->also,
-          "Files of the plant may lie in this folder, too, not only in the manifest's; may be given several times")
-      .completes(base::Completion::Folder);
+  add_comment_option(app, options->comment);
+  add_also_option(app, options->also);
   app.flag("--allow-missing", options->allow_missing,
            "Deploy to the boards that are heard; the others take it over when they appear");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
@@ -207,7 +188,8 @@ const Verb kDeployVerb{
     "Examples:\n"
     "  indurop deploy plant.xml\n"
     "  indurop deploy plant.xml --keys keys --health 5s\n"
-    "  indurop deploy plant.xml -m 'gripper opens wider'\n",
+    "  indurop deploy plant.xml -m 'gripper opens wider'\n"
+    "  indurop deploy cell.bundle --keys keys\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -29,6 +29,7 @@ extern const Verb kLogVerb;
 extern const Verb kNewVerb;
 extern const Verb kNodesVerb;
 extern const Verb kOverrunsVerb;
+extern const Verb kPackVerb;
 extern const Verb kPlanVerb;
 extern const Verb kPlcVerb;
 extern const Verb kRecipeVerb;

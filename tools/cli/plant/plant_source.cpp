@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/plant/plant_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "config/xml/plant_reader.h"
+#include "core/base/read_file.h"
+#include "core/keys/participant_keys.h"
+
+namespace indurop::tools {
+namespace {
+
+// Prints errors and warnings. Returns false if there are errors.
+bool print_check(Context& context, const CheckedPlant& checked) {
+  auto diagnostics = checked.diagnostics;
+  std::erase_if(diagnostics, [](const auto& d) { return d.severity == base::Diagnostic::Severity::Note; });
+  print_diagnostics(context, diagnostics, false);
+  return checked.ok();
+}
+
+Result<PlantSource, Failure> read_bundle(Context& context, const std::string& file) {
+  PlantSource source;
+  source.unpacked = std::make_unique<TemporaryFolder>();
+  if (source.unpacked->path().empty()) {
+    return Failure{kFailed, "cannot create a temporary folder; is TMPDIR a folder with room?"};
+  }
+  auto opened = deploy::open_bundle(file, source.unpacked->path());
+  if (!opened) {
+    return Failure{kFailed, std::move(opened).error().text};
+  }
+  CheckedPlant checked = load_plant(opened->manifest.string(), {});
+  if (!print_check(context, checked)) {
+    return Failure{kCheckFailed, fmt::format("{}: the check of the bundle found errors", file)};
+  }
+  source.plant = std::move(checked.plant);
+  source.packed = std::move(opened->packed);
+  source.signature = std::move(opened->signature);
+  return source;
+}
+
+}  // namespace
+
+Result<PlantSource, Failure> read_plant_source(Context& context, const std::string& file,
+                                               const std::vector<std::string>& also, const std::string& comment) {
+  if (const auto found = find_config(file); !found) {
+    return found.error();
+  }
+  if (deploy::is_bundle(file)) {
+    return read_bundle(context, file);
+  }
+  if (!config::is_plant_file(file)) {
+    return Failure{kUsage, fmt::format("'{}' is not the manifest of a plant, nor a bundle of indurop pack", file)};
+  }
+  CheckedPlant checked = load_plant(file, {});
+  if (!print_check(context, checked)) {
+    return Failure{kCheckFailed, "the check found errors; nothing was sent or written"};
+  }
+  auto packed = deploy::pack_plant(checked.plant, {also.begin(), also.end()}, comment);
+  if (!packed) {
+    return Failure{kFailed, std::move(packed).error().text};
+  }
+  PlantSource source;
+  source.plant = std::move(checked.plant);
+  source.packed = std::move(packed).value();
+  return source;
+}
+
+std::string bundle_refusal(const PlantSource& source, const std::filesystem::path& keys) {
+  if (!source.signature || keys.empty()) {
+    return {};
+  }
+  const keys::ParticipantKeys own(keys);
+  const auto authority = base::read_file(own.authority);
+  const auto revoked = base::read_file(own.revoked);
+  return deploy::bundle_refusal(*source.signature, source.packed.text, authority ? *authority : std::string(),
+                                revoked ? *revoked : std::string());
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is deployed: the manifest of a plant with its files, or a bundle that `indurop pack` made of them.
+
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deploy/bundle/bundle.h"
+#include "deploy/transaction/package.h"
+#include "tools/cli/command/config_file.h"
+#include "tools/cli/command/temporary_folder.h"
+#include "tools/cli/command/verb.h"
+
+namespace indurop::tools {
+
+struct PlantSource {
+  config::Plant plant;
+  deploy::PackedPlant packed;
+  std::optional<deploy::BundleSignature> signature;  // of a bundle
+  std::unique_ptr<TemporaryFolder> unpacked;         // the files of a bundle
+};
+
+// Reads and checks a manifest, or a bundle, and packs its files. Prints the diagnostics. `also` and `comment`: see
+// deploy::pack_plant(); a bundle has its own. Errors: no such file, not a manifest (kUsage); the check found errors
+// (kCheckFailed); files cannot be read, a damaged bundle (kFailed).
+Result<PlantSource, Failure> read_plant_source(Context& context, const std::string& file,
+                                               const std::vector<std::string>& also, const std::string& comment);
+
+// Returns why the bundle must not be deployed with the keys in `keys` (the folder of a deployer; empty: none); empty
+// if it may.
+std::string bundle_refusal(const PlantSource& source, const std::filesystem::path& keys);
+
+}  // namespace indurop::tools

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options of the verbs that pack a plant's files: deploy and pack.
+
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "core/base/options.h"
+#include "core/base/text.h"
+#include "tools/cli/command/units.h"
+
+namespace indurop::tools {
+
+inline void add_comment_option(base::Options& line, std::string& comment) {
+  static constexpr std::size_t kMaxCharacters = 200;
+  line.add("-m,--comment", "TEXT", comment, "What this deployment is, for history and boards")
+      .check([](const std::string& text) {
+        return base::characters(text) <= kMaxCharacters && printable(text) == text
+                   ? std::string()
+                   : fmt::format("a comment is one line of at most {} characters", kMaxCharacters);
+      });
+}
+
+inline void add_also_option(base::Options& line, std::vector<std::string>& folders) {
+  line.add("--also", "FOLDER", folders,
+           "Files of the plant may lie in this folder, too, not only in the manifest's; may be given several times")
+      .completes(base::Completion::Folder);
+}
+
+}  // namespace indurop::tools
