@@ -33,6 +33,8 @@ struct Plant : TypeFiles {
   bool multicast = true;                              // false: boards find each other by <board address="">
   std::filesystem::path security;                     // folder of its keys (docs/security.md); empty: open to all
   base::SourcePlace security_place;                   // of the folder, else of <plant>
+  bool sources = true;                                // its sources travel with a deployment
+  std::filesystem::path sources_folder;               // empty: the manifest's folder, if it has a CMakeLists.txt
   base::Nanos lease{std::chrono::milliseconds(500)};  // a board that was silent for this time is considered lost
   SimulatedNetwork network;                           // between its boards in a simulation
   std::vector<Board> boards;                          // in file order

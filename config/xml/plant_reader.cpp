@@ -92,7 +92,7 @@ class PlantReader {
     void (PlantReader::*read)(const base::Element&);
   };
   static std::span<const Known> known_elements() {
-    static constexpr std::array<Known, 9> kKnown{{
+    static constexpr std::array<Known, 10> kKnown{{
         {"board", true, &PlantReader::read_board},
         {"variable", true, &PlantReader::read_variable},
         {"domain", false, &PlantReader::read_domain},
@@ -101,6 +101,7 @@ class PlantReader {
         {"lease", false, &PlantReader::read_lease},
         {"network", false, &PlantReader::read_network},
         {"security", false, &PlantReader::read_security},
+        {"sources", false, &PlantReader::read_sources},
         {"types", true, &PlantReader::read_types},
     }};
     return kKnown;
@@ -189,6 +190,17 @@ class PlantReader {
       return;
     }
     plant_.security = (folder_ / *text).lexically_normal();
+  }
+
+  void read_sources(const base::Element& e) {
+    const auto text = text_of(e, "off", report_);
+    if (!text) {
+      return;
+    }
+    plant_.sources = *text != "off";
+    if (plant_.sources) {
+      plant_.sources_folder = (folder_ / *text).lexically_normal();
+    }
   }
 
   void read_types(const base::Element& e) { read_type_file(e, folder_, plant_, report_); }

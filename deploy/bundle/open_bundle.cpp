@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Unpacking: the file may come from anybody.
-#include <archive.h>
-#include <archive_entry.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,7 +9,6 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -19,6 +16,7 @@
 #include "core/base/json.h"
 #include "core/base/read_file.h"
 #include "core/keys/digest.h"
+#include "deploy/bundle/archive.h"
 #include "deploy/bundle/bundle.h"
 #include "deploy/bundle/members.h"
 
@@ -29,69 +27,18 @@ using base::Json;
 using base::Problem;
 
 constexpr std::size_t kMaxTextBytes = std::size_t{64} << 20U;  // of package.json: 10 000 files have long paths
-constexpr std::size_t kPortionBytes = std::size_t{1} << 18U;
 constexpr std::string_view kZstdBegin = "\x28\xB5\x2F\xFD";
 
-class BundleReader {
+// The file that is read, for messages.
+class BundleReader : public ArchiveReader {
  public:
-  explicit BundleReader(std::filesystem::path file)
-      : file_(std::move(file)), archive_(::archive_read_new(), &::archive_read_free) {}
-
-  bool open() {
-    return ::archive_read_support_format_tar(archive_.get()) == ARCHIVE_OK &&
-           ::archive_read_support_filter_zstd(archive_.get()) == ARCHIVE_OK &&
-           ::archive_read_open_filename(archive_.get(), file_.c_str(), kPortionBytes) == ARCHIVE_OK;
-  }
-  // Goes to the next member. Returns false at the end and after an error.
-  bool next() {
-    const int code = ::archive_read_next_header(archive_.get(), &entry_);
-    failed_ = code != ARCHIVE_OK && code != ARCHIVE_EOF;
-    return code == ARCHIVE_OK;
-  }
-  [[nodiscard]] bool failed() const noexcept { return failed_; }
-  [[nodiscard]] std::string name() const {
-    const char* name = ::archive_entry_pathname(entry_);
-    return name == nullptr ? "" : name;
-  }
-  [[nodiscard]] bool is_regular() const {
-    return ::archive_entry_filetype(entry_) == AE_IFREG && ::archive_entry_hardlink(entry_) == nullptr;
-  }
-  // Gives the member's bytes to `use`, at most `limit` of them. Returns false if it is longer or damaged.
-  template <class Use>
-  bool read(std::uint64_t limit, const Use& use) {
-    std::vector<char> portion(kPortionBytes);
-    for (;;) {
-      const la_ssize_t got = ::archive_read_data(archive_.get(), portion.data(), portion.size());
-      if (got <= 0) {
-        return got == 0;
-      }
-      const auto size = static_cast<std::uint64_t>(got);
-      if (size > limit || !use(std::string_view(portion.data(), size))) {
-        return false;
-      }
-      limit -= size;
-    }
-  }
+  explicit BundleReader(std::filesystem::path file) : file_(std::move(file)) {}
   [[nodiscard]] Problem problem(std::string_view what) const { return {fmt::format("{}: {}", file_.string(), what)}; }
   [[nodiscard]] Problem damaged() const { return problem("the bundle is damaged; copy or pack it again"); }
 
  private:
   std::filesystem::path file_;
-  std::unique_ptr<archive, decltype(&::archive_read_free)> archive_;
-  archive_entry* entry_ = nullptr;
-  bool failed_ = false;
 };
-
-std::optional<std::string> text_member(BundleReader& bundle, const char* name) {
-  std::string text;
-  if (!bundle.next() || bundle.name() != name || !bundle.is_regular() || !bundle.read(kMaxTextBytes, [&](auto bytes) {
-        text += bytes;
-        return true;
-      })) {
-    return std::nullopt;
-  }
-  return text;
-}
 
 // Creates the file of one member at the first of `places`; the others get a copy. Returns false if it cannot be
 // written, or if its content is not what the package says.
@@ -192,11 +139,11 @@ Result<OpenedBundle, Problem> open_bundle(const std::filesystem::path& file, con
   if (!is_bundle(file)) {
     return bundle.problem("it is not a bundle made by indurop pack");
   }
-  if (!bundle.open()) {
+  if (!bundle.open(file)) {
     return bundle.damaged();
   }
-  const auto package_text = text_member(bundle, kPackageMember);
-  const auto about_text = package_text ? text_member(bundle, kSignatureMember) : std::nullopt;
+  const auto package_text = bundle.text(kPackageMember, kMaxTextBytes);
+  const auto about_text = package_text ? bundle.text(kSignatureMember, kMaxTextBytes) : std::nullopt;
   const Json about = about_text ? Json::parse(*about_text).value_or(Json()) : Json();
   std::uint64_t format = 0;
   if (!base::read(about, "indurop_bundle", format)) {

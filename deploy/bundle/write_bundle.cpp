@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packing: libarchive writes the archive, with the same bytes for the same content.
-#include <archive.h>
-#include <archive_entry.h>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -20,6 +17,7 @@
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 #include "core/keys/digest.h"
+#include "deploy/bundle/archive.h"
 #include "deploy/bundle/bundle.h"
 #include "deploy/bundle/members.h"
 
@@ -30,42 +28,8 @@ using base::Problem;
 
 constexpr std::size_t kPortion = std::size_t{1} << 18U;
 
-class BundleWriter {
- public:
-  BundleWriter() : archive_(::archive_write_new(), &::archive_write_free) {}
-
-  // Errors: see message().
-  bool open(const std::filesystem::path& file) {
-    return ::archive_write_set_format_pax_restricted(archive_.get()) == ARCHIVE_OK &&
-           ::archive_write_add_filter_zstd(archive_.get()) == ARCHIVE_OK &&
-           ::archive_write_open_filename(archive_.get(), file.c_str()) == ARCHIVE_OK;
-  }
-  bool begin(const std::string& member, std::uint64_t size) {
-    const std::unique_ptr<archive_entry, decltype(&::archive_entry_free)> entry(::archive_entry_new(),
-                                                                                &::archive_entry_free);
-    ::archive_entry_set_pathname(entry.get(), member.c_str());
-    ::archive_entry_set_size(entry.get(), static_cast<std::int64_t>(size));
-    ::archive_entry_set_filetype(entry.get(), AE_IFREG);
-    ::archive_entry_set_perm(entry.get(), 0644);
-    ::archive_entry_set_mtime(entry.get(), 0, 0);
-    return ::archive_write_header(archive_.get(), entry.get()) == ARCHIVE_OK;
-  }
-  bool add(std::string_view bytes) {
-    return ::archive_write_data(archive_.get(), bytes.data(), bytes.size()) == static_cast<la_ssize_t>(bytes.size());
-  }
-  bool text(const std::string& member, const std::string& text) { return begin(member, text.size()) && add(text); }
-  bool close() { return ::archive_write_close(archive_.get()) == ARCHIVE_OK; }
-  [[nodiscard]] std::string message() const {
-    const char* text = ::archive_error_string(archive_.get());
-    return text == nullptr ? "unknown error" : text;
-  }
-
- private:
-  std::unique_ptr<archive, decltype(&::archive_write_free)> archive_;
-};
-
 // Copies a file of the package into the bundle. The problem is empty if the bundle could not be written.
-Result<void, Problem> add_file(BundleWriter& bundle, const PackageFile& file, const std::filesystem::path& source) {
+Result<void, Problem> add_file(ArchiveWriter& bundle, const PackageFile& file, const std::filesystem::path& source) {
   const Problem changed{fmt::format("{} has changed while it was packed; pack again", source.string())};
   const auto opened = base::open_file(source);
   if (!opened) {
@@ -95,7 +59,8 @@ Result<void, Problem> add_file(BundleWriter& bundle, const PackageFile& file, co
   return digest.finish() == file.digest ? Result<void, Problem>() : changed;
 }
 
-Result<void, Problem> write_members(BundleWriter& bundle, const PackedPlant& packed, const BundleSignature& signature) {
+Result<void, Problem> write_members(ArchiveWriter& bundle, const PackedPlant& packed,
+                                    const BundleSignature& signature) {
   const base::Json about{{"indurop_bundle", kBundleFormat},
                          {"deployment", packed.id},
                          {"certificate", signature.certificate},
@@ -120,7 +85,7 @@ Result<void, Problem> write_members(BundleWriter& bundle, const PackedPlant& pac
 Result<void, Problem> write_bundle(const PackedPlant& packed, const BundleSignature& signature,
                                    const std::filesystem::path& file) {
   const std::filesystem::path unfinished = file.string() + ".part";
-  BundleWriter bundle;
+  ArchiveWriter bundle;
   Result<void, Problem> result = Problem{};
   if (bundle.open(unfinished)) {
     result = write_members(bundle, packed, signature);

@@ -29,15 +29,6 @@ constexpr std::size_t kLongestPath = 1'000;
 constexpr std::size_t kLongestComment = 1'000;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36U;
 
-bool is_safe_path(const std::string& text) {
-  const std::filesystem::path path(text);
-  if (text.empty() || text.size() > kLongestPath || path.is_absolute() || path.lexically_normal().string() != text ||
-      text.back() == '/' || text.find('\0') != std::string::npos) {
-    return false;
-  }
-  return std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".." || part == "."; });
-}
-
 enum class Use { Program, Data };  // a module or a library of types; anything else
 
 // Returns the deepest folder that contains all files.
@@ -148,7 +139,7 @@ std::string problem_of(const Package& package) {
   std::set<std::string> paths;
   std::uint64_t bytes = 0;
   for (const PackageFile& file : package.files) {
-    if (!is_safe_path(file.path)) {
+    if (!is_package_path(file.path)) {
       return fmt::format("'{}' is not a path of a file in a package", file.path);
     }
     if (!paths.insert(file.path).second) {
@@ -175,6 +166,15 @@ std::string problem_of(const Package& package) {
 }
 
 }  // namespace
+
+bool is_package_path(const std::string& text) {
+  const std::filesystem::path path(text);
+  if (text.empty() || text.size() > kLongestPath || path.is_absolute() || path.lexically_normal().string() != text ||
+      text.back() == '/' || text.find('\0') != std::string::npos) {
+    return false;
+  }
+  return std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".." || part == "."; });
+}
 
 std::string to_text(const Package& package) {
   Json files = Json::array();
@@ -227,7 +227,8 @@ Result<Package, base::Problem> read_package(std::string_view text) {
 
 Result<PackedPlant, base::Problem> pack_plant(const config::Plant& plant,
                                               const std::vector<std::filesystem::path>& also,
-                                              const std::string& comment) {
+                                              const std::string& comment,
+                                              const std::map<std::string, std::filesystem::path>& more) {
   const std::filesystem::path manifest = std::filesystem::absolute(plant.file).lexically_normal();
   const std::filesystem::path folder = manifest.parent_path();
   PackedPlant packed;
@@ -243,18 +244,17 @@ Result<PackedPlant, base::Problem> pack_plant(const config::Plant& plant,
     return base::Problem{std::move(outside)};
   }
   const std::filesystem::path base = common_folder(travelling);
+  std::map<std::string, std::filesystem::path> by_path = more;
   for (const auto& [file, use] : travelling) {
-    PackageFile entry;
-    entry.path = file.lexically_relative(base).string();
+    by_path.emplace(file.lexically_relative(base).string(), file);
+  }
+  for (const auto& [path, file] : by_path) {
     auto digest = keys::digest_of_file(file);
     if (!digest) {
       return base::Problem{base::cannot_read(file, digest.error())};
     }
-    entry.digest = std::move(digest->digest);
-    entry.size = digest->size;
-    entry.executable = ::access(file.c_str(), X_OK) == 0;
-    packed.sources.emplace(entry.digest, file);
-    packed.package.files.push_back(std::move(entry));
+    packed.package.files.push_back({path, digest->digest, digest->size, ::access(file.c_str(), X_OK) == 0});
+    packed.sources.emplace(digest->digest, file);
   }
   packed.package.manifest = manifest.lexically_relative(base).string();
   if (std::string problem = problem_of(packed.package); !problem.empty()) {

@@ -37,6 +37,9 @@ std::string to_text(const Package& package);
 // Checks everything in the text, regardless of the sender; returns a problem if it is not a valid package.
 Result<Package, base::Problem> read_package(std::string_view text);
 
+// Returns true for a path that a package may contain: relative, normal, without "..".
+bool is_package_path(const std::string& path);
+
 struct PackedPlant {
   Package package;
   std::string text;
@@ -46,9 +49,11 @@ struct PackedPlant {
 // Packs all files for every board, because each checks the whole plant. File names that begin with '/' refer to the
 // board's own files and are not sent. A file outside of the manifest's folder and of the folders `also`, links
 // followed, is sent only if it is a module or a library of types: another user's project must not pick up files of this
-// machine. A problem names all files that cannot be read or must not be sent. Not real-time safe.
+// machine. `more`: files that travel too, by their path in the package. A problem names all files that cannot be read
+// or must not be sent. Not real-time safe.
 Result<PackedPlant, base::Problem> pack_plant(const config::Plant& plant,
                                               const std::vector<std::filesystem::path>& also = {},
-                                              const std::string& comment = {});
+                                              const std::string& comment = {},
+                                              const std::map<std::string, std::filesystem::path>& more = {});
 
 }  // namespace indurop::deploy

@@ -84,6 +84,54 @@ TEST_F(Deploying, A_bundle_is_deployed_where_its_sources_are_not) {
   EXPECT_TRUE(runs("a", id) && runs("b", id));
 }
 
+TEST_F(Deploying, The_sources_come_back_from_a_board) {
+  start_both();
+  const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
+  std::filesystem::create_directories(folder() / "src/deep");
+  std::ofstream(folder() / "CMakeLists.txt") << "project(x)\n";
+  std::ofstream(folder() / "src/deep/a.cpp") << "int a;\n";
+  std::ofstream(folder() / "secret.txt") << "-----BEGIN PRIVATE KEY-----\n";
+  std::ofstream(folder() / "made.log") << "made\n";
+  std::ofstream(folder() / ".gitignore") << "*.log\n*.so\n/state/\n/back/\n";
+  const std::string git = "cd " + path("") +
+                          " && git init -q . && git -c user.name=x -c user.email=x add . && "
+                          "git -c user.name=x -c user.email=x commit -qm first";
+  ASSERT_EQ(std::system(git.c_str()), 0);
+  const std::string id = deployed(file);
+  EXPECT_EQ(indurop({"diff", file}).code, 0);
+
+  const Outcome pulled = indurop({"pull", path("back")});
+  ASSERT_EQ(pulled.code, 0) << pulled.err;
+  EXPECT_THAT(pulled.out, HasSubstr("git commit "));
+  EXPECT_THAT(pulled.out, testing::Not(HasSubstr("not committed")));
+  for (const char* source : {"v1.xml", "CMakeLists.txt", "src/deep/a.cpp", ".gitignore"}) {
+    const std::string same = "cmp -s " + path(source) + " " + path("back") + "/" + source;
+    EXPECT_EQ(std::system(same.c_str()), 0) << source;
+  }
+  for (const char* none : {"secret.txt", "made.log", "steady.so"}) {
+    EXPECT_FALSE(std::filesystem::exists(folder() / "back" / none)) << none;
+  }
+  EXPECT_EQ(indurop({"pull", path("back")}).code, 1) << "it is not empty";
+
+  std::ofstream(folder() / "src/deep/a.cpp") << "int b;\n";
+  const Outcome different = indurop({"diff", file, "-o", "json"});
+  EXPECT_EQ(different.code, 1) << different.err;
+  ASSERT_EQ(different.json()["files"].size(), 1U) << different.out;
+  EXPECT_NE(deployed(file), id);
+}
+
+TEST_F(Deploying, Sources_stay_where_the_manifest_says_so) {
+  start_both();
+  const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
+  std::ofstream(folder() / "CMakeLists.txt") << "project(x)\n";
+  ASSERT_EQ(std::system(("sed -i 's|<external>|<sources>off</sources><external>|' " + file).c_str()), 0);
+  deployed(file);
+  const Outcome pulled = indurop({"pull", path("back")});
+  EXPECT_EQ(pulled.code, 1);
+  EXPECT_THAT(pulled.err, HasSubstr("was deployed without its sources"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "back"));
+}
+
 TEST_F(Deploying, A_missing_board_is_named_and_nothing_is_deployed) {
   start_agent("a");
   const Outcome refused = deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}), {"--timeout", "1s"});

@@ -15,15 +15,15 @@
 namespace indurop::tools {
 namespace {
 
-constexpr double kWidth = 960;
-constexpr double kHead = 56;
-constexpr double kPanel = 250;
-constexpr double kLeft = 70;
-constexpr double kRight = 24;
+constexpr double kHistogramWidth = 960;
+constexpr double kHistogramHead = 56;
+constexpr double kHistogramPanel = 250;
+constexpr double kHistogramLeft = 70;
+constexpr double kHistogramRight = 24;
 constexpr double kTop = 66;     // above the plot, inside its panel
 constexpr double kBottom = 40;  // below the plot
-constexpr double kPlotWidth = kWidth - kLeft - kRight;
-constexpr double kPlotHeight = kPanel - kTop - kBottom;
+constexpr double kPlotWidth = kHistogramWidth - kHistogramLeft - kHistogramRight;
+constexpr double kPlotHeight = kHistogramPanel - kTop - kBottom;
 constexpr std::size_t kMostBars = 90;
 
 // Maps a positive range logarithmically to positions on the picture.
@@ -86,7 +86,8 @@ void markers(const scheduler::Summary& summary, const LogScale& x, double top, b
   busy_until.fill(-1e9);
   for (const Marker& marker : all) {
     const double at = x.at(std::max(0.5, static_cast<double>(marker.value)));
-    const double center = std::clamp(at, kLeft + kLabelWidth / 2, kWidth - kRight - kLabelWidth / 2);
+    const double center =
+        std::clamp(at, kHistogramLeft + kLabelWidth / 2, kHistogramWidth - kHistogramRight - kLabelWidth / 2);
     std::size_t row = 0;
     while (row + 1 < busy_until.size() && center - kLabelWidth / 2 < busy_until[row]) {
       ++row;
@@ -99,27 +100,28 @@ void markers(const scheduler::Summary& summary, const LogScale& x, double top, b
 }
 
 void panel_svg(const HistogramPanel& panel, double y0, base::SvgPart& out) {
-  svg_text(out, kLeft, y0 + 18, "start", "title", panel.title);
-  svg_text(out, kWidth - kRight, y0 + 18, "end", "label",
+  svg_text(out, kHistogramLeft, y0 + 18, "start", "title", panel.title);
+  svg_text(out, kHistogramWidth - kHistogramRight, y0 + 18, "end", "label",
            fmt::format("{}, {} runs, mean {}", panel.subtitle, panel.summary.count, human_ns(panel.summary.mean)));
   const double top = y0 + kTop;
   const double base = top + kPlotHeight;
   const auto bins = gather(panel.counts, kMostBars);
   if (bins.empty()) {
-    svg_text(out, kWidth / 2, top + kPlotHeight / 2, "middle", "label", "nothing measured");
+    svg_text(out, kHistogramWidth / 2, top + kPlotHeight / 2, "middle", "label", "nothing measured");
     return;
   }
   const double from = positive(bins.front().from_ns);
   const double to = std::max(from * 1.5, positive(bins.back().to_ns));
-  const LogScale x(from, to, kLeft, kPlotWidth);
+  const LogScale x(from, to, kHistogramLeft, kPlotWidth);
   double highest = 1;
   for (const Bin& bin : bins) {
     highest = std::max(highest, static_cast<double>(bin.count));
   }
   const LogScale height(0.7, highest * 1.3, 0, kPlotHeight);
   for (const double count : tick_values(1, highest, height.decades() < 2)) {
-    svg_line(out, kLeft, base - height.at(count), kWidth - kRight, base - height.at(count), "grid");
-    svg_text(out, kLeft - 8, base - height.at(count) + 4, "end", "label", count_text(count));
+    svg_line(out, kHistogramLeft, base - height.at(count), kHistogramWidth - kHistogramRight, base - height.at(count),
+             "grid");
+    svg_text(out, kHistogramLeft - 8, base - height.at(count) + 4, "end", "label", count_text(count));
   }
   for (const double ns : tick_values(from, to, x.decades() < 2.5)) {
     svg_line(out, x.at(ns), top, x.at(ns), base + 4, "grid");
@@ -139,29 +141,30 @@ void panel_svg(const HistogramPanel& panel, double y0, base::SvgPart& out) {
                            human_ns(static_cast<std::int64_t>(bin.to_ns)), bin.count));
     }
   }
-  svg_line(out, kLeft, base, kWidth - kRight, base, "axis");
+  svg_line(out, kHistogramLeft, base, kHistogramWidth - kHistogramRight, base, "axis");
   markers(panel.summary, x, top, out);
 }
 
 }  // namespace
 
 std::string histogram_svg(const std::string& heading, std::span<const HistogramPanel> panels) {
-  const double height = kHead + kPanel * static_cast<double>(std::max<std::size_t>(1, panels.size())) + 12;
+  const double height =
+      kHistogramHead + kHistogramPanel * static_cast<double>(std::max<std::size_t>(1, panels.size())) + 12;
   base::SvgPart out;
-  svg_text(out, kLeft, 34, "start", "head", heading);
+  svg_text(out, kHistogramLeft, 34, "start", "head", heading);
   if (panels.empty()) {
-    svg_text(out, kLeft, kHead + 30, "start", "label", "nothing measured");
+    svg_text(out, kHistogramLeft, kHistogramHead + 30, "start", "label", "nothing measured");
   }
-  double y = kHead;
+  double y = kHistogramHead;
   for (const auto& panel : panels) {
     panel_svg(panel, y, out);
-    y += kPanel;
+    y += kHistogramPanel;
   }
   std::string style = kSvgStyle;
   style +=
       ".title{font-size:15px;font-weight:bold}.bar{fill:#3b7dbf}"
       ".mark{stroke:#c2492f;stroke-dasharray:3 3}";
-  return base::svg_document(static_cast<int>(kWidth), static_cast<int>(height), out, style);
+  return base::svg_document(static_cast<int>(kHistogramWidth), static_cast<int>(height), out, style);
 }
 
 }  // namespace indurop::tools

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "config/xml/plant_reader.h"
 #include "core/base/read_file.h"
 #include "core/keys/participant_keys.h"
+#include "deploy/bundle/project.h"
+#include "tools/cli/plant/project_files.h"
 
 namespace indurop::tools {
 namespace {
@@ -21,13 +24,38 @@ bool print_check(Context& context, const CheckedPlant& checked) {
   return checked.ok();
 }
 
+// Writes the archive of the sources. Returns it by its path in the package; nothing if no sources travel.
+Result<std::map<std::string, std::filesystem::path>, base::Problem> archived_sources(Context& context,
+                                                                                     const config::Plant& plant,
+                                                                                     const std::filesystem::path& to) {
+  auto project = find_project(plant);
+  if (!project) {
+    return std::move(project).error();
+  }
+  std::map<std::string, std::filesystem::path> more;
+  if (!*project) {
+    return more;
+  }
+  const Project& found = **project;
+  for (const JsonValue& path : found.about["left_out"].values()) {
+    context.out.note(fmt::format("{} holds a private key and does not travel with the sources",
+                                 (found.folder / path.text().value_or("")).string()));
+  }
+  const std::filesystem::path archive = to / "project.tar.zst";
+  if (auto written = deploy::write_project(found.about, found.files, archive); !written) {
+    return std::move(written).error();
+  }
+  more.emplace(deploy::kProjectPath, archive);
+  return more;
+}
+
 Result<PlantSource, Failure> read_bundle(Context& context, const std::string& file) {
   PlantSource source;
-  source.unpacked = std::make_unique<TemporaryFolder>();
-  if (source.unpacked->path().empty()) {
+  source.temporary = std::make_unique<TemporaryFolder>();
+  if (source.temporary->path().empty()) {
     return Failure{kFailed, "cannot create a temporary folder; is TMPDIR a folder with room?"};
   }
-  auto opened = deploy::open_bundle(file, source.unpacked->path());
+  auto opened = deploy::open_bundle(file, source.temporary->path());
   if (!opened) {
     return Failure{kFailed, std::move(opened).error().text};
   }
@@ -58,11 +86,16 @@ Result<PlantSource, Failure> read_plant_source(Context& context, const std::stri
   if (!print_check(context, checked)) {
     return Failure{kCheckFailed, "the check found errors; nothing was sent or written"};
   }
-  auto packed = deploy::pack_plant(checked.plant, {also.begin(), also.end()}, comment);
+  PlantSource source;
+  source.temporary = std::make_unique<TemporaryFolder>();
+  const auto sources = archived_sources(context, checked.plant, source.temporary->path());
+  if (!sources) {
+    return Failure{kFailed, sources.error().text};
+  }
+  auto packed = deploy::pack_plant(checked.plant, {also.begin(), also.end()}, comment, *sources);
   if (!packed) {
     return Failure{kFailed, std::move(packed).error().text};
   }
-  PlantSource source;
   source.plant = std::move(checked.plant);
   source.packed = std::move(packed).value();
   return source;

@@ -21,12 +21,12 @@ struct PlantSource {
   config::Plant plant;
   deploy::PackedPlant packed;
   std::optional<deploy::BundleSignature> signature;  // of a bundle
-  std::unique_ptr<TemporaryFolder> unpacked;         // the files of a bundle
+  std::unique_ptr<TemporaryFolder> temporary;        // the files of a bundle, or the archive of the sources
 };
 
-// Reads and checks a manifest, or a bundle, and packs its files. Prints the diagnostics. `also` and `comment`: see
-// deploy::pack_plant(); a bundle has its own. Errors: no such file, not a manifest (kUsage); the check found errors
-// (kCheckFailed); files cannot be read, a damaged bundle (kFailed).
+// Reads and checks a manifest, or a bundle, and packs its files and sources. Prints the diagnostics. `also` and
+// `comment`: see deploy::pack_plant(); a bundle has its own. Errors: no such file, not a manifest (kUsage); the check
+// found errors (kCheckFailed); files cannot be read, a damaged bundle (kFailed).
 Result<PlantSource, Failure> read_plant_source(Context& context, const std::string& file,
                                                const std::vector<std::string>& also, const std::string& comment);
 

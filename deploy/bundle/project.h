@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sources of a plant as one file, which travels with a deployment: project.json about it, then the files with their
+// paths. Equal projects give equal files.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/json.h"
+#include "core/base/problem.h"
+
+namespace indurop::deploy {
+
+// Path of the archive among the files of a package.
+inline constexpr const char* kProjectPath = ".indurop/project.tar.zst";
+
+// A file of a project: its path in the project and where it is now.
+struct ProjectFile {
+  std::string path;
+  std::filesystem::path source;
+};
+
+// `about`: see tools/cli/plant/project_files.h. Errors: a file cannot be read, the archive cannot be written.
+Result<void, base::Problem> write_project(const base::Json& about, const std::vector<ProjectFile>& files,
+                                          const std::filesystem::path& archive);
+
+struct OpenedProject {
+  base::Json about;
+  std::vector<std::string> paths;  // of the files that were unpacked
+};
+// Unpacks a project into `folder`, which must exist and be empty. Nothing outside of it is written, whoever made the
+// archive. Errors: damaged, paths that lead outside, files that cannot be written.
+Result<OpenedProject, base::Problem> open_project(const std::filesystem::path& archive,
+                                                  const std::filesystem::path& folder);
+
+}  // namespace indurop::deploy

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sources as one file: the same each time, read back, and refused where they lead outside.
+#include "deploy/bundle/project.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace indurop::deploy {
+namespace {
+
+namespace files = std::filesystem;
+
+class ProjectArchive : public testing::Test {
+ protected:
+  ProjectArchive() {
+    std::string name = (files::temp_directory_path() / "indurop-project-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+    files::create_directory(folder_ / "out");
+  }
+  ~ProjectArchive() override { files::remove_all(folder_); }
+  files::path make(const std::string& name, const std::string& content) {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+    return folder_ / name;
+  }
+  static std::string content_of(const files::path& file) {
+    std::ifstream from(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(from), {}};
+  }
+  std::string problem() {
+    const auto sut = open_project(folder_ / "p", folder_ / "out");
+    return sut ? "" : sut.error().text;
+  }
+  files::path folder_;
+};
+
+TEST_F(ProjectArchive, Is_unpacked_as_it_was_packed) {
+  const files::path script = make("s", "#!/bin/sh\n");
+  files::permissions(script, files::perms::owner_exec, files::perm_options::add);
+  const std::vector<ProjectFile> sources{{"a/b/run.sh", script}, {"empty", make("e", "")}, {"z", make("z", "\0x")}};
+  ASSERT_TRUE(write_project({{"manifest", "z"}}, sources, folder_ / "p"));
+  ASSERT_TRUE(write_project({{"manifest", "z"}}, sources, folder_ / "q"));
+  EXPECT_EQ(content_of(folder_ / "p"), content_of(folder_ / "q"));
+  const auto sut = open_project(folder_ / "p", folder_ / "out");
+  ASSERT_TRUE(sut) << sut.error().text;
+  EXPECT_EQ(sut->about["manifest"].text(), "z");
+  EXPECT_THAT(sut->paths, testing::ElementsAre("a/b/run.sh", "empty", "z"));
+  for (const ProjectFile& one : sources) {
+    EXPECT_EQ(content_of(folder_ / "out" / one.path), content_of(one.source));
+  }
+  EXPECT_EQ(::access((folder_ / "out/a/b/run.sh").c_str(), X_OK), 0);
+}
+
+// Made by tar: what write_project() never writes.
+TEST_F(ProjectArchive, Paths_that_lead_outside_and_links_are_refused) {
+  make("project.json", "{}");
+  files::create_directories(folder_ / "source");
+  const std::string tar = "cd " + folder_.string() + " && ";
+  make("source/x", "x");
+  const char* const transforms[] = {"s,source/x,source/../escaped,", "s,source/x,/tmp/indurop-escaped,",
+                                    "s,source/x,other/x,"};
+  for (const std::string transform : transforms) {
+    const std::string pack = tar + "tar --zstd -P -cf p --transform '" + transform + "' project.json source/x";
+    ASSERT_EQ(std::system(pack.c_str()), 0);
+    EXPECT_THAT(problem(), testing::HasSubstr("damaged")) << transform;
+  }
+  EXPECT_FALSE(files::exists(folder_ / "escaped"));
+  ASSERT_EQ(std::system((tar + "ln -s /etc/passwd source/l && tar --zstd -cf p project.json source/l").c_str()), 0);
+  EXPECT_THAT(problem(), testing::HasSubstr("damaged"));
+  make("p", "something else");
+  EXPECT_THAT(problem(), testing::HasSubstr("damaged"));
+}
+
+}  // namespace
+}  // namespace indurop::deploy

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/plant/running_project.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "core/keys/digest.h"
+#include "tools/cli/command/temporary_folder.h"
+#include "tools/cli/command/units.h"
+#include "tools/cli/plant/board_file.h"
+#include "tools/cli/plant/board_texts.h"
+
+namespace indurop::tools {
+namespace {
+
+Result<std::string, Failure> choose_plant(const std::vector<deploy::BoardReport>& reports, const std::string& wanted) {
+  std::set<std::string> plants;
+  for (const deploy::BoardReport& report : reports) {
+    if (!report.current.empty()) {
+      plants.insert(printable(report.plant));
+    }
+  }
+  if (!wanted.empty() && plants.contains(wanted)) {
+    return wanted;
+  }
+  if (plants.size() == 1 && wanted.empty()) {
+    return *plants.begin();
+  }
+  if (plants.empty()) {
+    return Failure{kUnreachable, "no board that is heard runs a deployment"};
+  }
+  return Failure{wanted.empty() ? kUsage : kUnreachable,
+                 fmt::format("boards of {} are heard; choose one with --plant", fmt::join(plants, ", "))};
+}
+
+}  // namespace
+
+Result<RunningPlant, Failure> running_plant(HeardBoards& boards, std::uint64_t self, const std::string& plant) {
+  auto name = choose_plant(boards.reports, plant);
+  if (!name) {
+    return std::move(name).error();
+  }
+  RunningPlant running;
+  running.plant = *name;
+  std::vector<std::uint64_t> agents;
+  for (const deploy::BoardReport& report : boards.reports) {
+    if (report.plant != *name || report.current.empty()) {
+      continue;
+    }
+    if (!running.id.empty() && report.current != running.id) {
+      return Failure{kFailed, fmt::format("boards {} and {} run different deployments; see indurop boards",
+                                          printable(running.source.board), printable(report.board))};
+    }
+    running.id = report.current;
+    running.source = report;
+    agents.push_back(report.agent);
+  }
+  for (const auto& [agent, text] : fetch_texts(*boards.link, self, running.id, agents)) {
+    auto package = deploy::read_package(text);
+    if (package && keys::digest_of(text) == running.id) {
+      running.package = std::move(package).value();
+      running.source = *std::find_if(boards.reports.begin(), boards.reports.end(),
+                                     [&](const auto& report) { return report.agent == agent; });
+      return running;
+    }
+  }
+  return Failure{kUnreachable, fmt::format("no board of plant {} answers with a valid list of its files", *name)};
+}
+
+Result<deploy::OpenedProject, Failure> fetch_project(HeardBoards& boards, std::uint64_t self,
+                                                     const RunningPlant& running, const std::filesystem::path& folder) {
+  const auto& files = running.package.files;
+  const auto found =
+      std::find_if(files.begin(), files.end(), [](const auto& file) { return file.path == deploy::kProjectPath; });
+  if (found == files.end()) {
+    return Failure{kFailed, fmt::format("plant {} was deployed without its sources (see <sources> of the manifest)",
+                                        running.plant)};
+  }
+  const TemporaryFolder temporary;
+  const std::filesystem::path archive = temporary.path() / "sources";
+  const BoardFile wanted{printable(running.source.board), running.source.agent, found->digest, found->size};
+  if (auto fetched = fetch_file(*boards.link, self, wanted, archive); !fetched) {
+    return std::move(fetched).error();
+  }
+  const auto digest = keys::digest_of_file(archive);
+  if (!digest || digest->digest != found->digest) {
+    return Failure{
+        kFailed,
+        fmt::format("what board {} sent are not the sources that were deployed: the SHA-256 differs", wanted.board)};
+  }
+  auto opened = deploy::open_project(archive, folder);
+  if (!opened) {
+    return Failure{kFailed, std::move(opened).error().text};
+  }
+  return std::move(opened).value();
+}
+
+}  // namespace indurop::tools
