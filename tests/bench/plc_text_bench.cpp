@@ -66,14 +66,14 @@ void texts(benchmark::State& state) {
 }
 
 void concat_in_st(Texts& t, std::int16_t) {
-  t.out = Text(iec::concat(t.first, t.second));
+  t.out = iec::concat_as<Text>(t.first, t.second);
 }
 void concat_by_hand(Texts& t, std::int16_t) {
   put(t.out, t.first.data, length(t.first), t.second.data, length(t.second));
 }
 
 void insert_in_st(Texts& t, std::int16_t n) {
-  t.out = Text(iec::insert(t.first, t.second, n));
+  t.out = iec::insert_as<Text>(t.first, t.second, n);
 }
 void insert_by_hand(Texts& t, std::int16_t n) {
   const std::size_t size = length(t.first);
@@ -92,7 +92,7 @@ void delete_by_hand(Texts& t, std::int16_t n) {
 }
 
 void replace_in_st(Texts& t, std::int16_t n) {
-  t.out = Text(iec::replace(t.first, t.second, n, n));
+  t.out = iec::replace_as<Text>(t.first, t.second, n, n);
 }
 void replace_by_hand(Texts& t, std::int16_t n) {
   const std::size_t size = length(t.first);

@@ -38,7 +38,7 @@ std::vector<const Resolved::Actual*> inputs_of(const Expression& call) {
 
 }  // namespace
 
-std::string ExpressionEmitter::library_call(const Expression& expression) const {
+std::string ExpressionEmitter::library_call(const Expression& expression, const Type* text) const {
   const Resolved& resolved = *expression.resolved;
   std::string arguments = resolved.function->faults ? place(expression.at) : "";
   const auto input = [&](std::size_t i) -> const Expression& {
@@ -54,7 +54,8 @@ std::string ExpressionEmitter::library_call(const Expression& expression) const 
     arguments +=
         (arguments.empty() ? "" : ", ") + order.take(input(i), value(input(i), *resolved.actuals[i].type, true));
   }
-  return order.close(fmt::format("{}({})", resolved.function->cpp, arguments));
+  const std::string as = text != nullptr ? fmt::format("_as<{}>", cpp_type(*text)) : "";
+  return order.close(fmt::format("{}{}({})", resolved.function->cpp, as, arguments));
 }
 
 // Returns the callee: a function of the user, or a method of an instance.

@@ -66,6 +66,11 @@ bool is_this(const Expression& expression) noexcept {
   return expression.resolved->meaning == Meaning::This || expression.resolved->meaning == Meaning::Super;
 }
 
+bool joins_texts(const Expression& expression) noexcept {
+  return expression.kind == Expression::Kind::Call && expression.resolved->function != nullptr &&
+         expression.resolved->function->joins;
+}
+
 std::string converted(const std::string& text, const Expression& expression, const Type& to) {
   const Type& from = *expression.type;
   if (to.is_text()) {
@@ -100,6 +105,9 @@ std::string ExpressionEmitter::value(const Expression& expression, const Type& t
       return cpp_constant(*known, own, exact);
     }
     return cpp_constant(to.kind == Type::Kind::Enum ? *known : stored(*known, to), to, exact);
+  }
+  if (!exact && to.is_text() && joins_texts(expression)) {
+    return library_call(expression, &to);
   }
   const std::string text = exact && to.is_text() ? raw(expression) : converted(raw(expression), expression, to);
   return exact || in_range_of(*expression.type, to) ? text : in_range(expression, text, to);

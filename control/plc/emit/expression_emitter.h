@@ -56,7 +56,8 @@ class ExpressionEmitter {
   [[nodiscard]] std::string binary(const ast::Expression& expression) const;
   [[nodiscard]] std::string comparison(const ast::Expression& expression) const;
   [[nodiscard]] std::string logic(const ast::Expression& expression) const;
-  [[nodiscard]] std::string library_call(const ast::Expression& expression) const;
+  // `text`: the type a joined text is assigned to; null: as it is.
+  [[nodiscard]] std::string library_call(const ast::Expression& expression, const Type* text = nullptr) const;
   [[nodiscard]] std::string user_call(const ast::Expression& expression) const;
 
   const Pou& pou_;

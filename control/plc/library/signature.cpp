@@ -75,7 +75,8 @@ LibraryFunction make_function(std::string_view signature, std::string_view cpp) 
   function.inputs = make_parameters(parts.inputs);
   function.result = type_named(parts.outputs);
   function.faults = cpp.starts_with('!');
-  function.cpp = "iec::" + std::string(cpp.substr(function.faults ? 1 : 0));
+  function.joins = cpp.starts_with('+');
+  function.cpp = "iec::" + std::string(cpp.substr(function.faults || function.joins ? 1 : 0));
   return function;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 struct Row {
   std::string_view signature;
-  std::string_view cpp;  // without iec::; '!' in front: may fault
+  std::string_view cpp;  // without iec::; '!' in front: may fault; '+': joins texts
 };
 
 constexpr Row kFunctions[] = {
@@ -85,14 +85,14 @@ constexpr Row kFunctions[] = {
     {"RIGHT(IN/STR WSTRING, L/SIZE ANY_INT): WSTRING", "right"},
     {"MID(IN/STR STRING, L/LEN ANY_INT, P/POS ANY_INT): STRING", "mid"},
     {"MID(IN/STR WSTRING, L/LEN ANY_INT, P/POS ANY_INT): WSTRING", "mid"},
-    {"CONCAT(IN1/STR1 STRING, IN2/STR2 STRING...): STRING", "concat"},
-    {"CONCAT(IN1/STR1 WSTRING, IN2/STR2 WSTRING...): WSTRING", "concat"},
-    {"INSERT(IN1/STR1 STRING, IN2/STR2 STRING, P/POS ANY_INT): STRING", "insert"},
-    {"INSERT(IN1/STR1 WSTRING, IN2/STR2 WSTRING, P/POS ANY_INT): WSTRING", "insert"},
+    {"CONCAT(IN1/STR1 STRING, IN2/STR2 STRING...): STRING", "+concat"},
+    {"CONCAT(IN1/STR1 WSTRING, IN2/STR2 WSTRING...): WSTRING", "+concat"},
+    {"INSERT(IN1/STR1 STRING, IN2/STR2 STRING, P/POS ANY_INT): STRING", "+insert"},
+    {"INSERT(IN1/STR1 WSTRING, IN2/STR2 WSTRING, P/POS ANY_INT): WSTRING", "+insert"},
     {"DELETE(IN/STR STRING, L/LEN ANY_INT, P/POS ANY_INT): STRING", "erase"},
     {"DELETE(IN/STR WSTRING, L/LEN ANY_INT, P/POS ANY_INT): WSTRING", "erase"},
-    {"REPLACE(IN1/STR1 STRING, IN2/STR2 STRING, L ANY_INT, P ANY_INT): STRING", "replace"},
-    {"REPLACE(IN1/STR1 WSTRING, IN2/STR2 WSTRING, L ANY_INT, P ANY_INT): WSTRING", "replace"},
+    {"REPLACE(IN1/STR1 STRING, IN2/STR2 STRING, L ANY_INT, P ANY_INT): STRING", "+replace"},
+    {"REPLACE(IN1/STR1 WSTRING, IN2/STR2 WSTRING, L ANY_INT, P ANY_INT): WSTRING", "+replace"},
     {"FIND(IN1/STR1 STRING, IN2/STR2 STRING): INT", "find"},
     {"FIND(IN1/STR1 WSTRING, IN2/STR2 WSTRING): INT", "find"},
 
@@ -101,10 +101,10 @@ constexpr Row kFunctions[] = {
     {"WLEFT(IN/STR WSTRING, L/SIZE ANY_INT): WSTRING", "left"},
     {"WRIGHT(IN/STR WSTRING, L/SIZE ANY_INT): WSTRING", "right"},
     {"WMID(IN/STR WSTRING, L/LEN ANY_INT, P/POS ANY_INT): WSTRING", "mid"},
-    {"WCONCAT(IN1/STR1 WSTRING, IN2/STR2 WSTRING...): WSTRING", "concat"},
-    {"WINSERT(IN1/STR1 WSTRING, IN2/STR2 WSTRING, P/POS ANY_INT): WSTRING", "insert"},
+    {"WCONCAT(IN1/STR1 WSTRING, IN2/STR2 WSTRING...): WSTRING", "+concat"},
+    {"WINSERT(IN1/STR1 WSTRING, IN2/STR2 WSTRING, P/POS ANY_INT): WSTRING", "+insert"},
     {"WDELETE(IN/STR WSTRING, L/LEN ANY_INT, P/POS ANY_INT): WSTRING", "erase"},
-    {"WREPLACE(IN1/STR1 WSTRING, IN2/STR2 WSTRING, L ANY_INT, P ANY_INT): WSTRING", "replace"},
+    {"WREPLACE(IN1/STR1 WSTRING, IN2/STR2 WSTRING, L ANY_INT, P ANY_INT): WSTRING", "+replace"},
     {"WFIND(IN1/STR1 WSTRING, IN2/STR2 WSTRING): INT", "find"},
 
     {"ADD_TIME(IN1 TIME, IN2 TIME): TIME", "add"},

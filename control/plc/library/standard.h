@@ -38,6 +38,7 @@ struct LibraryFunction {
   LibraryType result = Generic::Any;
   std::string cpp;      // "iec::add", "iec::to<std::int16_t>"
   bool faults = false;  // its first C++ argument is the iec::Place to report in a fault
+  bool joins = false;   // "iec::concat_as<T>" gives the text as a T
 
   // Returns the position of the input of this name, in any case; an extensible function has any number of inputs.
   [[nodiscard]] std::optional<std::size_t> position(std::string_view input) const;

@@ -21,6 +21,9 @@ namespace indurop::iec {
 
 namespace detail {
 
+template <class T>
+inline constexpr bool kIsJoined = false;
+
 // Concatenated texts, which know their length and are not padded with the NULs that fill a variable: most of them are
 // copied to a shorter variable at once.
 template <class Letter, std::size_t N>
@@ -49,8 +52,28 @@ class Joined {
   Letter data_[N + 1];  // NOLINT(modernize-avoid-c-arrays): std::array would have to be filled
 };
 template <class Letter, std::size_t N>
+inline constexpr bool kIsJoined<Joined<Letter, N>> = true;
+template <class Letter, std::size_t N>
 struct TextTraits<Joined<Letter, N>>
     : TextTraits<std::conditional_t<std::same_as<Letter, char>, String<N>, WString<N>>> {};
+// Returns the concatenated parts as an R: a Joined, or a variable that cuts what it has no space for.
+template <class R, class... Parts>
+R put_together(Parts... parts) noexcept {
+  if constexpr (kIsJoined<R>) {
+    return R(parts...);
+  } else {
+    R result;  // all NUL: only the characters are copied
+    std::size_t size = 0;
+    const auto append = [&](auto part) {
+      const std::size_t n = std::min(part.size(), kTextSize<R> - 1 - size);
+      std::memcpy(result.data + size, part.data(), n * sizeof *part.data());
+      size += n;
+    };
+    (append(parts), ...);
+    return result;
+  }
+}
+
 // A Joined with the total size of all texts.
 template <class T, class... More>
 using JoinedOf =
@@ -87,7 +110,7 @@ Cut<View> cut(View text, std::int64_t first, std::int64_t length) noexcept {
   const std::int64_t end = std::clamp<std::int64_t>(first - 1 + std::max<std::int64_t>(length, 0), begin, size);
   const auto at = static_cast<std::size_t>(begin);
   const auto to = static_cast<std::size_t>(end);
-  return {text.substr(0, at), text.substr(at, to - at), text.substr(to)};
+  return {View(text.data(), at), View(text.data() + at, to - at), View(text.data() + to, text.size() - to)};
 }
 
 }  // namespace detail
@@ -101,7 +124,8 @@ template <Text T, Integer L>
 detail::PartOf<T> left(const T& in, L length) noexcept {
   const auto all = in.view();
   const auto size = static_cast<std::int64_t>(all.size());
-  return all.substr(0, static_cast<std::size_t>(std::clamp<std::int64_t>(detail::count(length), 0, size)));
+  const std::int64_t wanted = std::clamp<std::int64_t>(detail::count(length), 0, size);
+  return detail::put_together<detail::PartOf<T>>(all.substr(0, static_cast<std::size_t>(wanted)));
 }
 
 template <Text T, Integer L>
@@ -109,42 +133,54 @@ detail::PartOf<T> right(const T& in, L length) noexcept {
   const auto all = in.view();
   const auto size = static_cast<std::int64_t>(all.size());
   const std::int64_t wanted = std::clamp<std::int64_t>(detail::count(length), 0, size);
-  return all.substr(static_cast<std::size_t>(size - wanted));
+  return detail::put_together<detail::PartOf<T>>(all.substr(static_cast<std::size_t>(size - wanted)));
 }
 
 // Returns `length` characters from position `first` on.
 template <Text T, Integer L, Integer P>
 detail::PartOf<T> mid(const T& in, L length, P first) noexcept {
-  return detail::cut(in.view(), detail::count(first), detail::count(length)).inside;
+  const auto parts = detail::cut(in.view(), detail::count(first), detail::count(length));
+  return detail::put_together<detail::PartOf<T>>(parts.inside);
+}
+
+// CONCAT, INSERT and REPLACE as the type of the variable they are assigned to, without a complete text in between.
+template <Text R, SameLetters<R>... Parts>
+R concat_as(const Parts&... parts) noexcept {
+  return detail::put_together<R>(parts.view()...);
+}
+template <Text R, SameLetters<R> A, SameLetters<R> B, Integer P>
+R insert_as(const A& in1, const B& in2, P after) noexcept {
+  const auto parts = detail::cut(in1.view(), detail::count(after) + 1, 0);
+  return detail::put_together<R>(parts.before, in2.view(), parts.after);
+}
+template <Text R, SameLetters<R> A, SameLetters<R> B, Integer L, Integer P>
+R replace_as(const A& in1, const B& in2, L length, P first) noexcept {
+  const auto parts = detail::cut(in1.view(), detail::count(first), detail::count(length));
+  return detail::put_together<R>(parts.before, in2.view(), parts.after);
 }
 
 template <Text First, SameLetters<First>... More>
 auto concat(const First& first, const More&... more) noexcept {
-  return detail::JoinedOf<First, More...>(first.view(), more.view()...);
+  return concat_as<detail::JoinedOf<First, More...>>(first, more...);
 }
 
 // Inserts `in2` after the character at position `after`; 0 is the front.
 template <Text A, SameLetters<A> B, Integer P>
 auto insert(const A& in1, const B& in2, P after) noexcept {
-  const auto parts = detail::cut(in1.view(), detail::count(after) + 1, 0);
-  return detail::JoinedOf<A, B>(parts.before, in2.view(), parts.after);
+  return insert_as<detail::JoinedOf<A, B>>(in1, in2, after);
+}
+
+// Replaces `length` characters of `in1` from position `first` on by `in2`.
+template <Text A, SameLetters<A> B, Integer L, Integer P>
+auto replace(const A& in1, const B& in2, L length, P first) noexcept {
+  return replace_as<detail::JoinedOf<A, B>>(in1, in2, length, first);
 }
 
 // Removes `length` characters from position `first` on: the function DELETE.
 template <Text T, Integer L, Integer P>
 detail::PartOf<T> erase(const T& in, L length, P first) noexcept {
   const auto parts = detail::cut(in.view(), detail::count(first), detail::count(length));
-  detail::PartOf<T> result;
-  std::copy(parts.before.begin(), parts.before.end(), result.data);
-  std::copy(parts.after.begin(), parts.after.end(), result.data + parts.before.size());
-  return result;
-}
-
-// Replaces `length` characters of `in1` from position `first` on by `in2`.
-template <Text A, SameLetters<A> B, Integer L, Integer P>
-auto replace(const A& in1, const B& in2, L length, P first) noexcept {
-  const auto parts = detail::cut(in1.view(), detail::count(first), detail::count(length));
-  return detail::JoinedOf<A, B>(parts.before, in2.view(), parts.after);
+  return detail::put_together<detail::PartOf<T>>(parts.before, parts.after);
 }
 
 // The position of the first occurrence of `in2` in `in1`; 0 if there is none, or `in2` is empty.

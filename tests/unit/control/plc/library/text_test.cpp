@@ -142,6 +142,31 @@ TEST(PlcText, Replacement_of_a_part) {
   EXPECT_EQ(replace(kText, String<1>(""), 2, 3), "ABEFG");
 }
 
+// As generated code puts a joined text into a variable: the same as joined first and cut then, for each length.
+TEST(PlcText, Texts_joined_for_a_variable_are_cut_to_it) {
+  const String<6> abc("abcdef");
+  const String<4> xy("xyz");
+  const auto check = [&]<std::size_t N>(indurop::string<N> expected, indurop::string<N> found) {
+    EXPECT_EQ(found, expected);
+    for (std::size_t i = expected.size(); i < N; ++i) {
+      EXPECT_EQ(found.data[i], '\0') << i << " of " << N;
+    }
+  };
+  for (std::int16_t first = -1; first <= 8; ++first) {
+    check(String<20>(insert(abc, xy, first)), insert_as<String<20>>(abc, xy, first));
+    check(String<8>(insert(abc, xy, first)), insert_as<String<8>>(abc, xy, first));
+    check(String<2>(insert(abc, xy, first)), insert_as<String<2>>(abc, xy, first));
+    for (std::int16_t length = -1; length <= 8; ++length) {
+      check(String<20>(replace(abc, xy, length, first)), replace_as<String<20>>(abc, xy, length, first));
+      check(String<4>(replace(abc, xy, length, first)), replace_as<String<4>>(abc, xy, length, first));
+    }
+  }
+  check(String<10>("xyzabcdefx"), concat_as<String<10>>(xy, abc, xy));
+  check(String<0>(""), concat_as<String<0>>(xy, abc));
+  EXPECT_EQ((concat_as<WString<3>>(WString<2>(u"ab"), WString<5>(u"cde")).view()), u"abc");
+  EXPECT_EQ((insert_as<WString<3>>(WString<2>(u"ab"), WString<5>(u"c"), 1).view()), u"acb");
+}
+
 TEST(PlcText, The_first_occurrence_is_found) {
   const String<20> text("banana");
   EXPECT_EQ(find(text, String<3>("an")), 2);
