@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "control/plc/check/places.h"
@@ -66,7 +67,9 @@ class Finder {
       inner.initial = given != nullptr ? given : one->declared->initial ? &*one->declared->initial : nullptr;
       const bool shown = way.outside && show_locals_ && !is_hidden(*one);
       if (holds_instances(*one->type)) {
-        instances(*one->type, inner);
+        if (inner.retain || may_share(*one->type)) {
+          instances(*one->type, inner);
+        }
       } else if (is_placeless(*one) || ((inner.retain || shown) && !is_private(*one->type))) {
         add(*one->type, inner, one->declared);
       }
@@ -87,6 +90,28 @@ class Finder {
   }
 
  private:
+  // Returns whether instances in the type, of a variable that is not retained, have variables that are shared. Blocks
+  // in blocks have a million instances: only those with something to find are walked through.
+  bool may_share(const Type& type) {
+    if (type.kind == Type::Kind::Array) {
+      return may_share(*type.element);
+    }
+    if (type.pou == nullptr) {
+      return false;
+    }
+    const auto known = sharing_.find(type.pou);
+    if (known != sharing_.end()) {
+      return known->second;
+    }
+    const auto all = all_variables(*type.pou);
+    const bool shares = std::any_of(all.begin(), all.end(), [this](const Variable* one) {
+      return is_kept(*one, false) &&
+             (one->retain || (holds_instances(*one->type) ? may_share(*one->type) : is_placeless(*one)));
+    });
+    sharing_[type.pou] = shares;
+    return shares;
+  }
+
   // `index`: index of the first element below, row after row.
   void element(const Type& array, std::size_t level, const Way& way, std::uint64_t index = 0) {
     if (level == array.dimensions.size()) {
@@ -141,6 +166,7 @@ class Finder {
   const Program& program_;
   bool show_locals_;
   TaskUse& use_;
+  std::map<const Pou*, bool> sharing_;
 };
 
 }  // namespace
