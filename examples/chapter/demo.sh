@@ -1,6 +1,6 @@
 #!/bin/sh
 # The chapter's modules on their own schedule: plan, check, run, look from outside, kill a process, statistics.
-# Needs the programs of build/bin in PATH; `make demo` sees to it.
+# Needs the programs in PATH; `make demo` and `indurop demo` see to it.
 set -e
 here=$(cd "$(dirname "$0")" && pwd)
 folder=${INDUROP_DEMO_DIR:-$here/../../build/examples/chapter}

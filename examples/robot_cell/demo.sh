@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # The robot cell (chapter, section 4) at work for twenty seconds, on one board and then on two, with nobody's hand on it.
-# Needs the programs of build/bin in PATH; `make demo` sees to it.
+# `demo.sh page`: only its page, until Ctrl-C. Needs the programs in PATH; `make demo` and `indurop demo` see to it.
 set -e
 here=$(cd "$(dirname "$0")" && pwd)
 folder=${INDUROP_DEMO_DIR:-$here/../../build/examples/robot_cell}
@@ -9,12 +9,13 @@ cd "$folder"
 
 say() { printf '\n\033[1m%s\033[0m\n' "$*"; }
 show() { say "\$ $*"; "$@"; }
-forget() { for node in cell plc motion; do indurop clean --node $node >/dev/null 2>&1 || true; done; }
+forget() { for node in cell plc motion $page; do indurop clean --node $node >/dev/null 2>&1 || true; done; }
 cleanup() {
   for pid in $recorder $server $runner; do kill "$pid" 2>/dev/null || true; done
   for pid in $recorder $server $runner; do wait "$pid" 2>/dev/null || true; done
   forget
 }
+page=
 recorder=
 runner=
 server=
@@ -26,6 +27,7 @@ wait_for() {
   tries=0
   until [ "$(indurop get --node "$1" "$2" 2>/dev/null)" = "$3" ]; do
     tries=$((tries + 1))
+    kill -0 "$runner" 2>/dev/null || { echo "node $1 has ended: its messages are above"; exit 1; }
     [ $tries -lt 100 ] || { echo "$2 of node $1 did not become $3"; exit 1; }
     sleep 0.1
   done
@@ -71,6 +73,29 @@ finish() {
   runner=
 }
 
+# page NODE: the cell at work until Ctrl-C, to be looked at in a browser
+page() {
+  indurop run module.xml --node "$1" -q &
+  runner=$!
+  wait_for "$1" I14 1
+  indurop set --node "$1" CELL::tour true
+  watched=main.xml,plc_robot.glb,cell.glb
+  indurop serve --node "$1" --plc $watched --write &
+  server=$!
+  wait $server || {
+    indurop serve --node "$1" --plc $watched --write --port 0 & # another program has the usual port
+    server=$!
+    wait $server
+  }
+}
+
+if [ "$1" = page ]; then
+  page=demo$$
+  say "The robot cell works: look at its ladder, its robot, its alarms in a browser; Ctrl-C ends it"
+  page $page
+  exit 0
+fi
+
 forget
 say "The PLC program of the cell, two of its rungs; all of them are drawn in main.svg"
 indurop plc print main.xml | awk '/^rung (10|16)[: ]/ { on = 1 } /^$/ { if (on) print; on = 0 } on'
@@ -101,18 +126,7 @@ wait $runner || true
 runner=
 say "Pictures: $folder/cell.svg, cell_two_boards.svg, main.svg (ladder), schedule.svg"
 
-# Somebody who sits there may look at it.
+# Where a user watches, the cell continues.
 [ -t 1 ] || exit 0
-say "The cell goes on: look at it in a browser, its ladder, its robot, its alarms; Ctrl-C ends it"
-indurop run module.xml --node cell -q &
-runner=$!
-wait_for cell I14 1
-indurop set --node cell CELL::tour true
-watched=main.xml,plc_robot.glb,cell.glb
-indurop serve --node cell --plc $watched --write &
-server=$!
-wait $server || {
-  indurop serve --node cell --plc $watched --write --port 0 & # somebody else has the usual one
-  server=$!
-  wait $server
-}
+say "The cell goes on: look at its ladder, its robot, its alarms in a browser; Ctrl-C ends it"
+page cell

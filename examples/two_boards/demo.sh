@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # A control loop between two boards, both on this host: values on both, a board that dies and comes back.
-# Needs the programs of build/bin in PATH; `make demo` sees to it.
+# Needs the programs in PATH; `make demo` and `indurop demo` see to it.
 set -e
 here=$(cd "$(dirname "$0")" && pwd)
 folder=${INDUROP_DEMO_DIR:-$here/../../build/examples/two_boards}

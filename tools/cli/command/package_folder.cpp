@@ -5,6 +5,8 @@
 #include <system_error>
 #include <vector>
 
+#include "tools/cli/command/library_folders.h"
+
 namespace indurop::tools {
 
 namespace fs = std::filesystem;
@@ -13,13 +15,10 @@ fs::path package_folder(const fs::path& programs) {
   constexpr const char* kFile = "InduRoPConfig.cmake";
   const fs::path prefix = programs.parent_path();
   std::vector<fs::path> places{prefix};
-  std::error_code error;
-  for (const char* library : {"lib", "lib64"}) {
-    places.push_back(prefix / library / "cmake/InduRoP");
-    for (const auto& entry : fs::directory_iterator(prefix / library, error)) {
-      places.push_back(entry.path() / "cmake/InduRoP");  // lib/x86_64-linux-gnu
-    }
+  for (const fs::path& library : library_folders(prefix)) {
+    places.push_back(library / "cmake/InduRoP");
   }
+  std::error_code error;
   const auto found = std::find_if(places.begin(), places.end(),
                                   [&](const fs::path& place) { return fs::exists(place / kFile, error); });
   return found == places.end() ? fs::path{} : *found;

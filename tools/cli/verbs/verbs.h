@@ -14,6 +14,7 @@ extern const Verb kBoardsVerb;
 extern const Verb kChartVerb;
 extern const Verb kCheckVerb;
 extern const Verb kCleanVerb;
+extern const Verb kDemoVerb;
 extern const Verb kDeployVerb;
 extern const Verb kDiffVerb;
 extern const Verb kDoctorVerb;

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop demo: runs a copy of a built example, with its script.
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "core/base/program_folder.h"
+#include "core/base/spawn.h"
+#include "core/rt/clock.h"
+#include "core/rt/thread.h"
+#include "tools/cli/command/example_folder.h"
+#include "tools/cli/command/interrupt.h"
+#include "tools/cli/command/temporary_folder.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kPollNs = 20'000'000;
+constexpr std::int64_t kGraceNs = 20'000'000'000;  // the script ends its nodes, which end their processes
+
+struct Options {
+  std::string example;  // empty: the page
+  fs::path folder;      // empty: a temporary one
+};
+
+// Examples write pictures and recordings beside their modules, so they run in a copy. Folders are what a build leaves
+// there.
+std::string copy_files(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_directories(to, error);
+  for (fs::directory_iterator file(from, error), end; !error && file != end; file.increment(error)) {
+    std::error_code failed;
+    if (fs::is_regular_file(*file, failed)) {
+      fs::copy_file(file->path(), to / file->path().filename(), fs::copy_options::overwrite_existing, failed);
+    }
+    if (failed) {
+      return fmt::format("cannot copy {} to {}: {}", file->path().string(), to.string(), failed.message());
+    }
+  }
+  return error ? fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()) : "";
+}
+
+// What this user lacks for real time, and how to get it. The demo runs without it.
+void report_rights(Context& context) {
+  if (rt::set_fifo(1).ok()) {
+    (void)rt::set_fifo(0);
+    return;
+  }
+  std::error_code ignored;
+  const bool group = fs::exists("/etc/security/limits.d/60-indurop.conf", ignored);
+  context.out.note(fmt::format(
+      "this user has no right to real time: the example keeps its order, not its times. {}; indurop doctor says more",
+      group ? "To have it: sudo adduser $USER indurop, then log in again; or run this as root"
+            : "To have it: run this as root, or allow rtprio and memlock in /etc/security/limits.d"));
+}
+
+void set_environment(const fs::path& programs, const fs::path& folder, bool temporary) {
+  const char* const path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): there is one thread
+  const std::string searched = programs.string() + (path == nullptr ? "" : std::string(":") + path);
+  ::setenv("PATH", searched.c_str(), 1);                           // NOLINT(concurrency-mt-unsafe): likewise
+  ::setenv("INDUROP_DEMO_DIR", folder.string().c_str(), 1);        // NOLINT(concurrency-mt-unsafe): likewise
+  if (temporary) {                                                 // what the nodes keep goes with the folder
+    ::setenv("INDUROP_STATE_DIR", (folder / "state").c_str(), 1);  // NOLINT(concurrency-mt-unsafe): likewise
+  }
+}
+
+// The exit code of `child`. Ctrl-C reaches the script by itself, SIGTERM through us; it then ends what it has started.
+int wait_for(Context& context, pid_t child) {
+  std::optional<std::int64_t> deadline;
+  int status = 0;
+  while (true) {
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child) {
+      return interrupted() ? interrupt_code() : base::exit_code_of(status);
+    }
+    if (ended < 0 && errno != EINTR) {
+      context.out.error(fmt::format("lost the example: {}", std::strerror(errno)));
+      return kFailed;
+    }
+    if (interrupted() && !deadline) {
+      deadline = rt::now_ns() + kGraceNs;
+      ::kill(child, SIGTERM);
+    }
+    if (deadline && rt::now_ns() > *deadline) {
+      context.out.error("the example did not end within 20 s and was killed");
+      ::kill(child, SIGKILL);
+    }
+    rt::sleep_until(rt::now_ns() + kPollNs);
+  }
+}
+
+int run_script(Context& context, const fs::path& folder, bool page) {
+  std::vector<std::string> words{"sh", (folder / "demo.sh").string()};
+  if (page) {
+    words.emplace_back("page");
+  }
+  context.out.flush();
+  const auto child =
+      base::spawn({.words = std::move(words), .program = {}, .fresh_signals = true, .ends_with_us = SIGTERM});
+  if (!child) {
+    context.out.error(fmt::format("cannot start sh: {}", std::strerror(child.error().sys_errno)));
+    return kFailed;
+  }
+  return wait_for(context, *child);
+}
+
+int demo(Context& context, const Options& options) {
+  const bool page = options.example.empty();
+  const std::string name = page ? "robot_cell" : options.example;
+  const fs::path programs = base::program_folder();
+  const fs::path example = example_folder(programs, name);
+  if (example.empty()) {
+    context.out.error(fmt::format(
+        "the built example {} does not come with this program: install the package indurop-examples, or in the source "
+        "tree: make demo",
+        name));
+    return kFailed;
+  }
+  std::optional<TemporaryFolder> temporary;
+  if (options.folder.empty()) {
+    temporary.emplace();
+    if (temporary->path().empty()) {
+      context.out.error("cannot make a temporary folder; name one that may be written: indurop demo --folder DIR");
+      return kFailed;
+    }
+  }
+  std::error_code ignored;
+  const fs::path folder = temporary ? temporary->path() : fs::absolute(options.folder, ignored);
+  if (const std::string problem = copy_files(example, folder); !problem.empty()) {
+    context.out.error(problem);
+    return kFailed;
+  }
+  report_rights(context);
+  set_environment(programs, folder, temporary.has_value());
+  return run_script(context, folder, page);
+}
+
+Action declare(base::Options& app, Context& /*context*/) {
+  auto options = std::make_shared<Options>();
+  app.add("example", "EXAMPLE", options->example,
+          "chapter, two_boards or robot_cell: what it shows, step by step (default: the robot cell and its page)")
+      .choices({"chapter", "two_boards", "robot_cell"});
+  app.add("--folder", "DIR", options->folder, "Run there and keep its files, pictures and recordings")
+      .completes(base::Completion::Folder);
+  return [options](Context& c) { return demo(c, *options); };
+}
+
+}  // namespace
+
+const Verb kDemoVerb{
+    "demo", "Before it runs", "Run a built example: a robot cell and its page, the chapter's modules, a plant",
+    "Needs no compiler and no rights. It runs in a temporary copy of the example, which Ctrl-C removes.\n"
+    "Without EXAMPLE the robot cell works until Ctrl-C, and the address of its page is printed.\n"
+    "Examples:\n"
+    "  indurop demo\n"
+    "  indurop demo two_boards\n"
+    "  indurop demo robot_cell --folder cell\n",
+    &declare};
+
+}  // namespace indurop::tools
