@@ -9,7 +9,7 @@ PREFIX ?= /usr/local
 # those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(TEST_JOBS) $(if $(CI),--repeat until-pass:2)
 
-.PHONY: all with-tests demo test quick soak rt-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs install uninstall clean help
+.PHONY: all with-tests demo test quick soak rt-proof deb-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs deb apt install uninstall clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -93,6 +93,21 @@ docs: ## API pages of the public headers, in build/docs/html/index.html
 	@.ci/install-deps docs
 	@mkdir -p build
 	@INDUROP_VERSION=$$(sed -n 's/^project(InduRoP VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt) doxygen docs/Doxyfile
+
+deb: ## Debian packages of the committed tree in build/deb, checked by lintian
+	@.ci/install-deps build deb
+	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
+	@cmake --build --preset release -j $(JOBS) --target indurop_page || true
+	@JOBS=$(JOBS) nice cmake/packaging/make_deb.sh
+
+apt: ## a signed apt repository of these packages in build/apt
+	@.ci/install-deps deb
+	@cmake/packaging/make_apt.sh
+
+deb-proof: ## build the packages again elsewhere and compare; install, upgrade, remove, purge them in a new Debian (as root)
+	@.ci/install-deps deb deb-proof
+	@tests/integration/packaging/compare_builds.sh build/deb build/deb-again
+	@tests/integration/packaging/prove_packages.sh build/deb build/deb-proof
 
 install: all ## install to PREFIX (default /usr/local)
 	@cmake --install build --prefix "$(PREFIX)" --strip

@@ -5,13 +5,17 @@ include(CMakePackageConfigHelpers)
 set(indurop_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/InduRoP)
 set(indurop_share_dir ${CMAKE_INSTALL_DATADIR}/indurop)
 
-install(TARGETS indurop_headers indurop indurop_testing robot glb2idl indurop_cli EXPORT InduRoPTargets
+install(TARGETS indurop_headers indurop indurop_testing glb2idl indurop_cli EXPORT InduRoPTargets
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+# A set of its own: the Debian package indurop-dev is complete without the library for robots.
+install(TARGETS robot EXPORT InduRoPRobotTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/indurop DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT InduRoPTargets NAMESPACE indurop:: DESTINATION ${indurop_package_dir})
-export(EXPORT InduRoPTargets NAMESPACE indurop:: FILE ${PROJECT_BINARY_DIR}/InduRoPTargets.cmake)
+foreach(set InduRoPTargets InduRoPRobotTargets)
+  install(EXPORT ${set} NAMESPACE indurop:: DESTINATION ${indurop_package_dir})
+  export(EXPORT ${set} NAMESPACE indurop:: FILE ${PROJECT_BINARY_DIR}/${set}.cmake)
+endforeach()
 
 # One configuration file for each of the two trees.
 set(indurop_modules ${indurop_package_dir}/IndurModules.cmake)

@@ -34,7 +34,7 @@ struct Options {
   fs::path folder;      // empty: a temporary one
 };
 
-// Examples write pictures and recordings beside their modules, so they run in a copy. Folders are what a build leaves
+// Examples write pictures and recordings next to their modules, so they run in a copy. Folders are what a build leaves
 // there.
 std::string copy_files(const fs::path& from, const fs::path& to) {
   std::error_code error;
@@ -75,7 +75,7 @@ void set_environment(const fs::path& programs, const fs::path& folder, bool temp
   }
 }
 
-// The exit code of `child`. Ctrl-C reaches the script by itself, SIGTERM through us; it then ends what it has started.
+// The exit code of `child`. Ctrl-C reaches the script as it reaches us, SIGTERM through us; it then ends what it has started.
 int wait_for(Context& context, pid_t child) {
   std::optional<std::int64_t> deadline;
   int status = 0;
