@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "control/robot/group/group.h"
 #include "heavy_arm.h"
 #include "robot_fixture.h"
 #include "tests/unit/allocations.h"

@@ -4,12 +4,12 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <indurop/robot/controller.h>
 
 #include <cstdint>
 #include <memory>
 #include <string>
 
-#include "control/robot/group/group.h"
 #include "robot_fixture.h"
 
 namespace indurop::robot {

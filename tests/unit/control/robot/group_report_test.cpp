@@ -5,7 +5,6 @@
 
 #include <array>
 
-#include "control/robot/group/group.h"
 #include "group_cell.h"
 
 namespace indurop::robot {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/robot/group/group.h"
+#include <indurop/robot/controller.h>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

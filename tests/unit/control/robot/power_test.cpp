@@ -2,11 +2,11 @@
 // Drives that answer late, each in its own time, as those on a field bus do: whoever takes and gives up power at any
 // instant is told the truth about it.
 #include <gtest/gtest.h>
+#include <indurop/robot/controller.h>
 
 #include <deque>
 #include <random>
 
-#include "control/robot/group/group.h"
 #include "drive_answer.h"
 #include "robot_fixture.h"
 

@@ -9,7 +9,6 @@
 #include <map>
 #include <thread>
 
-#include "control/robot/group/group.h"
 #include "drive_answer.h"
 #include "robot_fixture.h"
 #include "tests/unit/allocations.h"

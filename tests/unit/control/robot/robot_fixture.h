@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <indurop/robot/controller.h>
+
 #include <memory>
 #include <random>
 #include <string>
@@ -10,7 +12,8 @@
 #include <vector>
 
 #include "control/robot/files/urdf.h"
-#include "control/robot/group/group.h"
+#include "control/robot/kinematics/arm.h"
+#include "control/robot/path/segment.h"
 #include "control/robot/plan/planner.h"
 
 namespace indurop::robot {
