@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Products that move with a conveyor or a rotary table. A motion in the product's coordinates is planned as if the
-// product were where it was when the tool was last at rest on it; each set point is then moved along with the belt.
+#include "control/robot/group/riding.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "control/robot/group/group.h"
+#include "control/robot/group/fault_text.h"
+#include "control/robot/group/pose_numbers.h"
 
 namespace indurop::robot {
 
@@ -39,44 +39,66 @@ bool is_by_ride(ErrorCode code) noexcept {
 
 }  // namespace
 
-LineLimits Group::most_of(const Tracking::Carrier& carrier) const noexcept {
-  const ToolLimits& tool = parts_.tool;
+Riding::Riding(Robot& robot, GroupPort& group, Plans& plans) noexcept
+    : robot_(robot), group_(group), plans_(plans), tracking_(robot.period) {
+  belts_.fill(BeltWatch(robot.period));
+}
+
+Joints Riding::planned_end() const noexcept {
+  return robot_.follower.idle() && !on() ? robot_.commanded() : robot_.follower.end();
+}
+
+LineLimits Riding::most_of(const Tracking::Carrier& carrier) const noexcept {
+  const ToolLimits& tool = robot_.parts.tool;
   return carrier.turns ? LineLimits{tool.turn_velocity, tool.turn_acceleration, tool.turn_jerk}
                        : LineLimits{tool.velocity, tool.acceleration, tool.jerk};
 }
 
 // Limits of the carrier's motion set by the joints at the present position; false: they cannot follow it at all.
-bool Group::room_to_ride(const Tracking::Carrier& carrier, RideRoom& room) const noexcept {
-  const Joints now = commanded();
-  const Pose tip = places_.arm().forward(now);
+bool Riding::room_for(const Tracking::Carrier& carrier, Room& room) const noexcept {
+  const Joints now = robot_.commanded();
+  const Pose tip = robot_.tip(now);
   std::array<Joints, 2> q;
   for (std::size_t k = 0; k < q.size(); ++k) {
     const double by = k == 0 ? -kLook : kLook;
     const Inverse::Result result =
-        places_.inverse().nearest(Tracking::carried(carrier, by, tip), places_.inverse().held_as(now, now));
+        robot_.tool.inverse().nearest(Tracking::carried(carrier, by, tip), robot_.tool.inverse().held_as(now, now));
     if (result.reach != Reach::Ok) {
       return false;
     }
     q[k] = result.solution.q;
   }
   room.limits = most_of(carrier);
-  for (int i = 0; i < count(); ++i) {
+  for (int i = 0; i < robot_.count(); ++i) {
     const double rate = std::abs(q[1][i] - q[0][i]) / (2 * kLook);
     if (rate > 0) {
-      room.limits.velocity = std::min(room.limits.velocity, parts_.joints.velocity[i] / rate);
-      room.limits.acceleration = std::min(room.limits.acceleration, parts_.joints.acceleration[i] / rate);
-      room.limits.jerk = std::min(room.limits.jerk, parts_.joints.jerk[i] / rate);
+      room.limits.velocity = std::min(room.limits.velocity, robot_.parts.joints.velocity[i] / rate);
+      room.limits.acceleration = std::min(room.limits.acceleration, robot_.parts.joints.acceleration[i] / rate);
+      room.limits.jerk = std::min(room.limits.jerk, robot_.parts.joints.jerk[i] / rate);
     }
   }
-  TipSpeed speed(places_.arm());
+  TipSpeed speed(robot_.tool.arm());
   speed.begin(q[0]);
   speed.note(q[1]);
   room.tip = speed.farthest() / (2 * kLook);
   return true;
 }
 
+// Sets the product's coordinates in those of the machine.
+ErrorCode Riding::set_product(const Command& command) noexcept {
+  if (!std::all_of(command.to.begin(), command.to.begin() + 6, [](double x) { return std::isfinite(x); })) {
+    return ErrorCode::Value;
+  }
+  get_off();
+  tracking_.forget();
+  product_lost_ = false;
+  product_ = pose_of(command.to);
+  std::copy_n(command.to.begin(), product_given_.size(), product_given_.begin());
+  return ErrorCode::Ok;
+}
+
 // The product's coordinates move with a belt from now on.
-ErrorCode Group::track(const Command& command, bool turns) noexcept {
+ErrorCode Riding::track(const Command& command, bool turns) noexcept {
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::all_of(command.to.begin(), command.to.begin() + 6, finite) ||
       !std::all_of(command.aux.begin(), command.aux.begin() + 6, finite) || command.option < 1 ||
@@ -84,12 +106,12 @@ ErrorCode Group::track(const Command& command, bool turns) noexcept {
     return ErrorCode::Value;
   }
   const Tracking::Carrier carrier{turns, command.option - 1, pose_of(command.to), pose_of(command.aux)};
-  const BeltWatch& watch = belts_[static_cast<std::size_t>(carrier.belt)];
+  const BeltWatch& watch = belts_[at(carrier.belt)];
   if (!watch.known()) {
-    char why[kWhy];
+    FaultText why;
     std::snprintf(why, sizeof why, "belt %d is not told: its reader has to write MC_BELT[%d] in each period, for 0.4 s",
                   carrier.belt + 1, carrier.belt);
-    job_.say(why);
+    robot_.job.say(why);
     return ErrorCode::Belt;
   }
   get_off();
@@ -99,84 +121,81 @@ ErrorCode Group::track(const Command& command, bool turns) noexcept {
 }
 
 // Called before the product's coordinates change: the tool comes to rest, and motions on the product are discarded.
-void Group::get_off() noexcept {
-  if (tracking_.on() && state_ == GroupState::Moving) {
-    forget_plans();
-    follower_.stop();
-    leave_belt(false);
+void Riding::get_off() noexcept {
+  if (tracking_.on() && robot_.states.moving()) {
+    group_.forget_plans();
+    robot_.follower.stop();
+    leave(false);
   }
 }
 
-void Group::sense_belts(const Inputs& in) noexcept {
+void Riding::sense(const std::array<BeltIn, kBelts>& belts) noexcept {
   for (std::size_t k = 0; k < belts_.size(); ++k) {
-    belts_[k].sense(in.belts[k]);
+    belts_[k].sense(belts[k]);
   }
-  if (tracking_.known() && !belt_watch().known()) {
-    lose_product(belt_watch().jumped() ? "jumped" : "is not told any more");
+  if (tracking_.known() && !belt().known()) {
+    lose_product(belt().jumped() ? "jumped" : "is not told any more");
   }
 }
 
 // The tool comes to rest on its own, without the belt.
-void Group::lose_product(const char* why) noexcept {
-  char text[kWhy];
+void Riding::lose_product(const char* why) noexcept {
+  FaultText text;
   std::snprintf(text, sizeof text, "belt %d %s: see to its encoder and its reader, then track it anew",
                 tracking_.carrier().belt + 1, why);
   tracking_.forget();
   product_lost_ = true;
-  if (tracking_.on() && state_ == GroupState::Moving) {
-    drop_motions(ErrorCode::Belt);
-    stop_for(Fault{ErrorCode::Belt});
+  if (tracking_.on() && robot_.states.moving()) {
+    group_.drop_motions(ErrorCode::Belt);
+    group_.stop_for(Fault{ErrorCode::Belt});
   }
-  leave_belt(false);
-  job_.say(text);
+  leave(false);
+  robot_.job.say(text);
 }
 
-ErrorCode Group::get_on() noexcept {
-  RideRoom room;
-  if (!room_to_ride(tracking_.carrier(), room)) {
+ErrorCode Riding::join() noexcept {
+  Room room;
+  if (!room_for(tracking_.carrier(), room)) {
     return ErrorCode::Unreachable;
   }
-  const double speed = std::abs(tracking_.belt(belt_watch()).velocity);
+  const double speed = std::abs(tracking_.belt(belt()).velocity);
   const LineLimits& limits = room.limits;
-  if (speed > kMostSpeed * limits.velocity || speed * room.tip > tip_limit()) {
+  if (speed > kMostSpeed * limits.velocity || speed * room.tip > group_.tip_limit()) {
     return ErrorCode::Speed;
   }
   LineLimits most = most_of(tracking_.carrier());
-  most.velocity = std::min(most.velocity, tip_limit() / std::max(room.tip, 1e-9));
+  most.velocity = std::min(most.velocity, group_.tip_limit() / std::max(room.tip, 1e-9));
   // Catches up slowly with a product that has moved on: further along, the arm may not be able to do as much as here.
   const double most_speed = std::min({limits.velocity / 2, most.velocity, 2 * speed + kCatchUp});
-  tracking_.join(belt_watch(), {most_speed, kWay * limits.acceleration, kWay * limits.jerk}, most);
+  tracking_.join(belt(), {most_speed, kWay * limits.acceleration, kWay * limits.jerk}, most);
   return ErrorCode::Ok;
 }
 
-void Group::leave_belt(bool stays) noexcept {
+void Riding::leave(bool stays) noexcept {
   if (!tracking_.on() || (tracking_.leaves() && stays)) {
     return;
   }
-  RideRoom room;
+  Room room;
   room.limits = most_of(tracking_.ridden());
-  room_to_ride(tracking_.ridden(), room);
-  ride_held_ = stays;
+  room_for(tracking_.ridden(), room);
+  held_ = stays;
   tracking_.leave({room.limits.velocity, kWay * room.limits.acceleration, kWay * room.limits.jerk}, stays);
 }
 
-// Returns whether the tool is at the reference of the motion: at rest on the product, or off any.
-bool Group::is_on_product(int ticket) noexcept {
-  const bool wanted = tracking_.known() && table_.command(ticket).coords == CoordSystem::Product;
-  if (wanted == tracking_.on() && !wanted) {
+bool Riding::reaches(bool on_product, ErrorCode& error) noexcept {
+  const bool wanted = tracking_.known() && on_product;
+  if (!wanted && !tracking_.on()) {
     return true;
   }
-  if (!follower_.idle()) {
+  if (!robot_.follower.idle()) {
     return wanted && tracking_.rides();  // also planned from where the one before begins
   }
   if (!wanted) {
-    leave_belt(false);
+    leave(false);
   } else if (!tracking_.on() && !paused_) {
-    if (const ErrorCode code = get_on(); code != ErrorCode::Ok) {
-      fail_motions(ticket, code);
-    }
+    error = join();
   }
-  if (!wanted || !tracking_.rides() || desk_.holds_forgotten()) {
+  if (!wanted || !tracking_.rides() || plans_.holds_forgotten()) {
     return false;
   }
   keep_to_product();
@@ -185,83 +204,85 @@ bool Group::is_on_product(int ticket) noexcept {
 
 // The tool is at rest on the product: later motions are planned from there. The path may use the joint speed that
 // tracking leaves.
-void Group::keep_to_product() noexcept {
+void Riding::keep_to_product() noexcept {
   tracking_.anchor();
-  follower_.reset(commanded());
-  RideRoom room;
-  if (!room_to_ride(tracking_.ridden(), room)) {
+  robot_.follower.reset(robot_.commanded());
+  Room room;
+  if (!room_for(tracking_.ridden(), room)) {
     return;
   }
-  const double speed = std::abs(tracking_.belt(belt_watch()).velocity);
-  ride_pace_ = std::clamp(kFull - speed / room.limits.velocity, kSlowest, 1.0);
-  ride_speed_ = speed * room.tip;
+  const double speed = std::abs(tracking_.belt(belt()).velocity);
+  pace_ = std::clamp(kFull - speed / room.limits.velocity, kSlowest, 1.0);
+  speed_ = speed * room.tip;
 }
 
 // The product's pose for the motion that is being planned.
-Pose Group::product_ahead() const noexcept {
+Pose Riding::product_ahead() const noexcept {
   return tracking_.rides() ? tracking_.product(tracking_.anchored() - tracking_.lag()) : product_;
 }
 
 // A hold also stops tracking, which later continues at the same place on the product. Any other stop ends it.
-void Group::steer_ride() noexcept {
-  if (state_ != GroupState::Moving) {
-    leave_belt(false);
+void Riding::steer() noexcept {
+  if (!robot_.states.moving()) {
+    leave(false);
   } else if (paused_) {
-    leave_belt(true);
-  } else if (ride_held_ && tracking_.leaves() && tracking_.known()) {
-    ride_held_ = false;
-    if (const ErrorCode code = get_on(); code != ErrorCode::Ok) {
-      drop_motions(code);
-      stop_for(Fault{code});
-      leave_belt(false);
+    leave(true);
+  } else if (held_ && tracking_.leaves() && tracking_.known()) {
+    held_ = false;
+    if (const ErrorCode code = join(); code != ErrorCode::Ok) {
+      group_.drop_motions(code);
+      group_.stop_for(Fault{code});
+      leave(false);
     }
   }
 }
 
 // The set point of this period, computed from that of the path.
-Fault Group::ride(Joints& q) noexcept {
+Fault Riding::carry(Joints& q) noexcept {
   if (!tracking_.on()) {
     return {};
   }
-  steer_ride();
-  if (tracking_.step(belt_watch()) != ErrorCode::Ok) {
+  steer();
+  if (tracking_.step(belt()) != ErrorCode::Ok) {
     lose_product("is too quick for the tool, or starts and stops too suddenly");
-    tracking_.step(belt_watch());
+    tracking_.step(belt());
   }
-  const Pose pose = tracking_.carried(places_.arm().forward(q));
-  const Inverse::Result result = places_.inverse().nearest(pose, places_.inverse().held_as(q, commanded()));
+  const Pose pose = tracking_.carried(robot_.tip(q));
+  const Inverse::Result result =
+      robot_.tool.inverse().nearest(pose, robot_.tool.inverse().held_as(q, robot_.commanded()));
   if (result.reach != Reach::Ok) {
     return {result.reach == Reach::JointLimit   ? ErrorCode::JointLimit
             : result.reach == Reach::OutOfReach ? ErrorCode::Unreachable
                                                 : ErrorCode::Singular};
   }
   q = result.solution.q;
-  if ((places_.arm().forward(q).position - pose.position).norm() > kExact) {
+  if ((robot_.tip(q).position - pose.position).norm() > kExact) {
     return {ErrorCode::Unreachable};
   }
   if (const Fault heavy = too_heavy(q); !heavy.ok()) {
     return heavy;
   }
-  if (tracking_.leaves() && tracking_.at_rest() && follower_.idle() && !ride_held_) {
+  if (tracking_.leaves() && tracking_.at_rest() && robot_.follower.idle() && !held_) {
     tracking_.drop();
-    follower_.reset(q);
-    ride_pace_ = 1;
-    ride_speed_ = 0;
+    robot_.follower.reset(q);
+    pace_ = 1;
+    speed_ = 0;
   }
   return {};
 }
 
 // Returns whether an axis has not enough torque there. The path was planned for the arm where the product was; the belt
 // moves it to where it may need more torque.
-Fault Group::too_heavy(const Joints& q) const noexcept {
-  if (!dynamics_.limited()) {
+Fault Riding::too_heavy(const Joints& q) const noexcept {
+  if (!robot_.tool.dynamics().limited()) {
     return {};
   }
-  const Joints velocity = (q - last_command_) / period_;
-  const Joints acceleration = (velocity - last_speed_) / period_;
-  const Joints needed = dynamics_.torques(q, velocity, acceleration) + dynamics_.friction(velocity);
-  for (int i = 0; i < count(); ++i) {
-    const double most = dynamics_.effort()[i];
+  const Joints velocity = (q - robot_.axes.last()) / robot_.period;
+  const Joints acceleration = (velocity - robot_.axes.last_speed()) / robot_.period;
+  const Joints needed =
+      robot_.tool.dynamics().torques(q, velocity, acceleration) + robot_.tool.dynamics().friction(velocity);
+  for (int i = 0; i < robot_.count(); ++i) {
+    const double most = robot_.tool.dynamics().effort()[i];
     if (most > 0 && std::abs(needed[i]) > most) {
       return {ErrorCode::Torque, i + 1};
     }
@@ -270,27 +291,27 @@ Fault Group::too_heavy(const Joints& q) const noexcept {
 }
 
 // Ends tracking when axes stop on their own.
-void Group::drop_ride(ErrorCode code) noexcept {
+void Riding::drop(ErrorCode code) noexcept {
   if (!tracking_.on()) {
     return;
   }
   if (is_by_ride(code)) {
-    char why[kWhy];
+    FaultText why;
     std::snprintf(why, sizeof why, "the tool fell off belt %d: %s; ride slower, nearer", tracking_.ridden().belt + 1,
                   to_string(code));
-    job_.say(why);
+    robot_.job.say(why);
   }
   tracking_.drop();
-  ride_held_ = false;
-  ride_pace_ = 1;
-  ride_speed_ = 0;
+  held_ = false;
+  pace_ = 1;
+  speed_ = 0;
 }
 
-void Group::report_product() noexcept {
+void Riding::update_product() noexcept {
   if (!tracking_.known()) {
     return;
   }
-  const double place = tracking_.belt(belt_watch()).position;
+  const double place = tracking_.belt(belt()).position;
   product_ = tracking_.product(tracking_.rides() ? tracking_.place() - tracking_.lag() : place);
   const Vec3 rpy = to_rpy(product_.orientation);
   for (int i = 0; i < 3; ++i) {

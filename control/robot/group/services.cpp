@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Services of the group: accepts a request, executes it depending on the state, and reports its end.
+#include "control/robot/group/services.h"
 
-#include <algorithm>
 #include <cmath>
-
-#include "control/robot/group/group.h"
 
 namespace indurop::robot {
 
 namespace {
-
-bool is_move(Service service) noexcept {
-  return service == Service::MoveJoints || service == Service::MoveLine || service == Service::MoveCircle ||
-         service == Service::DirectAbsolute || service == Service::LinearAbsolute;
-}
 
 // Full speed if none is given.
 double part_of_speed(const ServiceRequest& request, bool direct) noexcept {
@@ -23,95 +15,27 @@ double part_of_speed(const ServiceRequest& request, bool direct) noexcept {
 
 }  // namespace
 
-void Group::serve(const ServiceRequest& request, bool edit) noexcept {
-  if (first_) {
-    // Requests from before this program started are ignored.
-    first_ = false;
-    acknowledged_ = done_ = request.number;
-    error_ = request.number != 0 ? ErrorCode::Aborted : ErrorCode::Ok;
-    return;
-  }
-  edit_done_ = edit_done_ && edit;
-  const bool numbered = request.number != acknowledged_;
-  if (!numbered && (!edit || by_edit_ || edit_done_)) {
-    by_edit_ = by_edit_ && (edit || active_);
-    return;
-  }
-  if (is_move(static_cast<Service>(request.code)) && state_ == GroupState::Moving && !job_.running() && !desk_.free()) {
-    return;  // the motion before it is still being planned
-  }
-  const auto asked = static_cast<Service>(request.code);
-  if ((asked == Service::SelectTool || asked == Service::JobStart || asked == Service::JobResume) && settled() &&
-      desk_.holds_forgotten()) {
-    return;  // a plan for the tool before is still being checked
-  }
-  if (asked == Service::JobResume && comes_to_rest()) {
-    return;  // it continues at standstill
-  }
-  acknowledged_ = request.number;
-  by_edit_ = !numbered;
-  if (active_ && ticket_ != CommandTable::kNone) {
-    finish_service(ErrorCode::Aborted);
-  }
-  begin_service(asked > Service::JobBack && asked != Service::JobReload ? static_cast<Service>(-1) : asked, request);
+bool Services::comes_to_rest() const noexcept {
+  const GroupStates& states = robot_.states;
+  return states.stopping() && parts_.resuming.aside() && !states.to_error() && !states.to_disabled() &&
+         !parts_.stops.held_by_command() && parts_.mode.permit() == ErrorCode::Ok;
 }
 
-// Returns whether a job was stopped and nothing else prevents its continuation.
-bool Group::comes_to_rest() const noexcept {
-  return state_ == GroupState::Stopping && aside_ && !to_error_ && !to_disabled_ && stop_ == CommandTable::kNone &&
-         permit_ == ErrorCode::Ok;
-}
-
-void Group::begin_service(Service service, const ServiceRequest& request) noexcept {
-  service_ = service;
-  active_ = true;
-  motion_done_ = false;
-  if (!failed()) {
-    error_ = ErrorCode::Ok;
-    error_axis_ = 0;
-  }
-  if (const ErrorCode code = begin(service_, request); code != ErrorCode::Ok) {
-    finish_service(code);
-  }
-}
-
-void Group::finish_service(ErrorCode code, int axis) noexcept {
-  if (!active_) {
-    return;
-  }
-  active_ = false;
-  if (ticket_ != CommandTable::kNone) {
-    table_.end(ticket_, code);
-    ticket_ = CommandTable::kNone;
-    error_axis_ = failed() ? error_axis_ : axis;
-    return;
-  }
-  done_ = acknowledged_;
-  motion_done_ = code == ErrorCode::Ok;
-  edit_done_ = by_edit_;
-  by_edit_ = false;
-  if (!failed()) {
-    error_ = code;
-    error_axis_ = axis;
-  }
-}
-
-ErrorCode Group::begin(Service service, const ServiceRequest& request) noexcept {
+ErrorCode Services::begin(Service service, const ServiceRequest& request) noexcept {
   const bool ends_it = service == Service::Stop || service == Service::JobStop || service == Service::GroupDisable;
-  if (tracking_.on() && !ends_it && service != Service::None && service != Service::GroupReset) {
+  if (parts_.riding.on() && !ends_it && service != Service::None && service != Service::GroupReset) {
     return ErrorCode::State;
   }
   switch (service) {
     case Service::None:
-      finish_service(ErrorCode::Ok);
+      group_.finish_service(ErrorCode::Ok);
       return ErrorCode::Ok;
     case Service::GroupEnable:
-      return enable();
+      return parts_.power.enable();
     case Service::GroupDisable:
-      return disable();
+      return parts_.stops.disable();
     case Service::GroupReset:
-      waited_ = 0;
-      return reset();
+      return parts_.power.begin_reset();
     case Service::GroupHome:
       return home();
     case Service::MoveJoints:
@@ -124,99 +48,55 @@ ErrorCode Group::begin(Service service, const ServiceRequest& request) noexcept 
       return redirect(request);
     case Service::Stop:
     case Service::JobStop:
-      return stop_motion();
+      return parts_.stops.stop();
     case Service::JobStart:
       return start_job(request.job, request.line);
     case Service::JobResume:
-      return resume_job();
+      return parts_.resuming.resume();
     case Service::JobBack:
-      return back_job();
+      return parts_.resuming.step_back();
     case Service::SelectTool:
       return select_tool(request.tool);
     case Service::JobReload:
-      return ErrorCode::Ok;  // run_reload() continues with it
+      return ErrorCode::Ok;  // Reloading continues with it
     default:
       break;
   }
   return ErrorCode::Opcode;
 }
 
-ErrorCode Group::enable() noexcept {
-  if (emergency_) {
-    return ErrorCode::Emergency;
+// Checks whether homing or a job may begin.
+ErrorCode Services::may_begin() const noexcept {
+  if (parts_.mode.permit() != ErrorCode::Ok) {
+    return parts_.mode.permit();
   }
-  if (state_ == GroupState::Standby) {
-    finish_service(ErrorCode::Ok);
-    return ErrorCode::Ok;
-  }
-  if (state_ != GroupState::Disabled) {
-    return ErrorCode::State;
-  }
-  enabling_ = true;
-  quick_stop_ = false;
-  waited_ = 0;
-  // A drive that was commanded to switch off reports it later: its present status is ignored.
-  letting_go_ = lets_go();
-  if (!letting_go_) {
-    take_power();
-  }
-  return ErrorCode::Ok;
+  return robot_.states.is(GroupState::Standby) && !robot_.axes.any_busy() ? ErrorCode::Ok : ErrorCode::State;
 }
 
-ErrorCode Group::disable() noexcept {
-  if (state_ == GroupState::Homing || state_ == GroupState::Stopping) {
-    return ErrorCode::State;
-  }
-  set_job_aside();
-  job_.stop();
-  forget_plans();
-  enabling_ = false;
-  if (state_ == GroupState::Moving || state_ == GroupState::Standby) {
-    follower_.stop();
-    state_ = GroupState::Stopping;
-    to_disabled_ = true;
-    return ErrorCode::Ok;
-  }
-  for (AxisControl& a : axes()) {
-    a.give_up_power();
-  }
-  finish_service(ErrorCode::Ok);
-  return ErrorCode::Ok;
-}
-
-ErrorCode Group::home() noexcept {
-  const bool free = std::all_of(axes().begin(), axes().end(), [](const AxisControl& a) { return !a.busy(); });
-  if (state_ != GroupState::Standby || !free || permit_ != ErrorCode::Ok) {
-    return permit_ != ErrorCode::Ok ? permit_ : ErrorCode::State;
-  }
-  for (AxisControl& a : axes()) {
-    a.home();
-  }
-  state_ = GroupState::Homing;
-  return ErrorCode::Ok;
-}
-
-// Checks whether a service may move the robot, which it may not while a job does.
-ErrorCode Group::may_move() const noexcept {
-  if (permit_ != ErrorCode::Ok) {
-    return permit_;
-  }
-  const bool free = std::none_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
-  if (!(state_ == GroupState::Standby && free) && !(state_ == GroupState::Moving && !job_.running())) {
-    return ErrorCode::State;
-  }
-  const bool homed = std::all_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.homed(); });
-  return homed ? ErrorCode::Ok : ErrorCode::NotHomed;
-}
-
-ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
-  if (!can_plan() || motion_count_ > 0) {
-    return ErrorCode::State;
-  }
-  if (const ErrorCode code = may_move(); code != ErrorCode::Ok) {
+ErrorCode Services::home() noexcept {
+  if (const ErrorCode code = may_begin(); code != ErrorCode::Ok) {
     return code;
   }
-  MoveCommand command;
+  for (AxisControl& a : robot_.axes) {
+    a.home();
+  }
+  robot_.states.home();
+  return ErrorCode::Ok;
+}
+
+ErrorCode Services::may_move() const noexcept {
+  if (parts_.mode.permit() != ErrorCode::Ok) {
+    return parts_.mode.permit();
+  }
+  const GroupStates& states = robot_.states;
+  const bool free = !robot_.axes.any_busy();
+  if (!(states.is(GroupState::Standby) && free) && !(states.moving() && !robot_.job.running())) {
+    return ErrorCode::State;
+  }
+  return robot_.axes.all_homed() ? ErrorCode::Ok : ErrorCode::NotHomed;
+}
+
+ErrorCode Services::make_move(Service service, const ServiceRequest& request, MoveCommand& command) const noexcept {
   const bool direct = service == Service::DirectAbsolute;
   const bool linear = service == Service::LinearAbsolute;
   command.move = service == Service::MoveCircle           ? Move::Circle
@@ -224,130 +104,107 @@ ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
                                                           : Move::Joint;
   command.speed = part_of_speed(request, direct);
   command.zone = request.level / 100.0;
-  const Eigen::Map<const Joints, Eigen::Unaligned> numbers(request.target.data());
   if (direct) {
-    for (int i = 0; i < count(); ++i) {
-      command.target.joints[i] = numbers[i] * axes_[static_cast<std::size_t>(i)].unit();
-    }
-  } else if (linear) {
+    command.target.joints = robot_.axes.from_users(request.target.data());
+    return ErrorCode::Ok;
+  }
+  if (linear) {
+    const Eigen::Map<const Joints, Eigen::Unaligned> numbers(request.target.data());
     command.target.is_pose = true;
     command.target.pose.position = numbers.head<3>() / 1000;
     command.target.pose.orientation = from_rpy(numbers.segment<3>(3) * (kPi / 180));
     command.tool_speed = request.velocity / 1000;
-  } else {
-    const int target = parts_.book.numbered_point(request.point);
-    const int mid = service == Service::MoveCircle ? parts_.book.numbered_point(request.mid) : target;
-    if (target < 0 || mid < 0) {
-      return ErrorCode::Point;
-    }
-    command.target = parts_.book.target(target, tool_);
-    command.mid = parts_.book.target(mid, tool_);
+    return ErrorCode::Ok;
   }
-  ask_for_plan({command, nullptr, planned_end(), !follower_.idle()});
-  state_ = GroupState::Moving;
+  const JobBook& book = robot_.parts.book;
+  const int target = book.numbered_point(request.point);
+  const int mid = service == Service::MoveCircle ? book.numbered_point(request.mid) : target;
+  if (target < 0 || mid < 0) {
+    return ErrorCode::Point;
+  }
+  command.target = book.target(target, robot_.tool.number());
+  command.mid = book.target(mid, robot_.tool.number());
+  return ErrorCode::Ok;
+}
+
+ErrorCode Services::move(Service service, const ServiceRequest& request) noexcept {
+  if (!parts_.plans.can_plan() || !parts_.queue.empty()) {
+    return ErrorCode::State;
+  }
+  if (const ErrorCode code = may_move(); code != ErrorCode::Ok) {
+    return code;
+  }
+  MoveCommand command;
+  if (const ErrorCode code = make_move(service, request, command); code != ErrorCode::Ok) {
+    return code;
+  }
+  parts_.plans.ask({command, nullptr, parts_.riding.planned_end(), !robot_.follower.idle()});
+  robot_.states.move();
   return ErrorCode::Ok;
 }
 
 // Done at once in the tick, since the present motion of the joints is part of it: takes a few microseconds.
-ErrorCode Group::redirect(const ServiceRequest& request) noexcept {
+ErrorCode Services::redirect(const ServiceRequest& request) noexcept {
   if (const ErrorCode code = may_move(); code != ErrorCode::Ok) {
     return code;
   }
-  Joints to = Joints::Zero();
-  for (int i = 0; i < count(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    to[i] = request.target[k] * axes_[k].unit();
-  }
+  const Joints to = robot_.axes.from_users(request.target.data());
   const double speed = part_of_speed(request, true);
   if (!to.allFinite() || !(speed > 0 && speed <= 1)) {
     return ErrorCode::Value;
   }
   Fault fault;
-  if (const int beyond = parts_.arm.beyond_limits(to); beyond >= 0) {
+  if (const int beyond = robot_.parts.arm.beyond_limits(to); beyond >= 0) {
     fault = {ErrorCode::JointLimit, beyond + 1};
   } else {
-    if (follower_.idle()) {
-      follower_.reset(commanded());
-      last_command_ = commanded();
+    if (robot_.follower.idle()) {
+      robot_.stand_here();
     }
-    fault = follower_.redirect(Segment::together_to(to, speed));
+    fault = robot_.follower.redirect(Segment::together_to(to, speed));
   }
   if (!fault.ok()) {
-    finish_service(fault.code, fault.axis);
+    group_.finish_service(fault);
     return ErrorCode::Ok;
   }
-  forget_plans();
-  state_ = GroupState::Moving;
+  group_.forget_plans();
+  robot_.states.move();
   return ErrorCode::Ok;
 }
 
-ErrorCode Group::start_job(std::uint32_t number, std::uint32_t line) noexcept {
-  const bool free = std::none_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
-  if (number == 0 || number > parts_.book.jobs.size()) {
+ErrorCode Services::start_job(std::uint32_t number, std::uint32_t line) noexcept {
+  if (number == 0 || number > robot_.parts.book.jobs.size()) {
     return ErrorCode::Job;
   }
-  if (state_ != GroupState::Standby || !free || permit_ != ErrorCode::Ok) {
-    return permit_ != ErrorCode::Ok ? permit_ : ErrorCode::State;
+  if (const ErrorCode code = may_begin(); code != ErrorCode::Ok) {
+    return code;
   }
-  if (std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return !a.homed(); })) {
+  if (!robot_.axes.all_homed()) {
     return ErrorCode::NotHomed;
   }
-  drop_aside();
-  if (!job_.start(static_cast<int>(number) - 1, line)) {
-    job_.stop();
+  group_.drop_aside();
+  JobRunner& job = robot_.job;
+  if (!job.start(static_cast<int>(number) - 1, line)) {
+    job.stop();
     return ErrorCode::Value;
   }
-  if (!take_tool(job_.tool()) || !take_load(job_.load())) {
-    job_.stop();
+  if (!parts_.job.take_tool(job.tool()) || !parts_.job.take_load(job.load())) {
+    job.stop();
     return ErrorCode::State;  // a job must not depend on the load of the job before
   }
-  follower_.reset(commanded());
-  last_command_ = commanded();
-  state_ = GroupState::Moving;
-  job_moves_ = true;
+  robot_.stand_here();
+  robot_.states.move(true);
   return ErrorCode::Ok;
-}
-
-// Returns false while an abandoned plan, made for the tool before, is still being checked.
-bool Group::take_tool(int tool) noexcept {
-  if (!settled() || desk_.holds_forgotten()) {
-    return false;
-  }
-  if (tool != tool_) {
-    tool_ = tool;
-    places_.take(tools_.arm(tool), tools_.inverse(tool), tool);
-    weigh();
-    last_pose_ = places_.arm().forward(last_command_);
-  }
-  return true;
 }
 
 // Only between motions: a moving robot continues with the tool it was planned for.
-ErrorCode Group::select_tool(std::uint32_t tool) noexcept {
-  if (tool >= parts_.book.tools.size()) {
+ErrorCode Services::select_tool(std::uint32_t tool) noexcept {
+  if (tool >= robot_.parts.book.tools.size()) {
     return ErrorCode::Tool;
   }
-  const bool stands = state_ == GroupState::Standby || state_ == GroupState::Disabled;
-  if (!stands || !take_tool(static_cast<int>(tool))) {
+  if (!robot_.states.resting() || !parts_.job.take_tool(static_cast<int>(tool))) {
     return ErrorCode::State;
   }
-  finish_service(ErrorCode::Ok);
-  return ErrorCode::Ok;
-}
-
-ErrorCode Group::stop_motion() noexcept {
-  if (state_ == GroupState::Standby || state_ == GroupState::Disabled) {
-    finish_service(ErrorCode::Ok);
-    return ErrorCode::Ok;
-  }
-  if (state_ != GroupState::Moving) {
-    return ErrorCode::State;
-  }
-  set_job_aside();
-  job_.stop();
-  forget_plans();
-  follower_.stop();
-  state_ = GroupState::Stopping;
+  group_.finish_service(ErrorCode::Ok);
   return ErrorCode::Ok;
 }
 

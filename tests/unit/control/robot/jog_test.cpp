@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "control/robot/group/dead_man.h"
+#include "control/robot/group/enabling_switch.h"
 #include "limit_judge.h"
 
 namespace indurop::robot {
@@ -158,7 +158,7 @@ TEST(Jog, A_switch_whose_beat_stops_counts_as_released_until_it_was_released) {
   constexpr double kStep = 0.01;
   for (unsigned seed = 1; seed <= 50; ++seed) {
     std::mt19937 random(seed);
-    DeadMan sut;
+    EnablingSwitch sut;
     std::vector<bool> pressed;
     std::vector<std::uint32_t> beats;
     std::uint32_t beat = 7;
@@ -177,7 +177,7 @@ TEST(Jog, A_switch_whose_beat_stops_counts_as_released_until_it_was_released) {
         while (same > 0 && beats[static_cast<std::size_t>(same - 1)] == beats[static_cast<std::size_t>(k)]) {
           --same;
         }
-        expected = k > 0 && (k - same) * kStep <= DeadMan::kPatience + 1e-9;
+        expected = k > 0 && (k - same) * kStep <= EnablingSwitch::kPatience + 1e-9;
       }
       ASSERT_EQ(sut.holds(hand, beat, kStep), expected) << "seed " << seed << ", period " << i;
     }

@@ -8,7 +8,7 @@
 
 namespace indurop::robot {
 
-class DeadMan {
+class EnablingSwitch {
  public:
   // Time it counts as pressed after the last beat.
   static constexpr double kPatience = 0.3;  // s

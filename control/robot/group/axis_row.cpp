@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/robot/group/axis_row.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+AxisControl::Scale scale_of(const Settings& settings, const Axis& axis, std::size_t i) noexcept {
+  const auto own = [i](const std::vector<double>& values) { return values.size() > 1 ? values[i] : values[0]; };
+  const double unit = axis.slides() ? 0.001 : kPi / 180;
+  const double counts = axis.slides() ? own(settings.counts_per_mm) * 1000 : own(settings.counts_per_turn) / (2 * kPi);
+  return {counts, own(settings.gear), unit, own(settings.zero) * unit};
+}
+
+}  // namespace
+
+AxisRow::AxisRow(const GroupParts& parts, CommandTable& table) noexcept
+    : limits_(parts.joints),
+      period_(std::chrono::duration<double>(parts.settings.period).count()),
+      following_limit_(parts.settings.following_limit),
+      count_(parts.arm.count()) {
+  const Settings& settings = parts.settings;
+  const auto count = static_cast<std::size_t>(count_);
+  for (int i = 0; i < count_; ++i) {
+    const LineLimits limits{limits_.velocity[i], limits_.acceleration[i], limits_.jerk[i]};
+    const Axis& axis = parts.arm.axis(i);
+    axes_[at(i)].set_up(axis, limits, scale_of(settings, axis, at(i)), settings.absolute, &table,
+                        {{axes_.data(), count}, {gates_.data(), count}, cams_, &profiles_, i});
+    gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
+  }
+}
+
+Joints AxisRow::commanded() const noexcept {
+  Joints q = Joints::Zero();
+  for (int i = 0; i < count_; ++i) {
+    q[i] = axes_[at(i)].commanded().position;
+  }
+  return q;
+}
+
+Joints AxisRow::measured() const noexcept {
+  Joints q = Joints::Zero();
+  for (int i = 0; i < count_; ++i) {
+    q[i] = axes_[at(i)].measured();
+  }
+  return q;
+}
+
+Joints AxisRow::passed() const noexcept {
+  Joints q = Joints::Zero();
+  for (int i = 0; i < count_; ++i) {
+    q[i] = gates_[at(i)].state().position;
+  }
+  return q;
+}
+
+Joints AxisRow::from_users(const double* numbers) const noexcept {
+  Joints q = Joints::Zero();
+  for (int i = 0; i < count_; ++i) {
+    q[i] = numbers[i] * axes_[at(i)].unit();
+  }
+  return q;
+}
+
+bool AxisRow::any_busy() const noexcept {
+  return std::any_of(begin(), end(), [](const AxisControl& a) { return a.busy(); });
+}
+
+bool AxisRow::any_enabled() const noexcept {
+  return std::any_of(begin(), end(), [](const AxisControl& a) { return a.drive().enabled(); });
+}
+
+bool AxisRow::any_wants_power() const noexcept {
+  return std::any_of(begin(), end(), [](const AxisControl& a) { return a.wants_power(); });
+}
+
+bool AxisRow::any_placed_anew() const noexcept {
+  return std::any_of(begin(), end(), [](const AxisControl& a) { return a.placed_anew(); });
+}
+
+bool AxisRow::any_pushes() const noexcept {
+  return std::any_of(begin(), end(), [](const AxisControl& a) { return a.pushes(); });
+}
+
+bool AxisRow::all_enabled() const noexcept {
+  return std::all_of(begin(), end(), [](const AxisControl& a) { return a.drive().enabled(); });
+}
+
+bool AxisRow::all_homed() const noexcept {
+  return std::all_of(begin(), end(), [](const AxisControl& a) { return a.homed(); });
+}
+
+bool AxisRow::all_failed() const noexcept {
+  return std::all_of(begin(), end(), [](const AxisControl& a) { return a.state() == AxisState::ErrorStop; });
+}
+
+bool AxisRow::at_rest() const noexcept {
+  return std::all_of(begin(), end(), [](const AxisControl& a) { return a.at_rest(); });
+}
+
+bool AxisRow::gates_at_rest() const noexcept {
+  return std::all_of(gates_.begin(), gates_.end(), [](const SetPointGate& g) { return g.at_rest(); });
+}
+
+void AxisRow::move() noexcept {
+  std::array<bool, kAxes> moved{};
+  for (int left = count_; left > 0;) {
+    for (int i = 0; i < count_; ++i) {
+      AxisControl& a = axes_[at(i)];
+      const auto waits = [&moved](const AxisControl::Leader& leader) { return !moved[at(leader.axis)]; };
+      if (moved[at(i)] || std::any_of(a.leaders().begin(), a.leaders().end(), waits)) {
+        continue;
+      }
+      moved[at(i)] = true;
+      --left;
+      if (!a.in_group()) {
+        a.move(period_);
+      }
+    }
+  }
+}
+
+bool AxisRow::is_behind(const AxisControl& a) const noexcept {
+  const double behind = std::abs(a.commanded().position - a.measured());
+  return a.state() != AxisState::Homing && !a.pushes() && behind > a.unit() * following_limit_;
+}
+
+int AxisRow::first_behind() const noexcept {
+  const auto* const found = std::find_if(begin(), end(), [this](const AxisControl& a) { return is_behind(a); });
+  return found == end() ? -1 : static_cast<int>(found - begin());
+}
+
+void AxisRow::fail_behind() noexcept {
+  for (AxisControl& a : *this) {
+    if (a.state() != AxisState::ErrorStop && is_behind(a)) {
+      a.fail(ErrorCode::Following, 1);
+    }
+  }
+}
+
+void AxisRow::end_group_motion() noexcept {
+  for (AxisControl& a : *this) {
+    if (a.in_group()) {
+      a.rest();
+      a.reset();
+    }
+  }
+}
+
+void AxisRow::halt() noexcept {
+  for (AxisControl& a : *this) {
+    a.halt();
+  }
+}
+
+void AxisRow::power(bool on) noexcept {
+  for (AxisControl& a : *this) {
+    a.power(on);
+  }
+}
+
+void AxisRow::give_up_power() noexcept {
+  for (AxisControl& a : *this) {
+    a.give_up_power();
+  }
+}
+
+double AxisRow::stops(std::array<Profile, kAxes>& stops) const noexcept {
+  double longest = 0;
+  for (int i = 0; i < count_; ++i) {
+    const LineLimits limits{limits_.velocity[i], limits_.acceleration[i], limits_.jerk[i]};
+    stops[at(i)] = Profile::to_velocity(axes_[at(i)].commanded(), 0, limits);
+    longest = std::max(longest, stops[at(i)].duration());
+  }
+  return longest;
+}
+
+ErrorCode AxisRow::set_cam(int number, const CamTables& cams, bool periodic) noexcept {
+  if (number < 0 || number >= static_cast<int>(kCams)) {
+    return ErrorCode::Value;
+  }
+  return cams_[at(number)].set(cams[at(number)], periodic);
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Collision check for axes that move as single axes or follow others, and for arms that track a belt: their path was
+// not planned, so in each period they must be able to come to rest before anything touches.
+
+#pragma once
+
+#include "control/robot/collision/clear_way.h"
+#include "control/robot/group/robot.h"
+
+namespace indurop::robot {
+
+class ClearAhead {
+ public:
+  explicit ClearAhead(const Robot& robot)
+      : robot_(robot),
+        clear_(robot.tool.places().clearance(), false),
+        to_rest_(robot.tool.places().clearance(), false) {}
+
+  // Checks the set points that are about to be sent. `carried`: a belt moves the arm. Errors: Collision. Real-time
+  // safe, like all functions of this class.
+  Fault step(bool carried) noexcept;
+  // The bodies have been replaced by those of the program.
+  void replace(Program& program) noexcept {
+    clear_.swap(program.unplanned);
+    to_rest_.swap(program.to_rest);
+    begun_ = false;
+  }
+
+ private:
+  [[nodiscard]] Fault check() noexcept;
+
+  const Robot& robot_;
+  ClearWay clear_, to_rest_;  // up to the last set point, and for a way to rest
+  bool begun_ = false;
+};
+
+}  // namespace indurop::robot

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interrupts of jobs: the state of the running job is saved here while the job that was called moves the robot, and is
+// restored when the robot has come back. Meanwhile the follower and the plans belong to the interrupt.
+
+#pragma once
+
+#include "control/robot/group/group_port.h"
+#include "control/robot/group/plans.h"
+#include "control/robot/group/resuming.h"
+#include "control/robot/group/robot.h"
+
+namespace indurop::robot {
+
+class InterruptShelf {
+ public:
+  // Allocates; no other function of this class does.
+  InterruptShelf(Robot& robot, GroupPort& group, Plans& plans, Resuming& resuming)
+      : robot_(robot),
+        group_(group),
+        plans_(plans),
+        resuming_(resuming),
+        ahead_(robot.tool.places(), robot.parts.tool) {}
+
+  // Comes to rest as softly as the motion itself, and saves the job. While the motion is held it stays on its path, and
+  // the interrupt waits. Returns false if it is not done yet. Real-time safe, like all functions below.
+  bool step_aside() noexcept;
+  // Returns whether the job is on the way to rest for that.
+  [[nodiscard]] bool leaving() const noexcept { return leaving_; }
+  // Joint values where the path was left; null if no job is saved.
+  [[nodiscard]] const Joints* left_at() const noexcept { return used_ ? &path_.q : nullptr; }
+  // Begins the way back to the path. Returns false if it is not begun. Errors: Away.
+  bool come_back(Fault& fault) noexcept;
+  // The robot is back on the path: the saved job continues.
+  void end_come_back() noexcept;
+  // Keeps the saved job to be resumed later, after a stop on the way from or to its path. Returns false if it is on
+  // neither.
+  bool set_job_aside() noexcept;
+  void drop() noexcept;
+
+ private:
+  void restore() noexcept;
+
+  Robot& robot_;
+  GroupPort& group_;
+  Plans& plans_;
+  Resuming& resuming_;
+  bool leaving_ = false;
+  bool used_ = false;
+  Follower::Aside path_;
+  ReadAhead ahead_;
+  PlanRequest request_;
+  bool asked_ = false;  // a plan was being made
+  int tool_ = 0;
+};
+
+}  // namespace indurop::robot

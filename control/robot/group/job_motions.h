@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The motions, tools and loads of the running job, as JobRunner asks for them.
+
+#pragma once
+
+#include "control/robot/group/interrupt_shelf.h"
+#include "control/robot/group/plans.h"
+#include "control/robot/group/resuming.h"
+#include "control/robot/group/robot.h"
+#include "control/robot/group/torque_watch.h"
+
+namespace indurop::robot {
+
+class JobMotions final : public MotionPort {
+ public:
+  JobMotions(Robot& robot, Plans& plans, Resuming& resuming, InterruptShelf& shelf, TorqueWatch& torques) noexcept
+      : robot_(robot), plans_(plans), resuming_(resuming), shelf_(shelf), torques_(torques) {}
+
+  [[nodiscard]] bool ready() const noexcept override { return plans_.ahead().has_room(); }
+  // An interrupted job keeps what was to be planned.
+  [[nodiscard]] bool settled() const noexcept override {
+    return (resuming_.aside() || plans_.ahead().empty()) && plans_.free() && robot_.follower.idle();
+  }
+  Fault move(const MoveCommand& command) noexcept override {
+    plans_.ahead().add(command);
+    return {};
+  }
+  bool take_tool(int tool) noexcept override;
+  bool take_load(int load) noexcept override;
+  [[nodiscard]] PathPlace place() const noexcept override { return robot_.follower.path_place(); }
+
+  bool step_aside() noexcept override { return shelf_.step_aside(); }
+  [[nodiscard]] const Joints* left_at() const noexcept override { return shelf_.left_at(); }
+  [[nodiscard]] Pose tip_at(const Joints& q) const noexcept override { return robot_.tip(q); }
+  bool come_back(Fault& fault) noexcept override { return shelf_.come_back(fault); }
+  [[nodiscard]] bool is_back() const noexcept override { return resuming_.way_back() == Resuming::Return::None; }
+
+ private:
+  Robot& robot_;
+  Plans& plans_;
+  Resuming& resuming_;
+  InterruptShelf& shelf_;
+  TorqueWatch& torques_;
+};
+
+}  // namespace indurop::robot

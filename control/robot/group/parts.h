@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that was read when the robot task was loaded.
+
+#pragma once
+
+#include <indurop/robot/controller.h>
+
+#include <string>
+
+#include "control/robot/collision/clearance.h"
+#include "control/robot/job/job.h"
+#include "control/robot/kinematics/arm.h"
+#include "control/robot/kinematics/dynamics.h"
+#include "control/robot/path/segment.h"
+
+namespace indurop::robot {
+
+struct GroupParts {
+  Settings settings;
+  Arm arm;
+  JointLimits joints;
+  ToolLimits tool;
+  JobBook book;
+  std::string kind;
+  Dynamics dynamics{};
+  Clearance clearance;
+  std::string urdf{};  // the text of its file
+};
+
+}  // namespace indurop::robot

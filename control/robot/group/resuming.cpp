@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/robot/group/resuming.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kSlowly = 0.1;       // part of full speed, on the way back to the path
+constexpr double kTipSlowly = 0.1;    // m/s, of the tip
+constexpr double kMostTurned = 0.79;  // rad that a joint may be away: farther, it may be another posture
+constexpr double kThere = 1e-9;       // rad
+
+}  // namespace
+
+void Resuming::set_aside() noexcept {
+  set_aside(robot_.tool.number(), !plans_.free());
+  robot_.follower.set_aside();
+}
+
+void Resuming::set_aside(int tool, bool asked) noexcept {
+  aside_ = true;
+  aside_tool_ = tool;
+  asked_ = asked;
+}
+
+void Resuming::drop() noexcept {
+  aside_ = false;
+  passed_known_ = 0;
+}
+
+void Resuming::pause() noexcept {
+  set_aside(robot_.tool.number(), false);
+  robot_.follower.set_aside();
+  group_.come_to_standby();
+  group_.finish_service(ErrorCode::Ok);
+}
+
+// Speed of a straight joint motion to `to`, from the mean speed of the tip.
+double Resuming::speed_to(const Joints& to) const noexcept {
+  constexpr int kParts = 16;
+  const Joints from = robot_.commanded();
+  double way = 0;
+  Vec3 before = robot_.tip(from).position;
+  for (int i = 1; i <= kParts; ++i) {
+    const Vec3 place = robot_.tip(from + (to - from) * i / kParts).position;
+    way += (place - before).norm();
+    before = place;
+  }
+  double seconds = 0;
+  for (int i = 0; i < robot_.count(); ++i) {
+    seconds = std::max(seconds, std::abs(to[i] - from[i]) / robot_.parts.joints.velocity[i]);
+  }
+  return way > 0 ? std::min(kSlowly, kTipSlowly * seconds / way) : kSlowly;
+}
+
+void Resuming::say_how_far(const Joints& to) noexcept {
+  const Joints off = (to - robot_.commanded()).head(kAxes);
+  const double away = 1000 * (robot_.tip(to).position - robot_.tip(robot_.commanded()).position).norm();
+  Eigen::Index axis = 0;
+  const double turned = off.head(robot_.count()).cwiseAbs().maxCoeff(&axis);
+  char text[120];
+  std::snprintf(
+      text, sizeof text,
+      "the robot is %.0f mm (axis %d: %.0f deg) from where its job left the path; %.0f mm (%.0f deg) is the most", away,
+      static_cast<int>(axis) + 1, degrees(turned), robot_.parts.settings.regain_distance, degrees(kMostTurned));
+  robot_.job.say(text);
+}
+
+ErrorCode Resuming::resume() noexcept {
+  if (!aside_) {
+    return ErrorCode::NoResume;
+  }
+  if (const ErrorCode code = group_.may_move(); code != ErrorCode::Ok || !robot_.states.is(GroupState::Standby)) {
+    return code == ErrorCode::Ok ? ErrorCode::State : code;
+  }
+  if (!group_.change_tool(aside_tool_)) {
+    return ErrorCode::State;
+  }
+  const Joints to = robot_.follower.aside();
+  if (!is_near(to)) {
+    say_how_far(to);
+    return ErrorCode::Away;
+  }
+  return_ = Return::ToPath;
+  robot_.states.move(true);
+  const PlanRequest before = plans_.request();
+  ask_for_way_back(to);
+  plans_.set_request(before);
+  return ErrorCode::Ok;
+}
+
+bool Resuming::is_near(const Joints& place) const noexcept {
+  const double away = 1000 * (robot_.tip(place).position - robot_.tip(robot_.commanded()).position).norm();
+  return away <= robot_.parts.settings.regain_distance &&
+         (place - robot_.commanded()).head(robot_.count()).cwiseAbs().maxCoeff() <= kMostTurned;
+}
+
+// Requests no motion if the robot is already there.
+void Resuming::ask_for_way_back(const Joints& to) noexcept {
+  if ((to - robot_.commanded()).head(robot_.count()).cwiseAbs().maxCoeff() > kThere) {
+    MoveCommand back;
+    back.straight = true;
+    back.target.joints = to;
+    back.speed = speed_to(to);
+    plans_.ask({back, nullptr, robot_.commanded(), false});
+  }
+}
+
+void Resuming::begin_from_interrupt(const Joints& to) noexcept {
+  return_ = Return::FromInterrupt;
+  ask_for_way_back(to);
+}
+
+ErrorCode Resuming::step_back() noexcept {
+  if (!aside_ || passed_known_ == 0) {
+    return ErrorCode::NoResume;
+  }
+  const bool between = !robot_.follower.has_path_aside() && !asked_ && plans_.ahead().empty();
+  const Joints off = robot_.follower.aside() - robot_.commanded();
+  const bool there = off.head(robot_.count()).cwiseAbs().maxCoeff() <= kThere;
+  if (const ErrorCode code = group_.may_move(); code != ErrorCode::Ok) {
+    return code;
+  }
+  if (!robot_.states.is(GroupState::Standby) || !between || !there || !group_.change_tool(aside_tool_)) {
+    return ErrorCode::State;
+  }
+  const Passed& last = passed_[(passed_count_ - 1) % passed_.size()];
+  if (!robot_.job.is_in(last.command.source)) {
+    return ErrorCode::State;
+  }
+  MoveCommand back = last.command;
+  back.target = {};
+  back.target.joints = last.from;
+  back.zone = 0;
+  back.source = 0;
+  return_ = Return::Back;
+  robot_.states.move();
+  plans_.ask({back, nullptr, robot_.commanded(), false});
+  return ErrorCode::Ok;
+}
+
+void Resuming::end_way_back() noexcept {
+  const bool back = return_ == Return::Back;
+  return_ = Return::None;
+  if (back) {
+    --passed_known_;
+    robot_.job.go_back(passed_[--passed_count_ % passed_.size()].command.source);
+    pause();
+    return;
+  }
+  aside_ = false;
+  robot_.job.resume();
+  continue_on_path(asked_);
+}
+
+void Resuming::continue_on_path(bool asked) noexcept {
+  plans_.disconnect();
+  robot_.follower.go_on();
+  robot_.axes.start_here();
+  asked_ = false;
+  if (asked) {
+    plans_.ask_again();
+  }
+}
+
+void Resuming::note(const MoveCommand& command, const Joints& from) noexcept {
+  passed_[passed_count_++ % passed_.size()] = {command, from};
+  passed_known_ = command.source < 0 ? 0 : std::min(passed_known_ + 1, passed_.size());
+}
+
+}  // namespace indurop::robot

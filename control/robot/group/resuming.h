@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Continues jobs that a stop, an error or a pause interrupted: slowly back to the path, then on. Also single steps
+// back. The follower keeps the path, Plans what was to be planned.
+
+#pragma once
+
+#include <array>
+
+#include "control/robot/group/group_port.h"
+#include "control/robot/group/plans.h"
+#include "control/robot/group/robot.h"
+
+namespace indurop::robot {
+
+class Resuming {
+ public:
+  enum class Return { None, ToPath, Back, FromInterrupt };
+
+  Resuming(Robot& robot, GroupPort& group, Plans& plans) noexcept : robot_(robot), group_(group), plans_(plans) {}
+
+  // Returns whether a job can be resumed. Real-time safe, like all functions of this class.
+  [[nodiscard]] bool aside() const noexcept { return aside_; }
+  // Keeps the running job; it is about to stop.
+  void set_aside() noexcept;
+  // The same for a job whose path is kept already; `asked`: a plan was being made for it.
+  void set_aside(int tool, bool asked) noexcept;
+  // Pauses the job: the robot is at standstill, and no motion of the job is in progress.
+  void pause() noexcept;
+  void drop() noexcept;
+  // Services: JobResume, and JobBack, which goes back one motion in a job that pauses between two motions.
+  ErrorCode resume() noexcept;
+  ErrorCode step_back() noexcept;
+
+  // The way back that is being followed.
+  [[nodiscard]] Return way_back() const noexcept { return return_; }
+  void cancel_way_back() noexcept { return_ = Return::None; }
+  // Begins the way back to where an interrupt left the path.
+  void begin_from_interrupt(const Joints& to) noexcept;
+  // The robot is where the job left its path, or one motion further back.
+  void end_way_back() noexcept;
+  [[nodiscard]] bool is_near(const Joints& place) const noexcept;
+  // The job continues on its path; `asked`: it has to request its last plan again.
+  void continue_on_path(bool asked) noexcept;
+
+  // Remembers a motion that is being planned, for steps back; forgets all of them: none is possible across it.
+  void note(const MoveCommand& command, const Joints& from) noexcept;
+  void forget_steps() noexcept { passed_known_ = 0; }
+
+ private:
+  struct Passed {
+    MoveCommand command;
+    Joints from = Joints::Zero();
+  };
+  [[nodiscard]] double speed_to(const Joints& to) const noexcept;
+  void ask_for_way_back(const Joints& to) noexcept;
+  void say_how_far(const Joints& to) noexcept;
+
+  Robot& robot_;
+  GroupPort& group_;
+  Plans& plans_;
+  bool aside_ = false;
+  int aside_tool_ = 0;
+  bool asked_ = false;  // a plan was being made
+  Return return_ = Return::None;
+  std::array<Passed, 32> passed_;
+  std::size_t passed_count_ = 0;
+  std::size_t passed_known_ = 0;  // the last ones of them, which were not overwritten
+};
+
+}  // namespace indurop::robot
