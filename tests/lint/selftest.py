@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
+import check_classes
 import check_commits
 import check_expressions
 import check_format
@@ -193,6 +194,83 @@ class Text(Sample):
         self.put("CMakeLists.txt", "project(InduRoP VERSION 0.2.0)\n")
         self.put("CHANGELOG.md", "# Changelog\n\n## 0.1.0\n")
         self.found(self.check("changelog"), "0.1.0", "0.2.0")
+
+
+class Classes(Sample):
+    def check(self, body, cpps=(), allowed=None):
+        self.put("core/rt/a.h", f"{HEAD}class A final : public B<int> {{\n{body}}};\n")
+        for i, text in enumerate(cpps):
+            self.put(f"core/rt/a{i}.cpp", f'{HEAD}#include "core/rt/a.h"\n\n{text}')
+        return check_classes.check(self.root, allowed or {})
+
+    def test_too_many_members(self):
+        self.found(self.check("".join(f"  int a{i}_ = {i};\n" for i in range(26))), "core/rt/a.h:4", "A has 26 data members")
+
+    def test_what_is_a_data_member(self):
+        forms = """
+ public:
+  using F = void (*)(int);
+  enum class Kind { One, Two };
+  static constexpr int kMost = 3;
+  friend class D;
+  class E;
+  struct Inner {
+    int a, b;
+  };
+  bool operator<(const A& other) const noexcept { return a_ < other.a_; }
+  A& operator=(const A&) = delete;
+  int c(int x = 0, std::function<void(int)> f = {}) { int local{}; return local; }
+
+ private:
+  int a_ = 0, b_ = f(1, 2);
+  std::map<int, std::pair<int, int>> c_{{1, {2, 3}}};
+  std::function<void(int)> d_;
+  void (*e_)(int) noexcept = nullptr;
+  alignas(64) std::atomic<int> g_{0};
+  char h_[3] = {1, 2, 3};
+  struct {
+    int x;
+  } i_;
+"""
+        self.check(forms)
+        line, files, data, functions = check_classes.measure(self.root)["core/rt/a.h", "A"]
+        self.assertEqual((line, len(files), data, functions), (4, 0, 8, 2))
+        self.assertEqual(check_classes.measure(self.root)["core/rt/a.h", "A::Inner"][2:], [0, 0])
+
+    def test_plain_data_may_be_long(self):
+        members = "".join(f"  int a{i} = {i};\n" for i in range(40))
+        self.put("core/rt/a.h", f"{HEAD}struct A {{\n{members}}};\n")
+        self.assertEqual(check_classes.check(self.root, {}), [])
+
+    def test_too_many_functions(self):
+        self.found(self.check("".join(f"  int a{i}() const;\n" for i in range(41))), "41 functions")
+        self.found(self.check("".join(f"  A(int x{i}) : a_{{x{i}}}, b_(1) {{}}\n" for i in range(41))), "41 functions")
+
+    def test_too_many_files(self):
+        cpps = [f"std::map<int, int> A::f{i}() noexcept {{\n  return A::f(1);\n}}\n" for i in range(4)]
+        self.found(self.check("  int a_;\n", cpps), "A has 4 files")
+
+    def test_calls_and_classes_of_the_same_name_elsewhere(self):
+        self.put("store/vars/a.h", f"{HEAD}class A {{\n  void f();\n}};\n")
+        for i in range(4):
+            self.put(f"store/vars/a{i}.cpp", f'{HEAD}#include "store/vars/a.h"\n\nvoid g() {{\n  A::f();\n}}\n')
+        cpps = ["void A::f() {}\n", "void A::g() {}\n"]
+        self.assertEqual(self.check("  int a_;\n", cpps), [])
+        self.assertEqual(len(check_classes.measure(self.root)["core/rt/a.h", "A"][1]), 2)
+
+    def test_the_list_can_only_shrink(self):
+        members = "".join(f"  int a{i}_;\n" for i in range(27))
+        entry = "core/rt/a.h A"
+        self.assertEqual(self.check(members, (), {entry: ({"data members": 27}, "why")}), [])
+        self.found(self.check(members, (), {entry: ({"data members": 26}, "why")}), "27 data members, more than 26")
+        self.found(self.check(members, (), {entry: ({"data members": 28}, "why")}), "only 27", "write 27")
+        self.found(self.check("  int a_;\n", (), {entry: ({"data members": 27}, "why")}), "only 1", "delete it")
+        self.found(self.check("", (), {"core/rt/b.h B": ({"files": 4}, "why")}), "there is no core/rt/b.h B")
+
+    def test_the_tree_is_measured(self):
+        sizes = check_classes.measure(ROOT)
+        self.assertGreater(len(sizes), 1000)
+        self.assertGreater(max(len(size[1]) for size in sizes.values()), 1)
 
 
 class Functions(Sample):
