@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands of single axes, as function blocks give them: each one learns its own end.
 #include "command_cell.h"
+#include "control/robot/axis/command_table.h"
 
 namespace indurop::robot {
 namespace {
