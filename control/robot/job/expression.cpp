@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expressions of jobs, by precedence: OR, AND, NOT, comparison, sum, product, sign.
+#include "control/robot/job/expression.h"
+
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
-
-#include "control/robot/job/parser.h"
 
 namespace indurop::robot {
 
@@ -30,43 +30,71 @@ constexpr std::array<const char*, 16> kReserved{"BEFORE", "AFTER", "AND",     "O
 
 }  // namespace
 
-bool JobParser::is_reserved(std::string_view word) noexcept {
+bool ExpressionReader::is_reserved(std::string_view word) noexcept {
   return std::any_of(kReserved.begin(), kReserved.end(), [&](const char* each) { return same_word(word, each); });
 }
 
-int JobParser::expression(const char* what) {
-  const JobToken start = peek();
+int ExpressionReader::read(const char* what) {
+  const JobToken start = line_.peek();
   Formula formula = disjunction(what, 0);
-  if (!failed_ && !formula.fits()) {
-    error(start, "this expression is too long; compute a part of it before, in a VAR");
+  if (!line_.failed() && !formula.fits()) {
+    line_.error(start, "this expression is too long; compute a part of it before, in a VAR");
   }
-  return keep(std::move(formula));
+  return draft_.keep(std::move(formula));
 }
 
-int JobParser::keep(Formula formula) {
-  book_.formulas.push_back(std::move(formula));
-  return static_cast<int>(book_.formulas.size()) - 1;
+int ExpressionReader::signal(const char* what) {
+  const JobToken name = line_.take();
+  if (name.kind != JobToken::Kind::Word) {
+    line_.error(name, std::string("expected ") + what + ", found " + JobLine::shown(name));
+    return -1;
+  }
+  const auto found = std::find(draft_.book().signals.begin(), draft_.book().signals.end(), name.text);
+  if (found == draft_.book().signals.end()) {
+    draft_.book().signals.emplace_back(name.text);
+    draft_.book().named.push_back({std::string(name.text), line_.file(), line_.place(name)});
+    return static_cast<int>(draft_.book().signals.size()) - 1;
+  }
+  return static_cast<int>(found - draft_.book().signals.begin());
 }
 
-Formula JobParser::disjunction(const char* what, int depth) {
+int ExpressionReader::declare(const JobToken& name) {
+  const bool plain = name.kind == JobToken::Kind::Word && name.text.find_first_of(".:[]") == std::string_view::npos;
+  if (!plain || is_reserved(name.text)) {
+    line_.error(name, "expected the name of a variable, letters and digits, found " + JobLine::shown(name));
+    return -1;
+  }
+  if (draft_.variable_called(name.text) >= 0) {
+    line_.error(name, "there is already a variable " + in_quotes(name.text));
+    return -1;
+  }
+  if (draft_.job().variables.size() >= kMostVariables) {
+    line_.error(name, "more than " + std::to_string(kMostVariables) + " variables; split the job and use CALL");
+    return -1;
+  }
+  draft_.job().variables.emplace_back(name.text);
+  return static_cast<int>(draft_.job().variables.size()) - 1;
+}
+
+Formula ExpressionReader::disjunction(const char* what, int depth) {
   Formula left = conjunction(what, depth);
-  while (!failed_ && accept("OR")) {
+  while (!line_.failed() && line_.accept("OR")) {
     left = Formula::joined(std::move(left), conjunction("a condition", depth), FormulaOp::Or);
   }
   return left;
 }
 
-Formula JobParser::conjunction(const char* what, int depth) {
+Formula ExpressionReader::conjunction(const char* what, int depth) {
   Formula left = negation(what, depth);
-  while (!failed_ && accept("AND")) {
+  while (!line_.failed() && line_.accept("AND")) {
     left = Formula::joined(std::move(left), negation("a condition", depth), FormulaOp::And);
   }
   return left;
 }
 
-Formula JobParser::negation(const char* what, int depth) {
+Formula ExpressionReader::negation(const char* what, int depth) {
   bool negated = false;
-  while (accept("NOT")) {
+  while (line_.accept("NOT")) {
     negated = !negated;
     what = "a condition";
   }
@@ -77,24 +105,24 @@ Formula JobParser::negation(const char* what, int depth) {
   return formula;
 }
 
-Formula JobParser::comparison(const char* what, int depth) {
+Formula ExpressionReader::comparison(const char* what, int depth) {
   Formula left = sum(what, depth);
   for (const Sign& sign : kComparisons) {
-    if (!failed_ && accept(sign.text)) {
+    if (!line_.failed() && line_.accept(sign.text)) {
       return Formula::joined(std::move(left), sum("what to compare with", depth), sign.op);
     }
   }
   return left;
 }
 
-Formula JobParser::sum(const char* what, int depth) {
+Formula ExpressionReader::sum(const char* what, int depth) {
   Formula left = product(what, depth);
-  while (!failed_) {
-    const bool signed_number =
-        peek().kind == JobToken::Kind::Number && (peek().text.front() == '-' || peek().text.front() == '+');
-    if (signed_number || accept("+")) {
+  while (!line_.failed()) {
+    const bool signed_number = line_.peek().kind == JobToken::Kind::Number &&
+                               (line_.peek().text.front() == '-' || line_.peek().text.front() == '+');
+    if (signed_number || line_.accept("+")) {
       left = Formula::joined(std::move(left), product("a number", depth), FormulaOp::Add);  // "n -1"
-    } else if (accept("-")) {
+    } else if (line_.accept("-")) {
       left = Formula::joined(std::move(left), product("a number", depth), FormulaOp::Subtract);
     } else {
       break;
@@ -103,13 +131,13 @@ Formula JobParser::sum(const char* what, int depth) {
   return left;
 }
 
-Formula JobParser::product(const char* what, int depth) {
+Formula ExpressionReader::product(const char* what, int depth) {
   Formula left = operand(what, depth);
   bool more = true;
-  while (more && !failed_) {
+  while (more && !line_.failed()) {
     more = false;
     for (const Sign& sign : kProducts) {
-      if (accept(sign.text)) {
+      if (line_.accept(sign.text)) {
         left = Formula::joined(std::move(left), operand("a number", depth), sign.op);
         more = true;
         break;
@@ -119,56 +147,56 @@ Formula JobParser::product(const char* what, int depth) {
   return left;
 }
 
-Formula JobParser::operand(const char* what, int depth) {
+Formula ExpressionReader::operand(const char* what, int depth) {
   constexpr int kDeepest = 10;
   if (depth > kDeepest) {
-    error(peek(), "more than " + std::to_string(kDeepest) + " brackets inside each other");
+    line_.error(line_.peek(), "more than " + std::to_string(kDeepest) + " brackets inside each other");
     return {};
   }
-  if (accept("-")) {
+  if (line_.accept("-")) {
     Formula formula = operand("a number", depth + 1);
     formula.push({FormulaOp::Negate, -1, 0});
     return formula;
   }
-  if (accept("(")) {
+  if (line_.accept("(")) {
     Formula formula = disjunction("a value", depth + 1);
-    if (!failed_ && !accept(")")) {
-      error(peek(), "expected ')', found " + shown(peek()));
+    if (!line_.failed() && !line_.accept(")")) {
+      line_.error(line_.peek(), "expected ')', found " + JobLine::shown(line_.peek()));
     }
     return formula;
   }
-  if (peek().kind == JobToken::Kind::Number) {
+  if (line_.peek().kind == JobToken::Kind::Number) {
     double value = 0;
-    numbers(1, &value, what);
+    line_.numbers(1, &value, what);
     return Formula::number(value);
   }
-  if (accept("ON")) {
+  if (line_.accept("ON")) {
     return Formula::number(1);
   }
-  if (accept("OFF")) {
+  if (line_.accept("OFF")) {
     return Formula::number(0);
   }
-  if (peek().kind != JobToken::Kind::Word || is_reserved(peek().text)) {
-    error(peek(), std::string("expected ") + what + ", found " + shown(peek()));
+  if (line_.peek().kind != JobToken::Kind::Word || is_reserved(line_.peek().text)) {
+    line_.error(line_.peek(), std::string("expected ") + what + ", found " + JobLine::shown(line_.peek()));
     return {};
   }
   return named();
 }
 
 // Parses "n", "I4", "I4 ON", "I4 OFF"
-Formula JobParser::named() {
-  const int variable = variable_called(peek().text);
+Formula ExpressionReader::named() {
+  const int variable = draft_.variable_called(line_.peek().text);
   Formula formula;
   if (variable >= 0) {
-    take();
+    line_.take();
     formula = Formula::variable(variable);
   } else {
     formula.push({FormulaOp::Signal, signal("the name of a variable"), 0});
   }
-  if (accept("ON")) {
+  if (line_.accept("ON")) {
     return Formula::joined(std::move(formula), Formula::number(0), FormulaOp::NotEqual);
   }
-  if (accept("OFF")) {
+  if (line_.accept("OFF")) {
     return Formula::joined(std::move(formula), Formula::number(0), FormulaOp::Equal);
   }
   return formula;

@@ -1,107 +1,151 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements about places: work frames, and offsets from points.
+#include "control/robot/job/places.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
-#include "control/robot/job/near_name.h"
-#include "control/robot/job/parser.h"
-
 namespace indurop::robot {
 
+void PlaceReader::point() {
+  const JobToken name = line_.take();
+  if (name.kind != JobToken::Kind::Word) {
+    line_.error(name, "expected the name of the point, found " + JobLine::shown(name));
+    return;
+  }
+  if (!line_.accept("=")) {
+    line_.error(line_.peek(), "expected '=', found " + JobLine::shown(line_.peek()) + "; POINT " +
+                                  std::string(name.text) + " = JOINT 0 0 0 0 0 0, or = POSE 500 0 300 RPY 180 0 0");
+    return;
+  }
+  Target target;
+  if (line_.accept("JOINT")) {
+    joint_point(target);
+  } else if (line_.accept("POSE")) {
+    pose_point(target);
+  } else {
+    line_.error(line_.peek(), "expected JOINT or POSE, found " + JobLine::shown(line_.peek()));
+  }
+  const std::string text(name.text);
+  const auto [found, fresh] = point_places_.try_emplace(text, line_.file() + ":" + std::to_string(line_.number()));
+  if (!fresh) {
+    line_.error(name, "there is already a point " + in_quotes(text) + " at " + found->second);
+  }
+  if (fresh && !line_.failed()) {
+    draft_.book().points.push_back({text, target, line_.file(), line_.place(name), -1, Quat::Identity(), {}});
+  } else {
+    names_.drop_frame_of(draft_.book().points.size());
+  }
+}
+
+void PlaceReader::joint_point(Target& target) {
+  double q[kAxes] = {};
+  const bool usual = shape_.axes == 6 && shape_.slides == ArmShape{}.slides;
+  if (line_.numbers(
+          shape_.axes, q,
+          usual ? "the angles of the six joints in degrees" : "one of each axis, degrees, mm where it slides")) {
+    for (int i = 0; i < shape_.axes; ++i) {
+      target.joints[i] = axis_value(i, q[i]);
+    }
+  }
+}
+
+void PlaceReader::pose_point(Target& target) {
+  target.is_pose = true;
+  if (!line_.pose(target.pose)) {
+    return;
+  }
+  if (line_.accept("POSTURE")) {
+    posture(target);
+  }
+  while (!line_.failed() && line_.accept("AXIS")) {
+    held_axis(target);
+  }
+  if (!line_.failed() && line_.accept("IN")) {
+    const JobToken name = line_.take();
+    if (name.kind != JobToken::Kind::Word) {
+      line_.error(name, "expected the name of a frame, found " + JobLine::shown(name));
+      return;
+    }
+    names_.declare(JobNames::In::PointFrame, draft_.book().points.size(), name);
+  }
+}
+
+void PlaceReader::posture(Target& target) {
+  double posture = 0;
+  if (!(line_.numbers(1, &posture, "the posture, 0 to 7") && posture >= 0 && posture <= 7 &&
+        posture == std::floor(posture))) {
+    line_.error(line_.before(),
+                "a posture is a whole number from 0 to 7: 1 over the back, 2 other elbow, 4 wrist turned over, added");
+    return;
+  }
+  target.posture = static_cast<std::uint8_t>(posture);
+}
+
+// Parses the axis that a pose leaves undetermined on arms with more than six axes.
+void PlaceReader::held_axis(Target& target) {
+  double axis = 0;
+  double value = 0;
+  if (!(line_.numbers(1, &axis, "the number of an axis") && axis >= 1 && axis <= shape_.axes &&
+        axis == std::floor(axis))) {
+    line_.error(line_.before(), "axes have the numbers 1 to " + std::to_string(shape_.axes));
+    return;
+  }
+  const int index = static_cast<int>(axis) - 1;
+  if (line_.numbers(1, &value, "where the axis is to stand")) {
+    target.joints[index] = axis_value(index, value);
+    target.held |= 1U << static_cast<unsigned>(index);
+  }
+}
+
+double PlaceReader::axis_value(int axis, double written) const noexcept {
+  return shape_.slides[static_cast<std::size_t>(axis)] ? written / 1000 : radians(written);
+}
+
 // Parses "FRAME pallet = POSE 500 0 100 RPY 0 0 45", "FRAME pallet = POINTS O X Y"
-void JobParser::frame() {
-  const JobToken name = take();
-  if (name.kind != JobToken::Kind::Word || !accept("=")) {
-    error(name.kind != JobToken::Kind::Word ? name : peek(),
-          "expected a name and '='; FRAME pallet = POSE 500 0 100 RPY 0 0 45, or = POINTS origin on_x beside_y");
+void PlaceReader::frame() {
+  const JobToken name = line_.take();
+  if (name.kind != JobToken::Kind::Word || !line_.accept("=")) {
+    line_.error(name.kind != JobToken::Kind::Word ? name : line_.peek(),
+                "expected a name and '='; FRAME pallet = POSE 500 0 100 RPY 0 0 45, or = POINTS origin on_x beside_y");
     return;
   }
   WorkFrame frame;
   frame.name = name.text;
-  frame.file = job().file;
-  frame.place = {static_cast<int>(line_), static_cast<int>(name.column)};
-  const bool known = std::any_of(book_.frames.begin(), book_.frames.end(),
+  frame.file = line_.file();
+  frame.place = line_.place(name);
+  const bool known = std::any_of(draft_.book().frames.begin(), draft_.book().frames.end(),
                                  [&](const WorkFrame& each) { return each.name == frame.name; });
   if (known) {
-    error(name, "there is already a frame " + in_quotes(name.text));
+    line_.error(name, "there is already a frame " + in_quotes(name.text));
     return;
   }
-  if (accept("POSE")) {
-    if (!pose(frame.pose)) {
+  if (line_.accept("POSE")) {
+    if (!line_.pose(frame.pose)) {
       return;
     }
-  } else if (accept("POINTS")) {
+  } else if (line_.accept("POINTS")) {
     frame.is_taught = true;
-    for (int i = 0; i < 3 && !failed_; ++i) {
-      const JobToken point = take();
-      accept(",");
+    for (int i = 0; i < 3 && !line_.failed(); ++i) {
+      const JobToken point = line_.take();
+      line_.accept(",");
       if (point.kind != JobToken::Kind::Word) {
-        error(point, "expected three points: the origin, one on x, one on the side of y; found " + shown(point));
+        line_.error(
+            point, "expected three points: the origin, one on x, one on the side of y; found " + JobLine::shown(point));
         return;
       }
-      frame_points_.push_back(
-          {book_.frames.size(), book_.jobs.size() - 1, std::string(point.text), line_, point.column});
+      names_.declare(JobNames::In::FramePoint, draft_.book().frames.size(), point);
     }
-    if (accept("TOOL")) {
-      const JobToken tool = take();
-      frame_tools_.push_back({book_.frames.size(), book_.jobs.size() - 1, std::string(tool.text), line_, tool.column});
+    if (line_.accept("TOOL")) {
+      const JobToken tool = line_.take();
+      names_.declare(JobNames::In::FrameTool, draft_.book().frames.size(), tool);
     }
   } else {
-    error(peek(), "expected POSE or POINTS, found " + shown(peek()));
+    line_.error(line_.peek(), "expected POSE or POINTS, found " + JobLine::shown(line_.peek()));
     return;
   }
-  book_.frames.push_back(std::move(frame));
-}
-
-// Parses "OFFSET 0, 0, 100", "OFFSET TOOL 0, 0, -50"
-void JobParser::offset() {
-  const bool by_tool = accept("TOOL");
-  int first = -1;
-  for (int i = 0; i < 3 && !failed_; ++i) {
-    // Without the comma "0 -50" would be one number.
-    if (i > 0 && !accept(",")) {
-      error(peek(), "expected ',', found " + shown(peek()) + "; OFFSET 0, 0, -50");
-      return;
-    }
-    const int formula = expression("x, y and z of the offset in mm");
-    first = i == 0 ? formula : first;
-  }
-  job().steps.back().formula = first;
-  job().steps.back().by_tool = by_tool;
-}
-
-void JobParser::resolve_frames() {
-  const auto point_called = [this](const std::string& name) {
-    const auto found =
-        std::find_if(book_.points.begin(), book_.points.end(), [&](const Point& each) { return each.name == name; });
-    return found == book_.points.end() ? -1 : static_cast<int>(found - book_.points.begin());
-  };
-  for (const Declared& use : point_frames_) {
-    const auto found = std::find_if(book_.frames.begin(), book_.frames.end(),
-                                    [&](const WorkFrame& each) { return each.name == use.name; });
-    if (found == book_.frames.end()) {
-      error_in(book_.jobs[use.job].file, use.line, use.column,
-               no_such("frame", use.name, book_.frames, "FRAME", "POSE 500 0 100 RPY 0 0 45"));
-      continue;
-    }
-    book_.points[use.owner].frame = static_cast<int>(found - book_.frames.begin());
-  }
-  for (std::size_t i = 0; i < frame_points_.size(); ++i) {
-    const Declared& use = frame_points_[i];
-    const int point = point_called(use.name);
-    if (point < 0 || book_.points[static_cast<std::size_t>(point)].frame >= 0) {
-      error_in(book_.jobs[use.job].file, use.line, use.column,
-               point < 0
-                   ? "there is no point '" + use.name + "'" + meant(use.name, names_of(book_.points))
-                   : "point '" + use.name + "' is given in a frame itself; a frame is taught by points of the base");
-      continue;
-    }
-    if (use.owner < book_.frames.size()) {
-      book_.frames[use.owner].points[i % 3] = point;
-    }
-  }
+  draft_.book().frames.push_back(std::move(frame));
 }
 
 }  // namespace indurop::robot

@@ -1,109 +1,124 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements about tools: their declaration, and the selection of the tool that is held from here on.
+#include "control/robot/job/tools.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
-
-#include "control/robot/job/near_name.h"
-#include "control/robot/job/parser.h"
 
 namespace indurop::robot {
 
 // Parses "TOOL pen", "TOOL pen = POSE 0 0 120 RPY 0 0 0", "TOOL pen = POINTS A B C D", "TOOL grip = POSE ... MASS 2.5
 // kg CENTRE 0 0 60"
-void JobParser::tool() {
-  const JobToken name = take();
+void ToolReader::tool() {
+  const JobToken name = line_.take();
   if (name.kind != JobToken::Kind::Word) {
-    error(name, "expected the name of a tool, found " + shown(name));
+    line_.error(name, "expected the name of a tool, found " + JobLine::shown(name));
     return;
   }
-  if (!accept("=")) {
-    add(Op::Tool);
-    references_.push_back({JobReference::To::Tool, book_.jobs.size() - 1, job().steps.size() - 1,
-                           std::string(name.text), line_, name.column});
+  if (!line_.accept("=")) {
+    draft_.add(Op::Tool);
+    names_.refer(JobNames::To::Tool, name);
     return;
   }
   Tool tool;
   tool.name = name.text;
-  tool.file = job().file;
-  tool.place = {static_cast<int>(line_), static_cast<int>(name.column)};
-  if (tool_called(name.text) >= 0) {
-    error(name, "there is already a tool " + in_quotes(name.text));
+  tool.file = line_.file();
+  tool.place = line_.place(name);
+  if (names_.tool_called(name.text) >= 0) {
+    line_.error(name, "there is already a tool " + in_quotes(name.text));
     return;
   }
-  if (accept("POSE")) {
-    pose(tool.tip);
-  } else if (accept("POINTS")) {
+  if (line_.accept("POSE")) {
+    line_.pose(tool.tip);
+  } else if (line_.accept("POINTS")) {
     taught_tool(tool);
   } else {
-    error(peek(), "expected POSE or POINTS, found " + shown(peek()) + "; TOOL " + tool.name +
-                      " = POSE 0 0 120 RPY 0 0 0, or = POINTS A B C D");
+    line_.error(line_.peek(), "expected POSE or POINTS, found " + JobLine::shown(line_.peek()) + "; TOOL " + tool.name +
+                                  " = POSE 0 0 120 RPY 0 0 0, or = POINTS A B C D");
   }
-  if (!failed_ && accept("MASS")) {
+  if (!line_.failed() && line_.accept("MASS")) {
     mass(tool.body);
   }
-  if (!failed_) {
-    book_.tools.push_back(std::move(tool));
+  if (!line_.failed()) {
+    draft_.book().tools.push_back(std::move(tool));
   }
 }
 
 // Parses points at which its tip touches the same place; its orientation cannot be taught, only given.
-void JobParser::taught_tool(Tool& tool) {
+void ToolReader::taught_tool(Tool& tool) {
   tool.is_taught = true;
-  const JobToken first = peek();
+  const JobToken first = line_.peek();
   std::size_t count = 0;
-  for (; peek().kind == JobToken::Kind::Word && !same_word(peek().text, "RPY") && !same_word(peek().text, "MASS");
+  for (; line_.peek().kind == JobToken::Kind::Word && !same_word(line_.peek().text, "RPY") &&
+         !same_word(line_.peek().text, "MASS");
        ++count) {
-    const JobToken point = take();
-    accept(",");
-    tool_points_.push_back({book_.tools.size(), book_.jobs.size() - 1, std::string(point.text), line_, point.column});
+    const JobToken point = line_.take();
+    line_.accept(",");
+    names_.declare(JobNames::In::ToolPoint, draft_.book().tools.size(), point);
   }
   constexpr std::size_t kFewest = 3;
   constexpr std::size_t kMost = 32;
   if (count < kFewest || count > kMost) {
-    error(first,
-          "a tool is taught by 3 points or more, 32 at most, at which its tip touches the same place, turned "
-          "otherwise each time; here are " +
-              std::to_string(count));
-  } else if (accept("RPY")) {
-    double rpy[3];
-    if (numbers(3, rpy, "roll, pitch and yaw in degrees")) {
-      tool.tip.orientation = from_rpy({radians(rpy[0]), radians(rpy[1]), radians(rpy[2])});
-    }
+    line_.error(first,
+                "a tool is taught by 3 points or more, 32 at most, at which its tip touches the same place, turned "
+                "otherwise each time; here are " +
+                    std::to_string(count));
+  } else if (line_.accept("RPY")) {
+    line_.rpy(tool.tip.orientation);
   }
-  if (failed_) {
-    tool_points_.resize(tool_points_.size() - count);
+  if (line_.failed()) {
+    names_.drop(JobNames::In::ToolPoint, count);
   }
 }
 
-int JobParser::tool_called(std::string_view name) const noexcept {
-  const auto found =
-      std::find_if(book_.tools.begin(), book_.tools.end(), [&](const Tool& each) { return each.name == name; });
-  return found == book_.tools.end() ? -1 : static_cast<int>(found - book_.tools.begin());
+// Parses "2.5 kg CENTRE 0 0 60", "2.5 kg CENTRE 0 0 60 INERTIA 0.01 0.01 0.02 0 0 0"
+void ToolReader::mass(Body& body) {
+  const JobToken number = line_.peek();
+  if (!line_.numbers(1, &body.mass, "a mass, 2.5 kg")) {
+    return;
+  }
+  if (!(body.mass > 0)) {
+    line_.error(number, "a mass is above 0 kg; LOAD 0 says that nothing is held");
+    return;
+  }
+  if (!line_.accept("kg")) {
+    line_.error(line_.peek(), "expected kg, found " + JobLine::shown(line_.peek()));
+    return;
+  }
+  if (!line_.accept("CENTRE")) {
+    line_.error(line_.peek(), "expected CENTRE and x y z of the centre of mass in mm, seen from the arm's end; found " +
+                                  JobLine::shown(line_.peek()));
+    return;
+  }
+  double centre[3];
+  if (!line_.numbers(3, centre, "x y z of the centre of mass in mm")) {
+    return;
+  }
+  body.centre = Vec3(centre[0], centre[1], centre[2]) / 1000;
+  const JobToken inertia = line_.peek();
+  double i[6];
+  if (!line_.accept("INERTIA") ||
+      !line_.numbers(6, i, "xx yy zz xy xz yz of the inertia about the centre of mass in kg m^2")) {
+    return;
+  }
+  body.inertia << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  if (const std::string wrong = wrong_inertia(body.inertia); !wrong.empty()) {
+    line_.error(inertia, wrong);
+  }
 }
 
-void JobParser::resolve_tools() {
-  for (const Declared& use : tool_points_) {
-    const auto found = std::find_if(book_.points.begin(), book_.points.end(),
-                                    [&](const Point& each) { return each.name == use.name; });
-    if (found == book_.points.end() || found->target.is_pose) {
-      error_in(book_.jobs[use.job].file, use.line, use.column,
-               found == book_.points.end()
-                   ? "there is no point '" + use.name + "'" + meant(use.name, names_of(book_.points))
-                   : "point '" + use.name + "' is given as POSE; a tool is taught by points given as JOINT");
-      continue;
-    }
-    book_.tools[use.owner].points.push_back(static_cast<int>(found - book_.points.begin()));
+// Parses "LOAD 2.5 kg CENTRE 0 0 60", "LOAD 0"
+void ToolReader::load() {
+  draft_.add(Op::Load).index = 0;
+  if (line_.peek().kind == JobToken::Kind::Number && line_.peek().value == 0) {
+    line_.take();
+    line_.accept("kg");
+    return;
   }
-  for (const Declared& use : frame_tools_) {
-    const int tool = tool_called(use.name);
-    if (tool < 0) {
-      error_in(book_.jobs[use.job].file, use.line, use.column,
-               no_such("tool", use.name, book_.tools, "TOOL", "POSE 0 0 120 RPY 0 0 0"));
-    } else if (use.owner < book_.frames.size()) {
-      book_.frames[use.owner].tool = tool;
-    }
+  Body body;
+  mass(body);
+  if (!line_.failed()) {
+    draft_.last().index = static_cast<int>(draft_.book().loads.size());
+    draft_.book().loads.push_back(body);
   }
 }
 

@@ -1,42 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// TRY and RECOVER: their lines, and the handling of an error between them.
+// TRY and RECOVER: the handling of an error between them.
 
 #include <algorithm>
 #include <cstdio>
-#include <string_view>
 
-#include "control/robot/job/parser.h"
 #include "control/robot/job/runner.h"
 
 namespace indurop::robot {
-
-void JobParser::try_block() {
-  const std::size_t start = job().steps.size();
-  add(Op::Try);
-  blocks_.push_back({"TRY", line_, start, start, {}, -1, 1, false});
-}
-
-void JobParser::recover() {
-  if (blocks_.empty() || std::string_view(blocks_.back().word) != "TRY" || blocks_.back().has_else) {
-    error(tokens_[0], "RECOVER without TRY");
-    return;
-  }
-  constexpr const char* kNumber = "ERROR";
-  const int known = variable_called(kNumber);
-  const int number = known >= 0 ? known : new_variable({JobToken::Kind::Word, kNumber, 0, tokens_[0].column});
-  Block& block = blocks_.back();
-  block.has_else = true;
-  block.pending = kNone;
-  block.ends.push_back(job().steps.size());
-  add(Op::EndTry);
-  auto& steps = job().steps;
-  for (std::size_t i = block.start + 1; i < steps.size(); ++i) {
-    steps[i].guard = steps[i].guard < 0 ? static_cast<int>(block.start) : steps[i].guard;
-  }
-  steps[block.start].index = static_cast<int>(steps.size());
-  steps[block.start].mid = number;
-  add(Op::Recover);
-}
 
 // The innermost TRY applies, also one around a CALL, but not one of an interrupted job.
 bool JobRunner::recover(Fault fault, const char* why, int source, std::uint32_t ticket) noexcept {

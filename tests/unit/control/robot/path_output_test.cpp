@@ -139,6 +139,7 @@ TEST(Path_output, Mistakes_are_named_where_they_are) {
       {"MOVL P\nSET I4 ON AFTER 5\n", "a.job:2:18: error: expected s or ms, found the end of the line"},
       {"PULSE I4\n", "a.job:1:9: error: expected a time, 0.5s or 200 ms, found the end of the line"},
       {"PULSE I4 0 s\n", "a.job:1:10: error: a pulse is longer than 0 s"},
+      {"MOVL P\nSET I4 ON BEFORE 50 mm\nSET I4 ON BEFORE\n", "a.job:3:17: error: expected a time, 0.5s or 200 ms"},
       {"MOVL P\nSET I4 ON BEFORE -5 mm\n", "a.job:2:18: error: a distance is from 0 mm"},
   };
   for (const auto& [text, wanted] : cases) {

@@ -251,6 +251,9 @@ TEST(Tool, Mistakes_are_named_where_they_are) {
       {"TOOL pen = POINTS A B\n", "a.job:1:19: error: a tool is taught by 3 points or more"},
       {"TOOL pen = POINTS A B C\nPOINT A = POSE 0 0 0 RPY 0 0 0\n", "a.job:1:19: error: point 'A' is given as POSE"},
       {"TOOL pen = POINTS A B C\n", "a.job:1:23: error: there is no point 'C'"},
+      {"TOOL pen = POINTS A B C MASS 0 kg\nPOINT A = JOINT 0 0 0 0 0 0\nPOINT B = JOINT 0 0 0 0 9 0\n"
+       "POINT C = JOINT 0 0 0 9 0 0\n",
+       "a.job:1:30: error: a mass is above 0 kg"},
       {"TOOL pen = 3\n", "a.job:1:12: error: expected POSE or POINTS"},
       {"TOOL pen = POSE 0 0 0\n", "a.job:1:22: error: expected RPY"},
       {"TOOL FLANGE = POSE 0 0 0 RPY 0 0 0\n", "a.job:1:6: error: there is already a tool 'FLANGE'"},

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/robot/job/names.h"
+
+#include <algorithm>
+
+#include "control/robot/job/near_name.h"
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr const char* kFrame = "POSE 500 0 100 RPY 0 0 45";
+constexpr const char* kTool = "POSE 0 0 120 RPY 0 0 0";
+
+template <class List>
+int index_of(const List& list, std::string_view name) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
+  return found == list.end() ? -1 : static_cast<int>(found - list.begin());
+}
+
+std::string count_of(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+JobNames::Mention JobNames::mention(const JobToken& name) const {
+  return {draft_.index(), std::string(name.text), line_.number(), name.column};
+}
+
+void JobNames::refer(To to, const char* what) {
+  const JobToken name = line_.take();
+  if (name.kind != JobToken::Kind::Word) {
+    line_.error(name, std::string("expected the name of a ") + what + ", found " + JobLine::shown(name));
+    return;
+  }
+  refer(to, name);
+}
+
+void JobNames::refer(To to, const JobToken& name) {
+  references_.push_back({to, draft_.next() - 1, mention(name)});
+}
+
+void JobNames::declare(In in, std::size_t owner, const JobToken& name) {
+  of(in).push_back({owner, mention(name)});
+}
+
+void JobNames::drop(In in, std::size_t count) {
+  of(in).resize(of(in).size() - count);
+}
+
+void JobNames::drop_frame_of(std::size_t point) {
+  if (!of(In::PointFrame).empty() && of(In::PointFrame).back().owner == point) {
+    of(In::PointFrame).pop_back();
+  }
+}
+
+void JobNames::label(const JobToken& name) {
+  const auto [found, fresh] = labels_.back().try_emplace(std::string(name.text), Label{draft_.next(), line_.number()});
+  if (!fresh) {
+    line_.error(name,
+                "there is already a label " + in_quotes(name.text) + " in line " + std::to_string(found->second.line));
+  }
+}
+
+int JobNames::tool_called(std::string_view name) const noexcept {
+  return index_of(draft_.book().tools, name);
+}
+
+void JobNames::error(const Mention& at, const std::string& text) {
+  line_.error_in(draft_.book().jobs[at.job].file, at.line, at.column, text);
+}
+
+void JobNames::no_such(const Mention& at, const char* what, const std::vector<std::string>& known) {
+  error(at, std::string("there is no ") + what + " '" + at.name + "'" + meant(at.name, known));
+}
+
+void JobNames::resolve() {
+  resolve_point_frames();
+  resolve_frame_points();
+  resolve_tool_points();
+  resolve_frame_tools();
+  resolve_zones();
+  resolve_bodies();
+  for (const Reference& reference : references_) {
+    resolve(reference);
+  }
+}
+
+void JobNames::resolve_point_frames() {
+  JobBook& book = draft_.book();
+  for (const auto& [owner, at] : of(In::PointFrame)) {
+    const int frame = index_of(book.frames, at.name);
+    if (frame < 0) {
+      error(at, robot::no_such("frame", at.name, book.frames, "FRAME", kFrame));
+    } else {
+      book.points[owner].frame = frame;
+    }
+  }
+}
+
+void JobNames::resolve_frame_points() {
+  JobBook& book = draft_.book();
+  std::size_t i = 0;
+  for (const auto& [owner, at] : of(In::FramePoint)) {
+    const std::size_t corner = i++ % 3;
+    const int point = index_of(book.points, at.name);
+    if (point < 0) {
+      no_such(at, "point", names_of(book.points));
+    } else if (book.points[static_cast<std::size_t>(point)].frame >= 0) {
+      error(at, "point '" + at.name + "' is given in a frame itself; a frame is taught by points of the base");
+    } else if (owner < book.frames.size()) {
+      book.frames[owner].points[corner] = point;
+    }
+  }
+}
+
+void JobNames::resolve_tool_points() {
+  JobBook& book = draft_.book();
+  for (const auto& [owner, at] : of(In::ToolPoint)) {
+    const int point = index_of(book.points, at.name);
+    if (point < 0) {
+      no_such(at, "point", names_of(book.points));
+    } else if (book.points[static_cast<std::size_t>(point)].target.is_pose) {
+      error(at, "point '" + at.name + "' is given as POSE; a tool is taught by points given as JOINT");
+    } else if (owner < book.tools.size()) {
+      book.tools[owner].points.push_back(point);
+    }
+  }
+}
+
+void JobNames::resolve_frame_tools() {
+  JobBook& book = draft_.book();
+  for (const auto& [owner, at] : of(In::FrameTool)) {
+    const int tool = tool_called(at.name);
+    if (tool < 0) {
+      error(at, robot::no_such("tool", at.name, book.tools, "TOOL", kTool));
+    } else if (owner < book.frames.size()) {
+      book.frames[owner].tool = tool;
+    }
+  }
+}
+
+void JobNames::resolve_zones() {
+  JobBook& book = draft_.book();
+  for (const auto& [owner, at] : of(In::ZoneFrame)) {
+    const int frame = index_of(book.frames, at.name);
+    if (frame < 0) {
+      error(at, robot::no_such("frame", at.name, book.frames, "FRAME", kFrame));
+    } else if (owner < book.keepouts.size()) {
+      book.keepouts[owner].frame = frame;
+    }
+  }
+}
+
+void JobNames::resolve_bodies() {
+  JobBook& book = draft_.book();
+  for (BodyLine& body : book.bodies) {
+    body.tool = tool_called(body.name);
+    if (body.tool < 1) {
+      line_.error_in(body.file, static_cast<std::size_t>(body.place.line), static_cast<std::size_t>(body.place.column),
+                     robot::no_such("tool", body.name, book.tools, "TOOL", kTool));
+    }
+  }
+}
+
+void JobNames::resolve(const Reference& reference) {
+  Step& step = draft_.book().jobs[reference.at.job].steps[reference.step];
+  switch (reference.to) {
+    case To::Label:
+      resolve_label(reference, step);
+      break;
+    case To::Tool:
+      step.index = tool_called(reference.at.name);
+      if (step.index < 0) {
+        no_such(reference.at, "tool", names_of(draft_.book().tools));
+      }
+      break;
+    case To::Job:
+      resolve_job(reference, step);
+      break;
+    case To::Target:
+    case To::Mid:
+      resolve_point(reference, step);
+  }
+}
+
+void JobNames::resolve_label(const Reference& reference, Step& step) {
+  const auto& labels = labels_[reference.at.job];
+  if (const auto found = labels.find(reference.at.name); found != labels.end()) {
+    step.index = static_cast<int>(found->second.step);
+    return;
+  }
+  std::vector<std::string> known;
+  for (const auto& [name, label] : labels) {
+    known.push_back(name);
+  }
+  no_such(reference.at, "label", known);
+}
+
+void JobNames::resolve_job(const Reference& reference, Step& step) {
+  JobBook& book = draft_.book();
+  step.index = index_of(book.jobs, reference.at.name);
+  if (step.index < 0) {
+    no_such(reference.at, "job", names_of(book.jobs));
+    return;
+  }
+  const Job& called = book.jobs[static_cast<std::size_t>(step.index)];
+  if (step.op == Op::Arm) {
+    book.interrupts[static_cast<std::size_t>(step.slot)].job = step.index;
+  }
+  if (step.op != Op::Disarm && called.parameters != static_cast<std::size_t>(step.mid)) {
+    error(reference.at, "job '" + reference.at.name + "' takes " + count_of(called.parameters, "value") + ", here " +
+                            (step.mid == 1 ? "is 1" : "are " + std::to_string(step.mid)));
+  }
+}
+
+void JobNames::resolve_point(const Reference& reference, Step& step) {
+  const JobBook& book = draft_.book();
+  const bool target = reference.to == To::Target;
+  const int point = index_of(book.points, reference.at.name);
+  const bool back = point < 0 && target && reference.at.name == "BACK";
+  int& place = target ? step.index : step.mid;
+  place = back ? kBack : point;
+  if (point < 0 && !back) {
+    no_such(reference.at, "point", names_of(book.points));
+  }
+  if (point >= 0 && target && step.formula >= 0 && !book.points[static_cast<std::size_t>(point)].target.is_pose) {
+    error(reference.at, "an OFFSET goes from a point given as POSE; '" + reference.at.name +
+                            "' has joint angles; say it as POSE (indurop robot teach " + reference.at.name +
+                            " --pose)");
+  }
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Statements that declare places: points and work frames.
+
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "control/robot/job/statement.h"
+
+namespace indurop::robot {
+
+class PlaceReader {
+ public:
+  PlaceReader(const StatementParts& parts, const ArmShape& shape)
+      : line_(parts.line), draft_(parts.draft), names_(parts.names), shape_(shape) {}
+
+  void point();
+  void frame();
+
+ private:
+  void joint_point(Target& target);
+  void pose_point(Target& target);
+  void posture(Target& target);
+  void held_axis(Target& target);
+  [[nodiscard]] double axis_value(int axis, double written) const noexcept;
+
+  JobLine& line_;
+  JobDraft& draft_;
+  JobNames& names_;
+  const ArmShape shape_;
+  std::map<std::string, std::string, std::less<>> point_places_;  // file and line, by name
+};
+
+}  // namespace indurop::robot
