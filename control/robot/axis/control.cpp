@@ -1,268 +1,217 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/axis/control.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <initializer_list>
+
+#include "control/robot/axis/service.h"
 
 namespace indurop::robot {
 
-namespace {
-
-constexpr double kHomeTime = 120;  // s
-
-std::int32_t counts(double value) noexcept {
-  constexpr double kMaxCounts = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::llround(std::clamp(value, -kMaxCounts, kMaxCounts)));
-}
-
-}  // namespace
-
 void AxisControl::set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute,
                          CommandTable* table, const Row& row) noexcept {
-  least_ = axis.lower;
-  greatest_ = axis.upper;
-  endless_ = axis.endless;
-  most_ = limits;
-  own_ = {axis.lower, axis.upper, true, true, limits.velocity, limits.acceleration, limits.acceleration, limits.jerk};
-  keep_ends();
-  scale_ = scale;
-  homed_ = absolute;
-  table_ = table;
-  row_ = row;
-}
-
-LineLimits AxisControl::limits(double hardness) const noexcept {
-  return {most_.velocity, most_.acceleration * hardness, most_.jerk * hardness * hardness};
+  AxisBody::set_up(scale, AxisBounds(axis, limits), absolute, row);
+  answers_.set_table(table);
 }
 
 void AxisControl::sense(const DriveIn& in, double seconds) noexcept {
-  sense_probe(in);
-  watch_mode(in, seconds);
-  led_by_drive_ = false;
-  const double before = measured_;
-  measured_ = in.position / scale_.counts + scale_.zero;
-  measured_speed_ = sensed_ ? (measured_ - before) / seconds : 0;
-  sensed_ = true;
-  placed_anew_ = state_ == AxisState::Homing;
+  probing_.sense(in, units());
+  if (parts().pushing.sense(in, seconds)) {
+    power_.want(false);
+    fail(ErrorCode::Drive, 1);
+  }
+  measure(in, seconds);
   if (Drive::state_of(in.status) != Drive::State::OperationEnabled) {
-    const bool moved = busy();
-    put({measured_, 0, 0});  // the commanded position of a drive without power is where it is
-    placed_anew_ = true;
-    if (moved) {
-      fail(ErrorCode::Drive, 1);
-    } else if (state_ == AxisState::Standstill && want_power_) {
-      const Drive::State drive = Drive::state_of(in.status);
-      const bool fault = drive == Drive::State::Fault || drive == Drive::State::FaultReaction;
-      fail(fault ? ErrorCode::Drive : ErrorCode::Power, 1);  // PLCopen: the axis leaves ErrorStop by a reset only
-    } else if (state_ != AxisState::ErrorStop) {
-      state_ = AxisState::Disabled;
-      release_stop();
-    }
-  } else if (state_ == AxisState::Disabled) {
-    state_ = AxisState::Standstill;
+    sense_without_power(in);
+  } else if (state() == AxisState::Disabled) {
+    parts().state = AxisState::Standstill;
   }
 }
 
-bool AxisControl::busy() const noexcept {
-  return state_ == AxisState::DiscreteMotion || state_ == AxisState::ContinuousMotion ||
-         state_ == AxisState::Stopping || state_ == AxisState::Homing || coupled_;
-}
-
-void AxisControl::finish(Owner& owner, ErrorCode code) noexcept {
-  if (owner.ticket == kNobody && code == ErrorCode::Ok) {
-    return;
+void AxisControl::sense_without_power(const DriveIn& in) noexcept {
+  const bool moved = busy();
+  put({measured(), 0, 0});  // the commanded position of a drive without power is where it is
+  place_anew();
+  if (moved) {
+    fail(ErrorCode::Drive, 1);
+  } else if (state() == AxisState::Standstill && wants_power()) {
+    const Drive::State drive = Drive::state_of(in.status);
+    const bool fault = drive == Drive::State::Fault || drive == Drive::State::FaultReaction;
+    fail(fault ? ErrorCode::Drive : ErrorCode::Power, 1);  // PLCopen: the axis leaves ErrorStop by a reset only
+  } else if (state() != AxisState::ErrorStop) {
+    parts().state = AxisState::Disabled;
+    motions_.release_stop();
   }
-  if (owner.ticket == kRequest) {
-    (code == ErrorCode::Ok ? report_.done : report_.aborted) = report_.acknowledged;
-  } else if (owner.ticket != kNobody && owner.ticket == power_ && code == ErrorCode::Ok) {
-    table_->holds(owner.ticket);
-  } else if (owner.ticket != kNobody) {
-    power_ = owner.ticket == power_ ? kNobody : power_;
-    table_->end(owner.ticket, code);
-  }
-  owner = {};
-  // The reason for ErrorStop stays known.
-  const bool keeps = code == ErrorCode::Aborted || (code == ErrorCode::Ok && state_ == AxisState::ErrorStop);
-  report_.error = keeps ? report_.error : code;
 }
 
 void AxisControl::serve(const AxisRequest& request, ErrorCode permit) noexcept {
+  AxisReport& report = answers_.report();
   if (first_) {
     // Requests from before this program started are not executed.
     first_ = false;
-    report_.acknowledged = report_.aborted = request.number;
+    report.acknowledged = report.aborted = request.number;
     return;
   }
-  if (request.number == report_.acknowledged) {
+  if (request.number == report.acknowledged) {
     return;
   }
-  for (Owner* owner : {&admin_, &motion_owner_, &super_}) {
-    if (owner->ticket == kRequest) {
-      finish(*owner, ErrorCode::Aborted);
-    }
-  }
-  report_.acknowledged = request.number;
+  power_.end_request();
+  motions_.end_request();
+  report.acknowledged = request.number;
   const auto service = static_cast<AxisService>(request.code);
   if (permit != ErrorCode::Ok && service != AxisService::Reset && service != AxisService::PowerOn) {
-    Owner owner{kRequest, service};
-    finish(owner, permit);
+    answers_.answer(AxisOwner::kRequest, service, permit);
     return;
   }
-  report_.error = state_ == AxisState::ErrorStop ? report_.error : ErrorCode::Ok;
+  answers_.forget_error();
   Command command;
   command.code = request.code;
   command.to[0] = request.position;
   command.velocity = request.velocity;
   command.acceleration = request.acceleration;
   command.jerk = request.jerk;
-  order(kRequest, command);
+  order(AxisOwner::kRequest, command);
 }
 
-void AxisControl::home() noexcept {
-  state_ = AxisState::Homing;
-  homed_ = false;
-  waited_ = 0;
-  drive_.home(true);
-}
-
-void AxisControl::move_home(double seconds) noexcept {
-  waited_ += seconds;
-  const bool failed = drive_.home_failed() || waited_ > kHomeTime;
-  if (!failed && !drive_.home_found()) {
+void AxisControl::take(int ticket, ErrorCode permit) noexcept {
+  const Command& command = answers_.table().command(ticket);
+  const AxisService service = service_of(command);
+  const bool always = service == AxisService::Reset || service == AxisService::PowerOn ||
+                      service == AxisService::SetPosition || service == AxisService::TouchProbe ||
+                      service == AxisService::AbortTrigger || service == AxisService::WriteParameter;
+  if (permit != ErrorCode::Ok && !always) {
+    answers_.table().end(ticket, permit);
     return;
   }
-  drive_.home(false);
-  homed_ = !failed;
-  motion_.reset({measured_, 0, 0});
-  if (failed) {
-    abort_queue();
-  }
-  state_ = failed ? AxisState::ErrorStop : AxisState::Standstill;
-  end_motion(failed ? ErrorCode::NotHomed : ErrorCode::Ok);
+  answers_.forget_error();
+  order(ticket, command);
 }
 
-// A motion without a target must not run into the end of the axis: from its next position the axis must still be able
-// to come to rest before the end.
-void AxisControl::guard_limits(double seconds) noexcept {
-  const LineState next = motion_.after(seconds);
-  const double rest = next.position + ramp(next, 0, limits(1)).distance;
-  const bool ends = !endless_ && ((next.velocity > 0 && rest > upper_ - kEndMargin) ||
-                                  (next.velocity < 0 && rest < lower_ + kEndMargin));
-  if (ends) {
-    abort_queue();
-    finish(motion_owner_, ErrorCode::JointLimit);
-    motion_.stop(limits(1));
-    state_ = AxisState::Stopping;
+void AxisControl::order(int ticket, const Command& command) noexcept {
+  using Handler = void (*)(AxisControl&, int, const Command&) noexcept;
+  static constexpr auto kServices = static_cast<std::size_t>(AxisService::TorqueControl) + 1;
+  // Handler of each service.
+  static constexpr auto kBy = [] {
+    using enum AxisService;
+    std::array<Handler, kServices> by{};
+    const auto set = [&by](Handler handler, std::initializer_list<AxisService> services) {
+      for (const AxisService service : services) {
+        by[static_cast<std::size_t>(service)] = handler;
+      }
+    };
+    set([](AxisControl& a, int t, const Command&) noexcept { a.answers_.answer(t, None, ErrorCode::Ok); }, {None});
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.administer(t, c); }, {PowerOn, PowerOff, Reset});
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.take(t, c); },
+        {Home, Halt, MoveAbsolute, MoveRelative, MoveAdditive, MoveVelocity, MoveContinuousAbsolute,
+         MoveContinuousRelative, GearIn, CamIn, GearInPos, Combine, PositionProfile, VelocityProfile,
+         AccelerationProfile, AxisService::TorqueControl});
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.take_stop(t, c); }, {Stop});
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.set_position(t, c); }, {SetPosition});
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.write_parameter(t, c); }, {WriteParameter});
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.shift_master(t, c); }, {ShiftMaster});
+    set([](AxisControl& a, int t, const Command&) noexcept { a.motions_.decouple(t); }, {Decouple});
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.superimpose(t, c); }, {MoveSuperimposed});
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.halt_superimposed(t, c); },
+        {HaltSuperimposed});
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.probing_.begin(t, c); }, {TouchProbe});
+    set([](AxisControl& a, int t, const Command&) noexcept { a.probing_.abort(t); }, {AbortTrigger});
+    return by;
+  }();
+  const auto code = static_cast<std::size_t>(command.code);
+  if (code < kBy.size() && kBy[code] != nullptr) {
+    kBy[code](*this, ticket, command);
+  } else {
+    answers_.answer(ticket, AxisService::None, ErrorCode::Opcode);
   }
+}
+
+void AxisControl::administer(int ticket, const Command& command) noexcept {
+  if (power_.take(ticket, command)) {
+    stop_for_power();
+  }
+}
+
+// Power is switched off at rest; until then the axis brakes.
+void AxisControl::stop_for_power() noexcept {
+  motions_.release_stop();
+  motions_.halt();
+}
+
+// Gives the present position a new value; nothing moves, and a motion keeps its target.
+void AxisControl::set_position(int ticket, const Command& command) noexcept {
+  const double wanted = command.to[0] * unit();
+  ErrorCode code = ErrorCode::Ok;
+  if (!std::isfinite(wanted)) {
+    code = ErrorCode::Value;
+  } else if (state() == AxisState::Homing) {
+    code = ErrorCode::State;
+  } else {
+    const double from = command.option == 1 ? units().origin() : commanded().position;
+    parts().units.set_origin(from - wanted);
+  }
+  answers_.answer(ticket, AxisService::SetPosition, code);
+}
+
+void AxisControl::write_parameter(int ticket, const Command& command) noexcept {
+  AxisBounds& bounds = parts().bounds;
+  const bool rests = !busy() && !in_group() && !motions_.waits();
+  const ErrorCode code = bounds.change(command.option, command.to[0], units(), {rests, commanded().position});
+  bounds.apply_to(parts().motion);
+  answers_.answer(ticket, AxisService::WriteParameter, code);
 }
 
 void AxisControl::move(double seconds) noexcept {
-  look_at_commands();
-  keep_power();
-  if (admin_.service == AxisService::PowerOn) {
-    wait_for_power(seconds);
+  motions_.update();
+  if (power_.keep()) {
+    stop_for_power();
   }
-  if (state_ == AxisState::Homing) {
-    move_home(seconds);
+  power_.wait_for_power(seconds);
+  if (state() == AxisState::Homing) {
+    motions_.step_home(seconds);
     return;
   }
-  advance(seconds);
-  if (admin_.service == AxisService::PowerOff && motion_.at_rest()) {
-    want_power_ = false;
-    if (!drive_.enabled()) {
-      finish(admin_, ErrorCode::Ok);
-    }
-  }
-  if (admin_.service == AxisService::Reset) {
-    wait_for_reset(seconds);
-  }
-  const bool goes_on = state_ == AxisState::ContinuousMotion;
-  report_.in_velocity = goes_on && !push_.on() && motion_.done();
-  note_superimposed();
-  if (goes_on || coupled_) {
-    note_velocity();
-  } else if (over_) {
-    return;
-  } else if (state_ == AxisState::DiscreteMotion && motion_.at_rest()) {
-    state_ = AxisState::Standstill;
-    end_motion(ErrorCode::Ok);
-  } else if (state_ == AxisState::Stopping && motion_.at_rest()) {
-    finish(motion_owner_, ErrorCode::Ok);
-    if (stop_ != kNobody && table_->execute(stop_)) {
-      table_->holds(stop_);
-    } else {
-      state_ = AxisState::Standstill;
-      release_stop();
-    }
-  }
-}
-
-// For motions without an end: the request ends when the velocity is reached, the command when another one takes over.
-void AxisControl::note_velocity() noexcept {
-  const bool reached = coupled_ ? coupling_.synced() : push_.on() ? push_.reached() : report_.in_velocity;
-  if (motion_owner_.ticket == kRequest && reached && !coupled_) {
-    finish(motion_owner_, ErrorCode::Ok);
-  } else if (motion_owner_.ticket != kNobody && motion_owner_.ticket != kRequest) {
-    table_->reached(motion_owner_.ticket, reached);
-  }
-  if (reached && queued_ > 0) {
-    end_motion(ErrorCode::Aborted);
-  }
+  motions_.step(seconds);
+  power_.step(seconds);
+  motions_.note_ends();
 }
 
 void AxisControl::follow(const LineState& state) noexcept {
   put(state);
-  release_stop();
-  state_ = AxisState::SynchronizedMotion;
+  motions_.release_stop();
+  parts().state = AxisState::SynchronizedMotion;
 }
 
 void AxisControl::fail(ErrorCode code, double hardness) noexcept {
-  if (admin_.ticket == power_) {
-    admin_ = {};  // continues once it has been reset
-  } else if (admin_.service != AxisService::Reset) {
-    finish(admin_, code);
-  }
-  finish(motion_owner_, code);
-  finish(super_, code);
-  abort_queue();
-  release_stop();
-  drive_.home(false);
-  let_go();
-  if (!motion_.at_rest()) {
-    motion_.stop(limits(hardness));
-  }
-  state_ = AxisState::ErrorStop;
+  power_.fail(code);
+  motions_.fail(code, hardness);
 }
 
 DriveOut AxisControl::command(const DriveIn& in, bool quick_stop) noexcept {
-  quick_stopped_ = quick_stop && state_ == AxisState::ErrorStop;
-  drive_.step(in, quick_stopped_ ? Drive::Want::QuickStop : want_power_ ? Drive::Want::On : Drive::Want::Off);
+  Drive& drive = parts().drive;
+  drive.step(in, power_.want_of_drive(quick_stop));
   DriveOut out;
-  out.control = drive_.control();
-  out.mode = drive_.mode();
-  out.position = counts((commanded().position - scale_.zero) * scale_.counts * scale_.gear);
-  out.probe = probe_.function();
+  out.control = drive.control();
+  out.mode = drive.mode();
+  out.position = units().counts(commanded().position);
+  out.probe = probing_.function();
   return out;
 }
 
 AxisReport AxisControl::report() const noexcept {
-  AxisReport report = report_;
-  report.state = state_;
-  report.power = drive_.enabled() && admin_.service != AxisService::PowerOn;
-  report.homed = homed_;
-  report.position = (measured_ - origin_) / scale_.unit;
-  report.command = (commanded().position - origin_) / scale_.unit;
-  report.acceleration = commanded().acceleration / scale_.unit;
-  report.measured_velocity = measured_speed_ / scale_.unit;
-  report.lower = (least_ - origin_) / scale_.unit;
-  report.upper = (greatest_ - origin_) / scale_.unit;
-  report_own(report);
-  report.most_velocity = most_.velocity / scale_.unit;
-  report.most_acceleration = most_.acceleration / scale_.unit;
-  report.most_jerk = most_.jerk / scale_.unit;
-  report.velocity = commanded().velocity / scale_.unit;
-  report.phase = coupled_ ? coupling_.phase() / row_.axes[static_cast<std::size_t>(leaders_[0].axis)].scale_.unit : 0;
+  AxisReport report = answers_.report();
+  const LineState& state = commanded();
+  report.state = parts().state;
+  report.power = power_.on();
+  report.homed = homed();
+  report.position = units().for_users(measured());
+  report.command = units().for_users(state.position);
+  report.acceleration = state.acceleration / unit();
+  report.measured_velocity = parts().measured.speed / unit();
+  bounds().report(units(), report);
+  report.velocity = state.velocity / unit();
+  const AxisFollowing& following = parts().following;
+  report.phase = following.coupled() ? following.phase() / parts().row.axis(leaders()[0].axis).unit() : 0;
   return report;
 }
 

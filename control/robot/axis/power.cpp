@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Power and reset of an axis. A command may hold the power as long as it has its Execute (MC_Power): it requests power
-// again whenever it is lost, and waits while the axis is in ErrorStop.
+#include "control/robot/axis/power.h"
 
-#include <utility>
-
-#include "control/robot/axis/control.h"
+#include "control/robot/axis/service.h"
 
 namespace indurop::robot {
 
@@ -16,118 +13,155 @@ constexpr double kLetGoTime = 0.5;  // s to wait for switching off; a drive that
 
 }  // namespace
 
-void AxisControl::administer(int ticket, const Command& command) noexcept {
+bool AxisPower::take(int ticket, const Command& command) noexcept {
   const AxisService service = service_of(command);
-  const bool failed = state_ == AxisState::ErrorStop || drive_.faulty();
-  if (service == AxisService::Reset && admin_.service == AxisService::PowerOff) {
-    Owner owner{ticket, service};  // a reset does not cancel switching off
-    finish(owner, failed ? ErrorCode::State : ErrorCode::Ok);
-    return;
+  const bool failed = parts_.state == AxisState::ErrorStop || parts_.drive.faulty();
+  if (service == AxisService::Reset && owner_.service == AxisService::PowerOff) {
+    // A reset does not cancel switching off.
+    answers_.answer(ticket, service, failed ? ErrorCode::State : ErrorCode::Ok);
+    return false;
   }
-  interrupt_power();
-  if (service != AxisService::Reset && power_ != kNobody) {
-    table_->end(std::exchange(power_, kNobody), ErrorCode::Aborted);
+  interrupt();
+  if (service != AxisService::Reset && answers_.has_holder()) {
+    const int holder = answers_.holder();
+    answers_.set_holder(AxisOwner::kNone);
+    answers_.table().end(holder, ErrorCode::Aborted);
   }
-  if (ticket != kRequest) {
-    table_->active(ticket);
+  answers_.active(ticket);
+  if (service == AxisService::PowerOff) {
+    owner_ = {ticket, AxisService::PowerOff};
+    return true;
   }
-  switch (service) {
-    case AxisService::PowerOn:
-      power_ = ticket != kRequest && command.option == kHolds ? ticket : kNobody;
-      if (state_ != AxisState::ErrorStop) {
-        take_power(ticket);
-      } else if (power_ == kNobody) {
-        Owner owner{ticket, service};
-        finish(owner, ErrorCode::State);
-      }
-      break;
-    case AxisService::PowerOff:
-      give_power(ticket);
-      break;
-    default:
-      admin_ = {ticket, service};
-      waited_ = 0;
-      if (emergency_) {
-        finish(admin_, ErrorCode::Emergency);
-      } else if (!failed && !group_stops_) {
-        finish(admin_, ErrorCode::Ok);  // there is nothing to reset, and will not be when the group rests
-      }
+  if (service != AxisService::PowerOn) {
+    take_reset(ticket, failed);
+    return false;
+  }
+  answers_.set_holder(ticket != AxisOwner::kRequest && command.option == kHolds ? ticket : AxisOwner::kNone);
+  if (parts_.state != AxisState::ErrorStop) {
+    switch_on(ticket);
+  } else if (!answers_.has_holder()) {
+    answers_.answer(ticket, service, ErrorCode::State);
+  }
+  return false;
+}
+
+void AxisPower::take_reset(int ticket, bool failed) noexcept {
+  owner_ = {ticket, AxisService::Reset};
+  waited_ = 0;
+  if (emergency_) {
+    answers_.finish(owner_, ErrorCode::Emergency);
+  } else if (!failed && !group_stops_) {
+    answers_.finish(owner_, ErrorCode::Ok);  // there is nothing to reset, and will not be when the group rests
   }
 }
 
 // A later request ends the one in progress; a command that holds power continues afterwards.
-void AxisControl::interrupt_power() noexcept {
-  if (admin_.ticket == power_) {
-    admin_ = {};
+void AxisPower::interrupt() noexcept {
+  if (owner_.ticket == answers_.holder()) {
+    owner_ = {};
   } else {
-    finish(admin_, ErrorCode::Aborted);
+    answers_.finish(owner_, ErrorCode::Aborted);
   }
 }
 
-void AxisControl::take_power(int ticket) noexcept {
-  admin_ = {ticket, AxisService::PowerOn};
+void AxisPower::switch_on(int ticket) noexcept {
+  owner_ = {ticket, AxisService::PowerOn};
   waited_ = 0;
-  letting_go_ = drive_.enabled() && !want_power_;
-  want_power_ = !letting_go_;
+  letting_go_ = parts_.drive.enabled() && !wanted_;
+  wanted_ = !letting_go_;
 }
 
-// Switches power off at rest; until then the axis brakes.
-void AxisControl::give_power(int ticket) noexcept {
-  admin_ = {ticket, AxisService::PowerOff};
-  release_stop();
-  halt();
-}
-
-void AxisControl::keep_power() noexcept {
-  if (power_falls()) {
-    interrupt_power();
-    give_power(std::exchange(power_, kNobody));
-  } else if (power_ != kNobody && admin_.ticket == kNobody && !want_power_ && state_ != AxisState::ErrorStop) {
-    take_power(power_);
+bool AxisPower::keep() noexcept {
+  if (falls()) {
+    interrupt();
+    owner_ = {answers_.holder(), AxisService::PowerOff};
+    answers_.set_holder(AxisOwner::kNone);
+    return true;
   }
+  if (answers_.has_holder() && !owner_.any() && !wanted_ && parts_.state != AxisState::ErrorStop) {
+    switch_on(answers_.holder());
+  }
+  return false;
 }
 
-void AxisControl::wait_for_power(double seconds) noexcept {
+void AxisPower::wait_for_power(double seconds) noexcept {
+  if (owner_.service != AxisService::PowerOn) {
+    return;
+  }
   waited_ += seconds;
   if (letting_go_) {
-    letting_go_ = drive_.enabled() && waited_ <= kLetGoTime;
-    want_power_ = !letting_go_;
-  } else if (drive_.enabled()) {
-    finish(admin_, ErrorCode::Ok);
+    letting_go_ = parts_.drive.enabled() && waited_ <= kLetGoTime;
+    wanted_ = !letting_go_;
+  } else if (parts_.drive.enabled()) {
+    answers_.finish(owner_, ErrorCode::Ok);
   } else if (waited_ > kPowerTime) {
-    want_power_ = false;
-    finish(admin_, drive_.faulty() ? ErrorCode::Drive : ErrorCode::Power);
+    wanted_ = false;
+    answers_.finish(owner_, parts_.drive.faulty() ? ErrorCode::Drive : ErrorCode::Power);
+  }
+}
+
+void AxisPower::step(double seconds) noexcept {
+  if (owner_.service == AxisService::PowerOff && parts_.motion.at_rest()) {
+    wanted_ = false;
+    if (!parts_.drive.enabled()) {
+      answers_.finish(owner_, ErrorCode::Ok);
+    }
+  }
+  if (owner_.service == AxisService::Reset) {
+    wait_for_reset(seconds);
   }
 }
 
 // PLCopen: an axis that is still braking is not reset.
-void AxisControl::wait_for_reset(double seconds) noexcept {
+void AxisPower::wait_for_reset(double seconds) noexcept {
   if (emergency_) {
-    finish(admin_, ErrorCode::Emergency);
+    answers_.finish(owner_, ErrorCode::Emergency);
     return;
   }
-  if (!motion_.at_rest() || group_stops_) {
+  if (!parts_.motion.at_rest() || group_stops_) {
     return;
   }
-  if (state_ == AxisState::ErrorStop || drive_.faulty()) {
+  if (parts_.state == AxisState::ErrorStop || parts_.drive.faulty()) {
     reset();
   }
   waited_ += seconds;
-  if (!drive_.faulty() || waited_ > kPowerTime) {
-    finish(admin_, drive_.faulty() ? ErrorCode::Drive : ErrorCode::Ok);
+  if (!parts_.drive.faulty() || waited_ > kPowerTime) {
+    answers_.finish(owner_, parts_.drive.faulty() ? ErrorCode::Drive : ErrorCode::Ok);
   }
 }
 
-void AxisControl::reset() noexcept {
-  drive_.reset();
+void AxisPower::reset() noexcept {
+  parts_.drive.reset();
   // Power returns on request only.
-  want_power_ = want_power_ && drive_.enabled() && !quick_stopped_;
-  if (state_ == AxisState::ErrorStop) {
-    report_.error = ErrorCode::Ok;
+  wanted_ = wanted_ && parts_.drive.enabled() && !quick_stopped_;
+  if (parts_.state == AxisState::ErrorStop) {
+    answers_.clear_error();
   }
-  if (state_ == AxisState::ErrorStop || in_group()) {
-    state_ = drive_.enabled() && !quick_stopped_ ? AxisState::Standstill : AxisState::Disabled;
+  if (parts_.state == AxisState::ErrorStop || parts_.in_group()) {
+    parts_.state = parts_.drive.enabled() && !quick_stopped_ ? AxisState::Standstill : AxisState::Disabled;
   }
+}
+
+void AxisPower::fail(ErrorCode code) noexcept {
+  if (owner_.ticket == answers_.holder()) {
+    owner_ = {};  // continues once it has been reset
+  } else if (owner_.service != AxisService::Reset) {
+    answers_.finish(owner_, code);
+  }
+}
+
+void AxisPower::end_request() noexcept {
+  if (owner_.is_request()) {
+    answers_.finish(owner_, ErrorCode::Aborted);
+  }
+}
+
+Drive::Want AxisPower::want_of_drive(bool quick_stop) noexcept {
+  quick_stopped_ = quick_stop && parts_.state == AxisState::ErrorStop;
+  if (quick_stopped_) {
+    return Drive::Want::QuickStop;
+  }
+  return wanted_ ? Drive::Want::On : Drive::Want::Off;
 }
 
 }  // namespace indurop::robot

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/axis/probe.h"
 
-#include <cmath>
-
-#include "control/robot/axis/control.h"
-
 namespace indurop::robot {
 
 namespace {
@@ -42,48 +38,6 @@ std::uint16_t AxisProbe::function() const noexcept {
     return 0;
   }
   return static_cast<std::uint16_t>(kOn | (mark_ ? kMark : 0U) | (rising_ ? kRise : kFall));
-}
-
-// Permitted in any state: an axis turned by hand may be probed as well.
-void AxisControl::begin_probe(int ticket, const Command& command) noexcept {
-  constexpr int kFalling = 1;
-  constexpr int kAtMark = 2;
-  Owner owner{ticket, AxisService::TouchProbe};
-  const bool windowed = command.job == 1;
-  if (command.option < 0 || command.option > (kFalling | kAtMark) || (windowed && !(command.to[0] <= command.to[1]))) {
-    finish(owner, ErrorCode::Value);
-    return;
-  }
-  finish(probing_, ErrorCode::Aborted);
-  probing_ = owner;
-  if (ticket != kRequest) {
-    table_->active(ticket);
-  }
-  probe_windowed_ = windowed;
-  probe_first_ = command.to[0];
-  probe_last_ = command.to[1];
-  probe_.begin((command.option & kFalling) == 0, (command.option & kAtMark) != 0);
-}
-
-void AxisControl::abort_probe(int ticket, const Command& /*command*/) noexcept {
-  Owner owner{ticket, AxisService::AbortTrigger};
-  const bool was = probing_.ticket != kNobody;
-  finish(probing_, ErrorCode::Aborted);
-  probe_.stop();
-  finish(owner, was ? ErrorCode::Ok : ErrorCode::State);
-}
-
-void AxisControl::sense_probe(const DriveIn& in) noexcept {
-  if (!probe_.sense(in)) {
-    return;
-  }
-  const double place = (probe_.counts() / scale_.counts + scale_.zero - origin_) / scale_.unit;
-  if (probe_windowed_ && !(place >= probe_first_ && place <= probe_last_)) {
-    probe_.again();
-    return;
-  }
-  report_.probe = place;
-  finish(probing_, ErrorCode::Ok);
 }
 
 }  // namespace indurop::robot

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads all files of a program as one book of jobs.
+
 #include <algorithm>
 #include <charconv>
 #include <iterator>
