@@ -110,7 +110,7 @@ Result<std::string, base::Problem> order_alarms(const std::string& board, const 
   order.names = words->lines;
   order.all = words->lines.empty();
   order.for_ns = words->for_ns;
-  order.who = words->who.empty() ? "somebody" : words->who;
+  order.who = user_of(*words);
   order.from = command.host;
   order.reason = words->reason;
   alarms::AlarmJournal journal(board);

@@ -9,7 +9,6 @@
 
 #include "core/rt/clock.h"
 #include "deploy/agent/board_alarms.h"
-#include "deploy/transaction/write_words.h"
 #include "store/operate/journal.h"
 #include "store/vars/box_wish.h"
 
@@ -67,6 +66,10 @@ bool is_write(Action action) noexcept {
   return action == Action::Force || action == Action::Unforce || action == Action::Set || action == Action::SetLock;
 }
 
+bool is_about_node(Action action) noexcept {
+  return action == Action::StopNode || action == Action::StartNode || action == Action::RestartNode;
+}
+
 bool is_about_alarms(Action action) noexcept {
   return action == Action::AckAlarms || action == Action::ShelveAlarms || action == Action::UnshelveAlarms;
 }
@@ -86,9 +89,12 @@ std::uint64_t new_nonce() {
   return (high << 32U | random()) | 1U;  // never 0
 }
 
-// The user who gave the command is known only where it was given.
-void note(const std::string& board, const Command& command) {
-  operate::note(board, {rt::now_ns(), 0, "somebody", command.host, word_of(command.action), command.target, {}, 0, {}});
+// "by HOST (USER: REASON)", as far as the client sent it.
+std::string by(const Command& command, const WriteOrder& words) {
+  if (words.who.empty()) {
+    return command.host;
+  }
+  return fmt::format("{} ({}{}{})", command.host, words.who, words.reason.empty() ? "" : ": ", one_line(words.reason));
 }
 
 }  // namespace
@@ -131,11 +137,19 @@ bool BoardCommands::step(CommandLink& link, const std::string& plant, const std:
 }
 
 void BoardCommands::tell(const CommandReply& done) const {
-  log_.info("command from {}: {} {}: {}", command_->host, word_of(command_->action),
-            command_->target.empty() ? "the node" : "module " + command_->target,
-            done.outcome == Outcome::Failed ? done.text : "done");
-  if (done.outcome == Outcome::Done && !command_->target.empty()) {
-    note(board_, *command_);
+  const std::string module = words_.lines.empty() ? "" : words_.lines.front();
+  log_.info("command from {}: {} {}: {}", by(*command_, words_), word_of(command_->action),
+            module.empty() ? "the node" : "module " + module, done.outcome == Outcome::Failed ? done.text : "done");
+  if (done.outcome == Outcome::Done) {
+    operate::note(board_, {rt::now_ns(),
+                           0,
+                           user_of(words_),
+                           command_->host,
+                           word_of(command_->action),
+                           module.empty() ? "@" + board_ : module,
+                           {},
+                           0,
+                           words_.reason});
   }
 }
 
@@ -185,16 +199,18 @@ CommandReply BoardCommands::begin(const Command& command, const std::string& pla
     return reply(command, Outcome::Refused, why);
   }
   deadline_ = now + kPatience;
-  CommandReply answer = perform(command, now);
+  WriteOrder words = parse_module_target(command.target);
+  CommandReply answer = perform(command, words, now);
   if (answer.outcome == Outcome::UnderWay) {
     command_ = command;
+    words_ = std::move(words);
   } else {
     run_.reset();
   }
   return answer;
 }
 
-CommandReply BoardCommands::perform(const Command& command, rt::MonoTime now) {
+CommandReply BoardCommands::perform(const Command& command, const WriteOrder& words, rt::MonoTime now) {
   if (is_write(command.action)) {
     return write(command);
   }
@@ -207,7 +223,7 @@ CommandReply BoardCommands::perform(const Command& command, rt::MonoTime now) {
   if (is_recording(command.action)) {
     return begin_recording(command, now);
   }
-  return command.target.empty() ? begin_node(command) : begin_module(command);
+  return is_about_node(command.action) ? begin_node(command, words) : begin_module(command, words);
 }
 
 bool BoardCommands::open_run() {
@@ -279,14 +295,15 @@ std::optional<CommandReply> BoardCommands::look_at_recording() {
   return answer ? std::optional(reply(*command_, answer->outcome, answer->text)) : std::nullopt;
 }
 
-CommandReply BoardCommands::begin_module(const Command& command) {
+CommandReply BoardCommands::begin_module(const Command& command, const WriteOrder& words) {
+  const std::string name = words.lines.empty() ? "" : words.lines.front();
   if (process_.condition() != NodeCondition::Running || !open_run()) {
     return reply(command, Outcome::Refused, "its node does not run");
   }
   if (const std::string why = locked_against_commands(board_); !why.empty()) {
     return reply(command, Outcome::Refused, why);
   }
-  module_ = find(command.target);
+  module_ = find(name);
   if (module_ == nullptr) {
     std::string names;
     auto& block = *static_cast<scheduler::RunBlock*>(run_->data());
@@ -294,8 +311,8 @@ CommandReply BoardCommands::begin_module(const Command& command) {
       names += (i > 0 ? ", " : "") + std::string(block.modules()[i].name);
     }
     return reply(command, Outcome::Refused,
-                 names.empty() ? fmt::format("it has no module {}, nor any other", command.target)
-                               : fmt::format("it has no module {}; it has {}", command.target, names));
+                 names.empty() ? fmt::format("it has no module {}, nor any other", name)
+                               : fmt::format("it has no module {}; it has {}", name, names));
   }
   if (command.action != Action::StopModule) {
     if (const std::string damage = process_.verify(); !damage.empty()) {
@@ -310,7 +327,7 @@ CommandReply BoardCommands::begin_module(const Command& command) {
   return reply(command, Outcome::UnderWay);
 }
 
-CommandReply BoardCommands::begin_node(const Command& command) {
+CommandReply BoardCommands::begin_node(const Command& command, const WriteOrder& words) {
   const bool runs = process_.condition() == NodeCondition::Running;
   if (command.action == Action::StopNode && !process_.held().empty() && !process_.has_node()) {
     return reply(command, Outcome::Unchanged);
@@ -322,15 +339,15 @@ CommandReply BoardCommands::begin_node(const Command& command) {
   if (ended_) {
     process_.release();
   } else {
-    process_.hold("stopped by command from " + command.host);
+    process_.hold("stopped by command from " + by(command, words));
   }
   return reply(command, Outcome::UnderWay);
 }
 
 std::optional<CommandReply> BoardCommands::look(rt::MonoTime now) {
-  auto done = is_recording(command_->action) ? look_at_recording()
-              : command_->target.empty()     ? look_at_node()
-                                             : look_at_module();
+  auto done = is_recording(command_->action)    ? look_at_recording()
+              : is_about_node(command_->action) ? look_at_node()
+                                                : look_at_module();
   if (!done && now > deadline_) {
     done = reply(*command_, Outcome::Failed, fmt::format("not done after {} s; it goes on", kPatience.count()));
   }

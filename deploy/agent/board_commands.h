@@ -15,6 +15,7 @@
 #include "deploy/agent/board_recorder.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/link/command_link.h"
+#include "deploy/transaction/write_words.h"
 #include "scheduler/module_command.h"
 #include "store/vars/run_file.h"
 
@@ -38,10 +39,10 @@ class BoardCommands {
   void hear(CommandLink& link, const Command& command, const std::string& plant, const std::string& busy,
             rt::MonoTime now);
   CommandReply begin(const Command& command, const std::string& plant, const std::string& busy, rt::MonoTime now);
-  CommandReply begin_module(const Command& command);
-  CommandReply begin_node(const Command& command);
+  CommandReply begin_module(const Command& command, const WriteOrder& words);
+  CommandReply begin_node(const Command& command, const WriteOrder& words);
   void tell(const CommandReply& done) const;
-  CommandReply perform(const Command& command, rt::MonoTime now);
+  CommandReply perform(const Command& command, const WriteOrder& words, rt::MonoTime now);
   CommandReply write(const Command& command);
   [[nodiscard]] CommandReply keep_box(const Command& command) const;
   [[nodiscard]] CommandReply about_alarms(const Command& command) const;
@@ -64,6 +65,7 @@ class BoardCommands {
   const base::Log& log_;
   std::map<std::uint64_t, Known> known_;    // by commander
   std::optional<deploy::Command> command_;  // under way
+  WriteOrder words_;                        // its user, reason and module
   rt::MonoTime deadline_;
   std::optional<vars::RunFile> run_;
   scheduler::ModuleRecord* module_ = nullptr;

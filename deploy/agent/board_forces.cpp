@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "control/plc/st/value_literal.h"
 #include "deploy/transaction/write_words.h"
 #include "store/operate/set.h"
 #include "store/vars/custody.h"
@@ -26,7 +27,7 @@ Done done(const Result<void, operate::Refusal>& result) {
 }
 
 operate::Who who(const Command& command, const WriteOrder& order) {
-  return {order.who.empty() ? "somebody" : order.who, command.host, order.reason};
+  return {user_of(order), command.host, order.reason};
 }
 
 Done unforce(const std::string& board, const WriteOrder& order, vars::Store& store, const operate::Who& who) {
@@ -66,7 +67,7 @@ Done BoardForces::carry_out(const Command& command) {
   if (command.action == Action::Unforce) {
     return unforce(board_, *order, *store, by);
   }
-  const auto all = operate::parse_all(*store, order->lines);
+  const auto all = operate::parse_all(*store, order->lines, &plc::read_value_literal);
   if (!all) {
     return problem(all.error());
   }

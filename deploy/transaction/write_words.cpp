@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <utility>
 
 #include "core/base/json.h"
 #include "core/base/text.h"
@@ -17,6 +18,10 @@ std::string text_of(const WriteOrder& order) {
   const Json about{
       {"lease", order.lease}, {"renew", order.renew}, {"end", order.end}, {"who", order.who}, {"reason", order.reason}};
   return fmt::format("{} {}\n{}", order.for_ns, about.dump(), fmt::join(order.lines, "\n"));
+}
+
+std::string user_of(const WriteOrder& order) {
+  return order.who.empty() ? "unknown user" : order.who;
 }
 
 std::optional<WriteOrder> parse_write_order(std::string_view text) {
@@ -39,6 +44,25 @@ std::optional<WriteOrder> parse_write_order(std::string_view text) {
     base::read(*about, "reason", order.reason);
   }
   order.lines.assign(lines.begin() + 1, lines.end());
+  return order;
+}
+
+std::string module_target(const WriteOrder& order, std::string_view release) {
+  if (!release.starts_with("0.1.")) {
+    return text_of(order);
+  }
+  return order.lines.empty() ? std::string() : order.lines.front();
+}
+
+WriteOrder parse_module_target(std::string_view target) {
+  const bool bare = target.find('{') == std::string_view::npos;  // no name of a module has one
+  if (auto order = bare ? std::nullopt : parse_write_order(target)) {
+    return std::move(*order);
+  }
+  WriteOrder order;
+  if (!target.empty()) {
+    order.lines.emplace_back(target);
+  }
   return order;
 }
 

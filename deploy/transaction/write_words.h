@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The data of Action::Force, Unforce, Set and SetLock in addition to their lines: duration, user and reason. One text,
+// The data of commands to variables, modules and nodes in addition to their lines: duration, user and reason. One text,
 // of which older agents understand the fields they know.
 
 #pragma once
@@ -19,11 +19,19 @@ struct WriteOrder {
   bool end = false;         // with renew: ends the lease now instead
   std::string who;
   std::string reason;
-  std::vector<std::string> lines;  // NAME=VALUE; SetLock: the name of the lock; Unforce: names, none: all
+  // NAME=VALUE; SetLock: the name of the lock; Unforce: names, none: all; for modules its name, none: the node
+  std::vector<std::string> lines;
 };
 
 std::string text_of(const WriteOrder& order);
+// The user who gave it, as it is noted.
+std::string user_of(const WriteOrder& order);
 // Returns nothing if the text is not a valid order.
 std::optional<WriteOrder> parse_write_order(std::string_view text);
+
+// The target of a command to a module or to the node, for an agent of this release: 0.1 knows the module's name only.
+std::string module_target(const WriteOrder& order, std::string_view release);
+// Parses it; also the bare name that clients of 0.1 send.
+WriteOrder parse_module_target(std::string_view target);
 
 }  // namespace indurop::deploy

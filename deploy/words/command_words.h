@@ -11,7 +11,7 @@
 namespace indurop::deploy {
 
 enum class Action : std::uint8_t {
-  StopModule,
+  StopModule,  // target of these six: transaction/write_words.h, or only the name of the module; empty: the node
   StartModule,
   RestartModule,
   StopNode,
@@ -43,7 +43,7 @@ struct Command {
   std::uint64_t agent = 0;  // the addressed agent of the board
   std::string plant;        // what the board runs
   Action action = Action::StopModule;
-  std::string target;       // the module; empty: the node; for other actions see Action
+  std::string target;       // see Action
   std::uint64_t nonce = 0;  // issued by the agent; 0: requests one
   std::string signature;    // of command_text(); empty: unsigned
 };

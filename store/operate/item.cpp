@@ -127,21 +127,22 @@ Result<Assignment, Problem> parse(const vars::Store& store, Item item, std::stri
   return one;
 }
 
-Result<Assignment, Problem> parse(const vars::Store& store, const std::string& line) {
+Result<Assignment, Problem> parse(const vars::Store& store, const std::string& line, ReadLiteral literal) {
   const auto equals = line.find('=');
   if (equals == std::string::npos || equals == 0) {
     return Problem{fmt::format("'{}' is not an assignment; write NAME=VALUE", line)};
   }
   auto item = find(store, line.substr(0, equals));
-  return item ? parse(store, std::move(item).value(), line.substr(equals + 1)) : std::move(item).error();
+  return item ? parse(store, std::move(item).value(), line.substr(equals + 1), literal) : std::move(item).error();
 }
 
 Result<std::vector<Assignment>, std::vector<std::string>> parse_all(const vars::Store& store,
-                                                                    const std::vector<std::string>& lines) {
+                                                                    const std::vector<std::string>& lines,
+                                                                    ReadLiteral literal) {
   std::vector<Assignment> all;
   std::vector<std::string> wrong;
   for (const std::string& line : lines) {
-    auto one = parse(store, line);
+    auto one = parse(store, line, literal);
     if (one) {
       all.push_back(std::move(one).value());
     } else {

@@ -49,10 +49,12 @@ struct Assignment {
 Result<Assignment, base::Problem> parse(const vars::Store& store, Item item, std::string text,
                                         ReadLiteral literal = nullptr);
 // The same for "NAME=VALUE".
-Result<Assignment, base::Problem> parse(const vars::Store& store, const std::string& line);
+Result<Assignment, base::Problem> parse(const vars::Store& store, const std::string& line,
+                                        ReadLiteral literal = nullptr);
 // Returns all assignments, or the errors of all invalid ones.
 Result<std::vector<Assignment>, std::vector<std::string>> parse_all(const vars::Store& store,
-                                                                    const std::vector<std::string>& lines);
+                                                                    const std::vector<std::string>& lines,
+                                                                    ReadLiteral literal = nullptr);
 
 // Merges `one` into `bytes`, the item's present ones.
 void write_over(const Assignment& one, std::span<std::uint8_t> bytes);

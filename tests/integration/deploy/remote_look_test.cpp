@@ -164,6 +164,69 @@ TEST_F(RemoteLook, Orders_are_noted_as_those_given_on_the_board) {
   EXPECT_EQ(remote, local);
 }
 
+// Compared with the same commands given on the board itself.
+TEST_F(RemoteLook, Commands_to_modules_are_noted_with_user_and_reason) {
+  start_boards();
+  const auto file = folder() / "state" / board("a") / "orders.jsonl";
+  const auto noted = [&] {
+    Json all = Json::array();
+    std::ifstream lines(file);
+    for (std::string line; std::getline(lines, line);) {
+      const Json one = Json::parse(line);
+      EXPECT_NE(one["from"], "") << line;
+      all.push_back({one["action"], one["what"], one["who"], one["reason"]});
+    }
+    std::filesystem::remove(file);
+    return all;
+  };
+  const std::vector<std::string> verbs{"stop", "start", "restart"};
+  for (const std::string& verb : verbs) {
+    const Outcome outcome = indurop({verb, "table@" + board("a"), "--reason", verb + ": \"shift\" ends"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  const Json remote = noted();
+  for (const std::string& verb : verbs) {
+    const Outcome outcome = indurop_here({verb, "table", "--node", board("a"), "--reason", verb + ": \"shift\" ends"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  const Json local = noted();
+  EXPECT_EQ(local.size(), verbs.size());
+  EXPECT_EQ(remote, local);
+}
+
+TEST_F(RemoteLook, Commands_to_a_node_are_noted_with_user_and_reason) {
+  start_boards();
+  ASSERT_EQ(indurop({"stop", "@" + board("a"), "--reason", "belt torn"}).code, 0);
+  const std::string message = report("a")["message"];
+  EXPECT_THAT(message, HasSubstr("belt torn"));
+  ASSERT_EQ(indurop({"start", "@" + board("a"), "--reason", "belt mended"}).code, 0);
+  std::ifstream lines(folder() / "state" / board("a") / "orders.jsonl");
+  Json all = Json::array();
+  for (std::string line; std::getline(lines, line);) {
+    const Json one = Json::parse(line);
+    EXPECT_THAT(message, HasSubstr(one["who"].get<std::string>()));
+    all.push_back({one["action"], one["what"], one["reason"]});
+  }
+  EXPECT_EQ(all, Json({{"stop", "@" + board("a"), "belt torn"}, {"start", "@" + board("a"), "belt mended"}}));
+}
+
+// The values of the variables, as the same literals set them on the board itself.
+TEST_F(RemoteLook, Agents_take_the_literals_of_PLC_programs) {
+  start_boards();
+  for (const char* text : {"16#7F", "INT#-5", "2#1010", "T#5ns", "TRUE", "INT#70000"}) {
+    const Outcome local = indurop_here({"set", "echo", text, "--node", board("a")});
+    const Json wanted = here({"get", "echo"})["values"][0]["value"];
+    ASSERT_EQ(indurop_here({"set", "echo=1", "--node", board("a")}).code, 0);
+    const Outcome remote = at_a({"set", "echo", text});
+    EXPECT_EQ(remote.code, local.code) << text << ": " << remote.err << local.err;
+    if (local.code == 0) {
+      EXPECT_EQ(here({"get", "echo"})["values"][0]["value"], wanted) << text;
+    }
+  }
+  ASSERT_EQ(at_a({"force", "echo=INT#16#11"}).code, 0);
+  EXPECT_EQ(here({"forces"})["forces"][0]["value"], 17);
+}
+
 TEST_F(RemoteLook, A_refusal_is_worded_as_on_the_board) {
   start_boards();
   ASSERT_EQ(at_a({"force", "torque=1"}).code, 0);

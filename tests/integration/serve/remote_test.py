@@ -3,6 +3,7 @@
 """indurop-serve before a board of another host: a board whose memory it cannot see, heard through its agent only. The board's
 values, as they come here, are compared with what a server beside it reads from its memory. remote_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
+import json
 import os
 import pathlib
 import re
@@ -154,12 +155,16 @@ def test_sets_forces_and_lets_go_with_a_note_of_it(setting):
     assert locked.status == 422 and "lock" in locked.json()["message"] and looks(near)["value"] == 5, locked.body
     assert looks(remote) and remote.get(base + "/forces").json()["lock"]["lock"] == "all"
     assert remote.post(base + "/lock", {"lock": "none"}).status == 200
-    assert remote.post(base + "/modules/counter/stop").status == 200
+    assert remote.post(base + "/set", {"values": {"looks": "INT#16#11"}}).status == 200 and looks(near)["value"] == 17
+    assert remote.post(base + "/modules/counter/stop?reason=belt%20torn").status == 200
+    orders = (setting.folder / "state" / setting.node / "orders.jsonl").read_text().splitlines()
+    stop = [one for one in map(json.loads, orders) if one["action"] == "stop"]
+    assert [(one["what"], one["reason"]) for one in stop] == [("counter", "belt torn")] and "ana" in stop[0]["who"], stop
     assert near.get(base + "/modules").json()["modules"][0]["state"] == "stopped"
     assert remote.post(base + "/modules/nobody/stop").status == 422
     notes = remote.get(API + "/audit", Authorization="Bearer " + harness.TOKEN).json()["audit"]
     done = sorted(one["action"] for one in notes if one["outcome"] == "done" and one["who"] == "ana")
-    assert done == ["force", "lock", "lock", "release", "set", "stop"], notes
+    assert done == ["force", "lock", "lock", "release", "set", "set", "stop"], notes
     assert len([one for one in notes if one["outcome"] not in ("begun", "done")]) >= 7, "what was refused is noted, too"
     end_deployed(setting, agent)
 

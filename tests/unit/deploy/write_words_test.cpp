@@ -36,5 +36,32 @@ TEST(WriteWords, Nonsense_is_none) {
   }
 }
 
+TEST(WriteWords, Modules_and_nodes_are_told_who_and_why) {
+  WriteOrder order;
+  order.who = "anna";
+  order.reason = "shift: \"ends\"";
+  for (const std::vector<std::string>& lines : {std::vector<std::string>{}, {"gripper"}, {"7 axes"}}) {
+    order.lines = lines;
+    const WriteOrder sut = parse_module_target(module_target(order, "0.2.0"));
+    EXPECT_EQ(sut.lines, lines);
+    EXPECT_EQ(sut.who, order.who);
+    EXPECT_EQ(sut.reason, order.reason);
+  }
+}
+
+TEST(WriteWords, An_agent_of_before_is_told_the_module_only_and_tools_of_before_say_no_more) {
+  WriteOrder order;
+  order.who = "anna";
+  EXPECT_EQ(module_target(order, "0.1.0"), "");
+  order.lines = {"gripper"};
+  EXPECT_EQ(module_target(order, "0.1.0"), "gripper");
+  for (const char* module : {"gripper", "7", "7 axes", "-"}) {
+    const WriteOrder sut = parse_module_target(module);
+    EXPECT_EQ(sut.lines, std::vector<std::string>{module});
+    EXPECT_EQ(sut.who, "");
+  }
+  EXPECT_TRUE(parse_module_target("").lines.empty());
+}
+
 }  // namespace
 }  // namespace indurop::deploy

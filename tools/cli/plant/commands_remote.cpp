@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "core/base/user_name.h"
 #include "core/rt/clock.h"
+#include "deploy/transaction/write_words.h"
 #include "deploy/words/command_words.h"
 #include "tools/cli/command/interrupt.h"
 #include "tools/cli/command/suggest.h"
@@ -106,9 +108,14 @@ int command_remote(Context& context, ModuleCommand what, const std::vector<Comma
   if (const auto there = all_there(context, roster, targets, keys_hint(options.link)); !there) {
     return report(context.out, there.error());
   }
+  deploy::WriteOrder words;
+  words.who = base::user_name();
+  words.reason = context.reason;
   for (const CommandTarget& target : targets) {
-    const auto answered = commander->give(*link, options.link.self, roster.find(target.board)->report,
-                                          action_of(what, !target.module.empty()), target.module, options.timeout_ns);
+    const deploy::BoardReport& board = roster.find(target.board)->report;
+    words.lines.assign(target.module.empty() ? 0 : 1, target.module);
+    const auto answered = commander->give(*link, options.link.self, board, action_of(what, !target.module.empty()),
+                                          deploy::module_target(words, board.release), options.timeout_ns);
     if (!answered) {
       context.out.error(fmt::format("{} was not {}: {}", name_of(target), past_of(what), answered.error().text));
       return answered.error().code;

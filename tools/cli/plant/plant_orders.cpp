@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The requests and commands of PlantWatch to one board.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -43,19 +42,16 @@ deploy::Action action_of(PlantWatch::RemoteOrder::What what) {
   return deploy::Action::RestartModule;
 }
 
-std::string target_of(const PlantWatch::RemoteOrder& order) {
+std::string target_of(const PlantWatch::RemoteOrder& order, const std::string& release) {
   using What = PlantWatch::RemoteOrder::What;
-  const bool bare =
+  const bool module =
       order.what == What::StopModule || order.what == What::StartModule || order.what == What::RestartModule;
-  if (!bare) {
-    deploy::WriteOrder words;
-    words.for_ns = order.for_ns;
-    words.who = order.who;
-    words.reason = order.reason;
-    words.lines = order.lines;
-    return text_of(words);
-  }
-  return fmt::format("{}", fmt::join(order.lines, "\n"));
+  deploy::WriteOrder words;
+  words.for_ns = order.for_ns;
+  words.who = order.who;
+  words.reason = order.reason;
+  words.lines = order.lines;
+  return module ? module_target(words, release) : text_of(words);
 }
 
 }  // namespace
@@ -109,8 +105,8 @@ Result<std::string, Failure> PlantWatch::order(const std::string& board, const R
   if (entry == nullptr) {
     return Failure{kUnreachable, fmt::format("board {} is not heard", board)};
   }
-  const auto answered =
-      commander_->give(*link_, settings_.self, entry->report, action_of(order.what), target_of(order), kPatienceNs);
+  const auto answered = commander_->give(*link_, settings_.self, entry->report, action_of(order.what),
+                                         target_of(order, entry->report.release), kPatienceNs);
   if (!answered) {
     return Failure{answered.error().code, fmt::format("board {}: {}", board, answered.error().text)};
   }

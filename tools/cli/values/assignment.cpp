@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "tools/cli/plc/plc_literal.h"
+#include "control/plc/st/value_literal.h"
 
 namespace indurop::tools {
 namespace {
@@ -40,7 +40,7 @@ int parse_one(Context& context, const vars::Store& store, const char* verb, cons
   if (const int code = select_items(context, store, {name}, items); code != kOk) {
     return code;
   }
-  auto assignment = operate::parse(store, std::move(items.front()), text, &parse_plc_literal);
+  auto assignment = operate::parse(store, std::move(items.front()), text, &plc::read_value_literal);
   if (!assignment) {
     context.out.error(assignment.error().text);
     return kFailed;

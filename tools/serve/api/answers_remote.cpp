@@ -77,11 +77,12 @@ Reply command(Api& api, const Call& call, RemoteOrder::What what, std::string wo
   }
   const std::string& module = call.part.find("module")->second;
   Write write(api, call, std::move(word));
-  write.about(module, query_value(*call.request, "reason").value_or(""));
+  std::string reason = query_value(*call.request, "reason").value_or("");
+  write.about(module, reason);
   base::Json body = about(**found);
   body["module"] = module;
   body["result"] = "done";
-  return give(write, call, **found, RemoteOrder{what, {module}, 0, {}, {}}, std::move(body));
+  return give(write, call, **found, RemoteOrder{what, {module}, 0, {}, std::move(reason)}, std::move(body));
 }
 
 // Gets the run block from the agent, then answers as for a board of this host.

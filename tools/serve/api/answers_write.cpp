@@ -4,10 +4,10 @@
 
 #include <utility>
 
+#include "control/plc/st/value_literal.h"
 #include "store/operate/hold.h"
 #include "store/operate/set.h"
 #include "tools/cli/plant/commands.h"
-#include "tools/cli/plc/plc_literal.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/api/wish.h"
 #include "tools/serve/api/write.h"
@@ -28,7 +28,7 @@ Result<std::vector<operate::Assignment>, operate::Refusal> check_values(const va
       continue;
     }
     auto item = operate::find(store, name);
-    auto one = item ? operate::parse(store, std::move(item).value(), value, &tools::parse_plc_literal)
+    auto one = item ? operate::parse(store, std::move(item).value(), value, &plc::read_value_literal)
                     : Result<operate::Assignment, base::Problem>(std::move(item).error());
     if (one) {
       all.push_back(std::move(one).value());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/plc/plc_literal.h"
+#include "control/plc/st/value_literal.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 
 #include "control/plc/st/literal.h"
 
-namespace indurop::tools {
+namespace indurop::plc {
 namespace {
 
-using plc::st::Literal;
+using st::Literal;
 
 bool put_text(const std::string& text, std::span<std::uint8_t> bytes) {
   if (text.size() >= bytes.size()) {
@@ -21,9 +21,9 @@ bool put_text(const std::string& text, std::span<std::uint8_t> bytes) {
 }
 
 Literal literal_of(std::string_view text) {
-  if (plc::same_name(text, "TRUE") || plc::same_name(text, "FALSE")) {
+  if (same_name(text, "TRUE") || same_name(text, "FALSE")) {
     Literal made;
-    made.value = plc::same_name(text, "TRUE");
+    made.value = same_name(text, "TRUE");
     return made;
   }
   const std::size_t hash = text.find('#');
@@ -31,7 +31,7 @@ Literal literal_of(std::string_view text) {
     return {};
   }
   const bool based = text.find_first_not_of("0123456789") == hash;  // 16#FF
-  return based ? plc::st::number_literal(text) : plc::st::typed_literal(text);
+  return based ? st::number_literal(text) : st::typed_literal(text);
 }
 
 // Returns the literal in the notation of shared variables.
@@ -52,7 +52,7 @@ std::string plain(const Literal& literal) {
 
 }  // namespace
 
-bool parse_plc_literal(const schema::Type& type, std::string_view text, std::span<std::uint8_t> bytes) {
+bool read_value_literal(const schema::Type& type, std::string_view text, std::span<std::uint8_t> bytes) {
   if (!type.dims.empty()) {
     return false;
   }
@@ -60,7 +60,7 @@ bool parse_plc_literal(const schema::Type& type, std::string_view text, std::spa
     if (text.size() < 2 || text.front() != '\'' || text.back() != '\'') {
       return false;
     }
-    const Literal literal = plc::st::text_literal(text);
+    const Literal literal = st::text_literal(text);
     return literal.value && put_text(std::get<std::string>(*literal.value), bytes);
   }
   const Literal literal = literal_of(text);
@@ -68,4 +68,4 @@ bool parse_plc_literal(const schema::Type& type, std::string_view text, std::spa
   return literal.value && schema::parse_value(type, plain(literal), bytes, message).ok();
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::plc
