@@ -43,8 +43,8 @@ base::XmlRules rules_of(const DocumentKind& kind) {
   rules.name = kind.name;
   rules.form = kind.form;
   rules.purpose = "configuration";
-  rules.most_bytes = kMaxSize;
-  rules.most_depth = kMaxDepth;
+  rules.max_bytes = kMaxSize;
+  rules.max_depth = kMaxDepth;
   return rules;
 }
 

@@ -66,7 +66,7 @@ class ModuleReader {
       for (const Known& k : known) {
         names.emplace_back(k.name);
       }
-      given_.misspelt.insert(base::meant(child.name, names));
+      given_.misspelt.insert(base::closest_name(child.name, names));
       is_known(child, element_, names, report_);
       return;
     }

@@ -115,7 +115,7 @@ class PlantReader {
       for (const Known& k : known) {
         names.emplace_back(k.name);
       }
-      boards_given_ = boards_given_ || base::meant(child.name, names) == "board";
+      boards_given_ = boards_given_ || base::closest_name(child.name, names) == "board";
       is_known(child, root_, names, report_);
     } else if (found->repeatable || is_first(child, "this <plant>", given_, report_)) {
       (this->*found->read)(child);
@@ -218,7 +218,7 @@ class PlantReader {
     board.config.file = plant_.file;
     read_configuration(e, board.config, report_);
     const bool misspelt = std::any_of(e.children.begin(), e.children.end(), [](const base::Element& child) {
-      return !base::meant(child.name, {"module"}).empty();
+      return !base::closest_name(child.name, {"module"}).empty();
     });
     if (misspelt) {
       misspelt_.insert(board.name);

@@ -17,11 +17,11 @@ namespace indurop::base {
 // Not thread-safe. Not real-time safe.
 class Diagnostics {
  public:
-  static constexpr std::size_t kMost = 200;
+  static constexpr std::size_t kMaxShown = 200;
 
   // `file`: the file that error(), warning() and note() are about. Appends to `out`, which is borrowed. At most `most`
   // diagnostics of one severity are kept.
-  Diagnostics(std::string file, std::vector<Diagnostic>& out, std::size_t most = kMost)
+  Diagnostics(std::string file, std::vector<Diagnostic>& out, std::size_t most = kMaxShown)
       : file_(std::move(file)), most_(most), out_(out) {}
 
   void error(SourcePlace place, std::string text) { add(Diagnostic::Severity::Error, place, std::move(text)); }

@@ -8,7 +8,7 @@
 namespace indurop::base {
 namespace {
 
-constexpr std::size_t kMostLevels = 64;  // limit for recursive destruction and writing
+constexpr std::size_t kMaxLevels = 64;  // limit for recursive destruction and writing
 
 // Builds a Json from the parser's events.
 class Reader {
@@ -54,7 +54,7 @@ class Reader {
   }
   bool begin(Json value) {
     open_.push_back({std::move(value), {}});
-    return open_.size() <= kMostLevels;
+    return open_.size() <= kMaxLevels;
   }
   bool end() {
     Json value = std::move(open_.back().value);

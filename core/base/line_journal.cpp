@@ -24,7 +24,7 @@ std::filesystem::path before(const std::filesystem::path& file) {
 std::string append_line(const LineJournal& journal, std::string line) {
   std::error_code error;
   std::filesystem::create_directories(journal.file.parent_path(), error);
-  if (const auto size = std::filesystem::file_size(journal.file, error); !error && size > journal.most_bytes) {
+  if (const auto size = std::filesystem::file_size(journal.file, error); !error && size > journal.max_bytes) {
     std::filesystem::rename(journal.file, before(journal.file), error);
   }
   line += '\n';

@@ -18,8 +18,8 @@ namespace indurop::base {
 
 struct LineJournal {
   std::filesystem::path file;
-  std::uintmax_t most_bytes = 0;  // above this size it is renamed
-  mode_t mode = 0;                // of a new file, minus the umask
+  std::uintmax_t max_bytes = 0;  // above this size it is renamed
+  mode_t mode = 0;               // of a new file, minus the umask
   Durable durable = Durable::No;
 };
 

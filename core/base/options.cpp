@@ -102,8 +102,8 @@ Option& Option::choices(std::vector<std::string> all) {
   });
 }
 
-Option& Option::check(Take look) {
-  state_->checks.push_back(std::move(look));
+Option& Option::check(Take rule) {
+  state_->checks.push_back(std::move(rule));
   return *this;
 }
 
@@ -158,8 +158,8 @@ Option Options::make(const std::string& names, const std::string& value, Take ta
     for (const std::string& result : results) {
       const std::string text = unmarked(result);
       std::string wrong;
-      for (auto look = state.checks.begin(); wrong.empty() && look != state.checks.end(); ++look) {
-        wrong = (*look)(text);
+      for (auto rule = state.checks.begin(); wrong.empty() && rule != state.checks.end(); ++rule) {
+        wrong = (*rule)(text);
       }
       wrong = wrong.empty() ? state.take(text) : wrong;
       if (!wrong.empty()) {
@@ -179,8 +179,8 @@ Option Options::flag(const std::string& names, bool& to, const std::string& help
   state.text = text_of(names, "", help);
   const auto given = [&state, &to](std::int64_t count) {
     to = count > 0;
-    for (const Take& look : state.checks) {
-      static_cast<void>(look(""));
+    for (const Take& rule : state.checks) {
+      static_cast<void>(rule(""));
     }
   };
   CLI::Option* made = app_->add_flag_function(names, given, help);
@@ -303,9 +303,9 @@ Options::Result Options::parse(std::vector<std::string> words) {
   try {
     app_->parse(std::move(words));
   } catch (const CLI::CallForHelp&) {
-    return {Outcome::Told, app_->help()};
+    return {Outcome::Info, app_->help()};
   } catch (const CLI::CallForVersion&) {
-    return {Outcome::Told, app_->version() + "\n"};
+    return {Outcome::Info, app_->version() + "\n"};
   } catch (const CLI::ParseError& error) {
     return {Outcome::Wrong, unmarked(wrong_words(error, *app_, text()))};
   }
@@ -323,7 +323,7 @@ std::optional<int> Options::parse_program(int argc, char** argv) {
   switch (result.outcome) {
     case Outcome::Parsed:
       return std::nullopt;
-    case Outcome::Told:
+    case Outcome::Info:
       std::fputs(result.text.c_str(), stdout);
       return kOk;
     case Outcome::Wrong:

@@ -55,7 +55,7 @@ class Option {
   Option& required();
   Option& range(double least, double most);
   Option& choices(std::vector<std::string> all);
-  Option& check(Take look);
+  Option& check(Take rule);
   Option& needs(const Option& other);
   Option& implies(bool& flag);  // set to true if the option is given
   Option& one_at_a_time();      // for a list: each value has its option before it, --peer A --peer B
@@ -106,7 +106,7 @@ class Options {
   // Returns the description for man pages and completion.
   [[nodiscard]] CommandText text() const;
 
-  enum class Outcome { Parsed, Told, Wrong };
+  enum class Outcome { Parsed, Info, Wrong };
   struct Result {
     Outcome outcome = Outcome::Parsed;
     std::string text;  // Told: help or version to print; Wrong: the error

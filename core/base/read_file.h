@@ -15,7 +15,7 @@
 
 namespace indurop::base {
 
-inline constexpr std::size_t kMostFileBytes = std::size_t{64} << 20U;
+inline constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20U;
 
 struct OpenFile {
   Descriptor file;
@@ -27,6 +27,6 @@ struct OpenFile {
 Result<OpenFile, FileProblem> open_file(const std::filesystem::path& path);
 
 // Returns all bytes of a regular file with at most `most` bytes. Errors: all kinds.
-Result<std::string, FileProblem> read_file(const std::filesystem::path& path, std::size_t most = kMostFileBytes);
+Result<std::string, FileProblem> read_file(const std::filesystem::path& path, std::size_t most = kMaxFileBytes);
 
 }  // namespace indurop::base

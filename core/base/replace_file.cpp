@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 
 using Done = Result<void, FileProblem>;
 
-constexpr int kMostTries = 100;
-constexpr int kMostLinks = 40;
+constexpr int kMaxTries = 100;
+constexpr int kMaxLinks = 40;
 
 // Returns 0, or an errno.
 int write_all(int file, std::string_view bytes) noexcept {
@@ -55,7 +55,7 @@ class Fresh {
  public:
   Fresh(const fs::path& folder, mode_t mode) : folder_(folder) {
     file_ = Descriptor(::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode));
-    for (int i = 0; i < kMostTries && !file_.is_open(); ++i) {
+    for (int i = 0; i < kMaxTries && !file_.is_open(); ++i) {
       name_ = fresh_name(folder_);
       file_ = Descriptor(::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
       if (!file_.is_open() && errno != EEXIST) {
@@ -122,7 +122,7 @@ class Fresh {
     return ::linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
   }
   void give_name() {
-    for (int i = 0; i < kMostTries && error_ == 0 && name_.empty(); ++i) {
+    for (int i = 0; i < kMaxTries && error_ == 0 && name_.empty(); ++i) {
       fs::path name = fresh_name(folder_);
       if (link_open(name) == 0) {
         name_ = std::move(name);
@@ -158,7 +158,7 @@ Done write_into(const fs::path& path, bool pipe, std::string_view bytes) {
 // Returns the path of the file that a link leads to, whether it exists or not.
 fs::path behind_links(fs::path path) {
   std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(path, error); ++i) {
     const fs::path next = fs::read_symlink(path, error);
     path = next.is_absolute() ? next : path.parent_path() / next;
   }

@@ -32,7 +32,7 @@ std::string path_in_quotes(std::string_view path) {
   return "'\u2026" + std::string(path) + "'";
 }
 
-std::string meant(std::string_view name, const std::vector<std::string>& known) {
+std::string closest_name(std::string_view name, const std::vector<std::string>& known) {
   constexpr std::size_t kLongestName = 100;
   constexpr std::size_t kShortestPart = 3;
   if (name.size() > kLongestName) {
@@ -47,7 +47,7 @@ std::string meant(std::string_view name, const std::vector<std::string>& known) 
 }
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
-  const std::string near = meant(name, known);
+  const std::string near = closest_name(name, known);
   if (!near.empty()) {
     return "; did you mean " + in_quotes(near) + "?";
   }

@@ -18,7 +18,7 @@ std::string in_quotes(std::string_view text);
 std::string path_in_quotes(std::string_view path);
 // Returns the known name that a user who wrote `name` may have meant: the nearest by letters, or one that contains it;
 // empty if none.
-std::string meant(std::string_view name, const std::vector<std::string>& known);
+std::string closest_name(std::string_view name, const std::vector<std::string>& known);
 // Returns "; did you mean 'period'?" or, if no name is near, "; known are: a, b, c".
 std::string suggestion(std::string_view name, const std::vector<std::string>& known);
 // Returns "a", "a and b", "a, b and c"; with more than `most` names "a, b, c and 4 more".

@@ -19,9 +19,9 @@ std::string_view without_mark(std::string_view xml) {
 
 // Returns a mistake that is visible before the first tag is searched for.
 std::optional<XmlMistake> mistake_of_bytes(std::string_view bytes, const XmlRules& rules) {
-  if (bytes.size() > rules.most_bytes) {
+  if (bytes.size() > rules.max_bytes) {
     return XmlMistake{{},
-                      "the file is larger than " + std::to_string(rules.most_bytes / 1024 / 1024) + " MB; no " +
+                      "the file is larger than " + std::to_string(rules.max_bytes / 1024 / 1024) + " MB; no " +
                           rules.purpose + " needs that, is it the right file?"};
   }
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") || bytes.starts_with(std::string_view("<\0", 2)) ||
@@ -130,7 +130,7 @@ std::optional<Element> read_xml(std::string_view bytes, const XmlRules& rules, s
 }
 
 std::string xml_root_name(std::string_view bytes, const XmlRules& rules) {
-  if (bytes.size() > rules.most_bytes) {
+  if (bytes.size() > rules.max_bytes) {
     return {};
   }
   const XmlPlaces places = find_places(without_mark(bytes), rules);

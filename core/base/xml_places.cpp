@@ -232,8 +232,8 @@ class Scanner {
       stop(start, "a second root element; there is one, with everything inside");
       return;
     }
-    if (open_.size() >= rules_.most_depth) {
-      found_.mistakes.push_back({start, "elements are nested deeper than " + std::to_string(rules_.most_depth) +
+    if (open_.size() >= rules_.max_depth) {
+      found_.mistakes.push_back({start, "elements are nested deeper than " + std::to_string(rules_.max_depth) +
                                             " levels; no " + rules_.purpose + " needs that"});
       stopped_ = true;
       return;
@@ -268,9 +268,9 @@ class Scanner {
         stop(tag.place, "the tag <" + std::string(tag.name) + " lacks its '>'");
       } else if (!separated) {
         stop(here(), "a space is missing before this attribute");
-      } else if (tag.attributes.size() >= rules_.most_attributes) {
-        stop(here(), "more than " + std::to_string(rules_.most_attributes) +
-                         " attributes in one tag; no element has that many");
+      } else if (tag.attributes.size() >= rules_.max_attributes) {
+        stop(here(),
+             "more than " + std::to_string(rules_.max_attributes) + " attributes in one tag; no element has that many");
       } else {
         attribute(tag);
       }

@@ -19,9 +19,9 @@ struct XmlRules {
   const char* name = "";  // for messages: a <name> is <form>, no <purpose> needs that
   const char* form = "";
   const char* purpose = "";
-  std::size_t most_bytes = 0;
-  std::size_t most_depth = 0;  // less than 100
-  std::size_t most_attributes = 32;
+  std::size_t max_bytes = 0;
+  std::size_t max_depth = 0;  // less than 100
+  std::size_t max_attributes = 32;
   // For files written by programs: what the XML library accepts is no mistake, and texts and values keep the white
   // space around them. Where the scanner cannot follow, places are lines only.
   bool tolerant = false;

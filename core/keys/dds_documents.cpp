@@ -28,23 +28,24 @@ Rights rights_of(const Holder& holder) {
   const std::string plant = schema::plant_topics(holder.plant);
   const std::string deploy = schema::deploy_topics();
   const std::string directory = schema::directory_topic();
-  const std::string wish = schema::wish_topic();
+  const std::string request_name = schema::request_topic();
   switch (holder.role) {
     case Role::Board:
       // A compromised board can send wrong values of its own variables, but not of other boards': frames between boards
       // carry its name. Which variables it shows to tools is defined by the manifest, not by its keys.
       return {{{schema::board_topics(holder.plant, holder.name) + "*", plant + "catalogue", plant + "beacon",
                 deploy + "board", deploy + "request", deploy + "blob/*", deploy + "reply", directory},
-               {plant + "*", deploy + "*", wish}},
+               {plant + "*", deploy + "*", request_name}},
               {{"*"}, {"*"}}};
     case Role::Viewer:
-      return {{{deploy + "request", wish}, {plant + "*", deploy + "board", deploy + "blob/*", directory}}, {{}, {"*"}}};
+      return {{{deploy + "request", request_name}, {plant + "*", deploy + "board", deploy + "blob/*", directory}},
+              {{}, {"*"}}};
     case Role::Deployer:
       return {{{deploy + "*"}, {plant + "*", deploy + "*"}}, {}};
     case Role::Tool: {
       Topics variables{variable_topics(holder.variables.write), variable_topics(holder.variables.read)};
       variables.subscribe.insert(variables.subscribe.end(), variables.publish.begin(), variables.publish.end());
-      return {{{wish}, {directory}}, std::move(variables)};
+      return {{{request_name}, {directory}}, std::move(variables)};
     }
   }
   return {};

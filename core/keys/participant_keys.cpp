@@ -50,7 +50,7 @@ ParticipantKeys::ParticipantKeys(const fs::path& in)
       revoked(in / "revoked.pem"),
       deploy_key(in / "deploy.pub") {}
 
-Result<ParticipantKeys, base::Problem> keys_meant(const fs::path& folder, Role role) {
+Result<ParticipantKeys, base::Problem> resolve_keys(const fs::path& folder, Role role) {
   std::error_code error;
   const fs::path absolute = fs::absolute(folder, error).lexically_normal();
   const char* const inside = role == Role::Deployer ? "deployer" : "viewer";

@@ -29,7 +29,7 @@ struct ParticipantKeys {
 
 // Finds the keys for `--keys FOLDER`: FOLDER's own, if it is the folder of a participant, else those of the first
 // viewer or deployer in the folder of a whole plant that was not revoked.
-Result<ParticipantKeys, base::Problem> keys_meant(const std::filesystem::path& folder, Role role);
+Result<ParticipantKeys, base::Problem> resolve_keys(const std::filesystem::path& folder, Role role);
 
 // The fault of the keys in a folder. Outdated: they are valid, but grant the rights of another release or of another
 // list of variables.

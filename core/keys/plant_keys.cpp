@@ -141,14 +141,14 @@ Done PlantKeys::renew(const KeyListing& whose, Instant until) const {
     }
     holder.variables = std::move(rights).value();
   }
-  const Papers papers =
-      make_papers(read_authority(folder_), holder, read_text(ParticipantKeys(whose.folder).key), until);
-  if (papers.certificate.empty() || papers.permissions.empty()) {
+  const Credentials credentials =
+      issue_credentials(read_authority(folder_), holder, read_text(ParticipantKeys(whose.folder).key), until);
+  if (credentials.certificate.empty() || credentials.permissions.empty()) {
     return crypto_failed();
   }
-  return in_turn([&] { return note_issued(folder_, folder_of(whose.role, whose.name), papers.certificate); },
-                 [&] { return replace(whose.folder / kIdentity, papers.certificate); },
-                 [&] { return replace(whose.folder / kPermissions, papers.permissions); });
+  return in_turn([&] { return note_issued(folder_, folder_of(whose.role, whose.name), credentials.certificate); },
+                 [&] { return replace(whose.folder / kIdentity, credentials.certificate); },
+                 [&] { return replace(whose.folder / kPermissions, credentials.permissions); });
 }
 
 Done PlantKeys::revoke(const KeyListing& whose) const {

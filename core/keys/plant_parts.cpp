@@ -26,10 +26,10 @@ constexpr std::array kRoleWords{"board",     "boards", "viewer", "viewers",  "de
 // DDS 2.9 starts it. So tools get a unit that makes their GUID greater than that of nearly every board, always the
 // same.
 Identity identity_of(const Holder& holder) {
-  constexpr int kMostTries = 1'000'000;
+  constexpr int kMaxTries = 1'000'000;
   constexpr const char* kHigh = "fff";  // one in 4096
   Identity identity{holder.plant, unit_of(holder.role), holder.name};
-  for (int i = 0; holder.role == Role::Tool && i < kMostTries; ++i) {
+  for (int i = 0; holder.role == Role::Tool && i < kMaxTries; ++i) {
     identity.unit = fmt::format("{} {}", unit_of(holder.role), i);
     if (subject_digest(identity).starts_with(kHigh)) {
       break;
@@ -91,9 +91,9 @@ const char* unit_of(Role role) {
 base::Problem not_for(Role role, const std::string& name) {
   const char* const what = role == Role::Board ? "board" : unit_of(role);
   std::string text = fmt::format("'{}' is a word for a role, no name for a {}", name, what);
-  for (const Role meant : {Role::Viewer, Role::Deployer}) {
-    if (name == unit_of(meant)) {
-      text += fmt::format("; keys of a further {}: {}", name, how_to_add(meant, "NAME"));
+  for (const Role one_role : {Role::Viewer, Role::Deployer}) {
+    if (name == unit_of(one_role)) {
+      text += fmt::format("; keys of a further {}: {}", name, how_to_add(one_role, "NAME"));
     }
   }
   return {text};
@@ -107,14 +107,14 @@ Authority read_authority(const fs::path& folder) {
   return {read_text(folder / kAuthority), read_text(folder / kAuthorityKey)};
 }
 
-Papers make_papers(const Authority& authority, const Holder& holder, const std::string& key, Instant until) {
+Credentials issue_credentials(const Authority& authority, const Holder& holder, const std::string& key, Instant until) {
   const Validity validity{valid_from(), until};
-  Papers papers;
-  papers.certificate = make_certificate(authority, key, identity_of(holder), validity);
-  if (const auto facts = read_certificate(papers.certificate)) {
-    papers.permissions = sign_document(authority, permissions_document(holder, facts->subject, validity));
+  Credentials credentials;
+  credentials.certificate = make_certificate(authority, key, identity_of(holder), validity);
+  if (const auto facts = read_certificate(credentials.certificate)) {
+    credentials.permissions = sign_document(authority, permissions_document(holder, facts->subject, validity));
   }
-  return papers;
+  return credentials;
 }
 
 Done note_issued(const fs::path& keys, const std::string& whose, const std::string& certificate) {
@@ -153,12 +153,12 @@ std::string with_deploy_key(const fs::path& keys, const std::string& deployer, c
 Done make_participant(const fs::path& keys, const fs::path& folder, const Holder& holder, Instant until) {
   const Authority authority = read_authority(keys);
   const std::string key = make_key(KeyKind::P256);
-  const Papers papers = make_papers(authority, holder, key, until);
+  const Credentials credentials = issue_credentials(authority, holder, key, until);
   Done done =
       in_turn([&] { return make_folder(folder); }, [&] { return write_new(folder / kIdentityKey, key, kSecret); },
-              [&] { return write_new(folder / kIdentity, papers.certificate, kPublic); },
-              [&] { return write_new(folder / kPermissions, papers.permissions, kPublic); },
-              [&] { return note_issued(keys, folder_of(holder.role, holder.name), papers.certificate); });
+              [&] { return write_new(folder / kIdentity, credentials.certificate, kPublic); },
+              [&] { return write_new(folder / kPermissions, credentials.permissions, kPublic); },
+              [&] { return note_issued(keys, folder_of(holder.role, holder.name), credentials.certificate); });
   if (done && holder.role == Role::Tool) {
     done = write_new(folder / kVariables, rights_text(holder.variables), kPublic);
   }

@@ -59,11 +59,11 @@ base::Problem not_for(Role role, const std::string& name);
 Authority read_authority(const std::filesystem::path& folder);
 
 // The documents for `key`: its certificate, and permissions for exactly that name.
-struct Papers {
+struct Credentials {
   std::string certificate;
   std::string permissions;
 };
-Papers make_papers(const Authority& authority, const Holder& holder, const std::string& key, Instant until);
+Credentials issue_credentials(const Authority& authority, const Holder& holder, const std::string& key, Instant until);
 // Keeps a list of all certificates ever issued: "SERIAL FOLDER". Without it, old certificates of a renewed board could
 // not be revoked.
 Done note_issued(const std::filesystem::path& keys, const std::string& whose, const std::string& certificate);

@@ -7,6 +7,6 @@ namespace indurop::rt {
 
 // When it returns, everything that a processor stored before it could see the caller's stores is visible to all. Not
 // real-time safe: may take some milliseconds.
-void let_all_processors_see() noexcept;
+void barrier_on_all_processors() noexcept;
 
 }  // namespace indurop::rt

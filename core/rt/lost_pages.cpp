@@ -113,7 +113,7 @@ void on_lost_page(LossHook hook, void* context) noexcept {
   g_hook.store(hook, std::memory_order_release);
 }
 
-void let_lost_pages_in() noexcept {
+void unblock_fault_signals() noexcept {
   thread_local bool t_done = false;
   if (!t_done) {
     sigset_t bus;

@@ -38,7 +38,7 @@ void on_lost_page(LossHook hook, void* context) noexcept;
 
 // For threads created elsewhere with all signals blocked: the kernel kills a process if a thread blocks a fault signal
 // of its own. Costs a system call the first time.
-void let_lost_pages_in() noexcept;
+void unblock_fault_signals() noexcept;
 
 // Returns true if the address is in a guarded mapping. Safe in a signal handler.
 bool is_guarded(const void* address) noexcept;

@@ -37,13 +37,13 @@ long read_number(const char* path, long fallback) noexcept {
 }
 
 // Releases pages of code and constants; they are read from their file again when used.
-void let_go_of(std::uintptr_t begin, std::uintptr_t end) noexcept {
+void release_pages(std::uintptr_t begin, std::uintptr_t end) noexcept {
   auto* const memory = reinterpret_cast<void*>(begin);  // NOLINT(performance-no-int-to-ptr): the loader gives numbers
   (void)::munlock(memory, end - begin);
   (void)::madvise(memory, end - begin, MADV_DONTNEED);
 }
 
-int let_go(dl_phdr_info* library, std::size_t /*size*/, void* names) {
+int release_library(dl_phdr_info* library, std::size_t /*size*/, void* names) {
   const std::string_view path = library->dlpi_name;
   const auto& except = *static_cast<const std::span<const std::string_view>*>(names);
   if (std::none_of(except.begin(), except.end(),
@@ -57,7 +57,7 @@ int let_go(dl_phdr_info* library, std::size_t /*size*/, void* names) {
       continue;
     }
     const std::uintptr_t begin = (library->dlpi_addr + segment.p_vaddr) / page * page;
-    let_go_of(begin, library->dlpi_addr + segment.p_vaddr + segment.p_memsz);
+    release_pages(begin, library->dlpi_addr + segment.p_vaddr + segment.p_memsz);
   }
   return 0;
 }
@@ -89,7 +89,7 @@ Range heap() noexcept {
 
 // Startup frees tens of megabytes between memory that stays. mlockall() backs all of it with memory, so the free pages
 // can only be released afterwards; those in use remain locked, the others are locked again when they are allocated.
-void let_go_of_free_heap() noexcept {
+void release_free_heap() noexcept {
   const Range range = heap();
   auto* const memory = reinterpret_cast<void*>(range.begin);  // NOLINT(performance-no-int-to-ptr): read as text
   if (range.end > range.begin && ::munlock(memory, range.end - range.begin) == 0) {
@@ -107,11 +107,11 @@ Status lock_memory(std::span<const std::string_view> except, std::span<const cha
   // Later memory is locked from its first use on: otherwise memory that is allocated and never touched would be locked
   // too.
   if (::mlockall(MCL_CURRENT) == 0 && ::mlockall(MCL_FUTURE | MCL_ONFAULT) == 0) {
-    let_go_of_free_heap();
-    ::dl_iterate_phdr(&let_go, &except);
+    release_free_heap();
+    ::dl_iterate_phdr(&release_library, &except);
     if (!code.empty()) {
       const auto begin = reinterpret_cast<std::uintptr_t>(code.data());
-      let_go_of(begin, begin + code.size());
+      release_pages(begin, begin + code.size());
     }
     return {};
   }

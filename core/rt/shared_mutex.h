@@ -60,10 +60,10 @@ LockResult try_lock(SharedMutex& mutex) noexcept;
 bool held_by(const SharedMutex& mutex, ThreadId thread) noexcept;
 
 // Returns 0; or an error if it cannot be released: the calling thread does not hold it.
-int let_go(SharedMutex& mutex) noexcept;
+int release(SharedMutex& mutex) noexcept;
 // Returns false, without effect, if the calling thread does not hold it. Real-time safe.
 inline bool unlock(SharedMutex& mutex) noexcept {
-  return let_go(mutex) == 0;
+  return release(mutex) == 0;
 }
 
 }  // namespace indurop::rt

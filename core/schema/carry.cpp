@@ -17,7 +17,7 @@ __extension__ using Whole = __int128;
 using Bytes = std::span<const std::uint8_t>;
 using Room = std::span<std::uint8_t>;
 
-constexpr std::size_t kMostLines = 8;
+constexpr std::size_t kMaxLines = 8;
 
 bool is_real(Base base) noexcept {
   return base == Base::Float || base == Base::Double;
@@ -102,7 +102,7 @@ class Carrier {
   void lost(const std::string& name, const std::string& why) { line(fmt::format("{}: {}, begins anew", name, why)); }
   void line(std::string text) {
     ++count_;
-    if (lines_.size() < kMostLines) {
+    if (lines_.size() < kMaxLines) {
       lines_.push_back(std::move(text));
     }
   }
@@ -154,8 +154,8 @@ class Carrier {
     bool fits = false;
     if (is_real(from.base)) {
       const double value = from.base == Base::Float ? double{load<float>(old.data())} : load<double>(old.data());
-      constexpr double kFar = 1e30;  // beyond all integers
-      const bool whole = std::abs(value) < kFar && std::trunc(value) == value;
+      constexpr double kIntegerLimit = 1e30;  // beyond all integers
+      const bool whole = std::abs(value) < kIntegerLimit && std::trunc(value) == value;
       fits = is_real(to.base) ? put_real(to.base, value, now)
                               : whole && put_whole(to.base, static_cast<Whole>(value), now);
     } else {

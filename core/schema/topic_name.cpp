@@ -30,9 +30,9 @@ std::vector<std::string_view> split(std::string_view path) {
 
 }  // namespace
 
-std::optional<TopicSpeaker> speaker_of(std::string_view topic) {
+std::optional<TopicSender> sender_of_topic(std::string_view topic) {
   const auto parts = split(topic);
-  TopicSpeaker speaker;
+  TopicSender speaker;
   if (parts.size() < 4 || parts.size() > 5 || parts[0] != "indurop") {
     return std::nullopt;
   }

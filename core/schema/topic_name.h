@@ -46,16 +46,16 @@ inline std::string deploy_topics() {
 inline std::string directory_topic() {
   return topic_root() + "external/directory";
 }
-inline std::string wish_topic() {
+inline std::string request_topic() {
   return topic_root() + "external/wish";
 }
 
 // The sender of a topic, for topics of any release; empty if it is not an InduRoP topic.
-struct TopicSpeaker {
+struct TopicSender {
   unsigned protocol = 0;
   std::string plant;  // "deploy": agents and their clients
   std::string board;  // of a plant; empty: not part of the topic name
 };
-std::optional<TopicSpeaker> speaker_of(std::string_view topic);
+std::optional<TopicSender> sender_of_topic(std::string_view topic);
 
 }  // namespace indurop::schema

@@ -22,7 +22,7 @@ dds::Security security_of(const keys::ParticipantKeys& keys) {
 }
 
 Result<void, base::Problem> use_keys(LinkSettings& settings) {
-  const auto keys = keys::keys_meant(settings.keys, keys::Role::Deployer);
+  const auto keys = keys::resolve_keys(settings.keys, keys::Role::Deployer);
   if (!keys) {
     return keys.error();
   }
@@ -35,7 +35,7 @@ Result<void, base::Problem> use_keys(LinkSettings& settings) {
 base::Option add_keys_option(base::Options& line, dds::Security& security, keys::Role role, const std::string& help,
                              std::filesystem::path* given) {
   const auto take = [&security, role, given](const std::string& text) {
-    const auto keys = keys::keys_meant(text, role);
+    const auto keys = keys::resolve_keys(text, role);
     if (!keys) {
       return keys.error().text;
     }

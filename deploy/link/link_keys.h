@@ -21,8 +21,8 @@ dds::Security security_of(const keys::ParticipantKeys& keys);
 // Uses the keys in settings.keys from now on: those of the deployer, if it is the folder of a plant.
 Result<void, base::Problem> use_keys(LinkSettings& settings);
 
-// Adds --keys DIR, which sets `security` to the keys in it (keys::keys_meant); a folder without keys is a usage error.
-// `given`, if not null, is set to that folder.
+// Adds --keys DIR, which sets `security` to the keys in it (keys::resolve_keys); a folder without keys is a usage
+// error. `given`, if not null, is set to that folder.
 base::Option add_keys_option(base::Options& line, dds::Security& security, keys::Role role, const std::string& help,
                              std::filesystem::path* given = nullptr);
 

@@ -76,7 +76,7 @@ bool OtherReleases::take_publications() {
       changed = publications_.erase(guid) > 0 || changed;
       return;
     }
-    auto topic = schema::speaker_of(told.topic_name == nullptr ? "" : told.topic_name);
+    auto topic = schema::sender_of_topic(told.topic_name == nullptr ? "" : told.topic_name);
     if (topic && topic->protocol != schema::protocol()) {
       publications_[guid] = {guid_of(told.participant_key), std::move(*topic)};
       changed = true;

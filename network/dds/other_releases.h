@@ -21,7 +21,7 @@ namespace indurop::dds {
 class OtherReleases {
  public:
   struct Speaker {
-    schema::TopicSpeaker topic;
+    schema::TopicSender topic;
     std::string host;     // empty: not announced
     std::string program;  // program name; empty: not announced
     std::string name;     // own name, of an agent that of the board; empty: not announced
@@ -41,7 +41,7 @@ class OtherReleases {
   };
   struct Publication {
     Guid participant{};
-    schema::TopicSpeaker topic;
+    schema::TopicSender topic;
   };
   bool take_participants();
   bool take_publications();

@@ -18,7 +18,7 @@ namespace indurop::vars {
 namespace {
 
 constexpr std::uint64_t kBatchMagic = 0x31484354'41425249ULL;
-constexpr std::uint32_t kMostTries = 200;
+constexpr std::uint32_t kMaxTries = 200;
 
 bool is_sound(const BatchEntry& entry, std::span<const DirectoryEntry> directory) noexcept {
   return entry.variable < directory.size() && entry.size > 0 &&
@@ -174,7 +174,7 @@ void Batch::carry_out_staged(const Store& store, std::uint64_t tick) noexcept {
     return;
   }
   const BatchState result = Order(store, to_do).carry_out();
-  const bool again = result == BatchState::Busy && ++tries_ < kMostTries;
+  const bool again = result == BatchState::Busy && ++tries_ < kMaxTries;
   tries_ = again ? tries_ : 0;
   to_do.tick.store(tick, std::memory_order_relaxed);
   to_do.state.store(again ? BatchState::Staged : result, std::memory_order_release);

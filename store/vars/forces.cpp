@@ -190,7 +190,7 @@ Status force(BlockHeader& header, const Force& what) noexcept {
   }
   abi::forces_offset_of(entry, what.variable->kind).store(distance(entry, &header.forces), std::memory_order_release);
   if (what.variable->kind == abi::Kind::Scalar) {
-    rt::let_all_processors_see();
+    rt::barrier_on_all_processors();
     hold_scalar(entry);
     return {};
   }

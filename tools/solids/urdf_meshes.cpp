@@ -70,8 +70,8 @@ class Finder {
 
   FoundMeshes find() {
     base::XmlRules rules{"URDF file", "<robot> with links", "robot"};
-    rules.most_bytes = std::size_t{16} << 20U;
-    rules.most_depth = 32;
+    rules.max_bytes = std::size_t{16} << 20U;
+    rules.max_depth = 32;
     rules.tolerant = true;
     std::vector<base::XmlMistake> mistakes;
     const auto root = base::read_xml(text_, rules, mistakes);

@@ -56,7 +56,7 @@ constexpr std::size_t kMostDepth = 50;
 bool is_plant(const std::filesystem::path& configuration) {
   const auto text = indurop::base::read_file(configuration);
   return text.ok() &&
-         indurop::base::xml_root_name(*text, {.most_bytes = text->size() + 1, .most_depth = kMostDepth}) == "plant";
+         indurop::base::xml_root_name(*text, {.max_bytes = text->size() + 1, .max_depth = kMostDepth}) == "plant";
 }
 
 }  // namespace

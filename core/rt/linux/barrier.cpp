@@ -10,7 +10,7 @@
 
 namespace indurop::rt {
 
-void let_all_processors_see() noexcept {
+void barrier_on_all_processors() noexcept {
   if (::syscall(SYS_membarrier, MEMBARRIER_CMD_GLOBAL, 0, 0) != 0) {
     constexpr std::int64_t kStoresAreOutNs = 10'000'000;  // a processor delays a store for well below a microsecond
     sleep_until(now_ns() + kStoresAreOutNs);

@@ -125,7 +125,7 @@ LockResult lock_refused(SharedMutex& mutex, int error, std::chrono::nanoseconds 
   return translate(in(mutex), lock_until(in(mutex), now_ns() + limit.count()));
 }
 
-int let_go(SharedMutex& mutex) noexcept {
+int release(SharedMutex& mutex) noexcept {
   return ::pthread_mutex_unlock(&in(mutex));
 }
 

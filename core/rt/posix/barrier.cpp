@@ -8,7 +8,7 @@
 
 namespace indurop::rt {
 
-void let_all_processors_see() noexcept {
+void barrier_on_all_processors() noexcept {
   constexpr std::int64_t kStoresAreOutNs = 10'000'000;  // a processor delays a store for well below a microsecond
   std::atomic_thread_fence(std::memory_order_seq_cst);
   sleep_until(now_ns() + kStoresAreOutNs);

@@ -263,7 +263,7 @@ LockResult lock_refused(SharedMutex& mutex, int /*error*/, std::chrono::nanoseco
   return lock_until(in(mutex), now_ns() + limit.count(), limit.count() > 0);
 }
 
-int let_go(SharedMutex& mutex) noexcept {
+int release(SharedMutex& mutex) noexcept {
   Lock& lock = in(mutex);
   const std::uint64_t word = lock.word.load(std::memory_order_relaxed);
   if (!is_sound(word) || !is_of(word, own_name())) {

@@ -36,8 +36,8 @@ Result<void, base::Problem> ExternalDirectory::open(dds::Handle participant, con
     return base::Problem{"cannot tell which variables there are: " + writer_.why()};
   }
   if (asked) {
-    wishes_ =
-        dds::make_reader(participant, indurop_wire_Wish_desc, schema::wish_topic(), dds::make_qos({.depth = kWishes}));
+    wishes_ = dds::make_reader(participant, indurop_wire_Wish_desc, schema::request_topic(),
+                               dds::make_qos({.depth = kWishes}));
     if (!wishes_.ok()) {
       return base::Problem{"cannot hear which variables are wanted: " + wishes_.why()};
     }

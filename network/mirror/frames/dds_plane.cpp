@@ -25,7 +25,7 @@ class Reader final : public Subscription {
  private:
   static void on_data(dds::Handle reader, void* self) {
     auto& into = *static_cast<Reader*>(self);
-    rt::let_lost_pages_in();  // a DDS thread that writes into shared memory
+    rt::unblock_fault_signals();  // a DDS thread that writes into shared memory
     dds::take_all<indurop_wire_Frame>(reader, [&into](const indurop_wire_Frame& frame, const dds::SampleInfo& info) {
       if (info.valid) {
         into.listener_.frame_came(frame, into.stream_);
@@ -74,7 +74,7 @@ Plane::Opened DdsPlane::exchange_beacons(BeaconListener& listener) {
 }
 
 void DdsPlane::on_beacon(dds::Handle reader, void* listener) {
-  rt::let_lost_pages_in();
+  rt::unblock_fault_signals();
   dds::take_all<indurop_wire_Beacon>(reader, [&](const indurop_wire_Beacon& beacon, const dds::SampleInfo& info) {
     if (info.valid) {
       static_cast<BeaconListener*>(listener)->beacon_came(beacon);

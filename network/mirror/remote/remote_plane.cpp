@@ -90,7 +90,7 @@ Result<std::string, base::Problem> RemotePlane::Impl::open(const dds::NetworkSet
   const auto looks = publications.open(participant.get(), wake);
   directories = dds::make_reader(participant.get(), indurop_wire_Directory_desc, schema::directory_topic(),
                                  dds::make_qos({}), dds::wake_listener(wake));
-  wishes = dds::make_writer(participant.get(), indurop_wire_Wish_desc, schema::wish_topic(), dds::make_qos({}));
+  wishes = dds::make_writer(participant.get(), indurop_wire_Wish_desc, schema::request_topic(), dds::make_qos({}));
   if (!looks || !directories.ok() || !wishes.ok()) {
     return base::Problem{"cannot look at what boards show: " +
                          (looks ? (directories.ok() ? wishes.why() : directories.why()) : looks.error().text)};

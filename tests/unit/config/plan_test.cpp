@@ -19,8 +19,8 @@ const CheckOptions kPlanOnly{.files = false, .adjust = false};
 
 bool is_well_formed(const std::string& xml) {
   base::XmlRules rules;
-  rules.most_bytes = xml.size();
-  rules.most_depth = 32;
+  rules.max_bytes = xml.size();
+  rules.max_depth = 32;
   std::vector<base::XmlMistake> mistakes;
   return base::read_xml(xml, rules, mistakes).has_value();
 }

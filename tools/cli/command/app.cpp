@@ -138,7 +138,7 @@ int run_verb(Context& context, const Verb& verb, std::vector<std::string> argume
   Declared declared(verb, context);
   const base::Options::Result parsed = declared.options.parse(std::move(arguments));
   switch (parsed.outcome) {
-    case base::Options::Outcome::Told:
+    case base::Options::Outcome::Info:
       context.out.write(parsed.text);
       return finish(context, kOk);
     case base::Options::Outcome::Wrong:

@@ -13,8 +13,8 @@ namespace {
 
 class LineJournals : public FolderTest {
  protected:
-  [[nodiscard]] LineJournal journal(std::uintmax_t most_bytes) const {
-    return {at("deep/journal"), most_bytes, 0600, Durable::No};
+  [[nodiscard]] LineJournal journal(std::uintmax_t max_bytes) const {
+    return {at("deep/journal"), max_bytes, 0600, Durable::No};
   }
   [[nodiscard]] std::vector<std::string> lines() const {
     std::vector<std::string> all;

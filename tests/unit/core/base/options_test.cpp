@@ -139,7 +139,7 @@ TEST(Options, Words_of_a_command_are_judged_by_its_own_options) {
 TEST(Options, Help_and_version_are_told) {
   Sample sut;
   const auto help = sut.parse({"--help"});
-  EXPECT_EQ(help.outcome, Outcome::Told);
+  EXPECT_EQ(help.outcome, Outcome::Info);
   EXPECT_THAT(help.text, HasSubstr("-n,--count COUNT"));
   EXPECT_THAT(help.text, HasSubstr("It is a sample."));
   EXPECT_EQ(sut.parse({"--version"}).text, "sample 1\n");

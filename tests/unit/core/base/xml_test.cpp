@@ -12,8 +12,8 @@ namespace {
 
 XmlRules strict() {
   XmlRules rules{"list.xml", "<list> with entries", "list"};
-  rules.most_bytes = 1024 * 1024;
-  rules.most_depth = 4;
+  rules.max_bytes = 1024 * 1024;
+  rules.max_depth = 4;
   return rules;
 }
 XmlRules tolerant() {
@@ -61,7 +61,7 @@ TEST(Xml, Tolerant_reading_keeps_white_space_and_its_place) {
 
 TEST(Xml, Limits_are_parameters) {
   XmlRules rules = strict();
-  rules.most_bytes = 8;
+  rules.max_bytes = 8;
   EXPECT_EQ(mistakes_in("<a></a>  ", rules),
             "0:0 the file is larger than 0 MB; no list needs that, is it the right file?\n");
   EXPECT_EQ(mistakes_in("<a></a> ", rules), "");
@@ -71,7 +71,7 @@ TEST(Xml, Limits_are_parameters) {
               "2:1 elements are nested deeper than 4 levels; no list needs that\n");
   }
   rules = strict();
-  rules.most_attributes = 1;
+  rules.max_attributes = 1;
   EXPECT_EQ(mistakes_in("<a b=\"\" c=\"\"/>", rules),
             "1:9 more than 1 attributes in one tag; no element has that many\n");
 }

@@ -231,12 +231,12 @@ TEST_F(Keys, Those_of_another_release_are_found_out) {
 
 TEST_F(Keys, Of_a_plant_or_a_participant_are_meant) {
   make();
-  EXPECT_EQ(keys_meant(sut.folder(), Role::Viewer)->folder, sut.viewer());
-  EXPECT_EQ(keys_meant(sut.folder(), Role::Deployer)->folder, sut.deployer());
-  EXPECT_EQ(keys_meant(sut.board("a"), Role::Viewer)->folder, sut.board("a"));
-  EXPECT_THAT(keys_meant(folder_ / "none", Role::Viewer).error().text, HasSubstr("there are no keys in"));
+  EXPECT_EQ(resolve_keys(sut.folder(), Role::Viewer)->folder, sut.viewer());
+  EXPECT_EQ(resolve_keys(sut.folder(), Role::Deployer)->folder, sut.deployer());
+  EXPECT_EQ(resolve_keys(sut.board("a"), Role::Viewer)->folder, sut.board("a"));
+  EXPECT_THAT(resolve_keys(folder_ / "none", Role::Viewer).error().text, HasSubstr("there are no keys in"));
   fs::remove(ParticipantKeys(sut.viewer()).key);
-  EXPECT_THAT(keys_meant(sut.folder(), Role::Viewer).error().text, HasSubstr("identity.key: No such file"));
+  EXPECT_THAT(resolve_keys(sut.folder(), Role::Viewer).error().text, HasSubstr("identity.key: No such file"));
 }
 
 TEST(Patterns, Are_names_with_stars) {

@@ -41,16 +41,16 @@ TEST_F(Keys, A_deployer_that_was_revoked_is_replaced) {
   EXPECT_TRUE(counts(sut, first));
   ASSERT_TRUE(sut.revoke(listed("deployer")));
   EXPECT_FALSE(counts(sut, first)) << "nor do its signatures count";
-  EXPECT_THAT(keys_meant(sut.folder(), Role::Deployer).error().text, HasSubstr("keys add --deployer"));
+  EXPECT_THAT(resolve_keys(sut.folder(), Role::Deployer).error().text, HasSubstr("keys add --deployer"));
   EXPECT_THAT(sut.add_deployer("deployer", now + days(1)).error().text, HasSubstr("was revoked"));
   ASSERT_TRUE(sut.add_deployer("bob", now + days(10)));
   EXPECT_TRUE(counts(sut, text_of(sut.deployer("bob") / "deploy.key")));
   EXPECT_FALSE(counts(sut, first));
-  EXPECT_EQ(keys_meant(sut.folder(), Role::Deployer)->folder, sut.deployer("bob"));
+  EXPECT_EQ(resolve_keys(sut.folder(), Role::Deployer)->folder, sut.deployer("bob"));
   fs::rename(sut.deployer(), folder_ / "away");
   ASSERT_TRUE(sut.add_deployer("deployer", now + days(10)));
   EXPECT_EQ(listed("deployer").problem, "") << "under its old name, too";
-  EXPECT_EQ(keys_meant(sut.folder(), Role::Deployer)->folder, sut.deployer());
+  EXPECT_EQ(resolve_keys(sut.folder(), Role::Deployer)->folder, sut.deployer());
   EXPECT_FALSE(counts(sut, first));
   EXPECT_TRUE(counts(sut, text_of(sut.deployer() / "deploy.key")));
 }

@@ -32,7 +32,7 @@ TEST(Clock_compare, The_fastest_of_the_last_stamps_counts) {
   }
   EXPECT_EQ(sut.least_delay(), 200) << "old ones are forgotten, clocks drift";
   sut.reset();
-  EXPECT_FALSE(sut.heard());
+  EXPECT_FALSE(sut.has_samples());
 }
 
 }  // namespace
