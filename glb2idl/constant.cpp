@@ -16,7 +16,7 @@ namespace indurop::glb2idl {
 namespace {
 
 constexpr Wide kLeast = std::numeric_limits<std::int64_t>::min();
-constexpr Wide kMost = std::numeric_limits<std::uint64_t>::max();
+constexpr Wide kMaxInteger = std::numeric_limits<std::uint64_t>::max();
 constexpr std::string_view kNumberHelp =
     "a number is written 12, 0x1F, 0b101, 017 (octal), 1.5, 1e-3 or as a time 10ms";
 
@@ -54,8 +54,8 @@ Number integer_number(std::string_view text) {
       return {std::nullopt, std::string(kNumberHelp)};
     }
     value.integer = value.integer * base + *digit;
-    if (value.integer > kMost) {
-      return {std::nullopt, fmt::format("the number does not fit 64 bits, the largest is {}", to_text(kMost))};
+    if (value.integer > kMaxInteger) {
+      return {std::nullopt, fmt::format("the number does not fit 64 bits, the largest is {}", to_text(kMaxInteger))};
     }
   }
   return {value, ""};
@@ -80,8 +80,8 @@ Number duration_number(std::string_view text, double unit_ns) {
     return number;
   }
   const double ns = number.value->as_double() * unit_ns;
-  constexpr double kMostNs = 9.2e18;
-  if (ns > kMostNs) {
+  constexpr double kMaxNs = 9.2e18;
+  if (ns > kMaxNs) {
     return {std::nullopt, "this time is too long, the limit is 290 years"};
   }
   Value value;
@@ -159,7 +159,7 @@ class Evaluator {
     return std::nullopt;
   }
   std::optional<Value> integer(Span at, Wide value) {
-    if (value < kLeast || value > kMost) {
+    if (value < kLeast || value > kMaxInteger) {
       return fail(at, "the result does not fit 64 bits, use smaller numbers or a double (1.0)");
     }
     Value result;
@@ -270,7 +270,7 @@ class Evaluator {
       case '*': {
         Wide product = 0;
         const bool overflow = __builtin_mul_overflow(a, b, &product);
-        return integer(e.at, overflow ? kMost + 1 : product);
+        return integer(e.at, overflow ? kMaxInteger + 1 : product);
       }
       case '/':
         return integer(e.at, a / b);
@@ -285,7 +285,7 @@ class Evaluator {
       case '<': {
         Wide shifted = 0;
         const bool overflow = __builtin_mul_overflow(a, Wide{1} << b, &shifted);
-        return integer(e.at, overflow ? kMost + 1 : shifted);
+        return integer(e.at, overflow ? kMaxInteger + 1 : shifted);
       }
       default:
         return integer(e.at, a >> b);

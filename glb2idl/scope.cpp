@@ -125,10 +125,10 @@ const Symbol* Scope::find_define(const std::string& name, std::uint32_t file) co
 }
 
 std::vector<std::string> Scope::names(Symbol::Kind kind, std::uint32_t file) const {
-  constexpr std::size_t kMost = 1000;
+  constexpr std::size_t kMaxNames = 1000;
   std::vector<std::string> out;
   for (const auto& [full_name, symbol] : symbols_) {
-    if (symbol.kind == kind && sees(file, symbol) && out.size() < kMost) {
+    if (symbol.kind == kind && sees(file, symbol) && out.size() < kMaxNames) {
       out.emplace_back(last_of(full_name));
     }
   }
