@@ -287,7 +287,7 @@ void Band::drain() noexcept {
     waiting_.store(true, std::memory_order_seq_cst);
     const bool open = gate_open(now.tick, poll);
     if (!open && !poll) {
-      return;  // look_again() wakes us
+      return;  // check_again() wakes us
     }
     waiting_.store(false, std::memory_order_seq_cst);
     if (!open) {
@@ -317,7 +317,7 @@ void Band::stop() noexcept {
   wake_.wake();
 }
 
-void Band::look_again() noexcept {
+void Band::check_again() noexcept {
   if (waiting_.exchange(false, std::memory_order_seq_cst)) {
     wake_.wake();
   }

@@ -65,7 +65,7 @@ class Band {
   }
 
   // If the band sleeps until a predecessor is done, it checks again. Any thread.
-  void look_again() noexcept;
+  void check_again() noexcept;
 
   // Changes with every run; odd from a release until its run is over. Real-time safe, any thread.
   [[nodiscard]] std::uint64_t activity() const noexcept;

@@ -183,7 +183,7 @@ void Engine::connect_predecessors() {
 
 void Engine::wake_waiting() noexcept {
   for (const auto& band : bands_) {
-    band->look_again();
+    band->check_again();
   }
 }
 

@@ -8,15 +8,15 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::int64_t kMostTicks = 4096;  // with more ticks, all are treated as released at once
-constexpr std::int64_t kMostShifts = 64;   // shifts tried for one unit
+constexpr std::int64_t kMaxTicks = 4096;  // with more ticks, all are treated as released at once
+constexpr std::int64_t kMaxShifts = 64;   // shifts tried for one unit
 
 std::int64_t macro_ticks(const PlacementProblem& problem) {
   std::int64_t macro = 1;
   for (const Placeable& module : problem.modules) {
-    macro = macro > kMostTicks ? macro : std::lcm(macro, module.period / problem.basic_period);
+    macro = macro > kMaxTicks ? macro : std::lcm(macro, module.period / problem.basic_period);
   }
-  return macro > kMostTicks ? 1 : macro;
+  return macro > kMaxTicks ? 1 : macro;
 }
 
 std::uint32_t root_of(std::vector<std::uint32_t>& first, std::uint32_t module) {
@@ -72,7 +72,7 @@ void LoadUnits::complete(LoadUnit& unit, bool move_offsets) const {
       load[static_cast<std::size_t>(tick)] += module.execution.count() + cost;
     }
   }
-  unit.shifts = may_move ? std::min(unit.period, kMostShifts) : 1;
+  unit.shifts = may_move ? std::min(unit.period, kMaxShifts) : 1;
   for (std::int64_t tick = 0; tick < ticks_; ++tick) {
     if (const std::int64_t ns = load[static_cast<std::size_t>(tick)]; ns > 0) {
       unit.work.push_back({tick, ns});

@@ -8,7 +8,7 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::int64_t kMostLevelSteps = 20'000'000;
+constexpr std::int64_t kMaxLevelSteps = 20'000'000;
 
 Demand demand_of(const PlacementProblem& problem, std::uint32_t module, Nanos offset) {
   const Placeable& placed = problem.modules[module];
@@ -85,7 +85,7 @@ std::optional<Modules> order_that_holds(const PlacementProblem& problem, const M
     longest = std::max(longest, problem.modules[module].period);
   }
   const auto count = static_cast<std::int64_t>(modules.size());
-  if (count * count * count * (longest / problem.basic_period) > kMostLevelSteps) {
+  if (count * count * count * (longest / problem.basic_period) > kMaxLevelSteps) {
     return std::nullopt;
   }
   Modules rest = modules;

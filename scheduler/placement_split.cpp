@@ -11,9 +11,9 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::size_t kFewModules = 9;           // up to this number: complete search
-constexpr std::int64_t kMostNodes = 400'000;     // of that search
-constexpr std::int64_t kMostSteps = 30'000'000;  // of improving, one step is a module in a tick
+constexpr std::size_t kFewModules = 9;          // up to this number: complete search
+constexpr std::int64_t kMaxNodes = 400'000;     // of that search
+constexpr std::int64_t kMaxSteps = 30'000'000;  // of improving, one step is a module in a tick
 constexpr Nanos kNever = Nanos::max();
 
 class SplitSearch {
@@ -44,7 +44,7 @@ class SplitSearch {
     if (count_ <= kFewModules) {
       least_ = best.busiest;
       clear();
-      look_at(Nanos::zero());
+      try_limit(Nanos::zero());
       if (!found_order_.empty()) {
         keep_better(best, placement_of(found_order_, found_core_));
       }
@@ -127,7 +127,7 @@ class SplitSearch {
   }
 
   // Tries every continuation that could be better.
-  void look_at(Nanos busiest) {
+  void try_limit(Nanos busiest) {
     if (order_.size() == count_) {
       found_order_ = order_;
       found_core_ = core_;
@@ -136,7 +136,7 @@ class SplitSearch {
     }
     for (std::size_t i = 0; i < count_; ++i) {
       bool empty_seen = false;
-      for (int core = 0; core < problem_.cores && ready(i) && ++nodes_ < kMostNodes; ++core) {
+      for (int core = 0; core < problem_.cores && ready(i) && ++nodes_ < kMaxNodes; ++core) {
         const bool empty = std::find(core_.begin(), core_.end(), core) == core_.end();
         if (!allowed(i, core) || (empty && empty_seen && problem_.modules[i].core < 0)) {
           continue;
@@ -149,7 +149,7 @@ class SplitSearch {
         const Nanos ended = ends_[i];
         const Nanos free = free_[static_cast<std::size_t>(core)];
         put(i, core);
-        look_at(std::max(busiest, end));
+        try_limit(std::max(busiest, end));
         order_.pop_back();
         core_[i] = -1;
         ends_[i] = ended;
@@ -175,7 +175,7 @@ class SplitSearch {
       longest = std::max(longest, module.period);
     }
     const std::int64_t steps = static_cast<std::int64_t>(count_) * 3 * (longest / problem_.basic_period);
-    std::int64_t left = kMostSteps / std::max<std::int64_t>(steps, 1);
+    std::int64_t left = kMaxSteps / std::max<std::int64_t>(steps, 1);
     for (bool helped = true; helped && left > 0;) {
       helped = false;
       for (std::size_t i = 0; i < count_; ++i) {

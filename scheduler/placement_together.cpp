@@ -13,9 +13,9 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::int64_t kMostSteps = 60'000'000;  // of improving, one step is a tick of a core
-constexpr std::size_t kFewUnits = 14;            // up to this number: complete search
-constexpr std::int64_t kMostNodes = 200'000;     // of that search
+constexpr std::int64_t kMaxSteps = 60'000'000;  // of improving, one step is a tick of a core
+constexpr std::size_t kFewUnits = 14;           // up to this number: complete search
+constexpr std::int64_t kMaxNodes = 200'000;     // of that search
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 class Search {
@@ -38,7 +38,7 @@ class Search {
     if (units_.size() <= kFewUnits && (!best_holds_ || best_busiest_ > least_)) {
       clear();
       nodes_ = 0;
-      look_at(0);
+      place_from(0);
     }
     return result();
   }
@@ -111,7 +111,7 @@ class Search {
   // `in_time`: uses only cores on which all deadlines hold, as long as there is one.
   void spread(bool in_time) {
     clear();
-    std::int64_t left = kMostSteps;  // 0: no more shifts are tried
+    std::int64_t left = kMaxSteps;  // 0: no more shifts are tried
     for (std::size_t i = 0; i < units_.size(); ++i) {
       Spot best;
       std::int64_t least = kNever;
@@ -147,7 +147,7 @@ class Search {
   // Moves a unit of the busiest core to another one, or exchanges it with one there, as long as that helps.
   void improve() {
     const std::int64_t steps_of_try = 2 * loads_.ticks();
-    for (std::int64_t left = kMostSteps; left > 0 && loads_.busiest() > least_;) {
+    for (std::int64_t left = kMaxSteps; left > 0 && loads_.busiest() > least_;) {
       int worst = 0;
       for (int core = 1; core < problem_.cores; ++core) {
         worst = loads_.busiest(core) > loads_.busiest(worst) ? core : worst;
@@ -221,20 +221,20 @@ class Search {
   }
 
   // Tries all placements of the units from this one on that could be better. Cores without units are equivalent.
-  void look_at(std::size_t unit) {
+  void place_from(std::size_t unit) {
     if (unit == units_.size()) {
       remember();
       return;
     }
     bool empty_seen = false;
-    for (int core = 0; core < problem_.cores && nodes_ < kMostNodes; ++core) {
+    for (int core = 0; core < problem_.cores && nodes_ < kMaxNodes; ++core) {
       const bool empty =
           std::none_of(spots_.begin(), spots_.end(), [core](const Spot& spot) { return spot.core == core; });
       if (!allowed(unit, core) || (empty && empty_seen && units_[unit].core < 0)) {
         continue;
       }
       empty_seen = empty_seen || (empty && !bound_[static_cast<std::size_t>(core)]);
-      for (std::int64_t shift = 0; shift < units_[unit].shifts && nodes_ < kMostNodes; ++shift) {
+      for (std::int64_t shift = 0; shift < units_[unit].shifts && nodes_ < kMaxNodes; ++shift) {
         const std::int64_t busiest = loads_.busiest_with(core, &units_[unit], shift);
         if ((best_holds_ && busiest >= best_busiest_) || (best_holds_ && best_busiest_ <= least_)) {
           continue;
@@ -242,7 +242,7 @@ class Search {
         nodes_ += 1 + loads_.ticks() / 16;
         put(unit, core, shift);
         if (core_holds(core)) {
-          look_at(unit + 1);
+          place_from(unit + 1);
         }
         take(unit);
       }

@@ -8,7 +8,7 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::int64_t kMostSteps = 20'000'000;  // one step is a module in a tick; takes a tenth of a second
+constexpr std::int64_t kMaxSteps = 20'000'000;  // one step is a module in a tick; takes a tenth of a second
 
 class Walk {
  public:
@@ -23,11 +23,11 @@ class Walk {
   }
 
   // Number of ticks until they repeat: one without offsets, else after the longest offset and two macro periods (Leung
-  // and Merrill, 1980). 0: beyond kMostSteps.
+  // and Merrill, 1980). 0: beyond kMaxSteps.
   [[nodiscard]] std::int64_t ticks() const {
     std::int64_t macro = 1;
     std::int64_t longest = 1;
-    const std::int64_t most = kMostSteps / static_cast<std::int64_t>(std::max<std::size_t>(demands_.size(), 1));
+    const std::int64_t most = kMaxSteps / static_cast<std::int64_t>(std::max<std::size_t>(demands_.size(), 1));
     for (const Demand& demand : demands_) {
       const std::int64_t period = demand.period / basic_;
       longest = std::max(longest, period);

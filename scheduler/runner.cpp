@@ -39,13 +39,13 @@ void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char
   }
 }
 
-Runner::Runner(RunBlock& block, Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::size_t most_tasks)
+Runner::Runner(RunBlock& block, Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::size_t max_tasks)
     : block_(block),
       kernel_(kernel),
       virtual_time_(kernel.is_virtual()),
       hooks_(hooks),
       trace_(trace),
-      times_(most_tasks) {}
+      times_(max_tasks) {}
 
 void Runner::attach_thread() noexcept {
   thread_ = ::pthread_self();
@@ -71,7 +71,7 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::Mono
     ++position_;
   }
   current_start_.store(rt::to_ns(kernel_.now()), std::memory_order_relaxed);
-  told_much_ = false;
+  hooks_were_slow_ = false;
   for (; position_ < tasks_.size(); ++position_) {
     if (hooks_.soon != nullptr && position_ + kSoon < tasks_.size()) {
       hooks_.soon(hooks_.context, tasks_[position_ + kSoon]->task.index);
@@ -102,7 +102,7 @@ void Runner::call_current() noexcept {
     hooks_.entering(hooks_.context, state.task.index, tick_, release_ns_);
   }
   if (!state.task.condition) {
-    tell_begin();
+    call_begin_hook();
   }
   char text[kTextLength];
   bool ran = true;
@@ -112,9 +112,9 @@ void Runner::call_current() noexcept {
     if (state.task.condition) {
       ran = state.task.condition();
       current_start_.store(rt::to_ns(kernel_.now()), std::memory_order_relaxed);
-      told_much_ = false;
+      hooks_were_slow_ = false;
       if (ran) {
-        tell_begin();
+        call_begin_hook();
       }
     }
     if (ran) {
@@ -159,7 +159,7 @@ void Runner::conclude(bool ran, const char* threw) noexcept {
     quarantine(state, FaultKind::Exception, tick_, threw, hooks_);
   }
   if (ran) {
-    tell_end(threw != nullptr);
+    call_end_hook(threw != nullptr);
   }
 }
 
@@ -201,23 +201,23 @@ void Runner::contain(FaultKind kind, const char* text) noexcept {
   trace_.exec_ns.store(end - start, std::memory_order_relaxed);
   current_start_.store(end, std::memory_order_relaxed);
   quarantine(state, kind, tick_, text, hooks_);
-  tell_end(true);
+  call_end_hook(true);
 }
 
 // Time spent in the hook is not counted as execution time, unless reading the clock would take longer.
-void Runner::tell_begin() noexcept {
+void Runner::call_begin_hook() noexcept {
   if (hooks_.begins != nullptr && hooks_.begins(hooks_.context, tasks_[position_]->task.index)) {
-    told_much_ = true;
+    hooks_were_slow_ = true;
   }
-  if (told_much_) {
-    told_much_ = false;
+  if (hooks_were_slow_) {
+    hooks_were_slow_ = false;
     current_start_.store(rt::to_ns(kernel_.now()), std::memory_order_relaxed);
   }
 }
 
-void Runner::tell_end(bool faulted) noexcept {
+void Runner::call_end_hook(bool faulted) noexcept {
   if (hooks_.ended != nullptr) {
-    told_much_ = hooks_.ended(hooks_.context, tasks_[position_]->task.index, tick_, times_[position_], faulted);
+    hooks_were_slow_ = hooks_.ended(hooks_.context, tasks_[position_]->task.index, tick_, times_[position_], faulted);
   }
 }
 

@@ -64,7 +64,7 @@ void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char
 
 class Runner {
  public:
-  Runner(RunBlock& block, Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::size_t most_tasks);
+  Runner(RunBlock& block, Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::size_t max_tasks);
 
   // Called on the thread that runs modules, before and after its loop.
   void attach_thread() noexcept;
@@ -91,8 +91,8 @@ class Runner {
   void contain_jump() noexcept;
   void contain(FaultKind kind, const char* text) noexcept;
   void conclude(bool ran, const char* threw) noexcept;
-  void tell_begin() noexcept;
-  void tell_end(bool faulted) noexcept;
+  void call_begin_hook() noexcept;
+  void call_end_hook(bool faulted) noexcept;
   void account() noexcept;
 
   RunBlock& block_;
@@ -109,7 +109,7 @@ class Runner {
   std::size_t position_ = 0;
   std::uint64_t tick_ = 0;
   std::int64_t release_ns_ = 0;
-  bool told_much_ = false;  // the hooks took noticeable time since the clock was read last
+  bool hooks_were_slow_ = false;  // the hooks took noticeable time since the clock was read last
   std::vector<RunTimes> times_;
   std::atomic<TaskState*> current_{nullptr};
   std::atomic<std::int64_t> current_start_{0};

@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
 constexpr int kAnyCore = -1;
-constexpr int kLooksBeforeSleep = 2000;          // polls of a running process: some 20 us
+constexpr int kPollsBeforeSleep = 2000;          // polls of a running process: some 20 us
 constexpr std::chrono::microseconds kPause{50};  // between two polls after that
 constexpr std::size_t kLeastStack = std::size_t{256} * 1024;
 
@@ -272,10 +272,10 @@ void SimulatedKernel::run_process(Process& process) noexcept {
   ProcessSlot& slot = process.slot;
   const std::uint64_t release = slot.released.load(kRelaxed);
   slot.wake.wake();
-  int looks = 0;
+  int idle_polls = 0;
   const rt::MonoTime began = rt::MonoClock::now();
   while (slot.done.load(std::memory_order_acquire) != release) {
-    if (++looks < kLooksBeforeSleep) {
+    if (++idle_polls < kPollsBeforeSleep) {
       rt::relax();
       continue;
     }

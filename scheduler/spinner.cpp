@@ -20,8 +20,8 @@ constexpr std::int64_t kSettle = 64;
 Spinner::Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept
     : clock_(clock),
       mode_(settings.mode),
-      limit_(std::min(period_ns / 2, kMostSpinNs)),
-      budget_(std::min(period_ns / kMostMeanShare, kMostMeanNs)),
+      limit_(std::min(period_ns / 2, kMaxSpinNs)),
+      budget_(std::min(period_ns / kMaxMeanShare, kMaxMeanNs)),
       credit_(kFirstGuess * kSettle),
       quantile_(kFirstGuess) {
   if (mode_ == SpinMode::Auto) {

@@ -21,11 +21,11 @@ struct SpinSettings {
 class Spinner {
  public:
   // Auto never spins longer than half the period, because the kernel stops real-time threads that use all of a core,
-  // nor longer than kMostSpinNs: a machine with later wake-ups does not become exact at any cost. The average spin is
+  // nor longer than kMaxSpinNs: a machine with later wake-ups does not become exact at any cost. The average spin is
   // limited as well, whatever the machine does: a tenth of a period of 100 us, a fiftieth of 1 ms.
-  static constexpr std::int64_t kMostSpinNs = 150'000;
-  static constexpr std::int64_t kMostMeanNs = 20'000;
-  static constexpr std::int64_t kMostMeanShare = 10;  // one part in this many of the period
+  static constexpr std::int64_t kMaxSpinNs = 150'000;
+  static constexpr std::int64_t kMaxMeanNs = 20'000;
+  static constexpr std::int64_t kMaxMeanShare = 10;  // one part in this many of the period
   Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept;
 
   // Returns the time at which the wait ended, at or after the deadline. Real-time safe.

@@ -242,8 +242,8 @@ class Times {
 
 scheduler::DispatchCost dispatch_cost(const Config& config, base::Nanos basic) {
   const SpinSetting spin = config.spin.value_or(SpinSetting{});
-  const base::Nanos spun = spin.mode == SpinSetting::Mode::Auto ? std::min(basic / scheduler::Spinner::kMostMeanShare,
-                                                                           base::Nanos{scheduler::Spinner::kMostMeanNs})
+  const base::Nanos spun = spin.mode == SpinSetting::Mode::Auto ? std::min(basic / scheduler::Spinner::kMaxMeanShare,
+                                                                           base::Nanos{scheduler::Spinner::kMaxMeanNs})
                                                                 : spin.fixed;
   return {kTickCost + spun, kWakeCost};
 }
