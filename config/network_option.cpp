@@ -43,9 +43,9 @@ std::string read_one(std::string_view name, std::string_view value, SimulatedNet
   }
   if (name == "loss") {
     double loss = -1;
-    if (!read_number(value, loss) || loss < 0 || loss > SimulatedNetwork::kMostLoss) {
+    if (!read_number(value, loss) || loss < 0 || loss > SimulatedNetwork::kMaxLoss) {
       return fmt::format("loss: {} is not the share of messages that are lost; write a number from 0 to {}",
-                         base::in_quotes(value), SimulatedNetwork::kMostLoss);
+                         base::in_quotes(value), SimulatedNetwork::kMaxLoss);
     }
     network.loss = loss;
     return {};

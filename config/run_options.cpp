@@ -13,7 +13,7 @@
 namespace indurop::config {
 namespace {
 
-constexpr double kMostSpeed = 1e6;
+constexpr double kMaxSpeed = 1e6;
 
 base::DurationText read_time(const std::string& text) {
   return base::read_duration(text, false, base::PlainNumber::Seconds);
@@ -44,7 +44,7 @@ std::string take_speed(const std::string& text, double& to) {
     return {};
   }
   const auto end = std::from_chars(text.data(), text.data() + text.size(), to);
-  const bool ok = end.ec == std::errc() && end.ptr == text.data() + text.size() && to > 0 && to <= kMostSpeed;
+  const bool ok = end.ec == std::errc() && end.ptr == text.data() + text.size() && to > 0 && to <= kMaxSpeed;
   return ok ? ""
             : fmt::format("'{}' is no speed: use max, or how many times real time it is to run, 1 or 0.5 or 10", text);
 }

@@ -13,7 +13,7 @@ namespace {
 
 using base::Nanos;
 
-constexpr std::int64_t kMostJobs = 200'000;
+constexpr std::int64_t kMaxJobs = 200'000;
 
 struct Job {
   Nanos release{};
@@ -34,14 +34,14 @@ class Jobs {
     std::int64_t macro = 1;
     Nanos last{};
     for (const Timed& one : board) {
-      macro = std::lcm(std::min(macro, kMostMacro), one.period.count());
+      macro = std::lcm(std::min(macro, kMaxMacro), one.period.count());
       last = std::max(last, one.offset);
     }
     std::int64_t count = 0;
     for (const Timed& one : board) {
       count += (before + 2) * (macro / one.period.count());
     }
-    known_ = macro < kMostMacro && count < kMostJobs;
+    known_ = macro < kMaxMacro && count < kMaxJobs;
     macro_ = Nanos(macro);
     begin_ = last + before * macro_;
     if (known_) {
@@ -67,7 +67,7 @@ class Jobs {
   }
 
  private:
-  static constexpr std::int64_t kMostMacro = 3'600'000'000'000;
+  static constexpr std::int64_t kMaxMacro = 3'600'000'000'000;
 
   static std::size_t first_at(const std::vector<Job>& all, Nanos time) {
     return static_cast<std::size_t>(
@@ -147,7 +147,7 @@ class Seen {
       return written.release < reading.release && end <= reading.release;
     });
   }
-  [[nodiscard]] const Job* perhaps(const Job& reading) const {
+  [[nodiscard]] const Job* possible_writer(const Job& reading) const {
     const Nanos start = alone_ ? reading.start : reading.release + jobs_.latest_start(reader_);
     return newest([&](const Job& written) {
       return writer_ < reader_ ? written.release <= start
@@ -195,7 +195,7 @@ Ages within(const Jobs& jobs, bool alone, std::span<const ChainLink> links, cons
     for (std::size_t i = links.size() - 1; i-- > 0 && oldest != nullptr && newest != nullptr;) {
       const Seen seen(jobs, alone, links[i].module, links[i + 1].module);
       oldest = seen.sure(*oldest);
-      newest = seen.perhaps(*newest);
+      newest = seen.possible_writer(*newest);
     }
     if (oldest == nullptr || newest == nullptr) {
       continue;

@@ -54,12 +54,12 @@ class AccessCheck {
     return list;
   }
   static std::string names_of_variables(const Flow& flow) {
-    constexpr std::size_t kMost = 3;
+    constexpr std::size_t kMaxShown = 3;
     std::vector<std::string> list;
     for (const schema::Variable* variable : flow.variables) {
       list.push_back(variable->name);
     }
-    return base::enumerate(list, kMost);
+    return base::enumerate(list, kMaxShown);
   }
 
   [[nodiscard]] Release release(std::size_t position) const {
@@ -119,11 +119,11 @@ class AccessCheck {
       best_order_ = writers_first(count, edges_);
     }
     std::string text = "give them priorities in the order ";
-    constexpr std::size_t kMost = 20;
-    for (std::size_t i = 0; i < best_order_.size() && i < kMost; ++i) {
+    constexpr std::size_t kMaxShown = 20;
+    for (std::size_t i = 0; i < best_order_.size() && i < kMaxShown; ++i) {
       text += (i == 0 ? "" : " > ") + at(best_order_[i]).name;
     }
-    return text + (best_order_.size() > kMost ? " > ..." : "");
+    return text + (best_order_.size() > kMaxShown ? " > ..." : "");
   }
 
   void check_order() {

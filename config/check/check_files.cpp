@@ -58,9 +58,9 @@ std::string missing_hint(const std::filesystem::path& file, const std::string& e
   if (!std::filesystem::is_directory(folder, ignored)) {
     return "; there is no folder " + base::path_in_quotes(folder.string());
   }
-  constexpr std::size_t kMostEntries = 10'000;
+  constexpr std::size_t kMaxEntries = 10'000;
   std::vector<std::string> names;
-  for (std::filesystem::directory_iterator entry(folder, ignored), end; entry != end && names.size() < kMostEntries;
+  for (std::filesystem::directory_iterator entry(folder, ignored), end; entry != end && names.size() < kMaxEntries;
        entry.increment(ignored)) {
     if (!entry->is_directory(ignored)) {
       names.push_back(entry->path().filename().string());

@@ -25,10 +25,10 @@ void check_core(CheckContext& context, const std::vector<int>& cores, int core, 
   for (const int usable : cores) {
     names.push_back(std::to_string(usable));
   }
-  constexpr std::size_t kMost = 16;
+  constexpr std::size_t kMaxShown = 16;
   context.report.error(place, "<core>: processor " + std::to_string(core) +
                                   " does not exist or must not be used by this process; usable are " +
-                                  base::enumerate(names, kMost));
+                                  base::enumerate(names, kMaxShown));
 }
 
 }  // namespace

@@ -65,14 +65,14 @@ std::filesystem::path keys_folder(const Plant& plant, const std::string& board) 
     return {};
   }
   std::error_code ignored;
-  std::filesystem::path beside = keys::PlantKeys(plant.security).board(board);
-  if (std::filesystem::exists(beside, ignored)) {
-    return std::filesystem::absolute(beside, ignored).lexically_normal();
+  std::filesystem::path default_keys = keys::PlantKeys(plant.security).board(board);
+  if (std::filesystem::exists(default_keys, ignored)) {
+    return std::filesystem::absolute(default_keys, ignored).lexically_normal();
   }
   const char* named = std::getenv("INDUROP_KEYS_DIR");
   const std::filesystem::path on_board = named != nullptr && *named != '\0' ? named : "/etc/indurop/keys";
   const std::filesystem::path copied = on_board / plant.name / board;
-  return std::filesystem::exists(copied, ignored) ? copied : beside;
+  return std::filesystem::exists(copied, ignored) ? copied : default_keys;
 }
 
 void check_security(const Plant& plant, const CheckOptions& options, base::Diagnostics& report) {

@@ -22,7 +22,7 @@ using scheduler::WorstResponses;
 // wake-up of the tick thread itself likewise (docs/benchmarks.md).
 constexpr base::Nanos kTickCost{std::chrono::microseconds(5)};
 constexpr base::Nanos kWakeCost{std::chrono::microseconds(10)};
-constexpr base::Nanos kLookCost{std::chrono::microseconds(50)};  // polling interval of waits for a process
+constexpr base::Nanos kPollCost{std::chrono::microseconds(50)};  // polling interval of waits for a process
 
 // Modules of a board in the order of execution, and the demand of each.
 struct Order {
@@ -124,16 +124,16 @@ class Times {
       for (std::size_t k = 0; k < std::min(i, order_.periodic); ++k) {
         const Module& other = config_.modules[order_.modules[k]];
         // A module that waits for a band waits for all of it.
-        const bool told = config_.order == scheduler::CoreOrder::Total
-                              ? order_.front[k] < order_.front[i]
-                              : earlier[order_.modules[i]].contains(order_.modules[k]);
-        const bool waits = i >= order_.periodic || (told && !module.after_base && !other.after_base);
+        const bool already_ordered = config_.order == scheduler::CoreOrder::Total
+                                         ? order_.front[k] < order_.front[i]
+                                         : earlier[order_.modules[i]].contains(order_.modules[k]);
+        const bool waits = i >= order_.periodic || (already_ordered && !module.after_base && !other.after_base);
         if (core_of(other) != demand.core && waits) {
           demand.after.push_back(static_cast<std::uint32_t>(k));
           const bool process = module.type == scheduler::ModuleType::Process;
           demand.waiting = std::max(
               demand.waiting, kWakeCost + (process ? kWakeCost : base::Nanos::zero()) +
-                                  (other.type == scheduler::ModuleType::Process ? kLookCost : base::Nanos::zero()));
+                                  (other.type == scheduler::ModuleType::Process ? kPollCost : base::Nanos::zero()));
         }
       }
     }

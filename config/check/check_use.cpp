@@ -37,17 +37,17 @@ void check_never_written(const std::string& name, const Users& users, const Uses
     report.warning(place, text + "no module writes it; it keeps its initial value unless set by hand");
     return;
   }
-  const std::string perhaps =
+  const std::string hint =
       text + "no module is known to write it; perhaps " + base::enumerate(uses.names(uses.unknown_writers())) + " does";
   for (const User& reader : users.readers) {
     for (const User& writer : uses.unknown_writers()) {
       if (reader.board != writer.board) {
-        report.warning(place, perhaps + ": name it there in <access><write>, else the value stays on its board");
+        report.warning(place, hint + ": name it there in <access><write>, else the value stays on its board");
         return;
       }
     }
   }
-  report.note(place, perhaps);
+  report.note(place, hint);
 }
 
 }  // namespace

@@ -18,12 +18,12 @@
 namespace indurop::config {
 namespace {
 
-constexpr std::size_t kMostProblems = 20;
-constexpr double kMostSeconds = 9e9;
+constexpr std::size_t kMaxProblems = 20;
+constexpr double kMaxSeconds = 9e9;
 
 class Reader {
  public:
-  explicit Reader(const std::string& file) : problems_(file, found_, kMostProblems) {}
+  explicit Reader(const std::string& file) : problems_(file, found_, kMaxProblems) {}
 
   Result<CsvTable, std::vector<base::Diagnostic>> read(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) {
@@ -122,7 +122,7 @@ class Reader {
     }
     constexpr double kNanos = 1e9;
     const double seconds = time * unit_;
-    if (seconds < 0 || seconds > kMostSeconds) {
+    if (seconds < 0 || seconds > kMaxSeconds) {
       problem(cells.front(), fmt::format("time {} is not possible; times begin at 0", cells.front().text));
       return;
     }

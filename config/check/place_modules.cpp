@@ -43,7 +43,7 @@ class Placer {
   bool find_cores() {
     const std::vector<int> usable = usable_cores();
     const auto wanted = config_.cores->most > 0 ? static_cast<std::size_t>(config_.cores->most)
-                                                : std::clamp<std::size_t>(usable.size(), 1, kMostSpreadCores);
+                                                : std::clamp<std::size_t>(usable.size(), 1, kMaxSpreadCores);
     const bool here = context_.options.machine;
     if (here && wanted > usable.size() && context_.options.files) {
       context_.report.error(config_.cores->place, fmt::format("<cores>: {} asked for, but this process may use {}; "
@@ -97,7 +97,7 @@ class Placer {
     problem.split_sharing = config_.cores->split_sharing;
     const base::Nanos assumed = assumed_time();
     std::map<std::size_t, std::uint32_t> place;
-    std::vector<std::string> untold;
+    std::vector<std::string> without_wcet;
     for (const std::size_t i : order_) {
       const Module& module = config_.modules[i];
       place.emplace(i, static_cast<std::uint32_t>(problem.modules.size()));
@@ -120,7 +120,7 @@ class Placer {
         }
       }
       if (time == base::Nanos::zero()) {
-        untold.push_back(module.name);
+        without_wcet.push_back(module.name);
       }
       problem.modules.push_back(placed);
     }
@@ -135,12 +135,12 @@ class Placer {
         periodic.core = periodic.core < 0 ? 0 : periodic.core;
       }
     }
-    if (!untold.empty()) {
+    if (!without_wcet.empty()) {
       context_.report.note(
           config_.cores->place,
           fmt::format("<cores>: the execution time of {} is not known, taken is {}; say it with <wcet>, or "
                       "--times with a report",
-                      base::enumerate(untold), base::format_duration(assumed)));
+                      base::enumerate(without_wcet), base::format_duration(assumed)));
     }
     return problem;
   }
@@ -176,10 +176,10 @@ class Placer {
     if (problem.modules[place].core >= 0 && at(place).core >= 0) {
       parts.emplace_back("its <core>");
     }
-    constexpr std::size_t kMost = 3;
+    constexpr std::size_t kMaxShown = 3;
     for (const auto& [words, names] : {std::pair{"with ", with}, {"waits for ", waits}, {"awaited by ", awaited}}) {
       if (!names.empty()) {
-        parts.push_back(words + base::enumerate(names, kMost));
+        parts.push_back(words + base::enumerate(names, kMaxShown));
       }
     }
     std::string text;

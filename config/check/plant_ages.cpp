@@ -105,8 +105,8 @@ class AgeCheck {
 
   void check_age(const Route& route, const Flow& flow) {
     const base::Nanos most = maxage(route);
-    const bool told = most <= kNetworkHop || route.every + kNetworkHop > most;
-    if (most > base::Nanos::zero() && !told && flow.sent + kNetworkHop > most) {
+    const bool reported = most <= kNetworkHop || route.every + kNetworkHop > most;
+    if (most > base::Nanos::zero() && !reported && flow.sent + kNetworkHop > most) {
       context_.report.warning(uses_.module(flow.reader).places.file,
                               base::in_quotes(route.variable) + " is up to " +
                                   base::format_duration(flow.sent + kNetworkHop) + " old when " +
@@ -116,10 +116,10 @@ class AgeCheck {
   }
 
   void report(const Flow& flow) {
-    constexpr std::size_t kMost = 3;
+    constexpr std::size_t kMaxShown = 3;
     const auto cycles = flow.sent / uses_.module(flow.writer).period;
     context_.report.note(uses_.module(flow.reader).places.file,
-                         uses_.name(flow.reader) + " gets " + base::enumerate(flow.variables, kMost) + " from " +
+                         uses_.name(flow.reader) + " gets " + base::enumerate(flow.variables, kMaxShown) + " from " +
                              uses_.name(flow.writer) + " up to " + base::format_duration(flow.sent + kNetworkHop) +
                              " old (0 to " + std::to_string(cycles) + (cycles == 1 ? " cycle of " : " cycles of ") +
                              uses_.module(flow.writer).name + " plus up to " + base::format_duration(kNetworkHop) +

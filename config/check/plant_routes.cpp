@@ -179,10 +179,10 @@ class RouteFinder {
         }
       }
       if (!missing.empty()) {
-        constexpr std::size_t kMost = 3;
+        constexpr std::size_t kMaxShown = 3;
         report_.warning(uses_.module(user).places.file,
                         uses_.name(user) + " reads by name, which brings nothing here from other boards, such as " +
-                            base::enumerate(missing, kMost) + "; name what it needs in <access><read>");
+                            base::enumerate(missing, kMaxShown) + "; name what it needs in <access><read>");
       }
     }
   }

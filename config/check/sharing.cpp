@@ -43,9 +43,9 @@ class Finder {
     }
     std::vector<Sharing> all;
     for (const auto& [places, reasons] : pairs_) {
-      constexpr std::size_t kMost = 3;
+      constexpr std::size_t kMaxShown = 3;
       all.push_back({order_[places.first], order_[places.second],
-                     base::enumerate(std::vector<std::string>(reasons.begin(), reasons.end()), kMost)});
+                     base::enumerate(std::vector<std::string>(reasons.begin(), reasons.end()), kMaxShown)});
     }
     return all;
   }

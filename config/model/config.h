@@ -99,7 +99,7 @@ struct CoresSetting {
   std::filesystem::path times;  // report with execution times of modules without <wcet>; empty: none
   base::SourcePlace place;
 };
-inline constexpr int kMostSpreadCores = 64;
+inline constexpr int kMaxSpreadCores = 64;
 
 // The settings of <variable> for one variable in addition to its .glb declaration.
 struct VariableRule {

@@ -118,8 +118,8 @@ struct IoDevice {
   int unit = 1;  // default of points without their own
   base::Nanos cycle{10'000'000};
   base::Nanos timeout{500'000'000};
-  base::Nanos retry{100'000'000};  // first pause after a lost connection; doubles up to retry_most
-  base::Nanos retry_most{5'000'000'000};
+  base::Nanos retry{100'000'000};  // first pause after a lost connection; doubles up to retry_max
+  base::Nanos retry_max{5'000'000'000};
   base::Nanos watchdog{500'000'000};  // outputs are not refreshed any more if the module has not run for this time
   IoFraming framing = IoFraming::Tcp;
   bool together = false;  // registers are written and read in one request (function 23)

@@ -17,7 +17,7 @@ struct SimulatedNetwork {
 
   static constexpr std::chrono::nanoseconds kLeastDelay{std::chrono::microseconds(1)};
   static constexpr std::chrono::nanoseconds kLongest{std::chrono::seconds(10)};
-  static constexpr double kMostLoss = 0.9;
+  static constexpr double kMaxLoss = 0.9;
 };
 
 }  // namespace indurop::config

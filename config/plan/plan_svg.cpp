@@ -21,9 +21,9 @@ constexpr int kLaneHeight = 36;
 constexpr int kBoxHeight = 22;
 constexpr int kGroupGap = 14;
 constexpr int kShortestSlot = 100;
-constexpr int kMostWidth = 1600;         // of all slots together; further basic periods are left out
+constexpr int kMaxWidth = 1600;          // of all slots together; further basic periods are left out
 constexpr std::size_t kWantedSlots = 5;  // minimum number of visible slots, whatever the number of modules
-constexpr std::size_t kMostSlots = 60;
+constexpr std::size_t kMaxShownSlots = 60;
 constexpr std::size_t kLongestLabel = 28;
 constexpr std::array<const char*, 7> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                               "#E69F00", "#56B4E9", "#7F7F7F"};
@@ -87,10 +87,10 @@ class Diagram {
     const int boxes = static_cast<int>(busiest + check_.sporadic.size()) + (check_.sporadic.empty() ? 0 : 1);
     const int rest = check_.non_real.empty() ? 1 : 2;  // rest of a basic period, in boxes
     const int slots = static_cast<int>(std::clamp<std::size_t>(check_.table.slots.size(), 1, kWantedSlots));
-    box_width_ = std::clamp(kMostWidth / (slots * (boxes + rest)), 4, 26);
+    box_width_ = std::clamp(kMaxWidth / (slots * (boxes + rest)), 4, 26);
     slot_width_ = std::max(kShortestSlot, box_width_ * (boxes + rest) + 8);
-    const auto fit = static_cast<std::size_t>(std::max(kMostWidth / slot_width_, 1));
-    shown_ = std::min({check_.table.slots.size(), fit, kMostSlots});
+    const auto fit = static_cast<std::size_t>(std::max(kMaxWidth / slot_width_, 1));
+    shown_ = std::min({check_.table.slots.size(), fit, kMaxShownSlots});
     complete_ = shown_ == check_.table.slot_count;
 
     int y = kMargin + 120;

@@ -15,7 +15,7 @@ namespace {
 
 // Up to this number of basic periods each has its own line; above it, equal neighbours share one.
 constexpr std::uint64_t kFullTable = 64;
-constexpr std::size_t kMostRows = 400;
+constexpr std::size_t kMaxRows = 400;
 constexpr const char* kGap = "  ";
 
 enum class Align { Left, Right };
@@ -77,7 +77,7 @@ std::string schedule(const Config& config, const CheckResult& check) {
   const bool ranges = table.slot_count > kFullTable;
   std::size_t rows = 0;
   std::size_t first = 0;
-  while (first < table.slots.size() && rows < kMostRows) {
+  while (first < table.slots.size() && rows < kMaxRows) {
     std::size_t last = first;
     while (ranges && last + 1 < table.slots.size() && table.slots[last + 1].items == table.slots[first].items) {
       ++last;

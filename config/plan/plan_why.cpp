@@ -16,7 +16,7 @@ std::string enumerate_cores(const std::vector<int>& cores) {
   for (const int core : cores) {
     names.push_back(std::to_string(core));
   }
-  return (cores.size() == 1 ? "core " : "cores ") + base::enumerate(names, kMostSpreadCores);
+  return (cores.size() == 1 ? "core " : "cores ") + base::enumerate(names, kMaxSpreadCores);
 }
 
 std::string explain_spreading(const Config& config, const CheckResult& check, const Spreading& spreading) {

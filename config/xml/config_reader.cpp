@@ -80,11 +80,11 @@ class ConfigReader {
     }
     CoresSetting cores;
     cores.place = e.text_place;
-    const auto most = e.text == "auto" ? std::optional<std::int64_t>(0) : read_integer(e.text, 1, kMostSpreadCores);
+    const auto most = e.text == "auto" ? std::optional<std::int64_t>(0) : read_integer(e.text, 1, kMaxSpreadCores);
     if (!most) {
       report_.error(e.text_place,
                     "<cores>: " + (e.text.empty() ? "no value given" : base::in_quotes(e.text) + " is not possible") +
-                        "; write auto, or how many cores from 1 to " + std::to_string(kMostSpreadCores));
+                        "; write auto, or how many cores from 1 to " + std::to_string(kMaxSpreadCores));
       return;
     }
     cores.most = static_cast<int>(*most);

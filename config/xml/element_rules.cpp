@@ -158,8 +158,8 @@ int read_core(const base::Element& element, base::Diagnostics& report) {
   if (!is_leaf(element, report)) {
     return -1;
   }
-  constexpr std::int64_t kMostCores = 4096;
-  const auto value = read_integer(element.text, 0, kMostCores - 1);
+  constexpr std::int64_t kMaxCores = 4096;
+  const auto value = read_integer(element.text, 0, kMaxCores - 1);
   if (!value) {
     report.error(element.text_place,
                  "<core>: " + base::in_quotes(element.text) + " is not a processor number; write 0 for the first");

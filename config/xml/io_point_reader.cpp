@@ -120,8 +120,8 @@ class PointReader {
   }
 
   void read_cycle() {
-    constexpr base::Nanos kMost{60 * 60'000'000'000};
-    const auto cycle = attributes_.duration("cycle", base::Nanos{1}, kMost);
+    constexpr base::Nanos kMaxOfPoint{60 * 60'000'000'000};
+    const auto cycle = attributes_.duration("cycle", base::Nanos{1}, kMaxOfPoint);
     if (!cycle) {
       return;
     }
@@ -303,9 +303,9 @@ const char* name_of(IoTable table) noexcept {
 }
 
 std::optional<int> read_unit(Attributes& attributes, IoDriver driver) {
-  constexpr std::int64_t kMost = 247;
+  constexpr std::int64_t kMaxOfPoint = 247;
   const bool serial = driver == IoDriver::ModbusRtu;
-  const auto unit = attributes.integer("unit", serial ? 1 : 0, kMost);
+  const auto unit = attributes.integer("unit", serial ? 1 : 0, kMaxOfPoint);
   return unit ? std::optional(static_cast<int>(*unit)) : std::nullopt;
 }
 

@@ -91,15 +91,15 @@ class DeviceReader {
   }
 
   void read_exchange() {
-    constexpr std::int64_t kMostGap = 100;
-    constexpr base::Nanos kMostTimeout = 2 * kSecond;  // the node waits at most 3 s for its modules to stop
+    constexpr std::int64_t kMaxGap = 100;
+    constexpr base::Nanos kMaxTimeout = 2 * kSecond;  // the node waits at most 3 s for its modules to stop
     device_.unit = read_unit(attributes_, device_.driver).value_or(device_.unit);
-    device_.gap = static_cast<int>(attributes_.integer("gap", 0, kMostGap).value_or(0));
+    device_.gap = static_cast<int>(attributes_.integer("gap", 0, kMaxGap).value_or(0));
     device_.cycle = attributes_.duration("cycle", kMillisecond, kMinute).value_or(device_.cycle);
-    device_.timeout = attributes_.duration("timeout", kMillisecond, kMostTimeout).value_or(device_.timeout);
+    device_.timeout = attributes_.duration("timeout", kMillisecond, kMaxTimeout).value_or(device_.timeout);
     device_.retry = attributes_.duration("retry", kMillisecond, kMinute).value_or(device_.retry);
-    device_.retry_most = attributes_.duration("retry_most", device_.retry, 60 * kMinute)
-                             .value_or(std::max(device_.retry, device_.retry_most));
+    device_.retry_max = attributes_.duration("retry_most", device_.retry, 60 * kMinute)
+                            .value_or(std::max(device_.retry, device_.retry_max));
     device_.watchdog = attributes_.duration("watchdog", kMillisecond, kMinute).value_or(device_.watchdog);
     device_.together = attributes_.choose("together", {"off", "on"}).value_or(0) == 1;
   }
@@ -127,9 +127,9 @@ class DeviceReader {
     if (host.starts_with('[') && host.ends_with(']')) {
       host = host.substr(1, host.size() - 2);
     }
-    constexpr std::int64_t kMostPort = 65535;
+    constexpr std::int64_t kMaxPort = 65535;
     const auto port =
-        has_port ? read_integer(address->substr(colon + 1), 1, kMostPort) : std::optional<std::int64_t>(device_.port);
+        has_port ? read_integer(address->substr(colon + 1), 1, kMaxPort) : std::optional<std::int64_t>(device_.port);
     if (host.empty() || host.find_first_of(" /") != std::string::npos || !port) {
       report_.error(place, fmt::format("address: {} is not an address; write {}", base::in_quotes(*address), forms));
       return;
@@ -157,42 +157,42 @@ class DeviceReader {
   }
 
   void read_axis() {
-    constexpr double kMost = 1e12;
+    constexpr double kMaxReal = 1e12;
     constexpr double kLeast = 1e-9;
     IoAxis& axis = device_.axis;
     axis.in = attributes_.text("in", &axis.in_place).value_or("");
     axis.out = attributes_.text("out", &axis.out_place).value_or("");
     real("counts", 4, std::numeric_limits<std::int32_t>::max(), axis.counts);
-    real("inertia", kLeast, kMost, axis.inertia);
-    real("damping", 0, kMost, axis.damping);
-    real("torque", kLeast, kMost, axis.torque);
-    real("speed", kLeast, kMost, axis.speed);
-    real("acceleration", kLeast, kMost, axis.acceleration);
-    constexpr double kMostBandwidth = 200;  // the simulation's own step is 125 us
-    real("bandwidth", 0.1, kMostBandwidth, axis.bandwidth);
-    real("following", kLeast, kMost, axis.following);
+    real("inertia", kLeast, kMaxReal, axis.inertia);
+    real("damping", 0, kMaxReal, axis.damping);
+    real("torque", kLeast, kMaxReal, axis.torque);
+    real("speed", kLeast, kMaxReal, axis.speed);
+    real("acceleration", kLeast, kMaxReal, axis.acceleration);
+    constexpr double kMaxBandwidth = 200;  // the simulation's own step is 125 us
+    real("bandwidth", 0.1, kMaxBandwidth, axis.bandwidth);
+    real("following", kLeast, kMaxReal, axis.following);
     axis.following_time = attributes_.duration("following_time", base::Nanos{0}, kMinute).value_or(axis.following_time);
-    constexpr double kMostAngle = 1e6;
-    real("start", -kMostAngle, kMostAngle, axis.start);
-    real("mark", -kMostAngle, kMostAngle, axis.mark);
-    real("home_speed", kLeast, kMost, axis.home_speed);
-    real("creep_speed", kLeast, kMost, axis.creep_speed);
-    real("torque_slope", kLeast, kMost, axis.torque_slope);
-    axis.low_limit = attributes_.real("low_limit", -kMostAngle, kMostAngle);
-    axis.high_limit = attributes_.real("high_limit", -kMostAngle, kMostAngle);
-    axis.home_from = attributes_.real("home_from", -kMostAngle, kMostAngle);
-    axis.home_to = attributes_.real("home_to", -kMostAngle, kMostAngle);
-    axis.probe = attributes_.real("probe", -kMostAngle, kMostAngle);
-    axis.probe2 = attributes_.real("probe2", -kMostAngle, kMostAngle);
+    constexpr double kMaxAngle = 1e6;
+    real("start", -kMaxAngle, kMaxAngle, axis.start);
+    real("mark", -kMaxAngle, kMaxAngle, axis.mark);
+    real("home_speed", kLeast, kMaxReal, axis.home_speed);
+    real("creep_speed", kLeast, kMaxReal, axis.creep_speed);
+    real("torque_slope", kLeast, kMaxReal, axis.torque_slope);
+    axis.low_limit = attributes_.real("low_limit", -kMaxAngle, kMaxAngle);
+    axis.high_limit = attributes_.real("high_limit", -kMaxAngle, kMaxAngle);
+    axis.home_from = attributes_.real("home_from", -kMaxAngle, kMaxAngle);
+    axis.home_to = attributes_.real("home_to", -kMaxAngle, kMaxAngle);
+    axis.probe = attributes_.real("probe", -kMaxAngle, kMaxAngle);
+    axis.probe2 = attributes_.real("probe2", -kMaxAngle, kMaxAngle);
     read_homing(axis);
-    real("noise", 0, kMost, axis.noise);
+    real("noise", 0, kMaxReal, axis.noise);
     axis.seed = static_cast<std::uint64_t>(
         attributes_.integer("seed", 0, std::numeric_limits<std::int64_t>::max()).value_or(1));
   }
 
   void read_homing(IoAxis& axis) {
-    constexpr int kMostMethod = 37;
-    const auto method = attributes_.integer("homing", 1, kMostMethod);
+    constexpr int kMaxMethod = 37;
+    const auto method = attributes_.integer("homing", 1, kMaxMethod);
     if (!method) {
       return;
     }

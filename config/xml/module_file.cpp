@@ -30,7 +30,7 @@ std::vector<fs::path> library_folders() {
 }
 
 // Returns an empty path if it is not in the folder.
-fs::path look_in(const fs::path& folder, const std::string& text) {
+fs::path find_in(const fs::path& folder, const std::string& text) {
   for (const std::string& name : {text, text + ".so", "lib" + text + ".so", text + ".exe"}) {
     std::error_code error;
     if (fs::is_regular_file(folder / name, error)) {
@@ -48,9 +48,9 @@ fs::path module_file(const fs::path& folder, const std::string& text) {
   if (text.find('/') != std::string::npos || fs::exists(plain, error)) {
     return plain;
   }
-  fs::path found = look_in(folder, text);
+  fs::path found = find_in(folder, text);
   for (const fs::path& library : found.empty() ? library_folders() : std::vector<fs::path>{}) {
-    found = found.empty() ? look_in(library, text) : found;
+    found = found.empty() ? find_in(library, text) : found;
   }
   return found.empty() ? plain : found.lexically_normal();
 }

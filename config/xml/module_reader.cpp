@@ -247,8 +247,8 @@ class ModuleReader {
           report_.error(a.value_place, a.name + ": " + read.problem);
         }
       } else if (a.name == "max") {
-        constexpr std::int64_t kMost = 1'000'000'000;
-        if (const auto value = read_integer(a.value, 0, kMost)) {
+        constexpr std::int64_t kMaxRestarts = 1'000'000'000;
+        if (const auto value = read_integer(a.value, 0, kMaxRestarts)) {
           module_.restart.max = static_cast<std::uint32_t>(*value);
         } else {
           report_.error(a.value_place,

@@ -173,7 +173,7 @@ class PlantReader {
     to.delay = attributes.duration("delay", Network::kLeastDelay, Network::kLongest).value_or(to.delay);
     to.jitter = attributes.duration("jitter", base::Nanos{0}, Network::kLongest).value_or(to.jitter);
     to.repeat = attributes.duration("repeat", Network::kLeastDelay, Network::kLongest).value_or(to.repeat);
-    to.loss = attributes.real("loss", 0, Network::kMostLoss).value_or(to.loss);
+    to.loss = attributes.real("loss", 0, Network::kMaxLoss).value_or(to.loss);
     to.seed = attributes.integer("seed", 0, INT64_MAX).value_or(to.seed);
     attributes.finish();
     check_no_text(e, report_);

@@ -70,7 +70,7 @@ void ExchangeThread::work() {
       next = std::max(next + device_.cycle, now);
     } else {
       next = Clock::now() + pause_;
-      pause_ = std::min<Clock::duration>(pause_ * 2, device_.retry_most);
+      pause_ = std::min<Clock::duration>(pause_ * 2, device_.retry_max);
     }
   } while (wait_until(next));
   if (is_open_ && image_.has_stop_values()) {
