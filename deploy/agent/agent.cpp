@@ -20,7 +20,7 @@
 #include "deploy/agent/service_manager.h"
 #include "deploy/link/blob_server.h"
 #include "deploy/transaction/board_transaction.h"
-#include "store/vars/box_wish.h"
+#include "store/vars/box_request.h"
 
 namespace indurop::deploy {
 namespace {
@@ -152,7 +152,7 @@ class Agent {
   void keep_box(const std::string& why) {
     if (transaction_.phase() == Phase::Steady && process_.condition() == NodeCondition::Running) {
       log_.info("{}: the black box of this board is kept, too", why);
-      if (const Status wished = vars::wish_box(options_.board, why); !wished) {
+      if (const Status wished = vars::request_box(options_.board, why); !wished) {
         log_.warning("the black box cannot be kept: {}", wished.error().where);
       }
     }

@@ -10,7 +10,7 @@
 #include "core/rt/clock.h"
 #include "deploy/agent/board_alarms.h"
 #include "store/operate/journal.h"
-#include "store/vars/box_wish.h"
+#include "store/vars/box_request.h"
 
 namespace indurop::deploy {
 namespace {
@@ -269,7 +269,7 @@ CommandReply BoardCommands::keep_box(const Command& command) const {
     return reply(command, Outcome::Refused, "its node does not run");
   }
   const std::string why = one_line(command.target);
-  const Status wished = vars::wish_box(board_, why);
+  const Status wished = vars::request_box(board_, why);
   log_.info("command from {}: {} {}: {}", command.host, word_of(command.action), why,
             wished ? "done" : wished.error().where);
   return wished ? reply(command, Outcome::Done) : reply(command, Outcome::Failed, wished.error().where);

@@ -19,10 +19,10 @@
 #include "core/base/read_file.h"
 #include "core/base/spawn.h"
 #include "core/base/text.h"
-#include "store/vars/names_of_nothing.h"
 #include "store/vars/retain.h"
 #include "store/vars/shm_file.h"
 #include "store/vars/store.h"
+#include "store/vars/unmatched_patterns.h"
 
 namespace indurop::deploy {
 namespace {
@@ -101,7 +101,7 @@ BoardRecorder::Answer BoardRecorder::record(const Command& command, rt::MonoTime
   if (!store) {
     return {Outcome::Failed, fmt::format("its variables cannot be opened: {}", store.error().where)};
   }
-  const auto none = vars::names_of_nothing(*store, names);
+  const auto none = vars::unmatched_patterns(*store, names);
   unknown_ = fmt::format("{}", fmt::join(none, "\n"));
   if (!names.empty() && none.size() == names.size()) {
     return {Outcome::Done, unknown_};

@@ -283,18 +283,18 @@ Result<void, Problem> Recorder::write_part(const tape::Run& run, std::size_t par
     return write(clock_channel_, to_sequence({module, tape::EntryKind::Clock}));
   }
   part -= run.clock.size();
-  if (part < run.told.size()) {
-    to_cdr(ToldWords{run.told[part].code, run.told[part].bytes}, cdr_);
-    return write(told_channel_, to_sequence({module, tape::EntryKind::Told}));
+  if (part < run.answers.size()) {
+    to_cdr(ToldWords{run.answers[part].code, run.answers[part].bytes}, cdr_);
+    return write(told_channel_, to_sequence({module, tape::EntryKind::Answer}));
   }
-  to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0, (run.flags & tape::kAnew) != 0}, cdr_);
+  to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0, (run.flags & tape::kRestarted) != 0}, cdr_);
   auto written = write(runs_channel_, static_cast<std::uint32_t>(run.tail.number));
   counts_.runs += written.ok() ? 1U : 0U;
   return written;
 }
 
 Result<void, Problem> Recorder::write_run(Held& held) {
-  const std::size_t parts = held.run.values.size() + held.run.clock.size() + held.run.told.size() + 1;
+  const std::size_t parts = held.run.values.size() + held.run.clock.size() + held.run.answers.size() + 1;
   for (; held.written < parts; ++held.written) {
     if (auto written = write_part(held.run, held.written); !written) {
       return written;

@@ -44,7 +44,7 @@ inline constexpr std::string_view kToldTopic = "indurop/told";
 inline constexpr std::string_view kToldSchema = "indurop::Told";
 extern const std::string_view kToldIdl;
 struct ToldWords {
-  std::int64_t code = 0;  // see tape::Told
+  std::int64_t code = 0;  // see tape::Answer
   std::span<const std::uint8_t> bytes;
 };
 void to_cdr(const ToldWords& told, std::vector<std::uint8_t>& cdr);

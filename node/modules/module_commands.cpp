@@ -140,7 +140,7 @@ bool ModuleCommands::enter(Work& work) {
     return answer(work, parts_.normal_threads.launch(work.module) ? started(work.module) : CommandResult::Failed);
   }
   if (tape::Track* track = parts_.tape == nullptr ? nullptr : parts_.tape->of(work.module)) {
-    track->started_anew();
+    track->note_restart();
   }
   record(work.module).state.store(ModuleState::Running);
   parts_.engine.enable(work.module);

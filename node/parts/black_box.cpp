@@ -17,7 +17,7 @@
 #include "node/parts/facts_part.h"
 #include "node/parts/record_part.h"
 #include "store/operate/journal.h"
-#include "store/vars/box_wish.h"
+#include "store/vars/box_request.h"
 #include "store/vars/retain.h"
 #include "store/vars/run_file.h"
 #include "store/vars/shm_file.h"
@@ -207,7 +207,7 @@ void BlackBox::look_for_wish(rt::MonoTime now) {
     return;
   }
   wish_looked_ = now;
-  auto wish = vars::take_box_wish(options_.node);
+  auto wish = vars::take_box_request(options_.node);
   if (wish && due_ == rt::MonoTime{} && now >= next_wish_) {
     wish_ = *std::move(wish);
     due_ = now + kAfterwards;

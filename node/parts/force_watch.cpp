@@ -42,7 +42,7 @@ void ForceWatch::look(vars::Store& store, Console& console) {
   for (const vars::Force& one : known_) {
     if (find(now, one) == nullptr) {
       console.info("{} is no longer forced", part_of(store, one).name);
-      store.let_overdue_go();
+      store.release_overdue();
     }
   }
   known_ = std::move(now);

@@ -162,7 +162,7 @@ bool Replay::begin(const RecordedRuns& recorded) {
     return module->runs && module->state.task.type == ModuleType::Process;
   });
   if (processes) {
-    auto retold = tape::RetoldWriter::create(options_.node, run_.node_pid.load());
+    auto retold = tape::ReplayInputWriter::create(options_.node, run_.node_pid.load());
     if (!retold) {
       console_.error("what runs of processes were told cannot be given to them: {}", describe(retold.error()));
       return false;
@@ -179,8 +179,8 @@ bool Replay::begin(const RecordedRuns& recorded) {
   return true;
 }
 
-std::vector<tape::RetoldAnswer> Replay::Module::told() const {
-  std::vector<tape::RetoldAnswer> all;
+std::vector<tape::ReplayedAnswer> Replay::Module::told() const {
+  std::vector<tape::ReplayedAnswer> all;
   for (std::size_t i = 0; i < codes.size(); ++i) {
     all.push_back({codes[i], answers[i]});
   }
@@ -239,7 +239,7 @@ bool Replay::repeat(Module& module, std::uint32_t index, const recorder::RunWord
   run_.epoch_ns = run.tail.release_ns - static_cast<std::int64_t>(run.tail.tick) * run_.basic_period_ns;
   run_.tick.store(run.tail.tick + 1);
   // A module that polls the clock waits for a time: after its recorded clock readings, that time has come.
-  kernel_.set(module.clock.size() < std::size_t{tape::kMostReadings} ? run.tail.start_ns : run.tail.end_ns);
+  kernel_.set(module.clock.size() < std::size_t{tape::kMaxReadings} ? run.tail.start_ns : run.tail.end_ns);
   give_inputs(module);
   if (std::exchange(module.anew, false)) {
     if (!start_anew(module, index)) {
@@ -251,7 +251,7 @@ bool Replay::repeat(Module& module, std::uint32_t index, const recorder::RunWord
     run_process(module, index, run.tail);
   } else {
     scheduler::TaskState* state = &module.state;
-    const std::vector<tape::RetoldAnswer> answers = module.told();
+    const std::vector<tape::ReplayedAnswer> answers = module.told();
     runtime::set_clock_readings(module.clock);
     runtime::set_answers(answers);
     runner_.run({&state, 1}, run.tail.tick, rt::mono_time(run.tail.release_ns));

@@ -90,7 +90,7 @@ class Replay {
     std::vector<std::int64_t> clock;  // clock readings of that run
     std::vector<std::int64_t> codes;  // by functions and channels, of that run
     std::vector<std::vector<std::uint8_t>> answers;
-    [[nodiscard]] std::vector<tape::RetoldAnswer> told() const;
+    [[nodiscard]] std::vector<tape::ReplayedAnswer> told() const;
     std::map<std::uint32_t, std::size_t> place;  // of a variable in `known`
     scheduler::TaskState state;
     std::uint64_t count = 0;
@@ -150,9 +150,9 @@ class Replay {
   scheduler::Runner runner_;
   Phases phases_;
   Processes processes_;
-  std::optional<tape::RetoldWriter> retold_;      // to processes, if there are any
-  std::vector<std::unique_ptr<Module>> modules_;  // as in the configuration
-  std::vector<std::uint32_t> of_recording_;       // index of each module of the recording; kNoSuchModule: none
+  std::optional<tape::ReplayInputWriter> retold_;  // to processes, if there are any
+  std::vector<std::unique_ptr<Module>> modules_;   // as in the configuration
+  std::vector<std::uint32_t> of_recording_;        // index of each module of the recording; kNoSuchModule: none
   std::int64_t real_minus_node_ns_ = 0;
   std::optional<ReplayOutput> output_;
   bool output_failed_ = false;

@@ -21,7 +21,7 @@ Refusal failure(const std::string& what, const Error& error) {
       return {Why::Wrong,
               {fmt::format("{}: a node holds at most {} numbers (a text counts as one for each 8 characters); release "
                            "some: indurop unforce",
-                           what, vars::kMostForces)}};
+                           what, vars::kMaxForces)}};
     case Errc::Busy:
       return {Why::Busy, {fmt::format("{}: a process that holds its lock was stopped; try again", what)}};
     default:
@@ -66,7 +66,7 @@ Result<std::vector<std::string>, Refusal> release_if(const std::string& node, va
       continue;
     }
     const std::string name = schema::part_at(store.schema().variables[one.variable->schema_index], one.offset).name;
-    const Status status = store.let_go(*one.variable, one.offset);
+    const Status status = store.release(*one.variable, one.offset);
     if (!status && status.error().code != Errc::NotFound) {
       return failure(name + " is still forced", status.error());
     }
@@ -112,7 +112,7 @@ Result<void, Refusal> renew(Lease& lease, vars::Store& store, std::int64_t for_n
 }
 
 void end(const std::string& node, vars::Store& store, Lease& lease, const Who& who) {
-  (void)vars::let_go(store, lease.values, lease.until);  // NotFound: another user has released one of them
+  (void)vars::release(store, lease.values, lease.until);  // NotFound: another user has released one of them
   for (const std::string& name : lease.names) {
     note_release(node, store, name, who);
   }

@@ -18,7 +18,7 @@
 namespace indurop::operate {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 20U;
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 20U;
 
 std::filesystem::path file_of(const std::string& node) {
   return vars::state_directory(node) / "orders.jsonl";
@@ -44,7 +44,7 @@ void note(const std::string& node, Order order) {
     order.from = origin();
   }
   constexpr mode_t kMode = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH;
-  (void)base::append_line({file_of(node), kMostBytes, kMode, base::Durable::No}, json_of(order).dump());
+  (void)base::append_line({file_of(node), kMaxBytes, kMode, base::Durable::No}, json_of(order).dump());
 }
 
 std::vector<Order> read_orders(const std::string& node, std::int64_t since_wall_ns) {

@@ -23,7 +23,8 @@ using vars::CallFunction;
 using vars::CallSlot;
 using vars::CallState;
 
-constexpr std::int64_t kLookNs = 5'000'000;  // interval at which a waiting caller checks that the server is alive
+constexpr std::int64_t kCheckIntervalNs =
+    5'000'000;  // interval at which a waiting caller checks that the server is alive
 
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): what a thread keeps from call to call
 [[gnu::tls_model("initial-exec")]] thread_local CallSlot* t_slot = nullptr;  // held by this thread
@@ -31,7 +32,7 @@ constexpr std::int64_t kLookNs = 5'000'000;  // interval at which a waiting call
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
 // Returns Ok if a server serves it, NotFound if there is none, Dead if the server died and no other has started.
-Errc look_for_server(CallFunction& function) noexcept {
+Errc find_server(CallFunction& function) noexcept {
   switch (rt::try_lock(function.serving)) {
     case rt::LockResult::Timeout:
     case rt::LockResult::HeldByCaller:
@@ -102,11 +103,11 @@ bool give_up(CallSlot& slot, std::uint64_t sequence) noexcept {
 // Waits for the answer to `sequence`. Returns Ok if it has arrived.
 Errc wait_for_answer(CallFunction& function, CallSlot& slot, std::uint64_t sequence, std::int64_t deadline) noexcept {
   for (;;) {
-    (void)slot.reply.wait_until(rt::mono_time(std::min(deadline, rt::now_ns() + kLookNs)));
+    (void)slot.reply.wait_until(rt::mono_time(std::min(deadline, rt::now_ns() + kCheckIntervalNs)));
     if (slot.state.load(std::memory_order_acquire) == word_of(sequence, CallState::Done)) {
       return Errc::Ok;
     }
-    Errc code = look_for_server(function);
+    Errc code = find_server(function);
     if (code == Errc::Ok && rt::now_ns() >= deadline) {
       code = Errc::Timeout;
     }
@@ -163,7 +164,7 @@ Errc call_now(const detail::CallRequest& request) noexcept {
   if (const detail::FunctionOffer* own = offer_of_this_server(request.name_hash)) {
     return invoke_contained(*own, request.args, request.result);
   }
-  const Errc code = look_for_server(*function);
+  const Errc code = find_server(*function);
   return code == Errc::Ok ? exchange(*attachment, *function, request) : code;
 }
 

@@ -30,7 +30,7 @@ using vars::CallFunction;
 using vars::CallSlot;
 using vars::CallState;
 
-constexpr std::int64_t kLookNs = 100'000'000;  // interval at which an idle server checks for a new store
+constexpr std::int64_t kCheckIntervalNs = 100'000'000;  // interval at which an idle server checks for a new store
 constexpr int kTriesBeforeComplaint = 5;
 
 // A function offered by a module; modules are distinguished by the file they were loaded from.
@@ -126,17 +126,17 @@ class FunctionServers::Server {
   }
 
   void serve() {
-    std::int64_t next_look = 0;
+    std::int64_t next_check = 0;
     while (!stop_.load(std::memory_order_acquire)) {
       const std::int64_t now = rt::now_ns();
-      if (now >= next_look) {
-        next_look = now + kLookNs;
+      if (now >= next_check) {
+        next_check = now + kCheckIntervalNs;
         Process::get().refresh();
         enter();
       }
       if (!serve_all()) {
         rt::SignalWord* wake = wake_.load(std::memory_order_relaxed);
-        (void)(wake != nullptr ? *wake : own_wake_).wait_until(rt::mono_time(next_look));
+        (void)(wake != nullptr ? *wake : own_wake_).wait_until(rt::mono_time(next_check));
       }
     }
   }

@@ -30,7 +30,7 @@ using scheduler::NodeState;
 using scheduler::RunBlock;
 
 constexpr std::int64_t kIdleNs = 100'000'000;  // interval at which a waiting process checks its node
-constexpr unsigned kIdlesPerThoroughLook = 10;
+constexpr unsigned kIdlesPerFullCheck = 10;
 constexpr int kExitFailed = 1;
 constexpr int kExitSchemaMismatch = 8;
 
@@ -53,9 +53,9 @@ std::string_view text_of(const char* text, std::size_t size) {
 
 // Returns the module that this process is: as set by the node, else the process module with the same file.
 std::uint32_t find_module(const RunBlock& run) {
-  const std::uint32_t told = hot.process_module.load(std::memory_order_relaxed);
-  if (told < run.module_count && run.modules()[told].type == ModuleType::Process) {
-    return told;
+  const std::uint32_t assigned = hot.process_module.load(std::memory_order_relaxed);
+  if (assigned < run.module_count && run.modules()[assigned].type == ModuleType::Process) {
+    return assigned;
   }
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -170,9 +170,9 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
       tape_ = std::move(member).value();
     }
   }
-  retold_.reset();
-  if (auto retold = tape::RetoldReader::open(node_, run.node_pid.load(std::memory_order_relaxed))) {
-    retold_ = std::move(retold).value();
+  replay_input_.reset();
+  if (auto replay_input = tape::ReplayInputReader::open(node_, run.node_pid.load(std::memory_order_relaxed))) {
+    replay_input_ = std::move(replay_input).value();
   }
   holder_ = holder;
   enrolled_as_ = is_launched ? launched : pid_;  // a script may run between the node and this program
@@ -233,9 +233,9 @@ bool Enrolment::take_release() noexcept {
     tape_->track().begin();
     set_current_track(&tape_->track());
   }
-  if (retold_) {
-    set_clock_readings(retold_->readings());
-    set_answers(retold_->answers());
+  if (replay_input_) {
+    set_clock_readings(replay_input_->readings());
+    set_answers(replay_input_->answers());
   }
   slot_->start_ns.store(rt::to_ns(schedule_now()), std::memory_order_relaxed);
   ++seen_;
@@ -284,12 +284,12 @@ bool Enrolment::wait() {
         return true;
       }
     } else {
-      look_after_node();
+      check_node();
     }
   }
 }
 
-void Enrolment::look_after_node() {
+void Enrolment::check_node() {
   ++idle_;
   Process::get().refresh();
   if (slot_->pid.load(std::memory_order_acquire) != enrolled_as_) {
@@ -298,7 +298,7 @@ void Enrolment::look_after_node() {
     return;
   }
   const std::int32_t node_pid = mapping_->block().node_pid.load(std::memory_order_acquire);
-  const bool alive = idle_ % kIdlesPerThoroughLook == 0 ? mapping_->node_alive() : process_exists(node_pid);
+  const bool alive = idle_ % kIdlesPerFullCheck == 0 ? mapping_->node_alive() : process_exists(node_pid);
   if (!alive) {
     std::fprintf(stderr, "indurop: node '%s' is gone; waiting for it to come back\n", node_.c_str());
     phase_ = Phase::NoNode;
@@ -331,10 +331,10 @@ bool Enrolment::stop_requested() noexcept {
   }
   // A killed node cannot ask for anything; the next one starts its own processes.
   const std::int64_t now = rt::now_ns();
-  if (now < next_look_ns_.load(std::memory_order_relaxed)) {
+  if (now < next_check_ns_.load(std::memory_order_relaxed)) {
     return false;
   }
-  next_look_ns_.store(now + kIdleNs, std::memory_order_relaxed);
+  next_check_ns_.store(now + kIdleNs, std::memory_order_relaxed);
   Process::get().refresh();
   return !process_exists(run->node_pid.load(std::memory_order_acquire));
 }

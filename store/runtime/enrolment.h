@@ -55,15 +55,15 @@ class Enrolment {
   void take_rights(const scheduler::ModuleRecord& record);
   void finish_run() noexcept;
   bool take_release() noexcept;
-  void look_after_node();
+  void check_node();
   void try_again();
 
   Phase phase_ = Phase::None;
   std::string node_;
   RunMapping* mapping_ = nullptr;
   scheduler::ProcessSlot* slot_ = nullptr;
-  std::optional<tape::Member> tape_;          // none: the node has no tape
-  std::optional<tape::RetoldReader> retold_;  // the node is a replay
+  std::optional<tape::Member> tape_;                     // none: the node has no tape
+  std::optional<tape::ReplayInputReader> replay_input_;  // the node is a replay
   std::int32_t pid_ = 0;
   std::int32_t holder_ = 0;       // pid of the previous holder of the slot
   std::int32_t enrolled_as_ = 0;  // pid under which the node knows this process
@@ -74,7 +74,7 @@ class Enrolment {
   unsigned idle_ = 0;  // consecutive waits that no release ended
   std::atomic<std::uint64_t> release_tick_{0};
   std::atomic<std::int64_t> release_ns_{0};
-  std::atomic<std::int64_t> next_look_ns_{0};
+  std::atomic<std::int64_t> next_check_ns_{0};
 };
 
 }  // namespace indurop::runtime

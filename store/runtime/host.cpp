@@ -22,8 +22,8 @@ namespace {
 [[gnu::tls_model("initial-exec")]] thread_local tape::Track* t_track = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const std::int64_t* t_reading = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const std::int64_t* t_readings_end = nullptr;
-[[gnu::tls_model("initial-exec")]] thread_local const tape::RetoldAnswer* t_answer = nullptr;
-[[gnu::tls_model("initial-exec")]] thread_local const tape::RetoldAnswer* t_answers_end = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const tape::ReplayedAnswer* t_answer = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const tape::ReplayedAnswer* t_answers_end = nullptr;
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
 }  // namespace
@@ -48,18 +48,18 @@ std::int64_t read_clock() noexcept {
   return now;
 }
 
-void set_answers(std::span<const tape::RetoldAnswer> answers) noexcept {
+void set_answers(std::span<const tape::ReplayedAnswer> answers) noexcept {
   t_answer = answers.data();
   t_answers_end = answers.data() + answers.size();
 }
 
-const tape::RetoldAnswer* next_answer() noexcept {
+const tape::ReplayedAnswer* next_answer() noexcept {
   return t_answer != t_answers_end ? t_answer++ : nullptr;
 }
 
 void note_answer(std::int64_t code, const void* bytes, std::size_t size) noexcept {
   if (t_track != nullptr) {
-    t_track->told(code, {static_cast<const std::uint8_t*>(bytes), size});
+    t_track->record_answer(code, {static_cast<const std::uint8_t*>(bytes), size});
   }
 }
 

@@ -50,15 +50,15 @@ std::int64_t read_clock() noexcept;
 
 // The same for the answers of shared functions and channels, and the freshness of values of other boards. As long as
 // there are `answers`, the run gets them; functions are called nevertheless, for their effects.
-void set_answers(std::span<const tape::RetoldAnswer> answers) noexcept;
+void set_answers(std::span<const tape::ReplayedAnswer> answers) noexcept;
 // Returns null if the live answer counts, which note_answer() records.
-const tape::RetoldAnswer* next_answer() noexcept;
+const tape::ReplayedAnswer* next_answer() noexcept;
 void note_answer(std::int64_t code, const void* bytes, std::size_t size) noexcept;
 // Wraps one answer: `ask` fills `bytes` and returns its code; `fills` returns whether `size` bytes belong to a code.
 // Returns the code that the run gets. Real-time safe if `ask` is.
 template <class Fills, class Ask>
 std::int64_t answer(void* bytes, std::size_t size, Fills fills, Ask ask) {
-  const tape::RetoldAnswer* const then = next_answer();
+  const tape::ReplayedAnswer* const then = next_answer();
   const std::int64_t now = ask();
   if (then == nullptr) {
     note_answer(now, bytes, fills(now) ? size : 0);

@@ -92,8 +92,8 @@ bool Follower::copy(const Place& place, std::uint64_t from, std::uint64_t count,
 void Follower::point_to(const std::vector<std::pair<EntryHead, std::size_t>>& found, Run& run) const {
   for (const auto& [entry, place] : found) {
     const auto* const at = reinterpret_cast<const std::uint8_t*>(run.words.data() + place);
-    if (entry.kind == EntryKind::Told) {
-      run.told.push_back({static_cast<std::int64_t>(run.words[place]), {at + sizeof(std::uint64_t), entry.which}});
+    if (entry.kind == EntryKind::Answer) {
+      run.answers.push_back({static_cast<std::int64_t>(run.words[place]), {at + sizeof(std::uint64_t), entry.which}});
     } else {
       run.values.push_back({entry.kind, entry.which, {at, index_.variables[entry.which].size}});
     }
@@ -104,7 +104,7 @@ Follower::Reading Follower::read_run(const Place& place, std::uint64_t head, Run
   run.words.clear();
   run.values.clear();
   run.clock.clear();
-  run.told.clear();
+  run.answers.clear();
   run.module = place.module;
   std::vector<std::pair<EntryHead, std::size_t>> found;
   for (std::uint64_t at = place.at; at < head;) {
@@ -114,7 +114,7 @@ Follower::Reading Follower::read_run(const Place& place, std::uint64_t head, Run
     }
     const EntryHead entry = head_of(run.words[begin]);
     const bool is_run = entry.kind == EntryKind::Run;
-    const bool is_value = !is_run && entry.kind != EntryKind::Clock && entry.kind != EntryKind::Told;
+    const bool is_value = !is_run && entry.kind != EntryKind::Clock && entry.kind != EntryKind::Answer;
     if (is_value && entry.which >= index_.variables.size()) {
       return Reading::Corrupt;
     }
@@ -123,7 +123,7 @@ Follower::Reading Follower::read_run(const Place& place, std::uint64_t head, Run
       words = kRunWords;
     } else if (is_value) {
       words = words_of(index_.variables[entry.which].size);
-    } else if (entry.kind == EntryKind::Told) {
+    } else if (entry.kind == EntryKind::Answer) {
       words = 1 + words_of(entry.which);
     }
     if (at + 1 + words > head || words > place.mask) {

@@ -25,7 +25,7 @@ struct Value {
 };
 
 // The answer of a call or a channel to a run.
-struct Told {
+struct Answer {
   std::int64_t code = 0;  // kTooLongToTell: the rest was not recorded
   std::span<const std::uint8_t> bytes;
 };
@@ -36,7 +36,7 @@ struct Run {
   RunTail tail;
   std::vector<Value> values;         // in the order of the track
   std::vector<std::int64_t> clock;   // results of irp::now_ns()
-  std::vector<Told> told;            // in the order of its calls
+  std::vector<Answer> answers;       // in the order of its calls
   std::vector<std::uint64_t> words;  // the data that the values point into
 };
 

@@ -24,7 +24,7 @@ enum class EntryKind : std::uint32_t {
   Again,       // unchanged value, so that a late reader eventually gets all of them
   Run,         // the end of a run; kRunWords words
   Clock,       // result of irp::now_ns(); one word
-  Told,        // answer to a call of a shared function, a channel read or an age query: a code, then the bytes
+  Answer,      // answer to a call of a shared function, a channel read or an age query: a code, then the bytes
 };
 
 // First word of an entry. It is followed by the value's bytes, in whole words, or by RunTail.
@@ -35,16 +35,16 @@ struct EntryHead {
 static_assert(sizeof(EntryHead) == sizeof(std::uint64_t) && std::is_trivially_copyable_v<EntryHead>);
 
 enum RunFlags : std::uint32_t {
-  kFaulted = 1,  // it ended by a fault
-  kAnew = 2,     // its module was restarted since its previous run
+  kFaulted = 1,    // it ended by a fault
+  kRestarted = 2,  // its module was restarted since its previous run
 };
 
 // Maximum clock readings recorded per run: a run with more of them waits for something, or measures.
-inline constexpr int kMostReadings = 64;
+inline constexpr int kMaxReadings = 64;
 // Maximum answers recorded per run. An answer longer than the track can hold next to runs is recorded without its
 // bytes.
-inline constexpr int kMostTold = 1024;
-inline constexpr std::uint64_t kToldShare = 16;            // a run may use 1/kToldShare of a track's words for that
+inline constexpr int kMaxAnswers = 1024;
+inline constexpr std::uint64_t kAnswerShare = 16;          // a run may use 1/kAnswerShare of a track's words for that
 inline constexpr std::int64_t kTooLongToTell = INT64_MIN;  // as code
 
 // The words after the head of Run.

@@ -85,7 +85,7 @@ void shrink(std::vector<TrackPlan>& tracks, const std::vector<Need>& needs, std:
   }
 }
 
-std::vector<std::uint32_t> known_to_nobody(std::span<const ModuleAccess> modules, std::size_t variables) {
+std::vector<std::uint32_t> known_to_no_module(std::span<const ModuleAccess> modules, std::size_t variables) {
   std::vector<bool> known(variables, false);
   for (const ModuleAccess& access : modules) {
     for (const auto* indices : {&access.reads, &access.writes}) {
@@ -113,7 +113,7 @@ TapePlan plan_tape(std::span<const ModuleAccess> modules, std::span<const vars::
     plan.taped[i] = directory[i].value_size <= bytes / kLargestShare;
   }
   std::vector<ModuleAccess> all(modules.begin(), modules.end());
-  if (auto others = known_to_nobody(modules, directory.size()); !others.empty()) {
+  if (auto others = known_to_no_module(modules, directory.size()); !others.empty()) {
     all.push_back({kOthers, basic_period_ns, std::move(others), {}});
   }
   std::vector<Need> needs;

@@ -14,7 +14,7 @@ constexpr std::size_t kWords = std::size_t{1} << 17U;    // a megabyte
 
 struct Header {
   std::uint64_t magic = kMagic;
-  std::uint32_t abi = kRetoldAbi;
+  std::uint32_t abi = kReplayInputAbi;
   std::int32_t node_pid = 0;
   std::uint64_t readings = 0;
   std::uint64_t answers = 0;
@@ -23,7 +23,7 @@ constexpr std::size_t kFirst = sizeof(Header) / sizeof(std::uint64_t);
 constexpr std::size_t kAnswerHead = 2;  // code, bytes
 
 std::string file_of(const std::string& node) {
-  return vars::retold_file(node);
+  return vars::replay_input_file(node);
 }
 
 Header& header_of(const vars::ShmFile& file) noexcept {
@@ -32,7 +32,7 @@ Header& header_of(const vars::ShmFile& file) noexcept {
 
 }  // namespace
 
-Result<RetoldWriter> RetoldWriter::create(const std::string& node, std::int32_t pid) {
+Result<ReplayInputWriter> ReplayInputWriter::create(const std::string& node, std::int32_t pid) {
   auto file = vars::ShmFile::create(file_of(node), kWords * sizeof(std::uint64_t));
   if (!file) {
     return file.error();
@@ -41,24 +41,24 @@ Result<RetoldWriter> RetoldWriter::create(const std::string& node, std::int32_t 
   if (const Status published = file->publish(); !published) {
     return published.error();
   }
-  return RetoldWriter(file_of(node), std::move(file).value());
+  return ReplayInputWriter(file_of(node), std::move(file).value());
 }
 
-RetoldWriter::~RetoldWriter() {
+ReplayInputWriter::~ReplayInputWriter() {
   if (!name_.empty()) {
     (void)vars::remove_shm_file(name_);
   }
 }
 
-void RetoldWriter::give(std::span<const std::int64_t> readings, std::span<const RetoldAnswer> answers) noexcept {
+void ReplayInputWriter::give(std::span<const std::int64_t> readings, std::span<const ReplayedAnswer> answers) noexcept {
   auto* const words = reinterpret_cast<std::uint64_t*>(file_.data());
   Header& header = header_of(file_);
-  header.readings = std::min<std::size_t>(readings.size(), kMostReadings);
+  header.readings = std::min<std::size_t>(readings.size(), kMaxReadings);
   std::size_t at = kFirst;
   std::memcpy(words + at, readings.data(), header.readings * sizeof(std::int64_t));
   at += header.readings;
   header.answers = 0;
-  for (const RetoldAnswer& answer : answers) {
+  for (const ReplayedAnswer& answer : answers) {
     const std::size_t size = words_of(answer.bytes.size());
     if (at + kAnswerHead + size > kWords) {
       return;
@@ -73,7 +73,7 @@ void RetoldWriter::give(std::span<const std::int64_t> readings, std::span<const 
   }
 }
 
-Result<RetoldReader> RetoldReader::open(const std::string& node, std::int32_t pid) {
+Result<ReplayInputReader> ReplayInputReader::open(const std::string& node, std::int32_t pid) {
   auto file = vars::ShmFile::open(file_of(node), vars::Mode::ReadOnly);
   if (!file) {
     return file.error();
@@ -81,23 +81,23 @@ Result<RetoldReader> RetoldReader::open(const std::string& node, std::int32_t pi
   if (file->size() != kWords * sizeof(std::uint64_t) || header_of(*file).magic != kMagic) {
     return Error{Errc::Corrupt, 0, "what a replay tells is damaged"};
   }
-  if (header_of(*file).abi != kRetoldAbi) {
+  if (header_of(*file).abi != kReplayInputAbi) {
     return Error{Errc::VersionMismatch, 0, "the replay is of another release"};
   }
   if (header_of(*file).node_pid != pid) {
     return Error{Errc::NotFound, 0, "the replay is of another node"};
   }
-  return RetoldReader(std::move(file).value());
+  return ReplayInputReader(std::move(file).value());
 }
 
-RetoldReader::RetoldReader(vars::ShmFile file) : file_(std::move(file)), answers_(kMostTold) {}
+ReplayInputReader::ReplayInputReader(vars::ShmFile file) : file_(std::move(file)), answers_(kMaxAnswers) {}
 
-std::span<const std::int64_t> RetoldReader::readings() const noexcept {
-  const std::uint64_t count = std::min<std::uint64_t>(header_of(file_).readings, kMostReadings);
+std::span<const std::int64_t> ReplayInputReader::readings() const noexcept {
+  const std::uint64_t count = std::min<std::uint64_t>(header_of(file_).readings, kMaxReadings);
   return {reinterpret_cast<const std::int64_t*>(file_.data()) + kFirst, count};
 }
 
-std::span<const RetoldAnswer> RetoldReader::answers() noexcept {
+std::span<const ReplayedAnswer> ReplayInputReader::answers() noexcept {
   const auto* const words = reinterpret_cast<const std::uint64_t*>(file_.data());
   const std::uint64_t count = std::min<std::uint64_t>(header_of(file_).answers, answers_.size());
   std::size_t at = kFirst + readings().size();

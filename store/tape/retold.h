@@ -17,53 +17,54 @@
 
 namespace indurop::tape {
 
-inline constexpr std::uint32_t kRetoldAbi = 1;
+inline constexpr std::uint32_t kReplayInputAbi = 1;
 
 // The bytes are valid until the next run is released.
-struct RetoldAnswer {
+struct ReplayedAnswer {
   std::int64_t code = 0;
   std::span<const std::uint8_t> bytes;
 };
 
 // The node's end. The memory is removed at the end.
-class RetoldWriter {
+class ReplayInputWriter {
  public:
   // `pid`: pid of the node. Errors: those of ShmFile::create() and publish().
-  static Result<RetoldWriter> create(const std::string& node, std::int32_t pid);
-  RetoldWriter(RetoldWriter&& other) noexcept : name_(std::exchange(other.name_, {})), file_(std::move(other.file_)) {}
-  RetoldWriter& operator=(RetoldWriter&& other) noexcept {
+  static Result<ReplayInputWriter> create(const std::string& node, std::int32_t pid);
+  ReplayInputWriter(ReplayInputWriter&& other) noexcept
+      : name_(std::exchange(other.name_, {})), file_(std::move(other.file_)) {}
+  ReplayInputWriter& operator=(ReplayInputWriter&& other) noexcept {
     std::swap(name_, other.name_);
     std::swap(file_, other.file_);
     return *this;
   }
-  RetoldWriter(const RetoldWriter&) = delete;
-  RetoldWriter& operator=(const RetoldWriter&) = delete;
-  ~RetoldWriter();
+  ReplayInputWriter(const ReplayInputWriter&) = delete;
+  ReplayInputWriter& operator=(const ReplayInputWriter&) = delete;
+  ~ReplayInputWriter();
 
   // Writes the inputs of the run that is released next, while no run is active. If something does not fit, the run gets
   // it live.
-  void give(std::span<const std::int64_t> readings, std::span<const RetoldAnswer> answers) noexcept;
+  void give(std::span<const std::int64_t> readings, std::span<const ReplayedAnswer> answers) noexcept;
 
  private:
-  RetoldWriter(std::string name, vars::ShmFile file) : name_(std::move(name)), file_(std::move(file)) {}
+  ReplayInputWriter(std::string name, vars::ShmFile file) : name_(std::move(name)), file_(std::move(file)) {}
   std::string name_;
   vars::ShmFile file_;
 };
 
 // The process's end.
-class RetoldReader {
+class ReplayInputReader {
  public:
   // Errors: NotFound (the node of this pid is no replay), VersionMismatch, Corrupt, those of ShmFile::open().
-  static Result<RetoldReader> open(const std::string& node, std::int32_t pid);
+  static Result<ReplayInputReader> open(const std::string& node, std::int32_t pid);
 
   // The inputs of the run that was released last. Real-time safe.
   [[nodiscard]] std::span<const std::int64_t> readings() const noexcept;
-  std::span<const RetoldAnswer> answers() noexcept;
+  std::span<const ReplayedAnswer> answers() noexcept;
 
  private:
-  explicit RetoldReader(vars::ShmFile file);
+  explicit ReplayInputReader(vars::ShmFile file);
   vars::ShmFile file_;
-  std::vector<RetoldAnswer> answers_;  // space for as many as a run can have
+  std::vector<ReplayedAnswer> answers_;  // space for as many as a run can have
 };
 
 }  // namespace indurop::tape

@@ -13,8 +13,9 @@ namespace indurop::tape {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr std::uint64_t kAhead = 64;        // words claimed in advance, so that not each entry has to claim
-constexpr std::uint64_t kLookAtClock = 16;  // variables checked and words written in the time of a clock reading
+constexpr std::uint64_t kAhead = 64;  // words claimed in advance, so that not each entry has to claim
+constexpr std::uint64_t kStepsPerClockReading =
+    16;  // variables checked and words written in the time of a clock reading
 
 // The bits of a scalar.
 std::uint64_t load_scalar(const void* entry, std::uint32_t size) noexcept {
@@ -42,7 +43,7 @@ Track::Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Write
       at_(head_),
       claimed_(shared.claimed.load(kRelaxed)),
       number_(shared.runs.load(kRelaxed)),
-      anew_(number_ > 0 ? std::uint32_t{kAnew} : 0U),  // another process of a module that has run
+      restarted_(number_ > 0 ? std::uint32_t{kRestarted} : 0U),  // another process of a module that has run
       shared_(shared),
       words_(reinterpret_cast<std::uint64_t*>(tape + shared.data_offset)),
       mask_(shared.words - 1),
@@ -79,7 +80,7 @@ void Track::put_head(EntryKind kind, std::uint32_t which) noexcept {
 }
 
 // A value that writers keep overtaking is recorded the next time.
-void Track::tell(Item& item, EntryKind kind) noexcept {
+void Track::record_entry(Item& item, EntryKind kind) noexcept {
   const std::uint64_t length = words_of(item.size);
   if (item.scalar) {
     claim(1 + length);
@@ -99,14 +100,14 @@ void Track::tell(Item& item, EntryKind kind) noexcept {
   }
 }
 
-bool Track::tell_changed(Item& item, EntryKind kind, bool anyway) noexcept {
+bool Track::record_changed(Item& item, EntryKind kind, bool anyway) noexcept {
   const std::uint64_t now =
       item.scalar ? load_scalar(item.entry, item.size) : ring_of(item.entry).seq.load(std::memory_order_acquire);
   if (now == item.seen && !anyway) [[likely]] {
     return false;
   }
   item.seen = now;
-  tell(item, kind);
+  record_entry(item, kind);
   return true;
 }
 
@@ -114,24 +115,24 @@ bool Track::begin() noexcept {
   at_ = head_;
   all_ = all_ || open_;
   open_ = true;
-  clock_left_ = kMostReadings;
-  told_left_ = kMostTold;
-  told_words_left_ = (mask_ + 1) / kToldShare;
+  clock_left_ = kMaxReadings;
+  answers_left_ = kMaxAnswers;
+  answer_words_left_ = (mask_ + 1) / kAnswerShare;
   order_ = orders_.fetch_add(1, kRelaxed);
   for (std::size_t i = 0; i < reads_end_; ++i) {
-    tell_changed(items_[i], EntryKind::Before, all_);
+    record_changed(items_[i], EntryKind::Before, all_);
   }
   if (shows_open_) {
     shared_.open_order.store(order_, kRelaxed);
-    shared_.open_flags.store(anew_.load(kRelaxed), kRelaxed);
+    shared_.open_flags.store(restarted_.load(kRelaxed), kRelaxed);
     show_open();
   }
   return much(reads_end_, head_);
 }
 
 // About a nanosecond for each variable that was checked and for each word that was written since `from`.
-bool Track::much(std::size_t looked_at, std::uint64_t from) const noexcept {
-  return looked_at + (at_ - from) > kLookAtClock;
+bool Track::much(std::size_t checks, std::uint64_t from) const noexcept {
+  return checks + (at_ - from) > kStepsPerClockReading;
 }
 
 // The words so far belong to the open run, even if its writer dies.
@@ -151,16 +152,16 @@ void Track::clock(std::int64_t ns) noexcept {
   }
 }
 
-void Track::told(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept {
-  if (!open_ || told_left_ == 0 || told_words_left_ < 2) {
+void Track::record_answer(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept {
+  if (!open_ || answers_left_ == 0 || answer_words_left_ < 2) {
     return;
   }
-  --told_left_;
+  --answers_left_;
   const std::uint64_t length = words_of(bytes.size());
-  const bool fits = 2 + length <= told_words_left_;
-  told_words_left_ -= 2 + (fits ? length : 0);
+  const bool fits = 2 + length <= answer_words_left_;
+  answer_words_left_ -= 2 + (fits ? length : 0);
   claim(2 + (fits ? length : 0));
-  put_head(EntryKind::Told, fits ? static_cast<std::uint32_t>(bytes.size()) : 0);
+  put_head(EntryKind::Answer, fits ? static_cast<std::uint32_t>(bytes.size()) : 0);
   put(static_cast<std::uint64_t>(fits ? code : kTooLongToTell));
   for (std::size_t from = 0; fits && from < bytes.size(); from += sizeof(std::uint64_t)) {
     std::uint64_t word = 0;
@@ -174,7 +175,7 @@ void Track::end_of_dead(RunTail times) noexcept {
   at_ = shared_.open.load(std::memory_order_acquire);
   if (at_ > head_) {
     order_ = shared_.open_order.load(kRelaxed);
-    anew_.store(static_cast<std::uint32_t>(shared_.open_flags.load(kRelaxed)), kRelaxed);
+    restarted_.store(static_cast<std::uint32_t>(shared_.open_flags.load(kRelaxed)), kRelaxed);
     times.start_ns = std::max(times.start_ns, times.release_ns);
     publish(times, kFaulted);
   }
@@ -183,35 +184,35 @@ void Track::end_of_dead(RunTail times) noexcept {
 bool Track::end(const RunTail& times, std::uint32_t flags) noexcept {
   const std::uint64_t from = at_ + 1 + kRunWords;
   for (std::size_t i = 0; i < writes_begin_; ++i) {
-    tell_changed(items_[i], EntryKind::During, false);
+    record_changed(items_[i], EntryKind::During, false);
   }
   for (std::size_t i = writes_begin_; i < items_.size(); ++i) {
-    tell_changed(items_[i], EntryKind::After, all_ && i >= reads_end_);
+    record_changed(items_[i], EntryKind::After, all_ && i >= reads_end_);
   }
-  tell_next_again();
+  record_next_again();
   publish(times, flags);
   return much(items_.size(), from);
 }
 
-void Track::look(const RunTail& times) noexcept {
+void Track::record_others(const RunTail& times) noexcept {
   at_ = head_;
   bool changed = false;
   for (Item& item : items_) {
-    changed = tell_changed(item, EntryKind::Before, all_) || changed;
+    changed = record_changed(item, EntryKind::Before, all_) || changed;
   }
   if (changed) {
     order_ = orders_.fetch_add(1, kRelaxed);
-    tell_next_again();
+    record_next_again();
     publish(times, 0);
   }
 }
 
-void Track::tell_next_again() noexcept {
+void Track::record_next_again() noexcept {
   if (!items_.empty()) {
     again_ = again_ + 1U < items_.size() ? again_ + 1U : 0U;
     Item& item = items_[again_];
     if (item.scalar || ring_of(item.entry).seq.load(kRelaxed) == item.seen) {
-      tell(item, EntryKind::Again);
+      record_entry(item, EntryKind::Again);
     }
   }
 }
@@ -219,15 +220,15 @@ void Track::tell_next_again() noexcept {
 // Written from data at hand, and a mark without a division: most runs consist only of this.
 void Track::publish(const RunTail& times, std::uint32_t flags) noexcept {
   claim(1 + kRunWords);
-  const std::uint32_t anew = anew_.load(std::memory_order_acquire);
-  if (anew != 0) [[unlikely]] {
-    anew_.store(0, kRelaxed);
+  const std::uint32_t restarted = restarted_.load(std::memory_order_acquire);
+  if (restarted != 0) [[unlikely]] {
+    restarted_.store(0, kRelaxed);
   }
   std::uint64_t* const words = words_;
   const std::uint64_t mask = mask_;
   std::uint64_t at = at_;
   const auto write = [&](std::uint64_t word) { __atomic_store_n(words + (at++ & mask), word, __ATOMIC_RELAXED); };
-  write(std::bit_cast<std::uint64_t>(EntryHead{EntryKind::Run, flags | anew}));
+  write(std::bit_cast<std::uint64_t>(EntryHead{EntryKind::Run, flags | restarted}));
   // In the order of RunTail.
   static_assert(kRunWords == 6 && offsetof(RunTail, order) == 8 && offsetof(RunTail, tick) == 16 &&
                 offsetof(RunTail, release_ns) == 24 && offsetof(RunTail, start_ns) == 32);

@@ -25,14 +25,14 @@ class alignas(kLine) Track {
   Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Writer writer = Writer::Node);
 
   // The module restarts before its next run; call while it does not run, on any thread.
-  void started_anew() noexcept { anew_.store(kAnew, std::memory_order_release); }
+  void note_restart() noexcept { restarted_.store(kRestarted, std::memory_order_release); }
   // Records the values at the start of a run. Returns true if that was much: it took longer than a clock reading.
   // Real-time safe: no lock, no allocation, no system call.
   bool begin() noexcept;
   // Records a clock reading of the run. Real-time safe.
   void clock(std::int64_t ns) noexcept;
   // Records the answer of a call or a channel. Real-time safe.
-  void told(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept;
+  void record_answer(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept;
   // Records the values after the run; from then on readers see the run. Returns true if that was much, as above.
   // `number` and `order` of `times` are ignored. Real-time safe.
   bool end(const RunTail& times, std::uint32_t flags) noexcept;
@@ -42,7 +42,7 @@ class alignas(kLine) Track {
   // Position of the next run.
   [[nodiscard]] const void* next() const noexcept { return words_ + (head_ & mask_); }
   // A run that only checks: nothing is written if nothing changed. Real-time safe.
-  void look(const RunTail& times) noexcept;
+  void record_others(const RunTail& times) noexcept;
 
  private:
   struct Item {
@@ -53,12 +53,12 @@ class alignas(kLine) Track {
     bool scalar = false;
   };
 
-  bool tell_changed(Item& item, EntryKind kind, bool anyway) noexcept;
-  void tell(Item& item, EntryKind kind) noexcept;
-  void tell_next_again() noexcept;
+  bool record_changed(Item& item, EntryKind kind, bool anyway) noexcept;
+  void record_entry(Item& item, EntryKind kind) noexcept;
+  void record_next_again() noexcept;
   void show_open() noexcept;
   void publish(const RunTail& times, std::uint32_t flags) noexcept;
-  [[nodiscard]] bool much(std::size_t looked_at, std::uint64_t from) const noexcept;
+  [[nodiscard]] bool much(std::size_t checks, std::uint64_t from) const noexcept;
   void claim(std::uint64_t words) noexcept;
   void put(std::uint64_t word) noexcept;
   void put_head(EntryKind kind, std::uint32_t which) noexcept;
@@ -70,10 +70,10 @@ class alignas(kLine) Track {
   std::uint64_t claimed_ = 0;
   std::uint64_t order_ = 0;
   std::uint64_t number_ = 0;
-  std::uint64_t told_words_left_ = 0;
-  std::uint16_t clock_left_ = 0;     // readings of this run that may still be recorded
-  std::uint16_t told_left_ = 0;      // answers of this run that may still be recorded
-  std::atomic<std::uint32_t> anew_;  // kAnew or 0
+  std::uint64_t answer_words_left_ = 0;
+  std::uint16_t clock_left_ = 0;          // readings of this run that may still be recorded
+  std::uint16_t answers_left_ = 0;        // answers of this run that may still be recorded
+  std::atomic<std::uint32_t> restarted_;  // kRestarted or 0
   TapeTrack& shared_;
   std::uint64_t* words_;
   std::uint64_t mask_;

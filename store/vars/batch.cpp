@@ -23,7 +23,7 @@ constexpr std::uint32_t kMaxTries = 200;
 bool is_sound(const BatchEntry& entry, std::span<const DirectoryEntry> directory) noexcept {
   return entry.variable < directory.size() && entry.size > 0 &&
          std::uint64_t{entry.offset} + entry.size <= directory[entry.variable].value_size &&
-         std::uint64_t{entry.data} + entry.size <= kMostBatchBytes;
+         std::uint64_t{entry.data} + entry.size <= kMaxBatchBytes;
 }
 
 // One request to the tick thread. Everything is prepared before the first change becomes visible.
@@ -40,7 +40,7 @@ class Order {
 
   // Returns Done, Busy, or Wrong.
   BatchState carry_out() noexcept {
-    const std::size_t count = std::min<std::size_t>(block_.count, kMostBatchValues);
+    const std::size_t count = std::min<std::size_t>(block_.count, kMaxBatchValues);
     for (std::size_t i = 0; i < count; ++i) {
       if (!is_sound(block_.entries[i], store_.directory())) {
         return BatchState::Wrong;
@@ -86,7 +86,7 @@ class Order {
 
   const Store& store_;
   const BatchBlock& block_;
-  std::array<abi::RingHeader*, kMostBatchValues> rings_{};  // held_ of them
+  std::array<abi::RingHeader*, kMaxBatchValues> rings_{};  // held_ of them
   std::size_t held_ = 0;
   unsigned char* slot_ = nullptr;
 };
@@ -132,7 +132,7 @@ bool put(BatchBlock& block, const Store& store, std::span<const Change> changes)
   std::size_t used = 0;
   block.count = 0;
   for (const Change& one : sorted) {
-    if (block.count == kMostBatchValues || used + one.bytes.size() > kMostBatchBytes) {
+    if (block.count == kMaxBatchValues || used + one.bytes.size() > kMaxBatchBytes) {
       return false;
     }
     block.entries[block.count++] = {static_cast<std::uint32_t>(one.variable - store.directory().data()), one.offset,

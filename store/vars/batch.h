@@ -20,8 +20,8 @@
 namespace indurop::vars {
 
 // Limits of one request, so that the tick stays short.
-inline constexpr std::size_t kMostBatchValues = 512;
-inline constexpr std::size_t kMostBatchBytes = std::size_t{32} << 10U;
+inline constexpr std::size_t kMaxBatchValues = 512;
+inline constexpr std::size_t kMaxBatchBytes = std::size_t{32} << 10U;
 
 enum class BatchState : std::uint32_t { Free, Staged, Working, Done, Busy, Wrong };
 
@@ -39,8 +39,8 @@ struct BatchBlock {
   std::atomic<BatchState> state;
   std::uint32_t count;
   std::atomic<std::uint64_t> tick;  // the tick that applied it
-  BatchEntry entries[kMostBatchValues];
-  unsigned char data[kMostBatchBytes];
+  BatchEntry entries[kMaxBatchValues];
+  unsigned char data[kMaxBatchBytes];
 };
 
 std::string batch_file(const std::string& node);  // indurop.<node>.batch

@@ -240,13 +240,13 @@ Result<BlockIndex> check_block(std::span<const std::byte> memory) {
   }
   const BlockHeader& header = *header_of(memory.data());
   const Error corrupt{Errc::Corrupt, 0, "directory of the store"};
-  constexpr std::uint32_t kMostVariables = 1'000'000;
-  constexpr std::uint64_t kMostText = std::uint64_t{256} << 20U;
+  constexpr std::uint32_t kMaxVariables = 1'000'000;
+  constexpr std::uint64_t kMaxText = std::uint64_t{256} << 20U;
   BlockIndex index;
   std::vector<char> text;
   const std::uint32_t variables = header.variable_count;
   const std::uint64_t text_size = header.schema_size;
-  if (variables > kMostVariables || text_size > kMostText ||
+  if (variables > kMaxVariables || text_size > kMaxText ||
       !copy_table(memory, header.directory_offset, variables, index.directory) ||
       !copy_table(memory, header.schema_offset, text_size, text)) {
     return corrupt;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t kCustodyMagic = 0x31545355'43524e49ULL;
 constexpr std::size_t kName = 64;
 constexpr std::size_t kReason = 160;
-constexpr std::size_t kMostNotes = kMostForces + 16;  // some belong to forces that end meanwhile
+constexpr std::size_t kMaxNotes = kMaxForces + 16;  // some belong to forces that end meanwhile
 
 // The format in memory.
 struct Line {
@@ -40,7 +40,7 @@ struct CustodyBlock {
   std::atomic<std::uint64_t> magic;  // stored last
   rt::SharedMutex mutex;             // for writers
   Place lock;
-  Place notes[kMostNotes];
+  Place notes[kMaxNotes];
 };
 
 CustodyBlock& block_in(const ShmFile& file) noexcept {

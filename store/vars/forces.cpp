@@ -216,7 +216,7 @@ Status prolong(BlockHeader& header, const DirectoryEntry& variable, std::uint32_
   return {};
 }
 
-Status let_go(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t offset) noexcept {
+Status release(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t offset) noexcept {
   const Changing changing(header.forces);
   if (!changing.locked()) {
     return kBusy;
@@ -231,7 +231,7 @@ Status let_go(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t
   return {};
 }
 
-void let_overdue_go(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept {
+void release_overdue(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept {
   const Changing changing(header.forces);
   if (!changing.locked()) {
     return;
@@ -246,7 +246,7 @@ void let_overdue_go(BlockHeader& header, std::span<const DirectoryEntry> directo
   }
 }
 
-void let_all_go(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept {
+void release_all(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept {
   for (ForceSlot& slot : header.forces.slots) {
     slot.entry.store(0, std::memory_order_release);
   }

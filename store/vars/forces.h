@@ -34,7 +34,7 @@ struct Force {
 bool init_forces(ForceTable& table) noexcept;
 
 // Forces one more part, or changes the value or time of a forced one. Not real-time safe: waits until every processor
-// has seen it. Errors: InvalidArgument (size), NoSpace (kMostForces parts are forced), Busy (a process that changes the
+// has seen it. Errors: InvalidArgument (size), NoSpace (kMaxForces parts are forced), Busy (a process that changes the
 // table, or a writer of the variable, is stopped).
 Status force(BlockHeader& header, const Force& what) noexcept;
 // Sets a later end, if `was` is still its end: no other user has re-forced or released it. Errors: NotFound
@@ -42,11 +42,11 @@ Status force(BlockHeader& header, const Force& what) noexcept;
 Status prolong(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t offset, rt::MonoTime was,
                rt::MonoTime until) noexcept;
 // Releases a force: the part keeps its value until the next write. Errors: NotFound (it is not forced), Busy.
-Status let_go(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t offset) noexcept;
+Status release(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t offset) noexcept;
 // Frees the slots of expired forces. Does nothing while another process changes the table.
-void let_overdue_go(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept;
+void release_overdue(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept;
 // Releases all forces, for the node that takes over a block: no other process may change the table now.
-void let_all_go(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept;
+void release_all(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept;
 
 // Returns the forces that have not expired now. Points into the directory.
 std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory);

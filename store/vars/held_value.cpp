@@ -52,7 +52,7 @@ bool holds_same(const Force& force, const HeldValue& value, const HeldPart& part
 }
 
 // Releases the forces of a longer earlier text after the end of the new one.
-Status let_texts_go(Store& store, const HeldValue& value, const std::vector<Force>& before) {
+Status release_texts(Store& store, const HeldValue& value, const std::vector<Force>& before) {
   Status status;
   for_each_leaf(value.type, value.offset, [&](const schema::Type& leaf, std::uint32_t offset) {
     if (leaf.base != schema::Base::Text || std::none_of(value.parts.begin(), value.parts.end(), [&](const HeldPart& p) {
@@ -62,7 +62,7 @@ Status let_texts_go(Store& store, const HeldValue& value, const std::vector<Forc
     }
     for (const Force& force : before) {
       if (force.variable == value.variable && force.offset >= offset && force.offset < offset + leaf.text_size) {
-        const Status gone = store.let_go(*force.variable, force.offset);
+        const Status gone = store.release(*force.variable, force.offset);
         status = gone.ok() || gone.error().code == Errc::NotFound ? status : gone;
       }
     }
@@ -121,11 +121,11 @@ Status hold(Store& store, std::span<const HeldValue> values, rt::MonoTime until)
       });
     }));
   }
-  if (before.size() + more > kMostForces) {
+  if (before.size() + more > kMaxForces) {
     return Error{Errc::NoSpace, 0, "table of forces"};
   }
   for (const HeldValue& value : values) {
-    Status status = let_texts_go(store, value, before);
+    Status status = release_texts(store, value, before);
     for (const HeldPart& part : value.parts) {
       if (!status) {
         break;
@@ -134,7 +134,7 @@ Status hold(Store& store, std::span<const HeldValue> values, rt::MonoTime until)
                            std::span(value.bytes).subspan(part.offset, part.size), until);
     }
     if (!status) {
-      (void)let_go(store, values, until);
+      (void)release(store, values, until);
       return status;
     }
   }
@@ -147,9 +147,9 @@ Status prolong(Store& store, std::span<const HeldValue> values, rt::MonoTime was
   });
 }
 
-Status let_go(Store& store, std::span<const HeldValue> values, rt::MonoTime was) {
+Status release(Store& store, std::span<const HeldValue> values, rt::MonoTime was) {
   return for_each_own(store, values, was, [&](const HeldValue& value, const HeldPart& part) {
-    return store.let_go(*value.variable, value.offset + part.offset);
+    return store.release(*value.variable, value.offset + part.offset);
   });
 }
 

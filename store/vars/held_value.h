@@ -35,7 +35,7 @@ struct HeldValue {
 std::vector<HeldPart> parts_to_hold(const schema::Type& type, std::string_view text,
                                     std::span<const std::uint8_t> bytes);
 
-// Holds all of them until a time, or none. Errors: NoSpace (more than kMostForces would be held), and those of
+// Holds all of them until a time, or none. Errors: NoSpace (more than kMaxForces would be held), and those of
 // Store::force().
 Status hold(Store& store, std::span<const HeldValue> values, rt::MonoTime until);
 
@@ -43,7 +43,7 @@ Status hold(Store& store, std::span<const HeldValue> values, rt::MonoTime until)
 // released them since. Returns NotFound if this is not true for at least one; the others are held until `until`.
 Status prolong(Store& store, std::span<const HeldValue> values, rt::MonoTime was, rt::MonoTime until);
 // Releases those for which the same is true.
-Status let_go(Store& store, std::span<const HeldValue> values, rt::MonoTime was);
+Status release(Store& store, std::span<const HeldValue> values, rt::MonoTime was);
 
 // A forced part, by the name people use: the words of a text are one part.
 struct ForcedPart {

@@ -27,10 +27,10 @@ struct ForceSlot {
   std::atomic<std::uint64_t> value;    // first bytes of it
   std::atomic<std::int64_t> until_ns;  // CLOCK_MONOTONIC, INT64_MAX: until it is released
 };
-inline constexpr std::size_t kMostForces = 64;
+inline constexpr std::size_t kMaxForces = 64;
 struct ForceTable {
   abi::SharedMutex lock;  // for processes that change the table
-  ForceSlot slots[kMostForces];
+  ForceSlot slots[kMaxForces];
 };
 
 struct BlockHeader {

@@ -85,7 +85,7 @@ void write_holder(int file) noexcept {
   char text[64];
   const int length = std::snprintf(text, sizeof(text), "%d %llu\n", static_cast<int>(::getpid()),
                                    static_cast<unsigned long long>(process_start_time(::getpid())));
-  [[maybe_unused]] const bool told =
+  [[maybe_unused]] const bool announced =
       ::ftruncate(file, 0) == 0 && ::pwrite(file, text, static_cast<std::size_t>(length), 0) == length;
 }
 
@@ -100,7 +100,7 @@ pid_t pid_in_block(const std::string& node) {
 }
 
 // For users who may not open the file. The kernel shows all locks, with the numbers of their files.
-bool locked_by_anybody(const struct stat& file) {
+bool has_kernel_lock(const struct stat& file) {
   char wanted[64];
   std::snprintf(wanted, sizeof wanted, " %02x:%02x:%llu ", major(file.st_dev), minor(file.st_dev),
                 static_cast<unsigned long long>(file.st_ino));
@@ -298,7 +298,7 @@ pid_t running_node(const std::string& node) {
   struct stat info {};
   const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) {
-    const bool closed = errno == EACCES && ::lstat(path.c_str(), &info) == 0 && locked_by_anybody(info);
+    const bool closed = errno == EACCES && ::lstat(path.c_str(), &info) == 0 && has_kernel_lock(info);
     const pid_t pid = closed ? pid_in_block(node) : 0;
     return pid != 0 && belongs_to(pid, info.st_uid) ? pid : 0;
   }

@@ -34,7 +34,7 @@ constexpr std::uint32_t kRetainVersion = 2;
 constexpr std::uint32_t kWithoutTypes = 1;  // still readable
 constexpr std::array<const char*, 2> kNames{"retain.a", "retain.b"};
 constexpr const char* kLosses = "retain.lost";
-constexpr std::size_t kMostBytes = std::numeric_limits<std::size_t>::max() / 2;
+constexpr std::size_t kMaxBytes = std::numeric_limits<std::size_t>::max() / 2;
 constexpr std::size_t kChecked = 16;  // the checksum covers everything from this offset on
 
 struct FileHeader {
@@ -254,7 +254,7 @@ Status RetainFile::scan(std::vector<std::string>& notes) {
   copy_ = {};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     const std::filesystem::path path = directory_ / kNames[i];
-    const auto text = base::read_file(path, kMostBytes);
+    const auto text = base::read_file(path, kMaxBytes);
     if (!text) {
       if (text.error().sys_errno == ENOENT) {
         continue;
@@ -316,8 +316,8 @@ void RetainFile::keep_losses(RetainReport& report) const {
 
 std::vector<std::string> RetainFile::losses() const {
   std::vector<std::string> lines;
-  constexpr std::size_t kMostText = 1U << 20U;
-  const auto text = base::read_file(directory_ / kLosses, kMostText);
+  constexpr std::size_t kMaxText = 1U << 20U;
+  const auto text = base::read_file(directory_ / kLosses, kMaxText);
   for (std::size_t from = 0; text && from < text->size();) {
     const std::size_t end = std::min(text->find('\n', from), text->size());
     lines.push_back(text->substr(from, end - from));

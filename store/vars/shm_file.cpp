@@ -136,7 +136,7 @@ std::string external_file(const std::string& node) {
 std::string tape_file(const std::string& node) {
   return "indurop." + node + ".tape";
 }
-std::string retold_file(const std::string& node) {
+std::string replay_input_file(const std::string& node) {
   return "indurop." + node + ".retold";
 }
 std::string lock_file(const std::string& node) {
@@ -203,7 +203,7 @@ Result<ShmCopy> ShmCopy::of(const std::string& name) {
   }
   ShmCopy copy;
   const auto size = static_cast<std::size_t>(info.st_size);
-  if (constexpr std::size_t kMost = std::size_t{64} << 20U; size > kMost) {
+  if (constexpr std::size_t kMaxFileSize = std::size_t{64} << 20U; size > kMaxFileSize) {
     return Error{Errc::Corrupt, 0, "shared memory file is larger than any of its kind"};
   }
   copy.words_.resize((size + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));

@@ -164,7 +164,7 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
     if (old.layout_hash == plan->layout_hash && rings_work(*previous->file, previous->index->directory)) {
       static_cast<void>(remove_unfinished(block_file(node)));
       own_everything(*previous);
-      let_all_go(old, previous->index->directory);
+      release_all(old, previous->index->directory);
       sign_in(old, generation);
       old.state.store(BlockState::Ready, std::memory_order_release);
       return Store(std::make_unique<Impl>(std::move(*previous->file), std::move(*previous->index), Origin::Adopted));
@@ -332,16 +332,16 @@ Status Store::prolong(const DirectoryEntry& variable, std::uint32_t offset, rt::
   return vars::prolong(impl_->header(), variable, offset, was, until);
 }
 
-Status Store::let_go(const DirectoryEntry& variable, std::uint32_t offset) noexcept {
+Status Store::release(const DirectoryEntry& variable, std::uint32_t offset) noexcept {
   if (impl_->file.mode() == Mode::ReadOnly) {
     return Error{Errc::PermissionDenied, 0, "let go through a read-only view"};
   }
-  return vars::let_go(impl_->header(), variable, offset);
+  return vars::release(impl_->header(), variable, offset);
 }
 
-void Store::let_overdue_go() noexcept {
+void Store::release_overdue() noexcept {
   if (impl_->file.mode() == Mode::ReadWrite) {
-    vars::let_overdue_go(impl_->header(), impl_->index.directory);
+    vars::release_overdue(impl_->header(), impl_->index.directory);
   }
 }
 

@@ -73,7 +73,7 @@ class Store {
   Status write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept;
 
   // Holds a part of a variable, of 1, 2, 4 or 8 bytes, at a value until a time (or kForever) against all writers;
-  // create() ends all forces. Not real-time safe. Errors: OutOfRange, InvalidArgument (size), NoSpace (kMostForces are
+  // create() ends all forces. Not real-time safe. Errors: OutOfRange, InvalidArgument (size), NoSpace (kMaxForces are
   // held), Busy, PermissionDenied (read-only).
   Status force(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> value,
                rt::MonoTime until) noexcept;
@@ -81,9 +81,9 @@ class Store {
   // since, or it has expired), Busy, PermissionDenied (read-only).
   Status prolong(const DirectoryEntry& variable, std::uint32_t offset, rt::MonoTime was, rt::MonoTime until) noexcept;
   // Errors: NotFound (it is not forced), Busy, PermissionDenied (read-only).
-  Status let_go(const DirectoryEntry& variable, std::uint32_t offset) noexcept;
+  Status release(const DirectoryEntry& variable, std::uint32_t offset) noexcept;
   // Removes expired forces, which hold nothing but cost their writers a check.
-  void let_overdue_go() noexcept;
+  void release_overdue() noexcept;
   [[nodiscard]] std::vector<Force> forces() const;
 
   // Releases writer locks that the calling thread holds and discards unpublished versions: for a thread that left a

@@ -318,7 +318,7 @@ void Plant::set_text(std::string_view name, const std::string& text, bool hold) 
     impl_->write(part, bytes);
   } else if (!part.store->force(*part.entry, part.place.offset, bytes, vars::kForever)) {
     throw std::runtime_error(
-        fmt::format("{} cannot be forced: only numbers can, {} at a time", name, vars::kMostForces));
+        fmt::format("{} cannot be forced: only numbers can, {} at a time", name, vars::kMaxForces));
   }
 }
 
@@ -334,7 +334,7 @@ void Plant::set_bytes(std::string_view name, std::span<const std::uint8_t> from)
 
 void Plant::unforce(std::string_view name) {
   const Impl::Part part = impl_->find(name);
-  if (!part.store->let_go(*part.entry, part.place.offset)) {
+  if (!part.store->release(*part.entry, part.place.offset)) {
     throw std::runtime_error(fmt::format("{} is not forced", name));
   }
 }

@@ -143,7 +143,7 @@ RemoteBoard::Taken RemoteBoard::take_values(std::string_view text, std::int64_t 
   const std::string forced = held_by(told);
   if (forced != forced_) {
     for (const vars::Force& force : store_->forces()) {
-      (void)store_->let_go(*force.variable, force.offset);
+      (void)store_->release(*force.variable, force.offset);
     }
   }
   write(parts->second, now_ns);

@@ -24,7 +24,7 @@ std::string what_failed(const Error& error) {
       return "the node was started by an older version: restart it";
     case Errc::InvalidArgument:
       return fmt::format("a tick changes at most {} values of {} KiB together: make two recipes of it",
-                         vars::kMostBatchValues, vars::kMostBatchBytes >> 10U);
+                         vars::kMaxBatchValues, vars::kMaxBatchBytes >> 10U);
     case Errc::Timeout:
       return "the node does not tick";
     default:

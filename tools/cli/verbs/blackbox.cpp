@@ -12,7 +12,7 @@
 #include "core/rt/clock.h"
 #include "history/recorder/boxes.h"
 #include "history/recorder/join.h"
-#include "store/vars/box_wish.h"
+#include "store/vars/box_request.h"
 #include "store/vars/retain.h"
 #include "tools/cli/command/interrupt.h"
 #include "tools/cli/command/table.h"
@@ -263,7 +263,7 @@ int keep(Context& context, const std::string& why) {
     context.out.error(fmt::format("node '{}' does not run", *node));
     return kUnreachable;
   }
-  if (const Status wished = vars::wish_box(*node, why.empty() ? "wanted by a user" : why); !wished) {
+  if (const Status wished = vars::request_box(*node, why.empty() ? "wanted by a user" : why); !wished) {
     context.out.error(wished.error().code == Errc::Busy
                           ? fmt::format("node '{}': {}", *node, vars::kBoxesTooClose)
                           : fmt::format("{} cannot be written", vars::state_directory(*node).string()));

@@ -17,7 +17,7 @@
 #include "core/rt/clock.h"
 #include "history/explain/facts_json.h"
 #include "history/recorder/parts.h"
-#include "store/vars/names_of_nothing.h"
+#include "store/vars/unmatched_patterns.h"
 #include "tools/cli/command/amount.h"
 #include "tools/cli/command/config_file.h"
 #include "tools/cli/command/gentle.h"
@@ -254,7 +254,7 @@ int record_plant(Context& context, Options& options) {
   }
   std::vector<std::string> nobody_has = names;
   for (const auto& node : nodes) {
-    nobody_has = vars::names_of_nothing(node->store, nobody_has);
+    nobody_has = vars::unmatched_patterns(node->store, nobody_has);
   }
   std::erase_if(names, [&](const std::string& name) {
     return std::find(nobody_has.begin(), nobody_has.end(), name) != nobody_has.end();

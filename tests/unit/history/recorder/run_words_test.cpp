@@ -43,7 +43,7 @@ TEST(RunWords, Come_back_as_they_were) {
 TEST(RunWords, A_sequence_number_says_whose_value_it_is_and_as_what) {
   for (const std::uint32_t module : {0U, 5U, kOthers}) {
     for (const tape::EntryKind kind :
-         {tape::EntryKind::Before, tape::EntryKind::Again, tape::EntryKind::Clock, tape::EntryKind::Told}) {
+         {tape::EntryKind::Before, tape::EntryKind::Again, tape::EntryKind::Clock, tape::EntryKind::Answer}) {
       const ValueWords back = from_sequence(to_sequence({module, kind}));
       EXPECT_EQ(back.module, module);
       EXPECT_EQ(back.kind, kind);

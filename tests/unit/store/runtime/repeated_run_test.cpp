@@ -16,14 +16,14 @@ using namespace knu::Robot;
 
 class RepeatedRun : public ::testing::Test {
  protected:
-  static void repeat(std::span<const tape::RetoldAnswer> answers) { runtime::set_answers(answers); }
+  static void repeat(std::span<const tape::ReplayedAnswer> answers) { runtime::set_answers(answers); }
   ~RepeatedRun() override { repeat({}); }
   TestNode node_;
   Hosted hosted_{node_};
 };
 
 TEST_F(RepeatedRun, Is_told_again_whether_values_were_together) {
-  const std::array<tape::RetoldAnswer, 2> answers{{{0, {}}, {1, {}}}};
+  const std::array<tape::ReplayedAnswer, 2> answers{{{0, {}}, {1, {}}}};
   tick = 5;
   repeat(answers);
   const auto apart = snapshot(tick, joints);
@@ -36,7 +36,7 @@ TEST_F(RepeatedRun, Is_told_again_whether_values_were_together) {
 }
 
 TEST_F(RepeatedRun, Is_told_again_whether_it_was_to_end) {
-  const std::array<tape::RetoldAnswer, 2> answers{{{0, {}}, {1, {}}}};
+  const std::array<tape::ReplayedAnswer, 2> answers{{{0, {}}, {1, {}}}};
   repeat(answers);
   EXPECT_FALSE(irp::stop_requested());
   EXPECT_TRUE(irp::stop_requested());
@@ -44,7 +44,7 @@ TEST_F(RepeatedRun, Is_told_again_whether_it_was_to_end) {
 }
 
 TEST_F(RepeatedRun, Is_told_again_whether_there_was_a_node) {
-  const std::array<tape::RetoldAnswer, 1> answers{{{-static_cast<int>(Errc::NotFound), {}}}};
+  const std::array<tape::ReplayedAnswer, 1> answers{{{-static_cast<int>(Errc::NotFound), {}}}};
   channel::Handle handle;
   repeat(answers);
   EXPECT_EQ(channel::connect(handle, node_.name().c_str()), -static_cast<int>(Errc::NotFound));

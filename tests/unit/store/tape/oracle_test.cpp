@@ -27,7 +27,7 @@ constexpr std::array<const char*, 5> kNames = {"a", "b", "c", "d", "e"};
 struct Logged {
   Values before, after;
   std::vector<std::int64_t> clock;
-  std::vector<std::pair<std::int64_t, Bytes>> told;
+  std::vector<std::pair<std::int64_t, Bytes>> answers;
   RunTail tail;
   std::uint32_t flags = 0;
 };
@@ -90,8 +90,8 @@ class Oracle : public testing::TestWithParam<unsigned> {
       run.clock.push_back(random(1000));
       track.clock(run.clock.back());
     } else {
-      run.told.emplace_back(random(9), Bytes(random(20), static_cast<std::uint8_t>(random(256))));
-      track.told(run.told.back().first, run.told.back().second);
+      run.answers.emplace_back(random(9), Bytes(random(20), static_cast<std::uint8_t>(random(256))));
+      track.record_answer(run.answers.back().first, run.answers.back().second);
     }
   }
   void end(Plant& plant, std::uint32_t index, Module& module) {
@@ -168,12 +168,12 @@ struct Reader {
 };
 
 void check_rest(const Logged& log, const Run& run) {
-  std::vector<std::pair<std::int64_t, Bytes>> told;
-  for (const Told& one : run.told) {
-    told.emplace_back(one.code, Bytes(one.bytes.begin(), one.bytes.end()));
+  std::vector<std::pair<std::int64_t, Bytes>> answers;
+  for (const Answer& one : run.answers) {
+    answers.emplace_back(one.code, Bytes(one.bytes.begin(), one.bytes.end()));
   }
   EXPECT_EQ(run.clock, log.clock);
-  EXPECT_EQ(told, log.told);
+  EXPECT_EQ(answers, log.answers);
   EXPECT_EQ(run.flags, log.flags);
   EXPECT_EQ(run.tail.number, log.tail.number);
   EXPECT_EQ(run.tail.order, log.tail.order);

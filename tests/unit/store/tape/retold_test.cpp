@@ -17,7 +17,7 @@ namespace {
 
 class Retold : public testing::Test {
  protected:
-  void expect_arrives(const std::vector<std::int64_t>& readings, const std::vector<RetoldAnswer>& answers,
+  void expect_arrives(const std::vector<std::int64_t>& readings, const std::vector<ReplayedAnswer>& answers,
                       std::size_t count) {
     sut_.give(readings, answers);
     const auto read = reader_.readings();
@@ -31,8 +31,8 @@ class Retold : public testing::Test {
     }
   }
   vars::test::TestNode node_{"retold"};
-  RetoldWriter sut_ = RetoldWriter::create(node_.name(), 42).value();
-  RetoldReader reader_ = RetoldReader::open(node_.name(), 42).value();
+  ReplayInputWriter sut_ = ReplayInputWriter::create(node_.name(), 42).value();
+  ReplayInputReader reader_ = ReplayInputReader::open(node_.name(), 42).value();
 };
 
 TEST_F(Retold, Runs_get_what_is_given) {
@@ -42,10 +42,10 @@ TEST_F(Retold, Runs_get_what_is_given) {
     byte = static_cast<std::uint8_t>(random());
   }
   for (int run = 0; run < 100; ++run) {
-    std::vector<std::int64_t> readings(random() % (kMostReadings + 1U));
+    std::vector<std::int64_t> readings(random() % (kMaxReadings + 1U));
     std::generate(readings.begin(), readings.end(), [&] { return static_cast<std::int64_t>(random()); });
-    std::vector<RetoldAnswer> answers(random() % 100);
-    for (RetoldAnswer& answer : answers) {
+    std::vector<ReplayedAnswer> answers(random() % 100);
+    for (ReplayedAnswer& answer : answers) {
       const std::size_t from = random() % bytes.size();
       answer = {-static_cast<std::int64_t>(random()), {bytes.data() + from, random() % (bytes.size() - from)}};
     }
@@ -62,10 +62,10 @@ TEST_F(Retold, What_there_is_no_room_for_is_left_out) {
 }
 
 TEST_F(Retold, Nobody_else_listens) {
-  EXPECT_EQ(RetoldReader::open(node_.name(), 43).error().code, Errc::NotFound);
-  EXPECT_EQ(RetoldReader::open(node_.name() + "x", 42).error().code, Errc::NotFound);
-  sut_ = RetoldWriter::create(node_.name() + "y", 42).value();
-  EXPECT_EQ(RetoldReader::open(node_.name(), 42).error().code, Errc::NotFound) << "its memory is gone";
+  EXPECT_EQ(ReplayInputReader::open(node_.name(), 43).error().code, Errc::NotFound);
+  EXPECT_EQ(ReplayInputReader::open(node_.name() + "x", 42).error().code, Errc::NotFound);
+  sut_ = ReplayInputWriter::create(node_.name() + "y", 42).value();
+  EXPECT_EQ(ReplayInputReader::open(node_.name(), 42).error().code, Errc::NotFound) << "its memory is gone";
 }
 
 }  // namespace

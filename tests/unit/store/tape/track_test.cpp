@@ -68,7 +68,7 @@ TEST(Track, A_run_in_which_its_process_died_is_told_as_a_fault) {
     plant.put<std::uint8_t>("a", 3);
     process.track().begin();
     process.track().clock(77);
-    process.track().told(5, std::vector<std::uint8_t>{9, 8});
+    process.track().record_answer(5, std::vector<std::uint8_t>{9, 8});
   }
   EXPECT_FALSE(reader.next(0, run));
   plant.tape().end_of_dead(0, Plant::at(1));
@@ -78,7 +78,7 @@ TEST(Track, A_run_in_which_its_process_died_is_told_as_a_fault) {
   EXPECT_EQ(run.tail.order, 1U);
   EXPECT_EQ(run.tail.tick, 1U);
   EXPECT_THAT(run.clock, testing::ElementsAre(77));
-  ASSERT_EQ(run.told.size(), 1U);
+  ASSERT_EQ(run.answers.size(), 1U);
   ASSERT_EQ(run.values.size(), 1U);
   EXPECT_EQ(run.values[0].variable, plant.index("a"));
   {
@@ -87,12 +87,12 @@ TEST(Track, A_run_in_which_its_process_died_is_told_as_a_fault) {
   }
   plant.tape().end_of_dead(0, Plant::at(2));
   ASSERT_TRUE(reader.next(0, run));
-  EXPECT_EQ(run.flags, std::uint32_t{kFaulted} | std::uint32_t{kAnew}) << "in its first run";
+  EXPECT_EQ(run.flags, std::uint32_t{kFaulted} | std::uint32_t{kRestarted}) << "in its first run";
   Member third = Member::open(plant.node(), 0, plant.store()).value();
   third.track().begin();
   third.track().end(Plant::at(3), 0);
   ASSERT_TRUE(reader.next(0, run));
-  EXPECT_EQ(run.flags, std::uint32_t{kAnew});
+  EXPECT_EQ(run.flags, std::uint32_t{kRestarted});
   EXPECT_EQ(run.tail.number, 3U);
 }
 
@@ -107,8 +107,8 @@ TEST(Track, Tells_what_a_run_began_with_and_what_it_left) {
   plant.put<double>("c", 1.5);
   plant.put<std::uint8_t>("a", 4);  // somebody else does
   sut.clock(12345);
-  sut.told(-3, {});
-  sut.told(5, std::vector<std::uint8_t>{9, 8, 7, 6, 5, 4, 3, 2, 1});
+  sut.record_answer(-3, {});
+  sut.record_answer(5, std::vector<std::uint8_t>{9, 8, 7, 6, 5, 4, 3, 2, 1});
   EXPECT_FALSE(reader.next(0, run)) << "it has not ended";
   sut.end(Plant::at(17), kFaulted);
   ASSERT_TRUE(reader.next(0, run));
@@ -118,11 +118,11 @@ TEST(Track, Tells_what_a_run_began_with_and_what_it_left) {
   EXPECT_EQ(run.tail.number, 0U);
   EXPECT_EQ(run.tail.end_ns, 17'000'009);
   EXPECT_THAT(run.clock, testing::ElementsAre(12345));
-  ASSERT_EQ(run.told.size(), 2U);
-  EXPECT_EQ(run.told[0].code, -3);
-  EXPECT_TRUE(run.told[0].bytes.empty());
-  EXPECT_EQ(run.told[1].code, 5);
-  EXPECT_THAT(std::vector<std::uint8_t>(run.told[1].bytes.begin(), run.told[1].bytes.end()),
+  ASSERT_EQ(run.answers.size(), 2U);
+  EXPECT_EQ(run.answers[0].code, -3);
+  EXPECT_TRUE(run.answers[0].bytes.empty());
+  EXPECT_EQ(run.answers[1].code, 5);
+  EXPECT_THAT(std::vector<std::uint8_t>(run.answers[1].bytes.begin(), run.answers[1].bytes.end()),
               testing::ElementsAre(9, 8, 7, 6, 5, 4, 3, 2, 1));
   std::vector<std::tuple<EntryKind, std::uint32_t, std::vector<std::uint8_t>>> told;
   for (const Value& value : run.values) {
@@ -147,20 +147,20 @@ TEST(Track, What_a_run_is_told_is_bounded_and_what_is_too_long_is_named) {
   Track& sut = plant.track(0);
   Follower reader = plant.follow();
   const std::vector<std::uint8_t> large(1U << 20U, 7);
-  sut.told(0, large);  // no run
+  sut.record_answer(0, large);  // no run
   sut.begin();
-  sut.told(1, large);
-  for (int i = 0; i < 2 * kMostTold; ++i) {
-    sut.told(i, {});
+  sut.record_answer(1, large);
+  for (int i = 0; i < 2 * kMaxAnswers; ++i) {
+    sut.record_answer(i, {});
   }
   sut.end(Plant::at(1), 0);
   tape::Run run;
   ASSERT_TRUE(reader.next(0, run));
   constexpr std::uint64_t kRing = 1024;  // words, the least a track has; each of what was told takes two of its share
-  ASSERT_EQ(run.told.size(), kRing / kToldShare / 2);
-  EXPECT_EQ(run.told[0].code, kTooLongToTell);
-  EXPECT_TRUE(run.told[0].bytes.empty());
-  EXPECT_EQ(run.told[1].code, 0);
+  ASSERT_EQ(run.answers.size(), kRing / kAnswerShare / 2);
+  EXPECT_EQ(run.answers[0].code, kTooLongToTell);
+  EXPECT_TRUE(run.answers[0].bytes.empty());
+  EXPECT_EQ(run.answers[1].code, 0);
 }
 
 TEST(Track, A_run_that_never_ended_is_told_whole_by_the_next) {
@@ -184,12 +184,12 @@ TEST(Track, A_run_that_never_ended_is_told_whole_by_the_next) {
 TEST(Track, Looks_are_told_only_if_something_changed) {
   Plant plant("others", {{"a", ""}});
   Track& sut = plant.others();
-  sut.look(Plant::at(0));
+  sut.record_others(Plant::at(0));
   for (std::uint64_t tick = 1; tick < 100; ++tick) {
-    sut.look(Plant::at(tick));
+    sut.record_others(Plant::at(tick));
   }
   plant.put<double>("d", 2.5, 80);
-  sut.look(Plant::at(100));
+  sut.record_others(Plant::at(100));
   Follower reader = plant.follow();
   tape::Run run;
   ASSERT_TRUE(reader.next(1, run));

@@ -143,7 +143,7 @@ TEST_F(BatchTest, Forced_parts_keep_their_values) {
 
 TEST_F(BatchTest, More_than_a_tick_may_do_is_refused) {
   const auto bytes = bytes_of(std::int32_t{1});
-  const std::vector<Change> changes(kMostBatchValues + 1, Change{&entry("p::gain"), 0, bytes});
+  const std::vector<Change> changes(kMaxBatchValues + 1, Change{&entry("p::gain"), 0, bytes});
   const auto done = change_in_one_tick(node_.name(), *store_, changes, kPatience);
   ASSERT_FALSE(done.ok());
   EXPECT_EQ(done.error().code, Errc::InvalidArgument);

@@ -50,8 +50,8 @@ class Forces : public ::testing::Test {
   Status force(const std::string& name, std::int32_t value, std::uint32_t offset = 0, rt::MonoTime until = kForever) {
     return sut_->force(*sut_->find(hash(name)), offset, bytes_of(value), until);
   }
-  Status let_go(const std::string& name, std::uint32_t offset = 0) {
-    return sut_->let_go(*sut_->find(hash(name)), offset);
+  Status release(const std::string& name, std::uint32_t offset = 0) {
+    return sut_->release(*sut_->find(hash(name)), offset);
   }
 
   TestNode node_{"forces"};
@@ -66,7 +66,7 @@ TEST_F(Forces, A_scalar_keeps_its_value_until_it_is_let_go) {
   EXPECT_EQ(get("plc::count"), 7);
   ASSERT_TRUE(force("plc::count", 8).ok()) << "again, to another value";
   EXPECT_EQ(get("plc::count"), 8);
-  ASSERT_TRUE(let_go("plc::count").ok());
+  ASSERT_TRUE(release("plc::count").ok());
   EXPECT_EQ(get("plc::count"), 8) << "until somebody writes it";
   EXPECT_TRUE(put("plc::count", 3).ok());
   EXPECT_EQ(get("plc::count"), 3);
@@ -85,7 +85,7 @@ TEST_F(Forces, Of_an_array_only_the_part_is_held) {
       ASSERT_TRUE(put(name, -round, 0).ok());
       EXPECT_EQ(get(name), -round);
     }
-    ASSERT_TRUE(let_go(name, 4).ok());
+    ASSERT_TRUE(release(name, 4).ok());
     ASSERT_TRUE(put(name, 5, 4).ok());
     EXPECT_EQ(get(name, 4), 5);
   }
@@ -107,8 +107,8 @@ TEST_F(Forces, Holds_in_other_processes_and_for_the_time_given) {
   EXPECT_TRUE(wait_until([this] { return get("plc::count") == 1; }));
   EXPECT_TRUE(sut_->forces().empty());
   child.kill_and_wait();
-  sut_->let_overdue_go();
-  EXPECT_EQ(let_go("plc::count").error().code, Errc::NotFound);
+  sut_->release_overdue();
+  EXPECT_EQ(release("plc::count").error().code, Errc::NotFound);
 }
 
 TEST_F(Forces, Whoever_writes_at_this_moment_does_not_slip_through) {
@@ -123,7 +123,7 @@ TEST_F(Forces, Whoever_writes_at_this_moment_does_not_slip_through) {
     for (int look = 0; look < 100; ++look) {
       EXPECT_EQ(get("plc::count"), 7);
     }
-    ASSERT_TRUE(let_go("plc::count").ok());
+    ASSERT_TRUE(release("plc::count").ok());
     ASSERT_TRUE(wait_until([this] { return get("plc::count") == 1; }));
   }
   stop = true;
@@ -138,11 +138,11 @@ TEST_F(Forces, Are_listed_and_limited) {
   EXPECT_EQ(listed[0].value, 7U);
   EXPECT_EQ(listed[1].offset, 8U);
   EXPECT_EQ(listed[1].value, 0xFFFFFFFFU);
-  for (std::uint32_t i = 2; i < kMostForces; ++i) {
+  for (std::uint32_t i = 2; i < kMaxForces; ++i) {
     ASSERT_TRUE(force("plc::large", 1, 4 * i).ok());
   }
   EXPECT_EQ(force("plc::large", 1, 4000).error().code, Errc::NoSpace);
-  ASSERT_TRUE(let_go("plc::count").ok());
+  ASSERT_TRUE(release("plc::count").ok());
   EXPECT_TRUE(force("plc::large", 1, 4000).ok());
 }
 
@@ -151,7 +151,7 @@ TEST_F(Forces, Wrong_ones_are_refused) {
   EXPECT_EQ(sut_->force(words, 0, std::vector<std::uint8_t>(16), kForever).error().code, Errc::OutOfRange);
   EXPECT_EQ(sut_->force(words, 0, std::vector<std::uint8_t>(3), kForever).error().code, Errc::InvalidArgument);
   EXPECT_EQ(force("plc::words", 1, 14).error().code, Errc::OutOfRange);
-  EXPECT_EQ(let_go("plc::words", 4).error().code, Errc::NotFound);
+  EXPECT_EQ(release("plc::words", 4).error().code, Errc::NotFound);
   auto reader = Store::attach(node_.name(), Mode::ReadOnly);
   EXPECT_EQ(reader->force(words, 0, bytes_of(1), kForever).error().code, Errc::PermissionDenied);
 }
@@ -175,7 +175,7 @@ TEST_F(Forces, Whoever_is_killed_while_forcing_blocks_nobody) {
       const DirectoryEntry& words = *mine->find(hash("plc::words"));
       for (std::uint32_t n = 0;; n = (n + 4) % 16) {
         static_cast<void>(mine->force(words, n, bytes_of(n), kForever));
-        static_cast<void>(mine->let_go(words, n));
+        static_cast<void>(mine->release(words, n));
       }
     });
     ASSERT_TRUE(wait_until([this] { return !sut_->forces().empty(); }));
@@ -183,7 +183,7 @@ TEST_F(Forces, Whoever_is_killed_while_forcing_blocks_nobody) {
     ASSERT_TRUE(force("plc::count", i).ok());
     EXPECT_EQ(get("plc::count"), i);
     for (std::uint32_t n = 0; n < 16; n += 4) {
-      const Status gone = let_go("plc::words", n);
+      const Status gone = release("plc::words", n);
       EXPECT_TRUE(gone.ok() || gone.error().code == Errc::NotFound);
     }
     ASSERT_TRUE(put("plc::words", i + 1, 12).ok());

@@ -109,7 +109,7 @@ TEST_F(HeldValues, What_is_said_is_held_and_the_rest_goes_on) {
     ASSERT_TRUE(hold(*sut_, held, kForever).ok()) << said;
     write("part", kElse);
     EXPECT_EQ(now("part"), after);
-    EXPECT_TRUE(let_go(*sut_, held, kForever).ok());
+    EXPECT_TRUE(release(*sut_, held, kForever).ok());
     EXPECT_TRUE(sut_->forces().empty());
     write("part", kElse);
     EXPECT_EQ(now("part"), kElse);
@@ -161,7 +161,7 @@ TEST_F(HeldValues, A_lease_is_prolonged_by_its_owner_only) {
   ASSERT_TRUE(hold(*sut_, std::vector<HeldValue>{value("part", "{x: 7}")}, kForever).ok()) << "somebody else";
   EXPECT_EQ(prolong(*sut_, mine, second, soon()).error().code, Errc::NotFound);
   EXPECT_EQ(now("part").find("{x: 7"), 0U);
-  EXPECT_EQ(let_go(*sut_, mine, second).error().code, Errc::NotFound);
+  EXPECT_EQ(release(*sut_, mine, second).error().code, Errc::NotFound);
   for (const Force& force : sut_->forces()) {
     EXPECT_TRUE(force.until == kForever || force.offset == 32);
   }
@@ -180,7 +180,7 @@ TEST_F(HeldValues, Notes_are_those_of_the_force) {
   for (int round = 0; round < 500; ++round) {
     const std::uint32_t offset = static_cast<std::uint32_t>(random() % 20) * 40;
     if (expected.contains(offset) && random() % 2 == 0) {
-      ASSERT_TRUE(sut_->let_go(many, offset).ok());
+      ASSERT_TRUE(sut_->release(many, offset).ok());
       expected.erase(offset);
       continue;
     }
@@ -227,7 +227,7 @@ TEST_F(HeldValues, No_force_is_seen_without_its_note) {
     const rt::MonoTime until = sut_->now() + std::chrono::hours(1) + std::chrono::seconds(i);
     EXPECT_TRUE(hold(node_.name(), *sut_, number_at(many, offset), until, note).ok());
     if (i % 3 == 0) {
-      EXPECT_TRUE(sut_->let_go(many, offset).ok());
+      EXPECT_TRUE(sut_->release(many, offset).ok());
     }
   }
   done = true;
@@ -244,7 +244,7 @@ TEST_F(HeldValues, Notes_stay_as_they_were_if_nothing_is_held) {
   ASSERT_TRUE(custody->hold(*sut_, number_at(many, 40), kForever, note).ok());
   note.who = "bert";
   std::vector<HeldValue> too_many;
-  for (std::uint32_t offset = 0; too_many.size() <= kMostForces; offset += 8) {
+  for (std::uint32_t offset = 0; too_many.size() <= kMaxForces; offset += 8) {
     too_many.push_back(number_at(many, offset)[0]);
   }
   EXPECT_EQ(custody->hold(*sut_, too_many, kForever, note).error().code, Errc::NoSpace);

@@ -125,7 +125,7 @@ TEST_F(RemoteBoardTest, Tells_ages_silence_and_forces) {
   EXPECT_EQ(confirmed("never"), abi::kNeverConfirmed);
   ASSERT_EQ(here.value().forces().size(), 1U);
   EXPECT_EQ(here.value().forces().front().variable->name_hash, forced.name_hash);
-  ASSERT_TRUE(there.let_go(forced, 0).ok());
+  ASSERT_TRUE(there.release(forced, 0).ok());
   ASSERT_EQ(sut.take_values(said.values(rt::MonoClock::now() + deploy::BoardValues::kKeep), later), Taken::Yes);
   EXPECT_TRUE(here.value().forces().empty());
   sut.silent();

@@ -18,12 +18,12 @@ inline constexpr std::chrono::seconds kBetweenBoxes{10};
 
 // Writes a request; one that the node has not read yet is replaced. Errors: Busy (the node has just kept one, no other
 // is kept before kBetweenBoxes have passed), System, PermissionDenied.
-Status wish_box(const std::string& node, const std::string& why);
+Status request_box(const std::string& node, const std::string& why);
 // The message for Busy.
 inline constexpr const char* kBoxesTooClose =
     "it has just kept a black box, and keeps another ten seconds after that at the earliest";
 // Called by the node: returns the request and removes it.
-std::optional<std::string> take_box_wish(const std::string& node);
+std::optional<std::string> take_box_request(const std::string& node);
 // Called by the node: no request is accepted until this time of CLOCK_MONOTONIC; 0: requests are accepted.
 void refuse_boxes_until(const std::string& node, std::int64_t monotonic_ns);
 

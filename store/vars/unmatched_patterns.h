@@ -11,6 +11,6 @@
 namespace indurop::vars {
 
 // Returns those of the names and globs that match no variable in use, in their order. Not real-time safe.
-std::vector<std::string> names_of_nothing(const Store& store, const std::vector<std::string>& globs);
+std::vector<std::string> unmatched_patterns(const Store& store, const std::vector<std::string>& globs);
 
 }  // namespace indurop::vars

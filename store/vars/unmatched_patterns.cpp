@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "store/vars/names_of_nothing.h"
+#include "store/vars/unmatched_patterns.h"
 
 #include <algorithm>
 
 namespace indurop::vars {
 
-std::vector<std::string> names_of_nothing(const Store& store, const std::vector<std::string>& globs) {
+std::vector<std::string> unmatched_patterns(const Store& store, const std::vector<std::string>& globs) {
   std::vector<std::string> none = globs;
   std::erase_if(none, [&](const std::string& glob) {
     const auto all = store.directory();

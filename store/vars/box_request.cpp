@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "store/vars/box_wish.h"
+#include "store/vars/box_request.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -48,7 +48,7 @@ void refuse_boxes_until(const std::string& node, std::int64_t monotonic_ns) {
   }
 }
 
-Status wish_box(const std::string& node, const std::string& why) {
+Status request_box(const std::string& node, const std::string& why) {
   if (refuses(node)) {
     return Error{Errc::Busy, 0, kBoxesTooClose};
   }
@@ -59,7 +59,7 @@ Status wish_box(const std::string& node, const std::string& why) {
   return written ? Status() : Status(Error{Errc::System, EIO, "folder of the node"});
 }
 
-std::optional<std::string> take_box_wish(const std::string& node) {
+std::optional<std::string> take_box_request(const std::string& node) {
   const std::filesystem::path file = file_of(node);
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
