@@ -71,7 +71,7 @@ void BoardAlarms::step(rt::MonoTime now) {
   if (now < look_at_) {
     return;
   }
-  std::string problem = watch_.look(modules_of(board_));
+  std::string problem = watch_.evaluate(modules_of(board_));
   look_at_ = now + (watch_.idle() ? rt::MonoTime::duration(kLookIdle) : rt::MonoTime::duration(kAlarmPoll));
   if (problem != problem_ && !problem.empty()) {
     log_.error("alarms cannot be kept: {}", problem);

@@ -17,7 +17,7 @@
 namespace indurop::alarms {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{8} << 20U;
+constexpr std::size_t kMaxBytes = std::size_t{8} << 20U;
 constexpr mode_t kFileMode = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH;
 
 // Calls `use` for each complete line and returns the total size of these lines in bytes.
@@ -54,11 +54,10 @@ std::string write_all(const std::filesystem::path& file, int flags, const std::s
 
 }  // namespace
 
-AlarmJournal::AlarmJournal(const std::string& node)
-    : AlarmJournal(vars::state_directory(node) / "alarms", kMostBytes) {}
+AlarmJournal::AlarmJournal(const std::string& node) : AlarmJournal(vars::state_directory(node) / "alarms", kMaxBytes) {}
 
-AlarmJournal::AlarmJournal(std::filesystem::path folder, std::size_t most_bytes)
-    : folder_(std::move(folder)), most_bytes_(most_bytes) {}
+AlarmJournal::AlarmJournal(std::filesystem::path folder, std::size_t max_bytes)
+    : folder_(std::move(folder)), max_bytes_(max_bytes) {}
 
 void AlarmJournal::refresh() {
   const base::Descriptor fd(::open(file().c_str(), O_RDONLY | O_CLOEXEC));
@@ -95,7 +94,7 @@ std::string AlarmJournal::change(const std::function<std::vector<AlarmEntry>(con
   const std::vector<AlarmEntry> entries = decide(book_);
   std::string why = entries.empty() ? std::string() : append(entries);
   refresh();
-  if (why.empty() && static_cast<std::size_t>(read_) > most_bytes_) {
+  if (why.empty() && static_cast<std::size_t>(read_) > max_bytes_) {
     why = cut();
   }
   return why.empty() ? why : fmt::format("{}: {}", file().string(), why);

@@ -20,7 +20,7 @@ namespace indurop::alarms {
 class AlarmJournal {
  public:
   explicit AlarmJournal(const std::string& node);
-  AlarmJournal(std::filesystem::path folder, std::size_t most_bytes);
+  AlarmJournal(std::filesystem::path folder, std::size_t max_bytes);
 
   // Reads what other processes have appended. Any process may do that.
   void refresh();
@@ -47,7 +47,7 @@ class AlarmJournal {
   [[nodiscard]] std::filesystem::path older() const { return folder_ / "events.jsonl.1"; }
 
   std::filesystem::path folder_;
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
   AlarmBook book_;
   ino_t inode_ = 0;  // inode of the file that was read
   off_t read_ = 0;   // bytes read so far

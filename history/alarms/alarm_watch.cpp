@@ -42,7 +42,7 @@ std::string module_alarm(const std::string& module) {
   return "module " + module;
 }
 
-bool AlarmCondition::look(const schema::Alarm& alarm, double value, std::int64_t now_ns, bool standing) noexcept {
+bool AlarmCondition::evaluate(const schema::Alarm& alarm, double value, std::int64_t now_ns, bool standing) noexcept {
   const bool met = schema::is_met(alarm, value, known_ ? met_ : standing);
   if (!known_ || met != met_) {
     since_ns_ = now_ns;
@@ -79,26 +79,26 @@ bool AlarmWatch::attach() {
   return pid != 0 && pid == store_->header().node_pid.load(std::memory_order_relaxed);
 }
 
-std::string AlarmWatch::look(const std::optional<std::vector<ModuleNow>>& modules) {
+std::string AlarmWatch::evaluate(const std::optional<std::vector<ModuleNow>>& modules) {
   journal_.refresh();
   if (!attach()) {
     return {};
   }
   modules_known_ = modules.has_value();
   if (modules_known_) {
-    look_at_modules(*modules);
+    evaluate_modules(*modules);
   }
   if (idle() || !journal_.become_watcher()) {
     return {};
   }
-  look_at_variables();
+  evaluate_variables();
   if (decide(journal_.book()).empty()) {
     return {};
   }
   return journal_.change([this](const AlarmBook& book) { return decide(book); });
 }
 
-void AlarmWatch::look_at_variables() {
+void AlarmWatch::evaluate_variables() {
   const std::int64_t now_ns = rt::to_ns(store_->now());
   for (std::size_t i = 0; i < alarms_.size(); ++i) {
     const DeclaredAlarm& one = alarms_[i];
@@ -109,13 +109,13 @@ void AlarmWatch::look_at_variables() {
       continue;
     }
     const double value = schema::as_number<double>(one.type.base, bytes.data()).value_or(0);
-    standing_[i] = conditions_[i].look(one.alarm, value, now_ns, before) ? 1 : 0;
+    standing_[i] = conditions_[i].evaluate(one.alarm, value, now_ns, before) ? 1 : 0;
     values_[i] = standing_[i] != 0 ? schema::format_value(one.type, part) : std::string();
   }
 }
 
 // Keeps only modules that are down, or whose alarm is raised.
-void AlarmWatch::look_at_modules(const std::vector<ModuleNow>& modules) {
+void AlarmWatch::evaluate_modules(const std::vector<ModuleNow>& modules) {
   const schema::Alarm rule = rule_of_modules();
   const std::int64_t now_ns = rt::now_ns();
   for (const ModuleNow& one : modules) {
@@ -127,7 +127,7 @@ void AlarmWatch::look_at_modules(const std::vector<ModuleNow>& modules) {
       continue;
     }
     Module& module = modules_[name];
-    module.standing = module.condition.look(rule, down ? 1 : 0, now_ns, is_active(state));
+    module.standing = module.condition.evaluate(rule, down ? 1 : 0, now_ns, is_active(state));
     if (down) {
       module.text = fmt::format("module {} {}", one.name, one.down);
       module.value = one.why;

@@ -24,7 +24,7 @@ class AlarmCondition {
  public:
   // Returns true from `delay` after the condition became true until kBackForNs after it became false. `standing`: its
   // state before the first evaluation.
-  bool look(const schema::Alarm& alarm, double value, std::int64_t now_ns, bool standing) noexcept;
+  bool evaluate(const schema::Alarm& alarm, double value, std::int64_t now_ns, bool standing) noexcept;
 
  private:
   bool known_ = false;
@@ -51,7 +51,7 @@ class AlarmWatch {
   // Evaluates once, to be called about ten times a second; writes nothing if another process evaluates already. Returns
   // why the events could not be recorded, else an empty text. `modules`: all modules of the node; nothing if they are
   // not known now, then their alarms do not change.
-  std::string look(const std::optional<std::vector<ModuleNow>>& modules);
+  std::string evaluate(const std::optional<std::vector<ModuleNow>>& modules);
   [[nodiscard]] const AlarmJournal& journal() const noexcept { return journal_; }
   // Nothing to evaluate: call more rarely.
   [[nodiscard]] bool idle() const noexcept {
@@ -67,8 +67,8 @@ class AlarmWatch {
     std::string value;
   };
   bool attach();
-  void look_at_variables();
-  void look_at_modules(const std::vector<ModuleNow>& modules);
+  void evaluate_variables();
+  void evaluate_modules(const std::vector<ModuleNow>& modules);
   std::vector<AlarmEntry> decide(const AlarmBook& book) const;
 
   std::string node_;

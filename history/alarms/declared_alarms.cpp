@@ -22,12 +22,12 @@ class Collector {
 
   void walk(const schema::Type& type, std::size_t level, const std::string& name, std::uint32_t offset,
             const std::vector<schema::Alarm>& alarms, const std::string& unit) {
-    if (to_.size() >= kMostAlarms || (alarms.empty() && !has_alarms(type))) {
+    if (to_.size() >= kMaxAlarms || (alarms.empty() && !has_alarms(type))) {
       return;
     }
     if (level < type.dims.size()) {
       const auto stride = static_cast<std::uint32_t>(schema::stride_of(type, level));
-      for (std::uint32_t i = 0; i < type.dims[level] && to_.size() < kMostAlarms; ++i) {
+      for (std::uint32_t i = 0; i < type.dims[level] && to_.size() < kMaxAlarms; ++i) {
         walk(type, level + 1, fmt::format("{}[{}]", name, i), offset + i * stride, alarms, unit);
       }
       return;

@@ -22,8 +22,8 @@ struct DeclaredAlarm {
   const vars::DirectoryEntry* entry = nullptr;
 };
 
-// Returns at most kMostAlarms, in the order of the variables.
-inline constexpr std::size_t kMostAlarms = 4096;
+// Returns at most kMaxAlarms, in the order of the variables.
+inline constexpr std::size_t kMaxAlarms = 4096;
 std::vector<DeclaredAlarm> declared_alarms(const vars::Store& store);
 
 }  // namespace indurop::alarms

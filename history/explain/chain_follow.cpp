@@ -114,8 +114,8 @@ class Travelled {
   std::ptrdiff_t known_ = kNothing;
 };
 
-std::vector<std::ptrdiff_t> look_back(const ChainStage& from, const std::vector<std::ptrdiff_t>& origins,
-                                      const ChainStage& to) {
+std::vector<std::ptrdiff_t> trace_back(const ChainStage& from, const std::vector<std::ptrdiff_t>& origins,
+                                       const ChainStage& to) {
   std::vector<std::ptrdiff_t> seen;
   seen.reserve(to.runs.size());
   Travelled travelled(from.runs, origins);
@@ -130,7 +130,7 @@ std::vector<std::ptrdiff_t> look_back(const ChainStage& from, const std::vector<
 ChainAges follow_chain(std::span<const ChainStage> stages) {
   std::vector<std::vector<std::ptrdiff_t>> seen;  // by stage but the first: index of a run of the stage before
   for (std::size_t i = 1; i < stages.size(); ++i) {
-    seen.push_back(look_back(stages[i - 1], i == 1 ? std::vector<std::ptrdiff_t>() : seen[i - 2], stages[i]));
+    seen.push_back(trace_back(stages[i - 1], i == 1 ? std::vector<std::ptrdiff_t>() : seen[i - 2], stages[i]));
   }
   ChainAges ages;
   const std::vector<ChainRun>& last = stages.back().runs;

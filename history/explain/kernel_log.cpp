@@ -68,27 +68,27 @@ std::string kernel_file(const std::string& node) {
   return vars::block_file(node) + ".kernel";
 }
 
-KernelLook::KernelLook(vars::ShmFile file, std::filesystem::path process, bool realtime)
+KernelSampler::KernelSampler(vars::ShmFile file, std::filesystem::path process, bool realtime)
     : file_(std::move(file)), process_(std::move(process)), realtime_(realtime) {}
 
-KernelLog& KernelLook::log() noexcept {
+KernelLog& KernelSampler::log() noexcept {
   return *reinterpret_cast<KernelLog*>(file_.data());
 }
 
-Result<KernelLook> KernelLook::begin(const std::string& node, std::filesystem::path process, bool realtime) {
+Result<KernelSampler> KernelSampler::begin(const std::string& node, std::filesystem::path process, bool realtime) {
   auto file = vars::ShmFile::create(kernel_file(node), sizeof(KernelLog));
   if (!file) {
     return file.error();
   }
-  KernelLook look(std::move(file).value(), std::move(process), realtime);
-  look.log().magic.store(kKernelMagic, std::memory_order_release);
-  if (const Status published = look.file_.publish(); !published) {
+  KernelSampler sample(std::move(file).value(), std::move(process), realtime);
+  sample.log().magic.store(kKernelMagic, std::memory_order_release);
+  if (const Status published = sample.file_.publish(); !published) {
     return published.error();
   }
-  return look;
+  return sample;
 }
 
-std::map<int, KernelLook::Counted> KernelLook::threads() const {
+std::map<int, KernelSampler::Counted> KernelSampler::threads() const {
   std::map<int, Counted> out;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(process_ / "task", error)) {
@@ -112,7 +112,7 @@ std::map<int, KernelLook::Counted> KernelLook::threads() const {
   return out;
 }
 
-void KernelLook::note(const KernelFact& fact) {
+void KernelSampler::note(const KernelFact& fact) {
   const std::uint64_t number = log().next.load(std::memory_order_relaxed);
   KernelEntry& entry = log().entries[number % kKernelEntries];
   entry.sequence.store(0, std::memory_order_relaxed);
@@ -130,17 +130,17 @@ void KernelLook::note(const KernelFact& fact) {
   log().next.store(number + 1, std::memory_order_release);
 }
 
-void KernelLook::look(std::int64_t now_ns) {
+void KernelSampler::sample(std::int64_t now_ns) {
   auto now = threads();
   auto stolen_now = stolen();
-  if (looked_ns_ == 0) {
+  if (sampled_ns_ == 0) {
     log().from_ns.store(now_ns);
   } else {
     for (const auto& [id, counted] : now) {
       const auto known = before_.find(id);
       const Counted none;
       const Counted& before = known == before_.end() ? none : known->second;
-      const KernelFact fact{looked_ns_,
+      const KernelFact fact{sampled_ns_,
                             now_ns,
                             counted.core,
                             counted.name,
@@ -154,13 +154,13 @@ void KernelLook::look(std::int64_t now_ns) {
     }
     for (const auto& [core, time] : stolen_now) {
       if (const std::int64_t more = time - stolen_before_[core]; more > 0) {
-        note({looked_ns_, now_ns, core, {}, 0, 0, 0, more});
+        note({sampled_ns_, now_ns, core, {}, 0, 0, 0, more});
       }
     }
   }
   before_ = std::move(now);
   stolen_before_ = std::move(stolen_now);
-  looked_ns_ = now_ns;
+  sampled_ns_ = now_ns;
   log().to_ns.store(now_ns, std::memory_order_release);
 }
 

@@ -43,12 +43,12 @@ struct KernelLog {
 
 std::string kernel_file(const std::string& node);
 
-class KernelLook {
+class KernelSampler {
  public:
   // Creates the file. `process`: the folder of the node's process, "/proc/self". Errors: those of a ShmFile.
-  static Result<KernelLook> begin(const std::string& node, std::filesystem::path process, bool realtime);
+  static Result<KernelSampler> begin(const std::string& node, std::filesystem::path process, bool realtime);
   // Records what was counted since the last call.
-  void look(std::int64_t now_ns);
+  void sample(std::int64_t now_ns);
 
  private:
   struct Counted {
@@ -58,7 +58,7 @@ class KernelLook {
     bool matters = false;  // the thread runs modules, or releases them
     std::string name;
   };
-  KernelLook(vars::ShmFile file, std::filesystem::path process, bool realtime);
+  KernelSampler(vars::ShmFile file, std::filesystem::path process, bool realtime);
   [[nodiscard]] std::map<int, Counted> threads() const;
   void note(const KernelFact& fact);
   [[nodiscard]] KernelLog& log() noexcept;
@@ -68,7 +68,7 @@ class KernelLook {
   bool realtime_;
   std::map<int, Counted> before_;
   std::map<int, std::int64_t> stolen_before_;  // by core
-  std::int64_t looked_ns_ = 0;
+  std::int64_t sampled_ns_ = 0;
 };
 
 // Adds the content of the file, if there is one.

@@ -82,10 +82,11 @@ std::vector<const RunFact*> Lateness::neighbours(const RunFact& run) const {
     }
   }
   std::vector<const RunFact*>& best = same.size() >= kFew ? same : all;
-  const auto far = [&](const RunFact* other) {
+  const auto distance = [&](const RunFact* other) {
     return other->tick > run.tick ? other->tick - run.tick : run.tick - other->tick;
   };
-  std::stable_sort(best.begin(), best.end(), [&](const RunFact* a, const RunFact* b) { return far(a) < far(b); });
+  std::stable_sort(best.begin(), best.end(),
+                   [&](const RunFact* a, const RunFact* b) { return distance(a) < distance(b); });
   best.resize(std::min(best.size(), kNeighbours));
   return best;
 }
@@ -144,9 +145,9 @@ Answer Lateness::explain(const RunFact& run, int depth) const {
   const std::int64_t response = run.end_ns - run.release_ns;
   const std::int64_t limit = limit_of(module);
   const bool too_late = limit > 0 && response > limit;
-  const std::int64_t worth_telling = limit > 0 ? limit / 20 : 100'000;
+  const std::int64_t is_noteworthy = limit > 0 ? limit / 20 : 100'000;
   Answer answer;
-  if (!too_late && compared.more_ns < worth_telling) {
+  if (!too_late && compared.more_ns < is_noteworthy) {
     answer = {Cause::AllIsWell, {}, fmt::format("{} ran and was not late", module.name), {}};
   } else if (compared.others > 0 && compared.more_ns * 10 < response && response - compared.more_ns > limit) {
     answer = {Cause::Schedule,

@@ -68,13 +68,13 @@ ModuleFact fact_of(const scheduler::ModuleRecord& record) {
 }  // namespace
 
 void make_sound(Facts& facts) noexcept {
-  static constexpr std::int64_t kFar = std::int64_t{1} << 60U;
+  static constexpr std::int64_t kTimeLimit = std::int64_t{1} << 60U;
   constexpr std::int64_t kLongestPeriod = 1'000'000'000'000;
   std::int64_t& basic = facts.basic_period_ns;
   basic = basic < 0 || basic > kLongestPeriod ? 0 : basic;
-  const std::uint64_t last = static_cast<std::uint64_t>(kFar / std::max<std::int64_t>(basic, 1));
-  const auto times = [](auto&... all) { ((all = std::clamp<std::int64_t>(all, -kFar, kFar)), ...); };
-  const auto durations = [](auto&... all) { ((all = std::clamp<std::int64_t>(all, 0, kFar)), ...); };
+  const std::uint64_t last = static_cast<std::uint64_t>(kTimeLimit / std::max<std::int64_t>(basic, 1));
+  const auto times = [](auto&... all) { ((all = std::clamp<std::int64_t>(all, -kTimeLimit, kTimeLimit)), ...); };
+  const auto durations = [](auto&... all) { ((all = std::clamp<std::int64_t>(all, 0, kTimeLimit)), ...); };
   const auto ticks = [last](auto&... all) { ((all = std::min(all, last)), ...); };
   times(facts.epoch_ns, facts.now_ns, facts.kernel_from_ns, facts.kernel_to_ns);
   durations(facts.lease_ns);

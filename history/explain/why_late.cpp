@@ -127,12 +127,12 @@ class Question {
   }
 
   [[nodiscard]] Answer faulted(const RunFact& run) const {
-    const bool told = module_.fault_tick == run.tick && !module_.fault.empty();
-    Answer answer{
-        Cause::Fault,
-        module_.name,
-        fmt::format("the run of {} in {} ended by a fault{}", module_.name, place(), told ? ": " + module_.fault : ""),
-        {}};
+    const bool known_to_end = module_.fault_tick == run.tick && !module_.fault.empty();
+    Answer answer{Cause::Fault,
+                  module_.name,
+                  fmt::format("the run of {} in {} ended by a fault{}", module_.name, place(),
+                              known_to_end ? ": " + module_.fault : ""),
+                  {}};
     return answer;
   }
 
@@ -175,10 +175,10 @@ class Question {
     const OrderFact* last = nullptr;
     for (const OrderFact& order : facts_.orders) {
       constexpr std::int64_t kNotedLater = 100'000'000;
-      const bool meant = order.action == "stop" || order.action == "start" || order.action == "restart";
+      const bool matches = order.action == "stop" || order.action == "start" || order.action == "restart";
       const bool obeyed = order.node_ns <= release_ns_ ||
                           (order.action == "stop" && order.node_ns <= release_ns_ + kNotedLater && stands_until(order));
-      if (meant && order.what == module_.name && obeyed) {
+      if (matches && order.what == module_.name && obeyed) {
         last = &order;
       }
     }
@@ -359,12 +359,12 @@ std::uint64_t last_trouble(const Facts& facts, const std::string& module) {
   std::sort(ran.begin(), ran.end());
   const Known ends(facts, index);
   // The tick that has just begun may be under way, and a run within its time limit may still come.
-  constexpr std::uint64_t kMostTicks = 10'000'000;  // beyond this nothing is known, or the number is damaged
-  const std::uint64_t oldest = std::max(facts.first_tick, facts.tick - std::min(facts.tick, kMostTicks));
+  constexpr std::uint64_t kMaxTicks = 10'000'000;  // beyond this nothing is known, or the number is damaged
+  const std::uint64_t oldest = std::max(facts.first_tick, facts.tick - std::min(facts.tick, kMaxTicks));
   for (std::uint64_t tick = facts.tick - 1; known->operation == "periodic" && tick-- > oldest;) {
     const bool over = facts.release_of(tick) + limit <= facts.now_ns;
-    const bool told = ends.at(tick) && facts.hole_around(index, tick) == nullptr;
-    if (over && told && due(facts, *known, tick) && !std::binary_search(ran.begin(), ran.end(), tick)) {
+    const bool known_to_end = ends.at(tick) && facts.hole_around(index, tick) == nullptr;
+    if (over && known_to_end && due(facts, *known, tick) && !std::binary_search(ran.begin(), ran.end(), tick)) {
       return last == kNone ? tick : std::max(last, tick);
     }
   }

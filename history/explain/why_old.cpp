@@ -72,9 +72,9 @@ bool names_of(const std::string& part, const std::string& variable) {
 const OrderFact* last_order(const Facts& facts, const std::string& variable, std::int64_t at_ns) {
   const OrderFact* last = nullptr;
   for (const OrderFact& order : facts.orders) {
-    const bool meant = order.action == "set" || order.action == "force" || order.action == "unforce";
+    const bool matches = order.action == "set" || order.action == "force" || order.action == "unforce";
     const bool all = order.action == "unforce" && order.what == "*";
-    if (meant && (all || names_of(order.what, variable)) && order.node_ns <= at_ns &&
+    if (matches && (all || names_of(order.what, variable)) && order.node_ns <= at_ns &&
         (last == nullptr || order.node_ns >= last->node_ns)) {
       last = &order;
     }

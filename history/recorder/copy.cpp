@@ -37,8 +37,8 @@ Result<void, Problem> copy_metadata(const recording::McapReader& from, const std
     if (!metadata) {
       return metadata.error();
     }
-    if (auto said = to.metadata(prefix + index.name, metadata->values); !said) {
-      return said;
+    if (auto metadata_values = to.metadata(prefix + index.name, metadata->values); !metadata_values) {
+      return metadata_values;
     }
   }
   return {};

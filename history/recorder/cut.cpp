@@ -62,13 +62,13 @@ class Cutter {
     if (auto copied = copy(); !copied) {
       return std::move(copied).error();
     }
-    const recording::TextMap said{{"from", base::format_duration(std::chrono::nanoseconds(from_ns))},
-                                  {"begins_with_first_run", cut_.from_first_run ? "yes" : "no"}};
-    auto told = writer_.metadata("indurop.cut", said);
-    if (told) {
-      told = writer_.close();
+    const recording::TextMap metadata_values{{"from", base::format_duration(std::chrono::nanoseconds(from_ns))},
+                                             {"begins_with_first_run", cut_.from_first_run ? "yes" : "no"}};
+    auto written = writer_.metadata("indurop.cut", metadata_values);
+    if (written) {
+      written = writer_.close();
     }
-    return told ? Result<Cut, Problem>(cut_) : std::move(told).error();
+    return written ? Result<Cut, Problem>(cut_) : std::move(written).error();
   }
 
  private:
@@ -90,7 +90,7 @@ class Cutter {
   Result<void, Problem> take(const recording::McapMessage& message) {
     const auto place = sources_.channels.find(message.channel);
     if (place == sources_.channels.end()) {
-      return take_of_nobody(message);
+      return discard_unowned(message);
     }
     const ChannelPlace& channel = place->second;
     if (channel.kind == ChannelKind::Run) {
@@ -106,7 +106,7 @@ class Cutter {
   }
 
   // In a third-party file each message is independent.
-  Result<void, Problem> take_of_nobody(const recording::McapMessage& message) {
+  Result<void, Problem> discard_unowned(const recording::McapMessage& message) {
     if (message.log_time_ns < from_) {
       firsts_.insert_or_assign(message.channel, keep(message));
       return {};

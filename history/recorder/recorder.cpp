@@ -133,19 +133,19 @@ Result<void, Problem> Recorder::begin_file() {
       return attached;
     }
   }
-  recording::TextMap said{{"format", std::to_string(kRecordingFormat)},
-                          {"node", about_.node},
-                          {"config", about_.config},
-                          {"board", about_.board},
-                          {"deployment", about_.deployment},
-                          {"reason", about_.reason},
-                          {"basic_period_ns", std::to_string(about_.basic_period_ns)},
-                          {"real_minus_node_ns", std::to_string(about_.real_minus_node_ns)},
-                          {"begun_wall_ns", std::to_string(begun_wall_ns_)}};
+  recording::TextMap metadata_values{{"format", std::to_string(kRecordingFormat)},
+                                     {"node", about_.node},
+                                     {"config", about_.config},
+                                     {"board", about_.board},
+                                     {"deployment", about_.deployment},
+                                     {"reason", about_.reason},
+                                     {"basic_period_ns", std::to_string(about_.basic_period_ns)},
+                                     {"real_minus_node_ns", std::to_string(about_.real_minus_node_ns)},
+                                     {"begun_wall_ns", std::to_string(begun_wall_ns_)}};
   if (part_ > 0) {
-    said[kPartText] = std::to_string(part_);
+    metadata_values[kPartText] = std::to_string(part_);
   }
-  return writer_->metadata(prefix_ + kNodeMetadata, said);
+  return writer_->metadata(prefix_ + kNodeMetadata, metadata_values);
 }
 
 // Adds the channels of runs, of the clock and of other inputs.
@@ -169,7 +169,7 @@ Result<void, Problem> Recorder::add_own_channels() {
   };
   auto runs = add(kRunSchema, kRunIdl, kRunsTopic, runs_channel_);
   auto clock = runs ? add(kClockSchema, kClockIdl, kClockTopic, clock_channel_) : runs;
-  return clock ? add(kToldSchema, kToldIdl, kToldTopic, told_channel_) : clock;
+  return clock ? add(kAnswerSchema, kAnswerIdl, kAnswerTopic, answer_channel_) : clock;
 }
 
 Result<std::uint16_t, Problem> Recorder::channel_of(std::uint32_t index) {
@@ -235,7 +235,7 @@ void Recorder::learn() {
 
 // Writes the values from before any module was started, if the recording begins with the first run, else those of the
 // runs before it.
-Result<void, Problem> Recorder::tell_first_values(const tape::Run& first) {
+Result<void, Problem> Recorder::write_first_values(const tape::Run& first) {
   const std::int64_t before = first.tail.release_ns - about_.basic_period_ns;
   for (std::uint32_t i = 0; first.tail.number == 0 && i < wanted_.size(); ++i) {
     const tape::Value value{tape::EntryKind::Run, i, follower_.first_value(i)};
@@ -243,12 +243,12 @@ Result<void, Problem> Recorder::tell_first_values(const tape::Run& first) {
       return written;
     }
   }
-  return tell_known_values();
+  return write_known_values();
 }
 
 // Writes the values of each module at the end of its last run: inputs of the next run come later, however long that
 // takes.
-Result<void, Problem> Recorder::tell_known_values() {
+Result<void, Problem> Recorder::write_known_values() {
   for (std::size_t track = 0; track < known_.size(); ++track) {
     const Known& known = known_[track];
     const std::uint32_t module = follower_.module_of(track);
@@ -284,8 +284,8 @@ Result<void, Problem> Recorder::write_part(const tape::Run& run, std::size_t par
   }
   part -= run.clock.size();
   if (part < run.answers.size()) {
-    to_cdr(ToldWords{run.answers[part].code, run.answers[part].bytes}, cdr_);
-    return write(told_channel_, to_sequence({module, tape::EntryKind::Answer}));
+    to_cdr(AnswerRecord{run.answers[part].code, run.answers[part].bytes}, cdr_);
+    return write(answer_channel_, to_sequence({module, tape::EntryKind::Answer}));
   }
   to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0, (run.flags & tape::kRestarted) != 0}, cdr_);
   auto written = write(runs_channel_, static_cast<std::uint32_t>(run.tail.number));
@@ -316,11 +316,11 @@ Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_n
   if (held->run.tail.end_ns >= until_ns) {
     return false;
   }
-  if (!first_told_) {
-    if (auto told = tell_first_values(held->run); !told) {
-      return std::move(told).error();
+  if (!first_values_written_) {
+    if (auto first_values = write_first_values(held->run); !first_values) {
+      return std::move(first_values).error();
     }
-    first_told_ = true;
+    first_values_written_ = true;
   }
   if (auto written = write_run(*held); !written) {
     return std::move(written).error();
@@ -368,17 +368,18 @@ Result<void, Problem> Recorder::attach(std::string_view name, std::string_view t
 
 Result<void, Problem> Recorder::conclude() {
   std::uint64_t lost = 0;
-  recording::TextMap said;
+  recording::TextMap metadata_values;
   for (const auto& [module, runs] : counts_.lost) {
     const auto earlier = before_.lost.find(module);
     const std::uint64_t here = runs - (earlier == before_.lost.end() ? 0 : earlier->second);
     lost += here;
-    said["lost_runs." + (module < about_.modules.size() ? about_.modules[module] : "")] = std::to_string(here);
+    metadata_values["lost_runs." + (module < about_.modules.size() ? about_.modules[module] : "")] =
+        std::to_string(here);
   }
-  said["runs"] = std::to_string(counts_.runs - before_.runs);
-  said["values"] = std::to_string(counts_.values - before_.values);
-  said["lost_runs"] = std::to_string(lost);
-  return writer_->metadata(prefix_ + kEndMetadata, said);
+  metadata_values["runs"] = std::to_string(counts_.runs - before_.runs);
+  metadata_values["values"] = std::to_string(counts_.values - before_.values);
+  metadata_values["lost_runs"] = std::to_string(lost);
+  return writer_->metadata(prefix_ + kEndMetadata, metadata_values);
 }
 
 Result<void, Problem> Recorder::close() {
@@ -392,7 +393,7 @@ Result<void, Problem> Recorder::go_on_in(std::shared_ptr<recording::McapWriter> 
   begin_ns_ = std::max(begin_ns_, latest_ns_);
   before_ = counts_;
   auto begun = begin_file();
-  return begun && first_told_ ? tell_known_values() : begun;
+  return begun && first_values_written_ ? write_known_values() : begun;
 }
 
 }  // namespace indurop::recorder

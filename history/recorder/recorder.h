@@ -107,8 +107,8 @@ class Recorder {
   void choose(const std::vector<std::string>& globs, std::vector<bool>& matched);
   Result<void, base::Problem> begin_file();
   Result<void, base::Problem> add_own_channels();
-  Result<void, base::Problem> tell_first_values(const tape::Run& first);
-  Result<void, base::Problem> tell_known_values();
+  Result<void, base::Problem> write_first_values(const tape::Run& first);
+  Result<void, base::Problem> write_known_values();
   void note(std::size_t track, const tape::Run& run);
   Result<bool, base::Problem> take_run(std::size_t track, std::int64_t until_ns);
   Result<void, base::Problem> write_run(Held& held);
@@ -133,9 +133,9 @@ class Recorder {
   std::map<std::string, std::uint16_t> schemas_;
   std::uint16_t runs_channel_ = 0;
   std::uint16_t clock_channel_ = 0;
-  std::uint16_t told_channel_ = 0;
+  std::uint16_t answer_channel_ = 0;
   bool remembers_ = false;
-  bool first_told_ = false;
+  bool first_values_written_ = false;
   std::vector<Known> known_;               // by track
   std::vector<std::optional<Held>> held_;  // by track
   std::int64_t begun_wall_ns_ = 0;         // distinguishes the recording from others of the node; 0: of a simulation

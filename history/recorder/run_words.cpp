@@ -42,7 +42,7 @@ const std::string_view kClockIdl =
     "  };\n"
     "};\n";
 
-const std::string_view kToldIdl =
+const std::string_view kAnswerIdl =
     "module indurop {\n"
     "  struct Told {\n"
     "    long long code;\n"
@@ -66,15 +66,15 @@ Result<std::int64_t> clock_from_cdr(std::span<const std::uint8_t> cdr) {
   return std::bit_cast<std::int64_t>(bytes);
 }
 
-void to_cdr(const ToldWords& told, std::vector<std::uint8_t>& cdr) {
-  to_cdr(told.code, cdr);
+void to_cdr(const AnswerRecord& answer, std::vector<std::uint8_t>& cdr) {
+  to_cdr(answer.code, cdr);
   const auto length =
-      std::bit_cast<std::array<std::uint8_t, sizeof(std::uint32_t)>>(static_cast<std::uint32_t>(told.bytes.size()));
+      std::bit_cast<std::array<std::uint8_t, sizeof(std::uint32_t)>>(static_cast<std::uint32_t>(answer.bytes.size()));
   cdr.insert(cdr.end(), length.begin(), length.end());
-  cdr.insert(cdr.end(), told.bytes.begin(), told.bytes.end());
+  cdr.insert(cdr.end(), answer.bytes.begin(), answer.bytes.end());
 }
 
-Result<ToldWords> told_from_cdr(std::span<const std::uint8_t> cdr) {
+Result<AnswerRecord> answer_from_cdr(std::span<const std::uint8_t> cdr) {
   constexpr std::size_t kCodeEnd = kLittleEndian.size() + sizeof(std::int64_t);
   std::array<std::uint8_t, sizeof(std::uint32_t)> length{};
   const Error damaged{Errc::Corrupt, 0, "what a run of a recording was told"};
@@ -87,7 +87,7 @@ Result<ToldWords> told_from_cdr(std::span<const std::uint8_t> cdr) {
   if (!code || bytes.size() != std::bit_cast<std::uint32_t>(length)) {
     return damaged;
   }
-  return ToldWords{*code, bytes};
+  return AnswerRecord{*code, bytes};
 }
 
 void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr) {

@@ -40,16 +40,16 @@ Result<std::int64_t> clock_from_cdr(std::span<const std::uint8_t> cdr);
 
 // The results of shared functions and channels in runs: messages of the channel indurop/told, in the order of the
 // calls.
-inline constexpr std::string_view kToldTopic = "indurop/told";
-inline constexpr std::string_view kToldSchema = "indurop::Told";
-extern const std::string_view kToldIdl;
-struct ToldWords {
+inline constexpr std::string_view kAnswerTopic = "indurop/told";
+inline constexpr std::string_view kAnswerSchema = "indurop::Told";
+extern const std::string_view kAnswerIdl;
+struct AnswerRecord {
   std::int64_t code = 0;  // see tape::Answer
   std::span<const std::uint8_t> bytes;
 };
-void to_cdr(const ToldWords& told, std::vector<std::uint8_t>& cdr);
+void to_cdr(const AnswerRecord& answer, std::vector<std::uint8_t>& cdr);
 // The result points into `cdr`. Errors: Corrupt.
-Result<ToldWords> told_from_cdr(std::span<const std::uint8_t> cdr);
+Result<AnswerRecord> answer_from_cdr(std::span<const std::uint8_t> cdr);
 
 void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr);
 // Errors: Corrupt.

@@ -31,8 +31,8 @@ ChannelPlace place_of(const Source& source, std::size_t number, const std::strin
     kind = ChannelKind::Run;
   } else if (name == kClockTopic) {
     kind = ChannelKind::Clock;
-  } else if (name == kToldTopic) {
-    kind = ChannelKind::Told;
+  } else if (name == kAnswerTopic) {
+    kind = ChannelKind::Answer;
   }
   return {number, kind, name};
 }

@@ -36,7 +36,7 @@ struct Source {
   [[nodiscard]] std::string name() const { return prefix.empty() ? "" : prefix.substr(0, prefix.size() - 1); }
 };
 
-enum class ChannelKind : std::uint8_t { Value, Run, Clock, Told };
+enum class ChannelKind : std::uint8_t { Value, Run, Clock, Answer };
 struct ChannelPlace {
   std::size_t source = 0;
   ChannelKind kind = ChannelKind::Value;

@@ -42,7 +42,7 @@ class Surveyor {
     }
   }
 
-  void tell(const recording::Contents& contents) {
+  void add(const recording::Contents& contents) {
     for (auto& [whose, module] : modules_) {
       to_.modules.push_back(module);
     }
@@ -111,7 +111,7 @@ Result<Survey, Problem> survey(const std::filesystem::path& file) {
   }
   Surveyor surveyor(survey);
   survey.damages = reader->each([&surveyor](const recording::McapMessage& message) { surveyor.take(message); });
-  surveyor.tell(reader->contents());
+  surveyor.add(reader->contents());
   return survey;
 }
 

@@ -28,9 +28,9 @@ bool possible(std::string_view compression, View bytes, std::uint64_t size) {
   if (compression == "lz4") {
     return size / 255 <= bytes.size();
   }
-  const unsigned long long said = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  return said != ZSTD_CONTENTSIZE_ERROR && size / (std::uint64_t{32} << 10U) <= bytes.size() &&
-         (said == ZSTD_CONTENTSIZE_UNKNOWN || said <= size);
+  const unsigned long long metadata_values = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  return metadata_values != ZSTD_CONTENTSIZE_ERROR && size / (std::uint64_t{32} << 10U) <= bytes.size() &&
+         (metadata_values == ZSTD_CONTENTSIZE_UNKNOWN || metadata_values <= size);
 }
 
 std::optional<Problem> undo_zstd(View bytes, Block& to) {
@@ -91,8 +91,8 @@ Block make_block(std::uint64_t size) {
 }
 
 Result<Block, Problem> decompress(std::string_view compression, View bytes, std::uint64_t size) {
-  if (size > kMostChunkBytes) {
-    return Problem{fmt::format("{} bytes are more than the {} that are read at once", size, kMostChunkBytes)};
+  if (size > kMaxChunkBytes) {
+    return Problem{fmt::format("{} bytes are more than the {} that are read at once", size, kMaxChunkBytes)};
   }
   if (compression.empty()) {
     if (bytes.size() != size) {

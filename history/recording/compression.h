@@ -39,7 +39,7 @@ struct Block {
 };
 Block make_block(std::uint64_t size);
 
-// Decompresses; the result must have `size` bytes, at most kMostChunkBytes. Errors: unknown compression; `bytes` do not
+// Decompresses; the result must have `size` bytes, at most kMaxChunkBytes. Errors: unknown compression; `bytes` do not
 // decompress to that size.
 Result<Block, base::Problem> decompress(std::string_view compression, View bytes, std::uint64_t size);
 

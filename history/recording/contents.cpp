@@ -15,7 +15,7 @@ using base::Problem;
 
 constexpr std::uint64_t kFooterBytes = 20;
 constexpr std::uint64_t kEndBytes = kRecordHead + kFooterBytes + kMagic.size();
-constexpr std::uint64_t kMostHeaderBytes = std::uint64_t{1} << 20U;
+constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{1} << 20U;
 
 bool is_magic(View bytes) {
   return std::equal(bytes.begin(), bytes.end(), kMagic.begin(), kMagic.end());
@@ -35,7 +35,7 @@ Result<std::uint64_t, Problem> read_header(const InputFile& file, McapHeader& he
   }
   const RecordHead head = record_head(begin->view().subspan(kMagic.size()));
   const std::uint64_t end = kMagic.size() + kRecordHead + head.length;
-  if (head.opcode != Opcode::Header || head.length > kMostHeaderBytes) {
+  if (head.opcode != Opcode::Header || head.length > kMaxHeaderBytes) {
     return file.problem(kMagic.size(), "this is no recording: it has no header");
   }
   auto content = file.read(kMagic.size() + kRecordHead, head.length);

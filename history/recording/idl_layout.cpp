@@ -19,7 +19,7 @@ namespace {
 using base::Problem;
 using Kind = IdlLeaf::Kind;
 
-constexpr int kMostDepth = 32;
+constexpr int kMaxDepth = 32;
 
 struct Member {
   std::string type;  // "string" for all texts
@@ -185,20 +185,20 @@ class Flattener {
 
   bool add(const std::string& type, const std::string& name, int depth) {
     // Structs without members add no leaves, so the steps are limited too.
-    if (++steps_ > kMostSteps) {
+    if (++steps_ > kMaxSteps) {
       return false;
     }
     if (const auto kind = kind_of(type)) {
       leaves.push_back({name, *kind});
-      return leaves.size() <= kMostLeaves;
+      return leaves.size() <= kMaxLeaves;
     }
     const auto found = definitions_.find(type);
-    if (found == definitions_.end() || depth > kMostDepth) {
+    if (found == definitions_.end() || depth > kMaxDepth) {
       return false;
     }
     if (found->second.is_enum) {
       leaves.push_back({name, Kind::Enum});
-      return leaves.size() <= kMostLeaves;
+      return leaves.size() <= kMaxLeaves;
     }
     const auto& members = found->second.members;
     // A struct that only wraps its member adds no name.
@@ -223,7 +223,7 @@ class Flattener {
     return true;
   }
 
-  static constexpr std::size_t kMostSteps = 4 * kMostLeaves;
+  static constexpr std::size_t kMaxSteps = 4 * kMaxLeaves;
 
   const std::map<std::string, Definition>& definitions_;
   std::size_t steps_ = 0;

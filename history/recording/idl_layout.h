@@ -22,10 +22,10 @@ struct IdlLeaf {
   Kind kind{};
 };
 
-inline constexpr std::size_t kMostLeaves = 4096;
+inline constexpr std::size_t kMaxLeaves = 4096;
 
 // Returns the numbers of struct `name` of this text, in the order of its bytes. A struct of module indurop with the
-// single member `value` is replaced by that member. Errors: unsupported IDL; more than kMostLeaves.
+// single member `value` is replaced by that member. Errors: unsupported IDL; more than kMaxLeaves.
 Result<std::vector<IdlLeaf>, base::Problem> idl_layout(std::string_view text, std::string_view name);
 
 // Reads one number for each leaf; texts become NaN. Returns false if `cdr` is no such message.

@@ -15,8 +15,8 @@ namespace {
 using base::Problem;
 
 // Chunks with overlapping times must be in memory together.
-constexpr std::uint64_t kMostOpenBytes = 4 * kMostChunkBytes;
-constexpr std::uint64_t kMostMetadataBytes = kMostMessageBytes;
+constexpr std::uint64_t kMaxOpenBytes = 4 * kMaxChunkBytes;
+constexpr std::uint64_t kMaxMetadataBytes = kMaxMessageBytes;
 
 }  // namespace
 
@@ -55,11 +55,11 @@ Result<void, Problem> McapReader::open_segment(const Segment& segment) {
   if (!messages.empty() && messages.front().log_time_ns < segment.start_ns) {
     return file_.problem(segment.offset, "a chunk with older messages than the summary says");
   }
-  if (loaded->records.size > kMostOpenBytes - open_bytes_) {
+  if (loaded->records.size > kMaxOpenBytes - open_bytes_) {
     return file_.problem(segment.offset,
                          fmt::format("a chunk is passed over: those of its time together have more than "
                                      "the {} bytes that are read at once",
-                                     kMostOpenBytes));
+                                     kMaxOpenBytes));
   }
   const auto first = std::partition_point(messages.begin(), messages.end(),
                                           [this](const auto& each) { return each.log_time_ns < from_ns_; });
@@ -107,12 +107,12 @@ Result<std::optional<McapMessage>, Problem> McapReader::next() {
 }
 
 std::vector<std::string> McapReader::each(const std::function<void(const McapMessage&)>& use, std::uint64_t until_ns) {
-  constexpr std::size_t kMostDamages = 100;
+  constexpr std::size_t kMaxDamages = 100;
   std::vector<std::string> damages;
   for (const Problem& damage : contents_.damages) {
     damages.push_back(damage.text);
   }
-  while (damages.size() < kMostDamages) {
+  while (damages.size() < kMaxDamages) {
     const auto message = next();
     if (!message) {
       damages.push_back(message.error().text);
@@ -127,7 +127,7 @@ std::vector<std::string> McapReader::each(const std::function<void(const McapMes
 
 Result<Bytes, Problem> McapReader::attachment(const McapAttachmentIndex& index) const {
   const auto content =
-      file_.read_content(Opcode::Attachment, index.offset, index.length, kMostAttachmentBytes + kMostMetadataBytes);
+      file_.read_content(Opcode::Attachment, index.offset, index.length, kMaxAttachmentBytes + kMaxMetadataBytes);
   if (!content) {
     return content.error();
   }
@@ -148,7 +148,7 @@ Result<Bytes, Problem> McapReader::attachment(const McapAttachmentIndex& index) 
 }
 
 Result<McapMetadata, Problem> McapReader::metadata(const McapMetadataIndex& index) const {
-  const auto content = file_.read_content(Opcode::Metadata, index.offset, index.length, kMostMetadataBytes);
+  const auto content = file_.read_content(Opcode::Metadata, index.offset, index.length, kMaxMetadataBytes);
   if (!content) {
     return content.error();
   }

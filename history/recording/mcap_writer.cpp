@@ -17,7 +17,7 @@ namespace {
 
 using base::Problem;
 
-constexpr std::uint16_t kMost = std::numeric_limits<std::uint16_t>::max();
+constexpr std::uint16_t kMaxIds = std::numeric_limits<std::uint16_t>::max();
 
 }  // namespace
 
@@ -42,7 +42,7 @@ Problem McapWriter::refused(std::string_view why) const {
 
 Result<std::uint16_t, Problem> McapWriter::add_schema(std::string_view name, std::string_view encoding,
                                                       std::string_view data) {
-  if (statistics_.schemas == kMost) {
+  if (statistics_.schemas == kMaxIds) {
     return refused("a recording has at most 65535 schemas");
   }
   const auto id = static_cast<std::uint16_t>(statistics_.schemas + 1);
@@ -58,7 +58,7 @@ Result<std::uint16_t, Problem> McapWriter::add_schema(std::string_view name, std
 
 Result<std::uint16_t, Problem> McapWriter::add_channel(std::uint16_t schema, std::string_view topic,
                                                        std::string_view encoding, const TextMap& metadata) {
-  if (statistics_.channels == kMost) {
+  if (statistics_.channels == kMaxIds) {
     return refused("a recording has at most 65535 channels");
   }
   if (schema > statistics_.schemas) {
@@ -87,8 +87,8 @@ Result<void, Problem> McapWriter::write(std::uint16_t channel, std::uint64_t log
   if (channel == 0 || channel > statistics_.channels) {
     return refused(fmt::format("there is no channel {}", channel));
   }
-  if (bytes.size() > kMostMessageBytes) {
-    return refused(fmt::format("a message of {} bytes is too large, {} are allowed", bytes.size(), kMostMessageBytes));
+  if (bytes.size() > kMaxMessageBytes) {
+    return refused(fmt::format("a message of {} bytes is too large, {} are allowed", bytes.size(), kMaxMessageBytes));
   }
   if (chunk_is_full(log_time_ns)) {
     if (auto flushed = flush(); !flushed) {
@@ -144,9 +144,9 @@ Result<void, Problem> McapWriter::flush() {
 }
 
 Result<void, Problem> McapWriter::attach(const McapAttachment& about, View bytes) {
-  if (bytes.size() > kMostAttachmentBytes) {
+  if (bytes.size() > kMaxAttachmentBytes) {
     return refused(
-        fmt::format("attachment '{}' has {} bytes, {} are allowed", about.name, bytes.size(), kMostAttachmentBytes));
+        fmt::format("attachment '{}' has {} bytes, {} are allowed", about.name, bytes.size(), kMaxAttachmentBytes));
   }
   portion_.clear();
   append_record(portion_, about);

@@ -44,7 +44,7 @@ class McapWriter {
   // `schema` 0: none.
   Result<std::uint16_t, base::Problem> add_channel(std::uint16_t schema, std::string_view topic,
                                                    std::string_view encoding, const TextMap& metadata);
-  // Errors: no such channel; more than kMostMessageBytes; a full chunk cannot be written, then the message is not
+  // Errors: no such channel; more than kMaxMessageBytes; a full chunk cannot be written, then the message is not
   // accepted.
   Result<void, base::Problem> write(std::uint16_t channel, std::uint64_t log_time_ns, std::uint64_t publish_time_ns,
                                     std::uint32_t sequence, View bytes);

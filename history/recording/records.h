@@ -23,9 +23,9 @@ inline constexpr std::array<std::uint8_t, 8> kMagic{0x89, 'M', 'C', 'A', 'P', '0
 inline constexpr std::uint64_t kRecordHead = 9;
 
 // The size limits: more than any recording needs, and small enough for memory, whatever a damaged file states.
-inline constexpr std::uint64_t kMostMessageBytes = std::uint64_t{64} << 20U;
-inline constexpr std::uint64_t kMostChunkBytes = std::uint64_t{256} << 20U;
-inline constexpr std::uint64_t kMostAttachmentBytes = std::uint64_t{1} << 30U;
+inline constexpr std::uint64_t kMaxMessageBytes = std::uint64_t{64} << 20U;
+inline constexpr std::uint64_t kMaxChunkBytes = std::uint64_t{256} << 20U;
+inline constexpr std::uint64_t kMaxAttachmentBytes = std::uint64_t{1} << 30U;
 
 enum class Opcode : std::uint8_t {
   Header = 1,

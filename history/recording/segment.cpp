@@ -16,10 +16,10 @@ namespace {
 using base::Problem;
 
 // In addition to the records a chunk's content has some numbers and a word.
-constexpr std::uint64_t kMostBesides = 1024;
+constexpr std::uint64_t kMaxOtherBytes = 1024;
 
 Result<Block, Problem> read_chunk(const InputFile& file, const Segment& segment) {
-  auto content = file.read_content(Opcode::Chunk, segment.offset, segment.length, kMostChunkBytes + kMostBesides);
+  auto content = file.read_content(Opcode::Chunk, segment.offset, segment.length, kMaxChunkBytes + kMaxOtherBytes);
   if (!content) {
     return content;
   }

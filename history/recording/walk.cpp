@@ -119,7 +119,7 @@ class Walk {
       }
       case Opcode::Metadata: {
         McapMetadata metadata;
-        if (!read_record(content(head, kMostMessageBytes), metadata)) {
+        if (!read_record(content(head, kMaxMessageBytes), metadata)) {
           return damage("damaged metadata");
         }
         to_.metadata.push_back({at_, length, metadata.name});
@@ -139,7 +139,7 @@ class Walk {
   template <class Record>
   void define(const RecordHead& head) {
     Record record;
-    if (!read_record(content(head, kMostMessageBytes), record)) {
+    if (!read_record(content(head, kMaxMessageBytes), record)) {
       return damage("a damaged schema or channel");
     }
     add(std::move(record));
@@ -154,7 +154,7 @@ class Walk {
 
   void take_message(const RecordHead& head) {
     McapMessage message;
-    if (head.length > kMostMessageBytes || !read_record(content(head, kPortion), message)) {
+    if (head.length > kMaxMessageBytes || !read_record(content(head, kPortion), message)) {
       return damage("a damaged message");
     }
     const std::uint64_t length = kRecordHead + head.length;

@@ -23,17 +23,17 @@ constexpr std::chrono::milliseconds kKernelPoll{100};
 }  // namespace
 
 struct KernelWatch::Impl {
-  explicit Impl(explain::KernelLook look) : look_(std::move(look)) {}
+  explicit Impl(explain::KernelSampler sampler) : sampler_(std::move(sampler)) {}
 
   void loop() {
     std::unique_lock lock(mutex_);
     do {
-      look_.look(rt::now_ns());
+      sampler_.sample(rt::now_ns());
     } while (!end_.wait_for(lock, kKernelPoll, [this] { return stop_; }));
-    look_.look(rt::now_ns());
+    sampler_.sample(rt::now_ns());
   }
 
-  explain::KernelLook look_;
+  explain::KernelSampler sampler_;
   std::mutex mutex_;
   std::condition_variable end_;
   bool stop_ = false;
@@ -41,11 +41,11 @@ struct KernelWatch::Impl {
 };
 
 KernelWatch::KernelWatch(const std::string& node, bool realtime, std::vector<int> cores) {
-  auto look = explain::KernelLook::begin(node, "/proc/self", realtime);
-  if (!look) {
+  auto sampler = explain::KernelSampler::begin(node, "/proc/self", realtime);
+  if (!sampler) {
     return;
   }
-  impl_ = std::make_unique<Impl>(std::move(look).value());
+  impl_ = std::make_unique<Impl>(std::move(sampler).value());
   impl_->thread_ = std::thread([impl = impl_.get(), cores = std::move(cores)] {
     ::pthread_setname_np(::pthread_self(), "irp-kernel");
     (void)rt::pin_to_cores(cores);

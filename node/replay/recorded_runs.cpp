@@ -46,7 +46,7 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
     if (place.kind != recorder::ChannelKind::Value) {
       (place.kind == recorder::ChannelKind::Run     ? runs_channel_
        : place.kind == recorder::ChannelKind::Clock ? clock_channel_
-                                                    : told_channel_) = id;
+                                                    : answer_channel_) = id;
       continue;
     }
     const auto* entry = store.find(abi::fnv1a64(place.name.data(), place.name.size()));
@@ -106,8 +106,8 @@ Result<std::optional<RecordedRuns::Item>, Problem> RecordedRuns::next() {
       }
       return std::optional<Item>(RecordedClock{recorder::from_sequence(one.sequence).module, *clock});
     }
-    if (one.channel == told_channel_ && told_channel_ != 0) {
-      auto told = recorder::told_from_cdr(one.data.view);
+    if (one.channel == answer_channel_ && answer_channel_ != 0) {
+      auto told = recorder::answer_from_cdr(one.data.view);
       if (!told) {
         return Problem{"what a run of the recording was told is damaged"};
       }

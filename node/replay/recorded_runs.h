@@ -39,7 +39,7 @@ struct RecordedClock {
 
 struct RecordedTold {
   std::uint32_t module = 0;
-  recorder::ToldWords words;
+  recorder::AnswerRecord words;
 };
 
 // Why a recording cannot be used, and the exit code for that.
@@ -84,7 +84,7 @@ class RecordedRuns {
   std::vector<std::string> unknown_;
   std::uint16_t runs_channel_ = 0;
   std::uint16_t clock_channel_ = 0;
-  std::uint16_t told_channel_ = 0;
+  std::uint16_t answer_channel_ = 0;
 };
 
 }  // namespace indurop::node

@@ -31,7 +31,7 @@ Layouts layouts_of(const Contents& contents) {
       continue;
     }
     if (auto layout = idl_layout(schema->second.data, schema->second.name)) {
-      if (layout->size() > kMostLeaves) {
+      if (layout->size() > kMaxLeaves) {
         std::abort();
       }
       layouts.emplace(id, *std::move(layout));

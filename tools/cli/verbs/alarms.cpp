@@ -108,7 +108,7 @@ int watch(Context& context, const std::string& node) {
   static_cast<void>(context.out.flush());
   std::string before;
   while (!interrupted()) {
-    if (std::string problem = watched.look(modules_now(node)); problem != before) {
+    if (std::string problem = watched.evaluate(modules_now(node)); problem != before) {
       before = std::move(problem);
       if (!before.empty()) {
         context.out.error(before);

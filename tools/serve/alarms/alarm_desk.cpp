@@ -25,7 +25,7 @@ void AlarmDesk::look_now(const std::vector<std::string>& boards) {
     } else if (watch->idle() && round_ % kIdleRounds != 0) {
       continue;
     }
-    if (std::string problem = watch->look(tools::modules_now(board)); problem != problem_) {
+    if (std::string problem = watch->evaluate(tools::modules_now(board)); problem != problem_) {
       problem_ = std::move(problem);
       if (!problem_.empty()) {
         fmt::print(stderr, "indurop-serve: error: alarms cannot be kept: {}\n", problem_);

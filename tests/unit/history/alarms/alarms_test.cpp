@@ -72,7 +72,7 @@ class Alarms : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] AlarmJournal journal(std::size_t most_bytes = 1U << 20U) const { return {folder_, most_bytes}; }
+  [[nodiscard]] AlarmJournal journal(std::size_t max_bytes = 1U << 20U) const { return {folder_, max_bytes}; }
 
   static AlarmEntry entry(const std::string& alarm, Event event) {
     AlarmEntry out;
@@ -248,24 +248,24 @@ TEST(AlarmCondition_, Waits_for_its_delay_and_for_its_end) {
   alarm.limit = 80;
   alarm.delay_ns = 2 * kSecond;
   AlarmCondition sut;
-  EXPECT_FALSE(sut.look(alarm, 90, 0, false));
-  EXPECT_FALSE(sut.look(alarm, 70, 1 * kSecond, false));
-  EXPECT_FALSE(sut.look(alarm, 90, 2 * kSecond, false));
-  EXPECT_FALSE(sut.look(alarm, 90, 4 * kSecond - 1, false));
-  EXPECT_TRUE(sut.look(alarm, 90, 4 * kSecond, false));
-  EXPECT_TRUE(sut.look(alarm, 70, 5 * kSecond, false));
-  EXPECT_TRUE(sut.look(alarm, 90, 5 * kSecond + kBackForNs / 2, false));
-  EXPECT_TRUE(sut.look(alarm, 70, 7 * kSecond, false));
-  EXPECT_FALSE(sut.look(alarm, 70, 7 * kSecond + kBackForNs, false));
+  EXPECT_FALSE(sut.evaluate(alarm, 90, 0, false));
+  EXPECT_FALSE(sut.evaluate(alarm, 70, 1 * kSecond, false));
+  EXPECT_FALSE(sut.evaluate(alarm, 90, 2 * kSecond, false));
+  EXPECT_FALSE(sut.evaluate(alarm, 90, 4 * kSecond - 1, false));
+  EXPECT_TRUE(sut.evaluate(alarm, 90, 4 * kSecond, false));
+  EXPECT_TRUE(sut.evaluate(alarm, 70, 5 * kSecond, false));
+  EXPECT_TRUE(sut.evaluate(alarm, 90, 5 * kSecond + kBackForNs / 2, false));
+  EXPECT_TRUE(sut.evaluate(alarm, 70, 7 * kSecond, false));
+  EXPECT_FALSE(sut.evaluate(alarm, 70, 7 * kSecond + kBackForNs, false));
 }
 
 TEST(AlarmCondition_, Goes_on_where_another_watcher_ended) {
   schema::Alarm alarm;
   AlarmCondition sut;
-  EXPECT_TRUE(sut.look(alarm, 1, 0, true));
+  EXPECT_TRUE(sut.evaluate(alarm, 1, 0, true));
   AlarmCondition gone;
-  EXPECT_TRUE(gone.look(alarm, 0, 0, true));
-  EXPECT_FALSE(gone.look(alarm, 0, kBackForNs, true));
+  EXPECT_TRUE(gone.evaluate(alarm, 0, 0, true));
+  EXPECT_FALSE(gone.evaluate(alarm, 0, kBackForNs, true));
 }
 
 }  // namespace

@@ -31,13 +31,13 @@ TEST(RunWords, Come_back_as_they_were) {
   cdr.pop_back();
   EXPECT_FALSE(clock_from_cdr(cdr).ok());
   const std::vector<std::uint8_t> bytes{1, 2, 3};
-  to_cdr(ToldWords{-7, bytes}, cdr);
-  const auto told = told_from_cdr(cdr);
+  to_cdr(AnswerRecord{-7, bytes}, cdr);
+  const auto told = answer_from_cdr(cdr);
   ASSERT_TRUE(told.ok());
   EXPECT_EQ(told->code, -7);
   EXPECT_TRUE(std::equal(told->bytes.begin(), told->bytes.end(), bytes.begin(), bytes.end()));
   cdr.pop_back();
-  EXPECT_FALSE(told_from_cdr(cdr).ok());
+  EXPECT_FALSE(answer_from_cdr(cdr).ok());
 }
 
 TEST(RunWords, A_sequence_number_says_whose_value_it_is_and_as_what) {

@@ -143,7 +143,7 @@ TEST_F(Writer, What_it_cannot_write_is_refused) {
   EXPECT_THAT(sut.add_channel(1, "t", "cdr", {}).error().text, HasSubstr("there is no schema 1"));
   declare(sut);
   EXPECT_FALSE(sut.write(3, 0, 0, 0, {}).ok());
-  EXPECT_THAT(sut.write(1, 0, 0, 0, Bytes(kMostMessageBytes + 1)).error().text, HasSubstr("too large"));
+  EXPECT_THAT(sut.write(1, 0, 0, 0, Bytes(kMaxMessageBytes + 1)).error().text, HasSubstr("too large"));
 }
 
 }  // namespace
