@@ -16,8 +16,8 @@ constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15ULL;  // makes any seed usab
 AxisModel::AxisModel(const config::IoAxis& axis) noexcept
     : inertia_(axis.inertia),
       damping_(axis.damping),
-      most_torque_(axis.torque),
-      most_velocity_(axis.speed * kRadiansPerDegree),
+      max_torque_(axis.torque),
+      max_velocity_(axis.speed * kRadiansPerDegree),
       // The two loops together are critically damped at the bandwidth: s^2 + 2 w s + w^2.
       position_gain_(std::numbers::pi * axis.bandwidth),
       velocity_gain_(4 * std::numbers::pi * axis.bandwidth),
@@ -27,7 +27,7 @@ AxisModel::AxisModel(const config::IoAxis& axis) noexcept
       position_(axis.start * kRadiansPerDegree) {}
 
 void AxisModel::accelerate(double torque) noexcept {
-  torque_ = std::clamp(torque, -most_torque_, most_torque_);
+  torque_ = std::clamp(torque, -max_torque_, max_torque_);
   limited_ = limited_ || torque_ != torque;
   velocity_ += (torque_ - load_ - damping_ * velocity_) / inertia_ * kStep;
   position_ += velocity_ * kStep;
@@ -44,7 +44,7 @@ double AxisModel::take_mean_torque() noexcept {
 void AxisModel::drive(const AxisReference& reference) noexcept {
   const double correction = reference.follow_position ? position_gain_ * (reference.position - position_) : 0;
   const double wanted = reference.velocity + correction;
-  const double velocity = std::clamp(wanted, -most_velocity_, most_velocity_);
+  const double velocity = std::clamp(wanted, -max_velocity_, max_velocity_);
   limited_ = velocity != wanted;
   accelerate(inertia_ * velocity_gain_ * (velocity - velocity_) + damping_ * velocity + reference.torque);
 }
@@ -53,7 +53,7 @@ void AxisModel::push(double torque) noexcept {
   const auto towards = [this](double velocity) {
     return inertia_ * velocity_gain_ * (velocity - velocity_) + damping_ * velocity;
   };
-  const double allowed = std::clamp(torque, towards(-most_velocity_), towards(most_velocity_));
+  const double allowed = std::clamp(torque, towards(-max_velocity_), towards(max_velocity_));
   limited_ = allowed != torque;
   accelerate(allowed);
 }
@@ -64,7 +64,7 @@ void AxisModel::brake() noexcept {
   const double stopping = damping_ * velocity_ - velocity_ * inertia_ / kStep;
   const double load = std::exchange(load_, 0);
   const double torques = torques_;  // the motor gives no torque
-  accelerate(std::clamp(stopping, -most_torque_, most_torque_));
+  accelerate(std::clamp(stopping, -max_torque_, max_torque_));
   torques_ = torques;
   load_ = load;
   torque_ = 0;

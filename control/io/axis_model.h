@@ -44,9 +44,9 @@ class AxisModel {
   [[nodiscard]] double velocity() const noexcept { return velocity_; }
   [[nodiscard]] double torque() const noexcept { return torque_; }
   [[nodiscard]] bool limited() const noexcept { return limited_; }  // torque or velocity was limited in the last step
-  [[nodiscard]] double most_velocity() const noexcept { return most_velocity_; }
+  [[nodiscard]] double max_velocity() const noexcept { return max_velocity_; }
   // Returns the maximum deceleration by the motor.
-  [[nodiscard]] double most_deceleration() const noexcept { return most_torque_ / inertia_; }
+  [[nodiscard]] double max_deceleration() const noexcept { return max_torque_ / inertia_; }
 
   // Returns the encoder counts since power on at `start`, not yet wrapped to a register's size. The noise may differ
   // with each call.
@@ -59,8 +59,8 @@ class AxisModel {
 
   double inertia_;
   double damping_;
-  double most_torque_;
-  double most_velocity_;
+  double max_torque_;
+  double max_velocity_;
   double position_gain_;  // 1/s
   double velocity_gain_;  // 1/s
   double counts_per_radian_;

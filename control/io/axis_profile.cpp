@@ -6,7 +6,7 @@
 
 namespace indurop::io {
 
-bool AxisProfile::go_to(double target, double most_velocity, double acceleration, double dt) noexcept {
+bool AxisProfile::go_to(double target, double max_velocity, double acceleration, double dt) noexcept {
   const double left = target - position;
   const double step = acceleration * dt;
   if (std::fabs(left) <= step * dt && std::fabs(velocity) <= 2 * step) {
@@ -17,7 +17,7 @@ bool AxisProfile::go_to(double target, double most_velocity, double acceleration
   // The highest speed from which the axis can still stop at the target; the half step is the distance of one braking
   // step.
   const double allowed =
-      std::min(most_velocity, std::sqrt(step * step / 4 + 2 * acceleration * std::fabs(left)) - step / 2);
+      std::min(max_velocity, std::sqrt(step * step / 4 + 2 * acceleration * std::fabs(left)) - step / 2);
   const double wanted = std::copysign(allowed, left);
   velocity += std::clamp(wanted - velocity, -step, step);
   position += velocity * dt;

@@ -11,7 +11,7 @@ struct AxisProfile {
   double velocity = 0;
 
   // One step of `dt` seconds towards a position; returns true at standstill at the target.
-  bool go_to(double target, double most_velocity, double acceleration, double dt) noexcept;
+  bool go_to(double target, double max_velocity, double acceleration, double dt) noexcept;
   // One step towards a velocity; returns true once it is reached.
   bool change_velocity(double target, double acceleration, double dt) noexcept;
 };

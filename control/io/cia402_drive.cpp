@@ -68,7 +68,7 @@ void Cia402Drive::start_over() noexcept {
   home_ = Home::Idle;
   homing_.forget();
   torque_ = 0;
-  too_far_s_ = 0;
+  following_error_s_ = 0;
 }
 
 void Cia402Drive::take_mode(std::int8_t mode) noexcept {
@@ -126,7 +126,7 @@ void Cia402Drive::advance_profile_position(const DriveCommand& command, double d
     reached_ = profile_.change_velocity(0, acceleration, dt);
     return;
   }
-  const bool there = profile_.go_to(target_, model_.most_velocity(), acceleration, dt);
+  const bool there = profile_.go_to(target_, model_.max_velocity(), acceleration, dt);
   reached_ = there && std::fabs(model_.position() - target_) < kArrivedDegrees * kRadiansPerDegree;
   if (reached_ && next_target_) {
     target_ = *next_target_;
@@ -137,7 +137,7 @@ void Cia402Drive::advance_profile_position(const DriveCommand& command, double d
 
 void Cia402Drive::go_straight_home(double dt) noexcept {
   const double mark = axis_.mark * kRadiansPerDegree;
-  const double speed = std::min(axis_.home_speed * kRadiansPerDegree, model_.most_velocity());
+  const double speed = std::min(axis_.home_speed * kRadiansPerDegree, model_.max_velocity());
   const bool there = profile_.go_to(mark, speed, axis_.acceleration * kRadiansPerDegree, dt);
   if (there && std::fabs(model_.position() - mark) < kArrivedDegrees * kRadiansPerDegree) {
     home_ = Home::Done;
@@ -157,7 +157,7 @@ void Cia402Drive::advance_homing(const DriveCommand& command, double dt) noexcep
     return;
   }
   const double wanted = homing_.step(previous_ / kRadiansPerDegree, last_ / kRadiansPerDegree);
-  const double limit = model_.most_velocity();
+  const double limit = model_.max_velocity();
   profile_.change_velocity(std::clamp(wanted * kRadiansPerDegree, -limit, limit), acceleration, dt);
   if (homing_.state() == Homing::State::Done) {
     home_ = Home::Done;
@@ -190,7 +190,7 @@ void Cia402Drive::stop_at_limits(const AxisProfile& before, double dt) noexcept 
   at_limit_ = mode_ != DriveMode::Homing && ((now.high && towards > 0) || (now.low && towards < 0));
   if (at_limit_) {
     profile_ = was_at_limit || !is_torque(mode_) ? before : AxisProfile{model_.position(), model_.velocity()};
-    profile_.change_velocity(0, kQuickStopShare * model_.most_deceleration(), dt);
+    profile_.change_velocity(0, kQuickStopShare * model_.max_deceleration(), dt);
   }
 }
 
@@ -208,7 +208,7 @@ void Cia402Drive::close_loops(const DriveCommand& command) noexcept {
 void Cia402Drive::advance_enabled(const DriveCommand& command, double dt) noexcept {
   const double acceleration = axis_.acceleration * kRadiansPerDegree;
   const bool halt = (command.control & kHalt) != 0;
-  const double limit = model_.most_velocity();
+  const double limit = model_.max_velocity();
   const double velocity = std::clamp(command.velocity / model_.counts_per_radian(), -limit, limit);
   switch (mode_) {
     case DriveMode::None:
@@ -242,11 +242,11 @@ void Cia402Drive::advance_enabled(const DriveCommand& command, double dt) noexce
 void Cia402Drive::watch_following() noexcept {
   const double error = std::fabs(profile_.position - model_.position());
   if (!follows_position_ || error <= axis_.following * kRadiansPerDegree) {
-    too_far_s_ = 0;
+    following_error_s_ = 0;
     return;
   }
-  too_far_s_ += AxisModel::kStep;
-  if (too_far_s_ > std::chrono::duration<double>(axis_.following_time).count()) {
+  following_error_s_ += AxisModel::kStep;
+  if (following_error_s_ > std::chrono::duration<double>(axis_.following_time).count()) {
     machine_.fail(kFollowingError);
     follow_actual();
   }
@@ -265,7 +265,7 @@ void Cia402Drive::advance(const DriveCommand& command, double dt) noexcept {
     }
     case DriveState::QuickStopActive:
     case DriveState::FaultReaction:
-      profile_.change_velocity(0, kQuickStopShare * model_.most_deceleration(), dt);
+      profile_.change_velocity(0, kQuickStopShare * model_.max_deceleration(), dt);
       model_.drive({profile_.position, profile_.velocity, true, 0});
       break;
     case DriveState::NotReady:
@@ -286,7 +286,7 @@ std::uint16_t Cia402Drive::mode_bits(const DriveCommand& command) const noexcept
       return 0;
     case DriveMode::ProfilePosition:
       bits |= (command.control & kNewSetPoint) != 0 || next_target_ ? kModeBit12 : 0U;
-      bits |= too_far_s_ > 0 ? kModeBit13 : 0U;
+      bits |= following_error_s_ > 0 ? kModeBit13 : 0U;
       break;
     case DriveMode::ProfileVelocity:
       bits |= standing() ? kModeBit12 : 0U;
@@ -301,7 +301,7 @@ std::uint16_t Cia402Drive::mode_bits(const DriveCommand& command) const noexcept
       bits = (command.control & kNewSetPoint) != 0 ? kModeBit12 : 0U;
       break;
     case DriveMode::CyclicPosition:
-      bits = kModeBit12 | (too_far_s_ > 0 ? kModeBit13 : 0U);
+      bits = kModeBit12 | (following_error_s_ > 0 ? kModeBit13 : 0U);
       break;
     case DriveMode::CyclicVelocity:
     case DriveMode::CyclicTorque:

@@ -127,7 +127,7 @@ class Cia402Drive {
   double previous_;               // position after the step before
   std::int64_t zero_counts_ = 0;  // encoder counts that are reported as position 0
   double cyclic_velocity_ = 0;    // velocity towards the target of this period
-  double too_far_s_ = 0;          // time with an excessive following error
+  double following_error_s_ = 0;  // time with an excessive following error
   std::int64_t last_counts_;
   std::int64_t rest_ns_ = 0;  // rest of the period, shorter than a step
 };

@@ -13,7 +13,7 @@ namespace indurop::io {
 
 namespace {
 
-constexpr Number kMostLoad = 1e6;  // N m
+constexpr Number kMaxLoad = 1e6;  // N m
 
 }  // namespace
 
@@ -77,9 +77,9 @@ void Cia402Driver::take(Object object, Sample& from) noexcept {
     case Object::TorqueOffset:
       return into(command_.torque_offset);
     case Object::Load:
-      from.quality = std::fabs(from.value) <= kMostLoad ? Quality::Good : Quality::OutOfRange;
+      from.quality = std::fabs(from.value) <= kMaxLoad ? Quality::Good : Quality::OutOfRange;
       if (!std::isnan(from.value)) {
-        command_.load = static_cast<double>(std::clamp(from.value, -kMostLoad, kMostLoad));
+        command_.load = static_cast<double>(std::clamp(from.value, -kMaxLoad, kMaxLoad));
       }
       return;
     case Object::Probe:

@@ -121,7 +121,7 @@ void Dispatcher::take(Line& line, OutputImage& into) noexcept {
   }
 }
 
-void Dispatcher::tell(const std::optional<Report>& to, Quality quality) noexcept {
+void Dispatcher::write_quality(const std::optional<Report>& to, Quality quality) noexcept {
   if (!to) {
     return;
   }
@@ -136,12 +136,12 @@ void Dispatcher::give(const Line& line, const InputImage& image) noexcept {
     if (image.inputs[i].is_set) {
       variables_.set(line.to[i], image.inputs[i].bits);
     }
-    tell(line.input_qualities[i], image.inputs[i].quality);
+    write_quality(line.input_qualities[i], image.inputs[i].quality);
   }
   for (std::size_t i = 0; i < line.from.size(); ++i) {
-    tell(line.output_qualities[i], image.outputs[i]);
+    write_quality(line.output_qualities[i], image.outputs[i]);
   }
-  tell(line.quality, image.device);
+  write_quality(line.quality, image.device);
   if (line.errors) {
     std::uint64_t bits = 0;
     (void)to_variable(line.errors->base, static_cast<Number>(image.errors), bits);

@@ -65,7 +65,7 @@ class Dispatcher {
   std::optional<Report> report_to(const std::optional<schema::Place>& variable);
   void take(Line& line, OutputImage& into) noexcept;
   void give(const Line& line, const InputImage& image) noexcept;
-  void tell(const std::optional<Report>& to, Quality quality) noexcept;
+  void write_quality(const std::optional<Report>& to, Quality quality) noexcept;
 
   Variables variables_;
   std::deque<Line> lines_;

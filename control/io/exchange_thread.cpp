@@ -84,13 +84,13 @@ void ExchangeThread::open(Clock::time_point now) {
   if (!is_open_) {
     image_.lose();
     hand_over();
-    if (told_ != Quality::None || now - began_ >= kToBegin) {
-      say(Quality::Lost, now);
+    if (reported_ != Quality::None || now - began_ >= kToBegin) {
+      report(Quality::Lost, now);
     }
   }
 }
 
-DeviceImage::Outputs ExchangeThread::look_at_outputs(Clock::time_point now) {
+DeviceImage::Outputs ExchangeThread::check_outputs(Clock::time_point now) {
   if (outputs_.update()) {
     had_outputs_ = true;
     last_outputs_ = now;
@@ -108,7 +108,7 @@ DeviceImage::Outputs ExchangeThread::look_at_outputs(Clock::time_point now) {
 }
 
 void ExchangeThread::exchange(Clock::time_point now) {
-  const DeviceImage::Outputs how = look_at_outputs(now);
+  const DeviceImage::Outputs how = check_outputs(now);
   const auto outcome = image_.exchange(driver_, outputs_.front(), how, now - std::exchange(last_exchange_, now));
   if (outcome == Driver::Outcome::Lost) {
     driver_.close();
@@ -117,7 +117,7 @@ void ExchangeThread::exchange(Clock::time_point now) {
     pause_ = device_.retry;
   }
   hand_over();
-  say(image_.current().device, now);
+  report(image_.current().device, now);
 }
 
 void ExchangeThread::hand_over() {
@@ -125,8 +125,8 @@ void ExchangeThread::hand_over() {
   inputs_.publish();
 }
 
-void ExchangeThread::say(Quality now, Clock::time_point when) {
-  const Quality before = std::exchange(told_, now);
+void ExchangeThread::report(Quality now, Clock::time_point when) {
+  const Quality before = std::exchange(reported_, now);
   if (now == before) {
     return;
   }

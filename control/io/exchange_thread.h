@@ -45,8 +45,8 @@ class ExchangeThread {
   void open(Clock::time_point now);
   void exchange(Clock::time_point now);
   void hand_over();
-  DeviceImage::Outputs look_at_outputs(Clock::time_point now);
-  void say(Quality now, Clock::time_point when);
+  DeviceImage::Outputs check_outputs(Clock::time_point now);
+  void report(Quality now, Clock::time_point when);
   bool wait_until(Clock::time_point when);
 
   const config::IoDevice& device_;
@@ -65,7 +65,7 @@ class ExchangeThread {
   Clock::time_point last_exchange_;
   Clock::time_point bad_since_;
   Clock::duration pause_{};
-  Quality told_ = Quality::None;
+  Quality reported_ = Quality::None;
   std::uint64_t errors_when_good_ = 0;
   rt::Thread thread_;
 };

@@ -15,9 +15,9 @@ namespace {
 
 using config::IoPoint;
 
-static_assert(kMostReadRegisters == MODBUS_MAX_READ_REGISTERS && kMostWrittenRegisters == MODBUS_MAX_WRITE_REGISTERS);
-static_assert(kMostReadBits == MODBUS_MAX_READ_BITS && kMostWrittenBits == MODBUS_MAX_WRITE_BITS);
-static_assert(kMostExchangedRegisters == MODBUS_MAX_WR_WRITE_REGISTERS);
+static_assert(kMaxReadRegisters == MODBUS_MAX_READ_REGISTERS && kMaxWrittenRegisters == MODBUS_MAX_WRITE_REGISTERS);
+static_assert(kMaxReadBits == MODBUS_MAX_READ_BITS && kMaxWrittenBits == MODBUS_MAX_WRITE_BITS);
+static_assert(kMaxExchangedRegisters == MODBUS_MAX_WR_WRITE_REGISTERS);
 
 bool is_exception(int error) {
   return error > MODBUS_ENOBASE && error <= EMBXGTAR;

@@ -46,7 +46,7 @@ class ModbusFrame {
             std::span<std::uint16_t> registers) const noexcept;
 
  private:
-  static constexpr std::size_t kMost = 254;
+  static constexpr std::size_t kMaxFrameBytes = 254;
 
   ModbusFrame(int unit, std::uint8_t function) noexcept;
   void put(unsigned byte) noexcept { bytes_[size_++] = static_cast<std::uint8_t>(byte); }
@@ -55,7 +55,7 @@ class ModbusFrame {
   void expect_values(const ModbusRequest& request) noexcept;
   void expect_echo(std::size_t size, std::size_t same) noexcept;
 
-  std::array<std::uint8_t, kMost> bytes_{};
+  std::array<std::uint8_t, kMaxFrameBytes> bytes_{};
   std::size_t size_ = 0;
   std::size_t count_ = 0;         // values to read
   std::size_t answer_bytes_ = 0;  // data bytes in the answer to a read request

@@ -47,7 +47,7 @@ std::string name_problem(const std::string& host, const std::string& port) {
   return fmt::format("{}: {}", host, ::gai_strerror(error));
 }
 
-void wait_as_told(modbus_t* context, std::chrono::nanoseconds timeout) {
+void set_timeouts(modbus_t* context, std::chrono::nanoseconds timeout) {
   const auto micros = std::chrono::duration_cast<std::chrono::microseconds>(timeout).count();
   constexpr std::int64_t kMicros = 1'000'000;
   modbus_set_response_timeout(context, static_cast<std::uint32_t>(micros / kMicros),
@@ -73,7 +73,7 @@ std::string ModbusLink::connect(const std::string& where) {
   if (context_ == nullptr) {
     return modbus_strerror(errno);
   }
-  wait_as_told(context_.get(), device_.timeout);
+  set_timeouts(context_.get(), device_.timeout);
   if (modbus_connect(context_.get()) == 0) {
     return {};
   }
@@ -99,7 +99,7 @@ std::string ModbusLink::open_tcp() {
     close();
     return modbus_strerror(error);
   }
-  wait_as_told(serial, device_.timeout);
+  set_timeouts(serial, device_.timeout);
   modbus_set_socket(serial, modbus_get_socket(context_.get()));
   modbus_free(context_.release());  // the connection stays open
   context_.reset(serial);

@@ -38,7 +38,7 @@ class ModbusLink {
   struct Free {
     void operator()(modbus_t* context) const noexcept;
   };
-  static constexpr std::size_t kMost = 260;
+  static constexpr std::size_t kMaxFrameBytes = 260;
 
   // Connects the context that was just made. Returns why it failed; empty on success.
   std::string connect(const std::string& where);
@@ -52,7 +52,7 @@ class ModbusLink {
 
   const config::IoDevice& device_;
   std::unique_ptr<modbus_t, Free> context_;
-  std::array<std::uint8_t, kMost> buffer_{};
+  std::array<std::uint8_t, kMaxFrameBytes> buffer_{};
   std::uint16_t transaction_ = 0;
 };
 

@@ -127,13 +127,13 @@ ModbusPlaces::Access ModbusPlaces::access_of(std::span<const std::uint8_t> reque
   };
   switch (function) {
     case MODBUS_FC_READ_COILS:
-      return reading(IoTable::Coil, kMostReadBits);
+      return reading(IoTable::Coil, kMaxReadBits);
     case MODBUS_FC_READ_DISCRETE_INPUTS:
-      return reading(IoTable::Discrete, kMostReadBits);
+      return reading(IoTable::Discrete, kMaxReadBits);
     case MODBUS_FC_READ_HOLDING_REGISTERS:
-      return reading(IoTable::Holding, kMostReadRegisters);
+      return reading(IoTable::Holding, kMaxReadRegisters);
     case MODBUS_FC_READ_INPUT_REGISTERS:
-      return reading(IoTable::Input, kMostReadRegisters);
+      return reading(IoTable::Input, kMaxReadRegisters);
     case MODBUS_FC_WRITE_SINGLE_COIL: {
       const unsigned value = size == kTwoWords ? word_at(request, kTwoWords - 2) : 1;
       return value == 0 || value == kCoilOn ? writing(IoTable::Coil, kTwoWords, true, 1) : kBadValue;
@@ -141,17 +141,17 @@ ModbusPlaces::Access ModbusPlaces::access_of(std::span<const std::uint8_t> reque
     case MODBUS_FC_WRITE_SINGLE_REGISTER:
       return writing(IoTable::Holding, kTwoWords, true, 1);
     case MODBUS_FC_WRITE_MULTIPLE_COILS:
-      return writing(IoTable::Coil, kManyHead, false, kMostWrittenBits);
+      return writing(IoTable::Coil, kManyHead, false, kMaxWrittenBits);
     case MODBUS_FC_WRITE_MULTIPLE_REGISTERS:
-      return writing(IoTable::Holding, kManyHead, false, kMostWrittenRegisters);
+      return writing(IoTable::Holding, kManyHead, false, kMaxWrittenRegisters);
     case MODBUS_FC_MASK_WRITE_REGISTER:
       return writing(IoTable::Holding, kThreeWords, true, 1);
     case MODBUS_FC_WRITE_AND_READ_REGISTERS: {
       if (size < kExchangeHead) {
         return kBadValue;
       }
-      const Range read = range(IoTable::Holding, 1, false, kMostReadRegisters);
-      const Range write = range(IoTable::Holding, kTwoWords, false, kMostExchangedRegisters);
+      const Range read = range(IoTable::Holding, 1, false, kMaxReadRegisters);
+      const Range write = range(IoTable::Holding, kTwoWords, false, kMaxExchangedRegisters);
       const std::size_t bytes = std::size_t{2} * write.count;
       const bool whole =
           read.count > 0 && write.count > 0 && request[kExchangeHead - 1] == bytes && size == kExchangeHead + bytes;

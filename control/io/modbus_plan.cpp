@@ -57,11 +57,11 @@ std::vector<ModbusRequest> plan(std::span<const IoPoint> points, const Limits& l
 }  // namespace
 
 std::vector<ModbusRequest> plan_reads(std::span<const IoPoint> points, int gap) {
-  return plan(points, {kMostReadBits, kMostReadRegisters, static_cast<std::uint32_t>(gap)}, false);
+  return plan(points, {kMaxReadBits, kMaxReadRegisters, static_cast<std::uint32_t>(gap)}, false);
 }
 
 std::vector<ModbusRequest> plan_writes(std::span<const IoPoint> points) {
-  return plan(points, {kMostWrittenBits, kMostWrittenRegisters, 0}, true);
+  return plan(points, {kMaxWrittenBits, kMaxWrittenRegisters, 0}, true);
 }
 
 std::vector<ModbusStep> plan_steps(std::vector<ModbusRequest> writes, std::vector<ModbusRequest> reads, bool together) {
@@ -69,7 +69,7 @@ std::vector<ModbusStep> plan_steps(std::vector<ModbusRequest> writes, std::vecto
   for (ModbusRequest& write : writes) {
     ModbusStep& step = steps.emplace_back(ModbusStep{std::move(write), {}});
     if (!together || step.write.masked || step.write.table != config::IoTable::Holding ||
-        step.write.count > kMostExchangedRegisters) {
+        step.write.count > kMaxExchangedRegisters) {
       continue;
     }
     const auto found = std::find_if(reads.begin(), reads.end(), [&](const ModbusRequest& read) {

@@ -23,11 +23,11 @@ struct ModbusRequest {
 };
 
 // Limits of one request in the protocol.
-inline constexpr std::uint32_t kMostReadRegisters = 125;
-inline constexpr std::uint32_t kMostWrittenRegisters = 123;
-inline constexpr std::uint32_t kMostExchangedRegisters = 121;  // written in a request that also reads
-inline constexpr std::uint32_t kMostReadBits = 2000;
-inline constexpr std::uint32_t kMostWrittenBits = 1968;
+inline constexpr std::uint32_t kMaxReadRegisters = 125;
+inline constexpr std::uint32_t kMaxWrittenRegisters = 123;
+inline constexpr std::uint32_t kMaxExchangedRegisters = 121;  // written in a request that also reads
+inline constexpr std::uint32_t kMaxReadBits = 2000;
+inline constexpr std::uint32_t kMaxWrittenBits = 1968;
 
 // A read request may include up to `gap` unused places between two points. A write request never includes unused
 // places.

@@ -87,7 +87,7 @@ void ModbusServer::drop(std::size_t place) noexcept {
 // Clients that never sent a request or left silently must not block others; new clients must not displace an active
 // one.
 bool ModbusServer::make_room() {
-  if (clients_.size() < kMostClients) {
+  if (clients_.size() < kMaxClients) {
     return true;
   }
   const auto order = [](const Client& a, const Client& b) {
@@ -102,7 +102,7 @@ bool ModbusServer::make_room() {
 }
 
 void ModbusServer::accept_clients() {
-  for (std::size_t i = 0; i < kMostClients; ++i) {
+  for (std::size_t i = 0; i < kMaxClients; ++i) {
     sockaddr_storage peer{};
     socklen_t size = sizeof peer;
     auto* address = reinterpret_cast<sockaddr*>(&peer);  // NOLINT: what the socket interface asks for
@@ -146,7 +146,7 @@ bool ModbusServer::serve(Client& client, std::span<Sample> inputs) {
                                   ? kLeast
                                   : kHeader + (static_cast<std::size_t>(client.bytes[kHeader - 2]) << kBitsPerByte) +
                                         client.bytes[kHeader - 1];
-    if (whole < kLeast || whole > kMostBytes || (client.size > 3 && (client.bytes[2] | client.bytes[3]) != 0)) {
+    if (whole < kLeast || whole > kMaxBytes || (client.size > 3 && (client.bytes[2] | client.bytes[3]) != 0)) {
       return false;  // not Modbus
     }
     if (client.size >= kHeader && client.size >= whole) {
@@ -161,7 +161,7 @@ bool ModbusServer::serve(Client& client, std::span<Sample> inputs) {
       ++done;
       continue;
     }
-    const ssize_t got = ::recv(client.socket, &client.bytes.at(client.size), kMostBytes - client.size, 0);
+    const ssize_t got = ::recv(client.socket, &client.bytes.at(client.size), kMaxBytes - client.size, 0);
     if (got <= 0) {
       return got < 0 && (errno == EAGAIN || errno == EINTR);
     }

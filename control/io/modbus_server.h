@@ -22,7 +22,7 @@ namespace indurop::io {
 
 class ModbusServer final : public Driver {
  public:
-  static constexpr std::size_t kMostClients = 32;
+  static constexpr std::size_t kMaxClients = 32;
 
   ModbusServer(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
                std::span<const config::IoPoint> inputs);
@@ -37,7 +37,7 @@ class ModbusServer final : public Driver {
   [[nodiscard]] std::string problem() const override { return problem_; }
 
  private:
-  static constexpr std::size_t kMostBytes = 260;  // of a request
+  static constexpr std::size_t kMaxBytes = 260;  // of a request
 
   struct Client {
     std::uint64_t number = 0;
@@ -45,7 +45,7 @@ class ModbusServer final : public Driver {
     std::string address;
     std::chrono::nanoseconds silent{0};
     bool asked = false;
-    std::array<std::uint8_t, kMostBytes> bytes{};
+    std::array<std::uint8_t, kMaxBytes> bytes{};
     std::size_t size = 0;
   };
   struct Free {

@@ -49,8 +49,9 @@ std::filesystem::path config_file() {
   if (!run) {
     return named;
   }
-  const std::filesystem::path beside = static_cast<const scheduler::RunBlock*>(run.value().data())->config_file;
-  return (beside.parent_path() / named).lexically_normal();
+  const std::filesystem::path config_file_of_node =
+      static_cast<const scheduler::RunBlock*>(run.value().data())->config_file;
+  return (config_file_of_node.parent_path() / named).lexically_normal();
 }
 
 io::Phase phase() {
@@ -88,9 +89,9 @@ void on_start() {
 // As the schedule counts it, lost periods included; after a long stall only a part, because simulated devices need
 // computing time for theirs.
 std::chrono::nanoseconds elapsed_until(std::int64_t release) {
-  constexpr int kMostPeriods = 10;
+  constexpr int kMaxPeriods = 10;
   const std::chrono::nanoseconds since(release - self().last_release);
-  return self().last_release == 0 ? irp::period() : std::min(since, kMostPeriods * irp::period());
+  return self().last_release == 0 ? irp::period() : std::min(since, kMaxPeriods * irp::period());
 }
 
 void on_run() {

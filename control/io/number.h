@@ -35,9 +35,9 @@ bool to_whole(Number value, T& into) noexcept {
 // Returns false for a finite number out of range: `into` is the largest value of the type, with the number's sign.
 template <std::floating_point T>
 bool to_real(Number value, T& into) noexcept {
-  constexpr Number kMost = std::numeric_limits<T>::max();
-  if (std::isfinite(value) && std::fabs(value) > kMost) {
-    into = static_cast<T>(std::copysign(kMost, value));
+  constexpr Number kMaxValue = std::numeric_limits<T>::max();
+  if (std::isfinite(value) && std::fabs(value) > kMaxValue) {
+    into = static_cast<T>(std::copysign(kMaxValue, value));
     return false;
   }
   into = static_cast<T>(value);

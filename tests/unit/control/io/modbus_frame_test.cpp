@@ -40,12 +40,12 @@ TEST(ModbusFrame, Writes_are_as_in_the_specification) {
 }
 
 TEST(ModbusFrame, The_longest_request_fits) {
-  const std::vector<std::uint16_t> registers(kMostWrittenRegisters, 7);
-  const std::vector<std::uint8_t> bits(kMostWrittenBits, 1);
-  EXPECT_EQ(ModbusFrame::writing(request(IoTable::Holding, 0, kMostWrittenRegisters), {}, registers).bytes().size(),
-            7 + 2 * kMostWrittenRegisters);
-  EXPECT_EQ(ModbusFrame::writing(request(IoTable::Coil, 0, kMostWrittenBits), bits, {}).bytes().size(),
-            7 + kMostWrittenBits / 8);
+  const std::vector<std::uint16_t> registers(kMaxWrittenRegisters, 7);
+  const std::vector<std::uint8_t> bits(kMaxWrittenBits, 1);
+  EXPECT_EQ(ModbusFrame::writing(request(IoTable::Holding, 0, kMaxWrittenRegisters), {}, registers).bytes().size(),
+            7 + 2 * kMaxWrittenRegisters);
+  EXPECT_EQ(ModbusFrame::writing(request(IoTable::Coil, 0, kMaxWrittenBits), bits, {}).bytes().size(),
+            7 + kMaxWrittenBits / 8);
 }
 
 TEST(ModbusFrame, Values_are_taken_from_the_answer) {
