@@ -12,7 +12,7 @@ namespace indurop::node {
 namespace {
 
 constexpr std::chrono::milliseconds kHangPoll{50};
-constexpr std::chrono::seconds kPatienceAtEnd{2};
+constexpr std::chrono::seconds kTimeoutAtEnd{2};
 
 // A signal that every thread blocks stays pending for the main thread, which is inside a module.
 bool end_is_wanted() {
@@ -54,7 +54,7 @@ void HangWatch::loop() {
       before = now;
       since = rt::MonoClock::now();
     } else if (const bool ends = end_is_wanted();
-               (ends || !debugged) && rt::MonoClock::now() - since > (ends ? kPatienceAtEnd : kPatience)) {
+               (ends || !debugged) && rt::MonoClock::now() - since > (ends ? kTimeoutAtEnd : kTimeout)) {
       end_();
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In virtual time nothing passes while a module does not return. This watchdog uses real time: a run that does not
-// return for kPatience, or for a shorter time once the node is to end, is ended as a fault.
+// return for kTimeout, or for a shorter time once the node is to end, is ended as a fault.
 
 #pragma once
 
@@ -21,7 +21,7 @@ class HangWatch {
   ~HangWatch();
   HangWatch(const HangWatch&) = delete;
   HangWatch& operator=(const HangWatch&) = delete;
-  static constexpr std::chrono::seconds kPatience{10};
+  static constexpr std::chrono::seconds kTimeout{10};
 
  private:
   void loop();

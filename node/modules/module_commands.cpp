@@ -38,7 +38,7 @@ bool ModuleCommands::answer(const Work& work, CommandResult result) {
   return true;
 }
 
-void ModuleCommands::look(rt::MonoTime now) {
+void ModuleCommands::poll(rt::MonoTime now) {
   for (std::uint32_t i = 0; i < parts_.run.module_count; ++i) {
     const ModuleCommand command = scheduler::waiting_command(record(i));
     const bool taken = std::any_of(works_.begin(), works_.end(), [i](const Work& work) { return work.module == i; });

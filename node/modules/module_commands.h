@@ -36,7 +36,7 @@ class ModuleCommands {
   explicit ModuleCommands(const Parts& parts) : parts_(parts) {}
 
   // Accepts new commands and continues those in progress.
-  void look(rt::MonoTime now);
+  void poll(rt::MonoTime now);
   // Called when the schedule has ended: waits for calls in progress and answers the remaining commands.
   void end();
 

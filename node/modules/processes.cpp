@@ -142,7 +142,7 @@ bool Processes::supervise(rt::MonoTime now, rt::MonoTime schedule) {
       if (::waitpid(child.pid, &status, WNOHANG) == child.pid) {
         died(child, status, schedule);
       } else if (child.stopping) {
-        insist(child, now);
+        kill_if_late(child, now);
       } else if (module.state.load(std::memory_order_acquire) == ModuleState::Starting && enrolled(child)) {
         module.state.store(ModuleState::Running, std::memory_order_release);
       } else {
@@ -283,7 +283,7 @@ void Processes::stop(std::uint32_t module, rt::MonoTime now) {
   }
 }
 
-void Processes::insist(Child& child, rt::MonoTime now) {
+void Processes::kill_if_late(Child& child, rt::MonoTime now) {
   const std::chrono::nanoseconds since = now - child.asked;
   if (since > kProcessGrace) {
     console_.warning("module {} did not end within 2 s and was killed", record(child).name);
@@ -319,7 +319,7 @@ void Processes::end_all() {
   const rt::MonoTime deadline = rt::MonoClock::now() + kProcessGrace;
   for (Child& child : children_) {
     int status = 0;
-    bool told = false;
+    bool long_wait_reported = false;
     while (child.pid > 0 && ::waitpid(child.pid, &status, WNOHANG) != child.pid) {
       const rt::MonoTime now = rt::MonoClock::now();
       if (now > deadline) {
@@ -328,9 +328,9 @@ void Processes::end_all() {
         ::waitpid(child.pid, &status, 0);
         break;
       }
-      if (!told && now > deadline - kProcessGrace + kAsked) {
+      if (!long_wait_reported && now > deadline - kProcessGrace + kAsked) {
         ::kill(child.pid, SIGTERM);  // it does not check for a request
-        told = true;
+        long_wait_reported = true;
       }
       rt::sleep_until(now + kPoll);
     }

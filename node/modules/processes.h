@@ -66,7 +66,7 @@ class Processes {
   };
   Child* find(std::uint32_t module) noexcept;
   void ask_to_end(Child& child);
-  void insist(Child& child, rt::MonoTime now);
+  void kill_if_late(Child& child, rt::MonoTime now);
   [[nodiscard]] bool managed(const Child& child) const noexcept;
   // Returns true if a launched process is ready to be released.
   bool enrolled(Child& child);

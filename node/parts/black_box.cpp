@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kAfterwards{200};  // the runs shortly after a fault help to explain it
 constexpr std::chrono::minutes kBetween{1};
-constexpr std::chrono::milliseconds kLookForWish{100};
+constexpr std::chrono::milliseconds kRequestPoll{100};
 constexpr std::uint64_t kManyOverruns = 10;  // within a second
 
 // Deletes the oldest boxes, so that there is room for one more. Their names rise with time.
@@ -40,7 +40,7 @@ void make_room(const std::filesystem::path& folder) {
     }
   }
   std::sort(boxes.begin(), boxes.end());
-  for (std::size_t i = 0; i + kMostBoxes <= boxes.size(); ++i) {
+  for (std::size_t i = 0; i + kMaxBoxes <= boxes.size(); ++i) {
     std::filesystem::remove(boxes[i], ignored);
   }
 }
@@ -76,7 +76,8 @@ Result<std::filesystem::path, base::Problem> write_box(recorder::About about, co
   return file;
 }
 
-void tell(const Result<std::filesystem::path, base::Problem>& box, const std::string& reason, const Console& console) {
+void log_box(const Result<std::filesystem::path, base::Problem>& box, const std::string& reason,
+             const Console& console) {
   if (box) {
     console.info("{}: what led to it is in {}", reason, box->string());
   } else {
@@ -143,7 +144,7 @@ void keep_box_of_crash(const std::string& node, const Console& console) {
     return;
   }
   const std::string reason = fmt::format("the last run of node {} did not end, it crashed", node);
-  tell(write_box(about_crashed(node, run, file->size(), *store), *store, reason), reason, console);
+  log_box(write_box(about_crashed(node, run, file->size(), *store), *store, reason), reason, console);
 }
 
 BlackBox::BlackBox(const Options& options, const Checked& checked, const Prepared& prepared, const BoardMirror& mirror,
@@ -167,7 +168,7 @@ std::uint64_t BlackBox::faults() const noexcept {
   return sum;
 }
 
-void BlackBox::look(rt::MonoTime now) {
+void BlackBox::check(rt::MonoTime now) {
   if (!prepared_.tape) {
     return;
   }
@@ -175,11 +176,11 @@ void BlackBox::look(rt::MonoTime now) {
     due_ = now + kAfterwards;
   }
   if (std::string why = many_overruns(now); due_ == rt::MonoTime{} && !why.empty() && now >= next_overruns_) {
-    wish_ = std::move(why);
+    request_ = std::move(why);
     due_ = now + kAfterwards;
     next_overruns_ = now + kBetween;
   }
-  look_for_wish(now);
+  poll_requests(now);
   if (due_ != rt::MonoTime{} && now >= due_) {
     next_ = faults() != kept_ ? now + kBetween : next_;
     keep();
@@ -187,7 +188,7 @@ void BlackBox::look(rt::MonoTime now) {
 }
 
 void BlackBox::keep_at_end(std::string why) {
-  wish_ = std::move(why);
+  request_ = std::move(why);
   due_ = rt::MonoClock::now();
 }
 
@@ -202,32 +203,32 @@ void BlackBox::end() {
 
 // A request may follow another after ten seconds; one that arrives while a box is about to be written is part of that
 // box.
-void BlackBox::look_for_wish(rt::MonoTime now) {
-  if (now - wish_looked_ < kLookForWish) {
+void BlackBox::poll_requests(rt::MonoTime now) {
+  if (now - requests_polled_ < kRequestPoll) {
     return;
   }
-  wish_looked_ = now;
-  auto wish = vars::take_box_request(options_.node);
-  if (wish && due_ == rt::MonoTime{} && now >= next_wish_) {
-    wish_ = *std::move(wish);
+  requests_polled_ = now;
+  auto new_request = vars::take_box_request(options_.node);
+  if (new_request && due_ == rt::MonoTime{} && now >= next_request_) {
+    request_ = *std::move(new_request);
     due_ = now + kAfterwards;
-    next_wish_ = now + vars::kBetweenBoxes;
-    vars::refuse_boxes_until(options_.node, rt::to_ns(next_wish_));
-  } else if (wish && due_ != rt::MonoTime{} && !wish_.empty()) {
-    wish_ += "; " + *wish;
+    next_request_ = now + vars::kBetweenBoxes;
+    vars::refuse_boxes_until(options_.node, rt::to_ns(next_request_));
+  } else if (new_request && due_ != rt::MonoTime{} && !request_.empty()) {
+    request_ += "; " + *new_request;
   }
 }
 
 // Describes the overruns of the last second; empty: there were few.
 std::string BlackBox::many_overruns(rt::MonoTime now) {
-  if (now - overruns_looked_ < std::chrono::seconds(1)) {
+  if (now - overruns_checked_ < std::chrono::seconds(1)) {
     return {};
   }
   const scheduler::RunBlock& run = prepared_.run();
   const std::uint64_t all = run.overrun_log_next.load(std::memory_order_acquire);
   const std::uint64_t more = all - overruns_;
   overruns_ = all;
-  overruns_looked_ = now;
+  overruns_checked_ = now;
   return more < kManyOverruns ? std::string()
                               : fmt::format("{} overruns within a second, up to tick {}", more, run.tick.load());
 }
@@ -250,16 +251,17 @@ void BlackBox::keep() {
   due_ = {};
   const bool faulted = faults() != kept_;
   kept_ = faults();
-  const std::string fault = faulted || wish_.empty() ? newest_fault() : "";
-  const std::string reason = fault.empty() ? wish_ : fault;
-  wish_.clear();
+  const std::string fault = faulted || request_.empty() ? newest_fault() : "";
+  const std::string reason = fault.empty() ? request_ : fault;
+  request_.clear();
   if (writer_.joinable()) {
     writer_.join();
   }
   auto about = about_node(options_, checked_, prepared_);
   about.files.emplace_back(explain::kFactsFile, facts_text(options_, prepared_, mirror_.block(), {}));
-  writer_ = std::thread(
-      [this, reason, about = std::move(about)] { tell(write_box(about, *prepared_.store, reason), reason, console_); });
+  writer_ = std::thread([this, reason, about = std::move(about)] {
+    log_box(write_box(about, *prepared_.store, reason), reason, console_);
+  });
 }
 
 }  // namespace indurop::node

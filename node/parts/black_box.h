@@ -16,7 +16,7 @@
 
 namespace indurop::node {
 
-inline constexpr std::size_t kMostBoxes = 10;  // maximum number of boxes of a node; older ones are deleted
+inline constexpr std::size_t kMaxBoxes = 10;  // maximum number of boxes of a node; older ones are deleted
 
 // Writes the box of a node that crashed, before its memory is reused; does nothing if the node ended normally or there
 // is no tape. Reports on the console where the box is, or why it could not be written.
@@ -35,7 +35,7 @@ class BlackBox {
 
   // Called repeatedly on one normal thread. Writes at most one box a minute for faults of this node, and one for
   // overruns.
-  void look(rt::MonoTime now);
+  void check(rt::MonoTime now);
   // end() keeps what led to this.
   void keep_at_end(std::string why);
   // Called when the run is over: writes a box for a fault that has none yet.
@@ -46,7 +46,7 @@ class BlackBox {
   void keep();
   [[nodiscard]] std::string newest_fault() const;
   [[nodiscard]] std::string many_overruns(rt::MonoTime now);
-  void look_for_wish(rt::MonoTime now);
+  void poll_requests(rt::MonoTime now);
 
   const Options& options_;
   const Checked& checked_;
@@ -57,10 +57,10 @@ class BlackBox {
   rt::MonoTime due_{};      // when the box of a new fault is written; 0: there is none
   rt::MonoTime next_{};     // earliest time of the next box for a fault; below: for other reasons
   rt::MonoTime next_overruns_{};
-  rt::MonoTime next_wish_{};
-  std::string wish_;  // why a box is requested, if not for a fault of this node
-  rt::MonoTime wish_looked_{};
-  rt::MonoTime overruns_looked_{};
+  rt::MonoTime next_request_{};
+  std::string request_;  // why a box is requested, if not for a fault of this node
+  rt::MonoTime requests_polled_{};
+  rt::MonoTime overruns_checked_{};
   std::uint64_t overruns_ = 0;
   std::thread writer_;
 };

@@ -15,10 +15,11 @@ namespace {
 using External = config::VariableRule::External;
 
 std::string some_of(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 3;
+  constexpr std::size_t kMaxShown = 3;
   const std::string list = fmt::format(
-      "{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMost)), ", "));
-  return names.size() > kMost ? fmt::format("{} and {} more", list, names.size() - kMost) : list;
+      "{}",
+      fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMaxShown)), ", "));
+  return names.size() > kMaxShown ? fmt::format("{} and {} more", list, names.size() - kMaxShown) : list;
 }
 
 }  // namespace

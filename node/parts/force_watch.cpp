@@ -29,7 +29,7 @@ std::string time_of(const vars::Force& force, rt::MonoTime now) {
 
 }  // namespace
 
-void ForceWatch::look(vars::Store& store, Console& console) {
+void ForceWatch::report_changes(vars::Store& store, Console& console) {
   std::vector<vars::Force> now = store.forces();
   for (const vars::Force& one : now) {
     const vars::Force* before = find(known_, one);

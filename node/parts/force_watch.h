@@ -13,7 +13,7 @@ namespace indurop::node {
 
 class ForceWatch {
  public:
-  void look(vars::Store& store, Console& console);
+  void report_changes(vars::Store& store, Console& console);
 
  private:
   std::vector<vars::Force> known_;

@@ -11,7 +11,7 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::chrono::milliseconds kLookForNames{200};
+constexpr std::chrono::milliseconds kNameCheckInterval{200};
 
 }  // namespace
 
@@ -39,11 +39,11 @@ void MemoryWatch::lose(const std::string& file) {
                  why_, file);
 }
 
-void MemoryWatch::look_for_names(rt::MonoTime now) {
+void MemoryWatch::check_names(rt::MonoTime now) {
   if (now < next_names_) {
     return;
   }
-  next_names_ = now + kLookForNames;
+  next_names_ = now + kNameCheckInterval;
   const auto store = prepared_.store->named();
   const auto run = prepared_.run_file.named();
   if (store == vars::ShmFile::Named::Cut || run == vars::ShmFile::Named::Cut) {
@@ -65,7 +65,7 @@ void MemoryWatch::look_for_names(rt::MonoTime now) {
   }
 }
 
-std::string MemoryWatch::look(rt::MonoTime now) {
+std::string MemoryWatch::check(rt::MonoTime now) {
   if (!why_.empty()) {
     return why_;
   }
@@ -74,7 +74,7 @@ std::string MemoryWatch::look(rt::MonoTime now) {
   } else if (prepared_.store->lost()) {
     lose(vars::block_file(node_));
   } else {
-    look_for_names(now);
+    check_names(now);
   }
   return why_;
 }

@@ -23,12 +23,12 @@ class MemoryWatch {
 
   // Called repeatedly on one normal thread. Returns why the run has to end, also reported on the console; empty if all
   // is present.
-  std::string look(rt::MonoTime now);
+  std::string check(rt::MonoTime now);
   [[nodiscard]] bool lost() const noexcept { return !why_.empty(); }
 
  private:
   static void on_lost_page(void* context, const char* name) noexcept;
-  void look_for_names(rt::MonoTime now);
+  void check_names(rt::MonoTime now);
   void lose(const std::string& file);
 
   std::string node_;

@@ -9,7 +9,7 @@ namespace indurop::node {
 
 namespace {
 
-constexpr std::int64_t kPatienceNs = 1'000'000'000;
+constexpr std::int64_t kTimeoutNs = 1'000'000'000;
 
 const scheduler::Band* band_of(const std::string& module, const config::Config& config,
                                const scheduler::Engine& engine) {
@@ -103,7 +103,7 @@ void name_writers(mirror::Settings& settings, const config::Config& config, cons
       // A module in a process of its own does not wake the mirror when it is done.
       settings.writers.push_back({[band] { return band->activity(); },
                                   band->plan().kind != scheduler::BandKind::Process,
-                                  std::max(kPatienceNs, 2 * band->plan().period_ns)});
+                                  std::max(kTimeoutNs, 2 * band->plan().period_ns)});
     }
   }
 }

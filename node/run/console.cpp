@@ -8,7 +8,7 @@ namespace indurop::node {
 namespace {
 
 constexpr std::chrono::seconds kSummary{1};
-constexpr std::size_t kMostLines = 4;
+constexpr std::size_t kMaxLines = 4;
 
 double in_microseconds(std::int64_t ns) noexcept {
   return static_cast<double>(ns) / 1000;
@@ -103,12 +103,12 @@ void Console::report_overruns(rt::MonoTime now, bool last) {
       seen_[i].misses = misses;
     }
   }
-  for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) {
+  for (std::size_t i = 0; i < std::min(lines.size(), kMaxLines); ++i) {
     warning("{}", lines[i]);
   }
-  if (lines.size() > kMostLines) {
+  if (lines.size() > kMaxLines) {
     warning("... and {} more of this kind in 1 s: `indurop overruns` and `indurop status` show all",
-            lines.size() - kMostLines);
+            lines.size() - kMaxLines);
   }
   if (const std::uint64_t lost = run_->lost_ticks.load(std::memory_order_relaxed); last && lost > 0) {
     warning("{} basic periods lost in all: nothing could be started in them", lost);

@@ -51,7 +51,7 @@ bool save_values(Prepared& prepared, Console& console) {
 }
 
 // Reports the measurements, on the console and as a file. Returns false if the file could not be written.
-bool tell_statistics(const Options& options, const scheduler::RunBlock& run, const Console& console) {
+bool print_statistics(const Options& options, const scheduler::RunBlock& run, const Console& console) {
   bool ok = true;
   if (!options.report.empty()) {
     if (const auto written = write_report(run, options.report); !written) {
@@ -80,7 +80,7 @@ int conclude(const Options& options, Console& console, scheduler::RunBlock& run,
   }
   rt::copy_text(run.stop_reason, ending.reason);
   if (run.tick.load() > 0) {
-    if (!tell_statistics(options, run, console) && ending.code == kOk) {
+    if (!print_statistics(options, run, console) && ending.code == kOk) {
       ending.code = kFailed;
     }
     console.info("stopped: {}; {} ticks, {} lost", ending.reason, run.tick.load(), run.lost_ticks.load());

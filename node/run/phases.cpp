@@ -27,7 +27,7 @@ struct Phases::Call {
   scheduler::TaskState state;
   scheduler::Runner runner;
   std::atomic<bool> done{false};
-  bool told = false;
+  bool reported = false;
   rt::MonoTime began = rt::MonoClock::now();
   rt::Thread thread;
 };
@@ -85,10 +85,10 @@ bool Phases::ended(Call& call, rt::MonoTime now, std::chrono::nanoseconds limit)
   }
   if (limit.count() != 0 && now - call.began > limit) {
     call.runner.enforce_budget(now, true, 1);
-  } else if (!call.told && now - call.began > kGrace) {
+  } else if (!call.reported && now - call.began > kGrace) {
     console_.warning("module {}: {}() has not returned for {} s", config_.modules[call.index].name, call.phase,
                      kGrace.count());
-    call.told = true;
+    call.reported = true;
   }
   return false;
 }

@@ -78,9 +78,9 @@ class CoreChoice {
  public:
   explicit CoreChoice(bool is_needed) noexcept
       : folder_(!is_needed ? -1 : ::open(vars::kShmDirectory, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    constexpr std::chrono::seconds kPatience{1};
+    constexpr std::chrono::seconds kTimeout{1};
     constexpr std::chrono::milliseconds kPause{2};
-    const rt::MonoTime end = rt::MonoClock::now() + kPatience;
+    const rt::MonoTime end = rt::MonoClock::now() + kTimeout;
     while (folder_ >= 0 && rt::lock_file(folder_, rt::FileLock::Exclusive).error().code == Errc::Busy &&
            rt::MonoClock::now() < end) {
       rt::sleep_until(rt::MonoClock::now() + kPause);
@@ -111,13 +111,13 @@ auto setup_of(const Options& options, const Checked& checked, const Rights& righ
 }  // namespace
 
 ClaimedName::ClaimedName(std::string node, vars::NodeLock lock) : node_(std::move(node)), lock_(std::move(lock)) {
-  leave_nothing_ = !vars::owner_of(node_).has_value();
+  remove_all_ = !vars::owner_of(node_).has_value();
 }
 
 ClaimedName::ClaimedName(ClaimedName&& other) noexcept
     : node_(std::move(other.node_)),
       lock_(std::move(other.lock_)),
-      leave_nothing_(std::exchange(other.leave_nothing_, false)) {}
+      remove_all_(std::exchange(other.remove_all_, false)) {}
 
 bool ClaimedName::hold() {
   if (lock_->named(node_)) {
@@ -129,7 +129,7 @@ bool ClaimedName::hold() {
 
 ClaimedName::~ClaimedName() {
   lock_.reset();
-  if (leave_nothing_) {
+  if (remove_all_) {
     (void)vars::remove_node(node_);  // busy: another node has just taken over the name
   }
 }

@@ -31,7 +31,7 @@ class ClaimedName {
   ClaimedName& operator=(const ClaimedName&) = delete;
   ClaimedName& operator=(ClaimedName&&) = delete;
   ~ClaimedName();
-  void keep() noexcept { leave_nothing_ = false; }
+  void keep() noexcept { remove_all_ = false; }
   // Claims the name again if its lock file was removed. Returns false if that was necessary.
   bool hold();
 
@@ -39,7 +39,7 @@ class ClaimedName {
   ClaimedName(std::string node, vars::NodeLock lock);
   std::string node_;
   std::optional<vars::NodeLock> lock_;
-  bool leave_nothing_;
+  bool remove_all_;
 };
 
 struct Prepared {

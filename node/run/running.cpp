@@ -61,7 +61,7 @@ scheduler::Kernel& Running::make_kernel() {
   }
   scheduler::ProcessWatch watch;
   watch.patient = [this](const scheduler::ModuleRecord& module, std::chrono::nanoseconds so_long) {
-    if (so_long > HangWatch::kPatience) {
+    if (so_long > HangWatch::kTimeout) {
       processes_.kill_hanging(static_cast<std::uint32_t>(&module - run_.modules()));
     }
     (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
@@ -159,7 +159,7 @@ void Running::set_tape(scheduler::Hooks& hooks, const tape::Tape& tape) {
       auto& self = *static_cast<Running*>(context);
       self.change_batch(tick);
       const std::int64_t now = rt::to_ns(self.kernel_.now());
-      self.prepared_.tape->others()->look({0, 0, tick, release_ns, now, now});
+      self.prepared_.tape->others()->record_others({0, 0, tick, release_ns, now, now});
     };
   }
 }
@@ -330,18 +330,18 @@ Ending Running::supervise() {
       ending = {kFailed, processes_.reason()};
       break;
     }
-    if (std::string why = memory_.look(now); !why.empty()) {
+    if (std::string why = memory_.check(now); !why.empty()) {
       ending = {kFailed, std::move(why)};
       break;
     }
-    commands_.look(now);
-    forces_.look(*prepared_.store, console_);
+    commands_.poll(now);
+    forces_.report_changes(*prepared_.store, console_);
     if (black_box_) {
-      black_box_->look(now);
+      black_box_->check(now);
     }
     console_.report(kernel_.now(), false);
   }
-  if (std::string why = memory_.look(rt::MonoClock::now()); !why.empty()) {  // may have ended the schedule
+  if (std::string why = memory_.check(rt::MonoClock::now()); !why.empty()) {  // may have ended the schedule
     ending = {kFailed, std::move(why)};
   }
   if (const std::uint32_t order = stop_order_.load(std::memory_order_acquire); order != 0) {
@@ -362,7 +362,7 @@ void Running::secure() {
     prepared_.failsafe->apply(i);
   }
   if (black_box_) {
-    black_box_->keep_at_end(memory_.look(rt::MonoClock::now()));
+    black_box_->keep_at_end(memory_.check(rt::MonoClock::now()));
   }
 }
 

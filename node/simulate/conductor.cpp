@@ -73,7 +73,7 @@ class Conductor {
   [[nodiscard]] std::int64_t reachable() const;
   void advance(std::int64_t until_ns, bool all);
   void take_answer(std::size_t number, std::int64_t until_ns);
-  void befall(const PlantEvent& event);
+  void apply(const PlantEvent& event);
   void bring_back(std::size_t number);
   int keep_pace();
   std::optional<Ending> stand();
@@ -147,7 +147,7 @@ void Conductor::take_answer(std::size_t number, std::int64_t until_ns) {
   }
   if (boards_[number].answer().ended) {
     network_.leave(number, until_ns);
-    boards_[number].let_go();
+    boards_[number].close_channel();
   }
 }
 
@@ -183,7 +183,7 @@ void Conductor::advance(std::int64_t until_ns, bool all) {
   core_.round(took);
 }
 
-void Conductor::befall(const PlantEvent& event) {
+void Conductor::apply(const PlantEvent& event) {
   ConductorBoard& board = boards_[event.board];
   console_.info("{} after {}", event.text, base::format_duration(event.at));
   switch (event.what) {
@@ -250,7 +250,7 @@ int Conductor::keep_pace() {
 
 // Pauses after a tick of all boards, until standard input requests to continue.
 std::optional<Ending> Conductor::stand() {
-  tell_place(static_cast<std::uint64_t>((stands_at_ns_ + 1 - epoch_ns_) / basic_period_ns_), basic_period_ns_);
+  print_position(static_cast<std::uint64_t>((stands_at_ns_ + 1 - epoch_ns_) / basic_period_ns_), basic_period_ns_);
   const StepInput::Order order = input_.next(signals_, basic_period_ns_);
   if (order.end) {
     return Ending{kOk, "end of the steps"};
@@ -272,7 +272,7 @@ Ending Conductor::conduct() {
     }
     advance(until, until == limit);
     for (; next_event_ < events_.size() && epoch_ns_ + events_[next_event_].at.count() <= now_ns_; ++next_event_) {
-      befall(events_[next_event_]);
+      apply(events_[next_event_]);
     }
     if (now_ns_ == stands_at_ns_) {
       if (auto ending = stand()) {

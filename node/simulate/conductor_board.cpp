@@ -88,7 +88,7 @@ void ConductorBoard::order(const BoardOrder& order) {
 }
 
 bool ConductorBoard::await_answer(base::StopSignal& signals) {
-  bool told = false;
+  bool forwarded = false;
   for (;;) {
     const BoardChannel::Got got = channel_->receive(answer_);
     if (got == BoardChannel::Got::Word) {
@@ -98,7 +98,7 @@ bool ConductorBoard::await_answer(base::StopSignal& signals) {
       channel_.reset();
       return false;
     }
-    if (const int number = signals.wait(std::chrono::nanoseconds{0}); number != 0 && !std::exchange(told, true)) {
+    if (const int number = signals.wait(std::chrono::nanoseconds{0}); number != 0 && !std::exchange(forwarded, true)) {
       ::kill(pid_, number);
     }
   }

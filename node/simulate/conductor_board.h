@@ -44,7 +44,7 @@ class ConductorBoard {
   std::vector<mirror::Message> take_sent() { return std::exchange(answer_.sent, {}); }
 
   // Closes the channel: the board then ends on its own.
-  void let_go() noexcept { channel_.reset(); }
+  void close_channel() noexcept { channel_.reset(); }
   // Ends it at once, as without power.
   void kill() noexcept;
   // Waits for the board's end. Returns the exit code, 128 + number after a signal, 0 after kill(). Kills a board that

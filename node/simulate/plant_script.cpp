@@ -19,7 +19,7 @@ namespace {
 
 using What = PlantEvent::What;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 20U;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20U;
 constexpr std::array<std::pair<const char*, What>, 3> kWords{
     {{"kill", What::Kill}, {"cut", What::Cut}, {"return", What::Return}}};
 
@@ -37,8 +37,8 @@ class ScriptReader {
     }
     std::stable_sort(script_.events.begin(), script_.events.end(),
                      [](const PlantEvent& a, const PlantEvent& b) { return a.at < b.at; });
-    look_at_the_end();
-    look_for_what_changes_nothing();
+    check_end();
+    check_effects();
     report_.add_summary(script_.diagnostics);
   }
 
@@ -82,7 +82,7 @@ class ScriptReader {
     }
   }
 
-  void look_at_the_end() {
+  void check_end() {
     const auto late = std::find_if(script_.events.begin(), script_.events.end(),
                                    [this](const PlantEvent& event) { return end_ && event.at >= *end_; });
     for (auto event = late; event != script_.events.end(); ++event) {
@@ -92,7 +92,7 @@ class ScriptReader {
     script_.events.erase(late, script_.events.end());
   }
 
-  void look_for_what_changes_nothing() {
+  void check_effects() {
     struct Board {
       bool runs = true;
       bool wired = true;
@@ -129,7 +129,7 @@ PlantScript read_script_text(std::string_view text, const std::string& file, con
 
 PlantScript read_script(const std::filesystem::path& file, const std::vector<std::string>& boards,
                         std::optional<std::chrono::nanoseconds> end) {
-  const auto text = base::read_file(file, kMostBytes);
+  const auto text = base::read_file(file, kMaxBytes);
   if (text) {
     return read_script_text(*text, file.string(), boards, end);
   }

@@ -46,7 +46,7 @@ SimulatedMirror::~SimulatedMirror() {
 
 Status SimulatedMirror::start_threads() {
   if (Status started = start_thread("irp-mirror-mgr", wake_manager_,
-                                    [this](std::int64_t now) { return exchange_->look(now, schedule_); });
+                                    [this](std::int64_t now) { return exchange_->step(now, schedule_); });
       !started) {
     return started;
   }
@@ -60,10 +60,10 @@ Status SimulatedMirror::start_threads() {
 }
 
 Status SimulatedMirror::start_thread(const char* name, rt::SignalWord& wake,
-                                     std::function<std::int64_t(std::int64_t)> look) {
-  auto thread = kernel_.start({name, 0, -1}, [this, &wake, look = std::move(look)] {
+                                     std::function<std::int64_t(std::int64_t)> step) {
+  auto thread = kernel_.start({name, 0, -1}, [this, &wake, step = std::move(step)] {
     while (!stop_) {
-      const std::int64_t next = look(rt::to_ns(kernel_.now()));
+      const std::int64_t next = step(rt::to_ns(kernel_.now()));
       (void)kernel_.wait_until(wake, rt::mono_time(next));
     }
   });

@@ -45,7 +45,7 @@ class SimulatedMirror {
 
  private:
   Status start_threads();
-  Status start_thread(const char* name, rt::SignalWord& wake, std::function<std::int64_t(std::int64_t)> look);
+  Status start_thread(const char* name, rt::SignalWord& wake, std::function<std::int64_t(std::int64_t)> step);
 
   scheduler::SimulatedKernel& kernel_;
   mirror::SimulatedPlane plane_;

@@ -40,14 +40,14 @@ Simulation::Simulation(const config::Simulation& settings, vars::Store& store, s
       kernel_(rt::mono_time(place_.begin_ns), {&store.virtual_time(), &run.virtual_ns}, std::move(watch)),
       began_(rt::MonoClock::now()) {}
 
-int Simulation::pass(std::chrono::nanoseconds look) {
+int Simulation::pass(std::chrono::nanoseconds duration) {
   if (conductor_) {
-    return follow(look);
+    return follow(duration);
   }
   if (settings_.step) {
     return step();
   }
-  go_to(kernel_.now() + look);
+  go_to(kernel_.now() + duration);
   return keep_pace();
 }
 
@@ -59,10 +59,10 @@ void Simulation::go_to(rt::MonoTime until) {
   kernel_.sleep_until(until);
 }
 
-// Advances as far as the plant, until `look` of time has passed.
-int Simulation::follow(std::chrono::nanoseconds look) {
-  const rt::MonoTime end = kernel_.now() + look;
-  if (!std::exchange(ready_told_, true)) {
+// Advances as far as the plant, until `duration` of time has passed.
+int Simulation::follow(std::chrono::nanoseconds duration) {
+  const rt::MonoTime end = kernel_.now() + duration;
+  if (!std::exchange(ready_reported_, true)) {
     kernel_.sleep_until(kernel_.now());
     (void)answer();
   }
@@ -122,7 +122,7 @@ int Simulation::step() {
   if (stands_at_ == rt::MonoTime{}) {
     stands_at_ = rt::mono_time(run_.epoch_ns) + std::chrono::nanoseconds(-1);
     kernel_.sleep_until(stands_at_);
-    tell_place(run_.tick.load(), run_.basic_period_ns);
+    print_position(run_.tick.load(), run_.basic_period_ns);
   }
   const StepInput::Order order = input_.next(signals_, run_.basic_period_ns);
   left_ = order.end;
@@ -131,7 +131,7 @@ int Simulation::step() {
   }
   stands_at_ += std::chrono::nanoseconds(order.ticks * run_.basic_period_ns);
   go_to(stands_at_);
-  tell_place(run_.tick.load(), run_.basic_period_ns);
+  print_position(run_.tick.load(), run_.basic_period_ns);
   return signals_.wait(std::chrono::nanoseconds{0});
 }
 

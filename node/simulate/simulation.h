@@ -43,14 +43,14 @@ class Simulation {
   // advances, and at the time it returned last.
   void attend_by(std::function<rt::MonoTime()> attend) { attend_ = std::move(attend); }
 
-  // Lets `look` of virtual time pass, in --step mode as much as standard input requests. Returns a stop signal, 0 if
-  // none was received.
-  int pass(std::chrono::nanoseconds look);
+  // Lets `duration` of virtual time pass, in --step mode as much as standard input requests. Returns a stop signal, 0
+  // if none was received.
+  int pass(std::chrono::nanoseconds duration);
   // Returns true if standard input of --step has ended or requested the end, or the plant's simulation is over.
   [[nodiscard]] bool left() const noexcept { return left_; }
 
  private:
-  int follow(std::chrono::nanoseconds look);
+  int follow(std::chrono::nanoseconds duration);
   bool answer();
   int keep_pace();
   int step();
@@ -69,7 +69,7 @@ class Simulation {
   Link link_;
   std::function<bool()> ended_;
   std::function<rt::MonoTime()> attend_ = [] { return scheduler::SimulatedKernel::kNever; };
-  bool ready_told_ = false;
+  bool ready_reported_ = false;
   std::int64_t busy_ns_ = 0;  // processor time of this thread at the last answer
 };
 

@@ -62,7 +62,7 @@ std::optional<StepInput::Order> StepInput::understand(const std::string& line, s
                0};
 }
 
-void tell_place(std::uint64_t tick, std::int64_t basic_period_ns) {
+void print_position(std::uint64_t tick, std::int64_t basic_period_ns) {
   fmt::print("tick {}, {}\n", tick,
              base::format_duration(base::Nanos(static_cast<std::int64_t>(tick) * basic_period_ns)));
   std::fflush(stdout);

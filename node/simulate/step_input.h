@@ -29,6 +29,6 @@ class StepInput {
 };
 
 // Prints where the simulation is now.
-void tell_place(std::uint64_t tick, std::int64_t basic_period_ns);
+void print_position(std::uint64_t tick, std::int64_t basic_period_ns);
 
 }  // namespace indurop::node
