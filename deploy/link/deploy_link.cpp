@@ -53,7 +53,7 @@ dds::Qos link_qos(bool state, bool writer) {
 }  // namespace
 
 struct DeployLink::Impl {
-  explicit Impl(const std::string& certificate) : speakers(certificate) {}
+  explicit Impl(const std::string& certificate) : senders(certificate) {}
   Result<void, base::Problem> make();
   dds::Endpoint reader(const dds::TypeDescriptor& type, const std::string& topic, bool state);
   dds::Endpoint writer(const dds::TypeDescriptor& type, const std::string& topic, bool state);
@@ -62,7 +62,7 @@ struct DeployLink::Impl {
   rt::SignalWord wake{};  // used by listeners until the readers are gone
   dds::Participant participant;
   dds::OtherReleases others;
-  Speakers speakers;
+  Speakers senders;
   dds::Endpoint boards_out;
   dds::Endpoint orders_out;
   dds::Endpoint requests_out;
@@ -189,16 +189,16 @@ void DeployLink::forget(std::uint64_t requester) {
 std::vector<DeployLink::BoardNews> DeployLink::take_boards() {
   std::vector<BoardNews> news;
   const dds::Handle reader = impl_->boards_in.get();
-  Speakers& speakers = impl_->speakers;
+  Speakers& senders = impl_->senders;
   dds::take_all<indurop_deploy_BoardReport>(reader, [&](const auto& sample, const dds::SampleInfo& info) {
     BoardReport report;
     if (info.valid) {
       report = wire::word_of<BoardReport>(sample);
-      if (speakers.admit(reader, info.publication, report)) {
+      if (senders.admit(reader, info.publication, report)) {
         news.push_back({std::move(report), false});
       }
     }
-    if (!info.alive && speakers.leave(reader, info.publication, sample.board, sample.agent)) {
+    if (!info.alive && senders.leave(reader, info.publication, sample.board, sample.agent)) {
       report = {};
       report.board = sample.board;
       report.agent = sample.agent;
@@ -228,7 +228,7 @@ std::vector<deploy::BlobRequest> DeployLink::take_requests() {
   const dds::Handle reader = impl_->requests_in.get();
   dds::take_all<indurop_deploy_Request>(reader, [&](const auto& sample, const dds::SampleInfo& info) {
     if (info.valid && sample.source == impl_->self &&
-        impl_->speakers.speaks_as(reader, info.publication, sample.requester)) {
+        impl_->senders.speaks_as(reader, info.publication, sample.requester)) {
       requests.push_back(wire::word_of<BlobRequest>(sample));
     }
   });
@@ -239,7 +239,7 @@ std::vector<deploy::BlobChunk> DeployLink::take_chunks() {
   std::vector<deploy::BlobChunk> chunks;
   const dds::Handle reader = impl_->blobs_in.get();
   dds::take_all<indurop_deploy_Chunk>(reader, [&](const auto& sample, const dds::SampleInfo& info) {
-    if (info.valid && impl_->speakers.speaks_as(reader, info.publication, sample.source)) {
+    if (info.valid && impl_->senders.speaks_as(reader, info.publication, sample.source)) {
       chunks.push_back(wire::word_of<BlobChunk>(sample));
     }
   });
@@ -248,9 +248,9 @@ std::vector<deploy::BlobChunk> DeployLink::take_chunks() {
 
 std::vector<deploy::OtherAgent> DeployLink::other_agents() {
   constexpr const char* kTool = "indurop";  // it has the same topics, and leaves again
-  (void)impl_->others.look();
+  (void)impl_->others.poll();
   std::vector<deploy::OtherAgent> agents;
-  for (dds::OtherReleases::Speaker& speaker : impl_->others.speakers()) {
+  for (dds::OtherReleases::Sender& speaker : impl_->others.senders()) {
     if (speaker.topic.plant == "deploy" && speaker.program != kTool) {
       agents.push_back({speaker.topic.protocol, std::move(speaker.name), std::move(speaker.host)});
     }
@@ -259,11 +259,11 @@ std::vector<deploy::OtherAgent> DeployLink::other_agents() {
 }
 
 std::vector<deploy::Impostor> DeployLink::impostors() const {
-  return impl_->speakers.impostors();
+  return impl_->senders.impostors();
 }
 
 bool DeployLink::speaks_for(int reader, std::uint64_t publication, const std::string& board) {
-  return impl_->speakers.speaks_for(reader, publication, board);
+  return impl_->senders.speaks_for(reader, publication, board);
 }
 
 int DeployLink::participant() const noexcept {

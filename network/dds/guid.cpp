@@ -7,7 +7,7 @@
 namespace indurop::dds {
 namespace {
 
-constexpr std::size_t kMostReaders = 64;
+constexpr std::size_t kMaxReaders = 64;
 
 struct EndpointDelete {
   void operator()(dds_builtintopic_endpoint_t* endpoint) const noexcept { dds_builtintopic_free_endpoint(endpoint); }
@@ -29,13 +29,13 @@ std::optional<Guid> participant_of(Handle reader, InstanceHandle publication) {
 
 bool is_marked(Handle reader, InstanceHandle publication, std::string_view mark) {
   const EndpointData data(dds_get_matched_publication_data(reader, publication));
-  void* told = nullptr;
+  void* info_of_endpoint = nullptr;
   std::size_t size = 0;
-  if (data == nullptr || !dds_qget_userdata(data->qos, &told, &size)) {
+  if (data == nullptr || !dds_qget_userdata(data->qos, &info_of_endpoint, &size)) {
     return false;
   }
-  const bool same = std::string_view(static_cast<const char*>(told), size) == mark;
-  dds_free(told);
+  const bool same = std::string_view(static_cast<const char*>(info_of_endpoint), size) == mark;
+  dds_free(info_of_endpoint);
   return same;
 }
 
@@ -61,9 +61,9 @@ std::optional<std::uint32_t> readers_of(Handle writer) {
 }
 
 bool is_read_by(Handle writer, const Guid& participant) {
-  std::array<dds_instance_handle_t, kMostReaders> readers{};
+  std::array<dds_instance_handle_t, kMaxReaders> readers{};
   const int count = dds_get_matched_subscriptions(writer, readers.data(), readers.size());
-  return std::any_of(readers.begin(), readers.begin() + std::clamp(count, 0, static_cast<int>(kMostReaders)),
+  return std::any_of(readers.begin(), readers.begin() + std::clamp(count, 0, static_cast<int>(kMaxReaders)),
                      [&](auto handle) {
                        const EndpointData data(dds_get_matched_subscription_data(writer, handle));
                        return data != nullptr && guid_of(data->participant_key) == participant;

@@ -187,8 +187,8 @@ class Reader {
 
 Result<schema::Type, base::Problem> type_from_network(Handle participant, const dds_typeinfo_t& information,
                                                       std::int64_t timeout_ns) {
-  const auto& told = *reinterpret_cast<const DDS_XTypes_TypeInformation*>(&information);
-  return Reader(participant, timeout_ns).read(told.complete.typeid_with_size.type_id, 0);
+  const auto& info_of_endpoint = *reinterpret_cast<const DDS_XTypes_TypeInformation*>(&information);
+  return Reader(participant, timeout_ns).read(info_of_endpoint.complete.typeid_with_size.type_id, 0);
 }
 
 }  // namespace indurop::dds

@@ -14,10 +14,10 @@ struct DdsFree {
 using DdsText = std::unique_ptr<char, DdsFree>;
 
 // The text comes from any participant and is shown on terminals: returns a plain name, or nothing.
-std::string plain_name(const DdsText& told) {
+std::string plain_name(const DdsText& info_of_endpoint) {
   constexpr std::size_t kLongest = 64;
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
-  const std::string_view name = told == nullptr ? std::string_view{} : told.get();
+  const std::string_view name = info_of_endpoint == nullptr ? std::string_view{} : info_of_endpoint.get();
   const bool plain = name.size() <= kLongest && name.find_first_not_of(kLetters) == std::string_view::npos;
   return plain ? std::string(name) : std::string{};
 }
@@ -55,14 +55,14 @@ void OtherReleases::close() noexcept {
 
 bool OtherReleases::take_participants() {
   bool changed = false;
-  take_all<dds_builtintopic_participant_t>(participants_in_.get(), [&](const auto& told, const auto& info) {
-    const Guid guid = guid_of(told.key);
+  take_all<dds_builtintopic_participant_t>(participants_in_.get(), [&](const auto& info_of_endpoint, const auto& info) {
+    const Guid guid = guid_of(info_of_endpoint.key);
     if (!info.valid || !info.alive) {
       participants_.erase(guid);
       return;
     }
-    participants_[guid] = {property(told.qos, "__Hostname"), property(told.qos, "__ProcessName"),
-                           entity_name(told.qos)};
+    participants_[guid] = {property(info_of_endpoint.qos, "__Hostname"),
+                           property(info_of_endpoint.qos, "__ProcessName"), entity_name(info_of_endpoint.qos)};
     changed = true;
   });
   return changed;
@@ -70,31 +70,31 @@ bool OtherReleases::take_participants() {
 
 bool OtherReleases::take_publications() {
   bool changed = false;
-  take_all<dds_builtintopic_endpoint_t>(publications_in_.get(), [&](const auto& told, const auto& info) {
-    const Guid guid = guid_of(told.key);
+  take_all<dds_builtintopic_endpoint_t>(publications_in_.get(), [&](const auto& info_of_endpoint, const auto& info) {
+    const Guid guid = guid_of(info_of_endpoint.key);
     if (!info.valid || !info.alive) {
       changed = publications_.erase(guid) > 0 || changed;
       return;
     }
-    auto topic = schema::sender_of_topic(told.topic_name == nullptr ? "" : told.topic_name);
+    auto topic = schema::sender_of_topic(info_of_endpoint.topic_name == nullptr ? "" : info_of_endpoint.topic_name);
     if (topic && topic->protocol != schema::protocol()) {
-      publications_[guid] = {guid_of(told.participant_key), std::move(*topic)};
+      publications_[guid] = {guid_of(info_of_endpoint.participant_key), std::move(*topic)};
       changed = true;
     }
   });
   return changed;
 }
 
-bool OtherReleases::look() {
+bool OtherReleases::poll() {
   const bool known = take_participants() && !publications_.empty();
   return take_publications() || known;
 }
 
-std::vector<OtherReleases::Speaker> OtherReleases::speakers() const {
-  std::map<std::pair<Guid, std::string>, Speaker> all;
+std::vector<OtherReleases::Sender> OtherReleases::senders() const {
+  std::map<std::pair<Guid, std::string>, Sender> all;
   for (const auto& [guid, publication] : publications_) {
     const auto [at, first] = all.try_emplace({publication.participant, publication.topic.plant});
-    Speaker& speaker = at->second;
+    Sender& speaker = at->second;
     if (first || speaker.topic.board.empty()) {
       speaker.topic = publication.topic;
     }
@@ -104,7 +104,7 @@ std::vector<OtherReleases::Speaker> OtherReleases::speakers() const {
       speaker.name = who->second.name;
     }
   }
-  std::vector<Speaker> list;
+  std::vector<Sender> list;
   list.reserve(all.size());
   for (auto& [key, speaker] : all) {
     list.push_back(std::move(speaker));

@@ -20,7 +20,7 @@ namespace indurop::dds {
 
 class OtherReleases {
  public:
-  struct Speaker {
+  struct Sender {
     schema::TopicSender topic;
     std::string host;     // empty: not announced
     std::string program;  // program name; empty: not announced
@@ -29,9 +29,9 @@ class OtherReleases {
   Result<void, base::Problem> open(Handle participant);
   void close() noexcept;
   // Takes the discoveries of DDS since the last call. Returns true if a participant came or left.
-  bool look();
+  bool poll();
   // Returns one entry for each participant and plant.
-  [[nodiscard]] std::vector<Speaker> speakers() const;
+  [[nodiscard]] std::vector<Sender> senders() const;
 
  private:
   struct Participant {

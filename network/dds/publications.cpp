@@ -38,14 +38,14 @@ std::vector<Publications::News> Publications::take() {
       return news;
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const auto& told = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
+      const auto& info_of_endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
       const SampleInfo info(infos[i]);
-      const Guid endpoint = guid_of(told.key);
-      const Guid participant = guid_of(told.participant_key);
+      const Guid endpoint = guid_of(info_of_endpoint.key);
+      const Guid participant = guid_of(info_of_endpoint.participant_key);
       if (!info.valid || !info.alive) {
         news.push_back({endpoint, std::nullopt});
-      } else if (participant != own_ && told.topic_name != nullptr) {
-        news.push_back({endpoint, Publication{participant, told.topic_name, info.instance}});
+      } else if (participant != own_ && info_of_endpoint.topic_name != nullptr) {
+        news.push_back({endpoint, Publication{participant, info_of_endpoint.topic_name, info.instance}});
       }
     }
     (void)dds_return_loan(reader_.get(), samples.data(), count);
@@ -75,9 +75,9 @@ bool Publications::with(const Publication& publication,
 Result<schema::Type, base::Problem> Publications::type_of(const Publication& publication,
                                                           std::int64_t timeout_ns) const {
   Result<schema::Type, base::Problem> type = base::Problem{"its publisher tells nothing about its type"};
-  (void)with(publication, [&](dds_builtintopic_endpoint_t& told) {
+  (void)with(publication, [&](dds_builtintopic_endpoint_t& info_of_endpoint) {
     const dds_typeinfo_t* information = nullptr;
-    if (dds_builtintopic_get_endpoint_type_info(&told, &information) >= 0 && information != nullptr) {
+    if (dds_builtintopic_get_endpoint_type_info(&info_of_endpoint, &information) >= 0 && information != nullptr) {
       type = type_from_network(participant_, *information, timeout_ns);
     }
   });

@@ -36,23 +36,23 @@ void RemoteTopic::close() noexcept {
   reader_.reset();
   topic_.reset();
   senders_.clear();
-  if (told_ != nullptr) {
-    (void)dds_delete_topic_descriptor(told_);
-    told_ = nullptr;
+  if (descriptor_ != nullptr) {
+    (void)dds_delete_topic_descriptor(descriptor_);
+    descriptor_ = nullptr;
   }
   known_.reset();
 }
 
 bool RemoteTopic::open(Handle participant, const Publications& all, const Publication& publication,
                        rt::SignalWord& wake) {
-  (void)all.with(publication, [&](dds_builtintopic_endpoint_t& told) {
+  (void)all.with(publication, [&](dds_builtintopic_endpoint_t& info_of_endpoint) {
     const dds_typeinfo_t* information = nullptr;
-    if (dds_builtintopic_get_endpoint_type_info(&told, &information) < 0 || information == nullptr ||
-        dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, participant, information, kTypeNs, &told_) < 0) {
-      told_ = nullptr;
+    if (dds_builtintopic_get_endpoint_type_info(&info_of_endpoint, &information) < 0 || information == nullptr ||
+        dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, participant, information, kTypeNs, &descriptor_) < 0) {
+      descriptor_ = nullptr;
       return;
     }
-    read(participant, told, *told_, wake);
+    read(participant, info_of_endpoint, *descriptor_, wake);
   });
   return is_open();
 }
@@ -62,9 +62,9 @@ bool RemoteTopic::open_as(const schema::Type& type, const std::string& type_name
   if (type.size() > kLargestKnown) {
     return false;
   }
-  (void)all.with(publication, [&](dds_builtintopic_endpoint_t& told) {
+  (void)all.with(publication, [&](dds_builtintopic_endpoint_t& info_of_endpoint) {
     known_.emplace(type, type_name);
-    read(participant, told, known_->descriptor(), wake);
+    read(participant, info_of_endpoint, known_->descriptor(), wake);
   });
   return is_open();
 }

@@ -50,9 +50,9 @@ class RemoteTopic {
   void read(Handle participant, const dds_builtintopic_endpoint_t& publication, const TypeDescriptor& type,
             rt::SignalWord& wake);
 
-  TypeDescriptor* told_ = nullptr;  // the type from the network, or
-  std::optional<PlainType> known_;  // the type from the caller
-  std::size_t size_ = 0;            // of a sample, in bytes
+  TypeDescriptor* descriptor_ = nullptr;  // the type from the network, or
+  std::optional<PlainType> known_;        // the type from the caller
+  std::size_t size_ = 0;                  // of a sample, in bytes
   Entity topic_;
   Entity reader_;
   Entity writer_;

@@ -133,8 +133,8 @@ Result<Joined, base::Problem> join_network(const NetworkSettings& settings) {
   }
   Entity participant(dds_create_participant(id, qos.get(), nullptr));
   if (!participant.ok()) {
-    const std::string said = last_dds_message();
-    const std::string why = said.empty() ? participant.why() : said;
+    const std::string reason = last_dds_message();
+    const std::string why = reason.empty() ? participant.why() : reason;
     return base::Problem{settings.security.on() ? fmt::format("keys refused (indurop keys list tells more): {}", why)
                                                 : why};
   }

@@ -13,9 +13,9 @@ Result<void, base::Problem> WantedTopics::open(Handle participant) {
 }
 
 void WantedTopics::take(const std::function<void(const std::string& topic)>& use) {
-  take_all<dds_builtintopic_endpoint_t>(reader_.get(), [&](const auto& told, const SampleInfo& info) {
-    if (info.valid && guid_of(told.participant_key) != own_ && told.topic_name != nullptr) {
-      use(told.topic_name);
+  take_all<dds_builtintopic_endpoint_t>(reader_.get(), [&](const auto& info_of_endpoint, const SampleInfo& info) {
+    if (info.valid && guid_of(info_of_endpoint.participant_key) != own_ && info_of_endpoint.topic_name != nullptr) {
+      use(info_of_endpoint.topic_name);
     }
   });
 }

@@ -46,7 +46,7 @@ SimulatedMirror::~SimulatedMirror() {
 
 Status SimulatedMirror::start_threads() {
   if (Status started = start_thread("irp-mirror-mgr", wake_manager_,
-                                    [this](std::int64_t now) { return exchange_->step(now, schedule_); });
+                                    [this](std::int64_t now) { return exchange_->poll(now, schedule_); });
       !started) {
     return started;
   }

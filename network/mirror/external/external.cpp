@@ -22,7 +22,7 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kLookNs = 10'000'000;  // for new readers
+constexpr std::int64_t kPollNs = 10'000'000;  // for new readers
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
 constexpr std::int64_t kLaterNs = 500'000'000;  // by then everything that is not silent is due
 constexpr std::size_t kEagerTopics = 500;       // beyond this, topics are announced on request: discovery has its cost
@@ -65,8 +65,8 @@ struct External::Impl {
   Result<void, base::Problem> open(dds::Handle participant);
   void close() noexcept;
   void describe();
-  void look_who_leads(std::int64_t now_ns);
-  void look_for_readers() noexcept;
+  void update_lead(std::int64_t now_ns);
+  void discover_readers() noexcept;
   [[nodiscard]] std::string topic_name(const std::string& variable) const {
     return settings.ros2 ? schema::ros_topic(variable) : external_topic(variable);
   }
@@ -176,7 +176,7 @@ void External::Impl::close() noexcept {
 }
 
 // Opens the topics that a participant in the network requests to read.
-void External::Impl::look_for_readers() noexcept {
+void External::Impl::discover_readers() noexcept {
   if (unopened.empty()) {
     return;
   }
@@ -191,30 +191,30 @@ void External::Impl::look_for_readers() noexcept {
       block.problem.set(opened.error().text);
     }
   };
-  for (const std::string& variable : directory.take_wishes()) {
+  for (const std::string& variable : directory.take_requests()) {
     open(topic_name(variable));
   }
   wanted_topics.take(open);
 }
 
-void External::Impl::look_who_leads(std::int64_t now_ns) {
+void External::Impl::update_lead(std::int64_t now_ns) {
   bool changed = false;
   for (const auto& topic : topics) {
-    changed = topic->look_who_leads(now_ns) || changed;
+    changed = topic->update_lead(now_ns) || changed;
   }
   if (changed) {
     describe();
-    if (const auto told = directory.tell(shown); !told) {
-      block.problem.set(told.error().text);
+    if (const auto published = directory.publish(shown); !published) {
+      block.problem.set(published.error().text);
     }
   }
 }
 
 // Checks everything once; returns when the next check is due.
 std::int64_t External::Impl::serve(std::int64_t now_ns) {
-  look_who_leads(now_ns);
-  look_for_readers();
-  std::int64_t next = now_ns + kLookNs;
+  update_lead(now_ns);
+  discover_readers();
+  std::int64_t next = now_ns + kPollNs;
   std::uint32_t read = 0;
   for (const auto& topic : topics) {
     topic->receive();

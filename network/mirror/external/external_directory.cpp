@@ -10,7 +10,7 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int32_t kWishes = 64;  // number of tools that may ask at the same time
+constexpr std::int32_t kRequestDepth = 64;  // number of tools that may ask at the same time
 
 std::vector<char*> pointers_to(const std::vector<std::string>& names) {
   std::vector<char*> pointers;
@@ -36,16 +36,16 @@ Result<void, base::Problem> ExternalDirectory::open(dds::Handle participant, con
     return base::Problem{"cannot tell which variables there are: " + writer_.why()};
   }
   if (asked) {
-    wishes_ = dds::make_reader(participant, indurop_wire_Wish_desc, schema::request_topic(),
-                               dds::make_qos({.depth = kWishes}));
-    if (!wishes_.ok()) {
-      return base::Problem{"cannot hear which variables are wanted: " + wishes_.why()};
+    requests_ = dds::make_reader(participant, indurop_wire_Wish_desc, schema::request_topic(),
+                                 dds::make_qos({.depth = kRequestDepth}));
+    if (!requests_.ok()) {
+      return base::Problem{"cannot hear which variables are wanted: " + requests_.why()};
     }
   }
-  return tell(content);
+  return publish(content);
 }
 
-Result<void, base::Problem> ExternalDirectory::tell(const Content& content) {
+Result<void, base::Problem> ExternalDirectory::publish(const Content& content) {
   indurop_wire_Directory out{};
   auto boards = pointers_to(content.boards);
   auto writable = pointers_to(content.writable);
@@ -68,16 +68,16 @@ Result<void, base::Problem> ExternalDirectory::tell(const Content& content) {
 }
 
 void ExternalDirectory::close() noexcept {
-  wishes_.reset();
+  requests_.reset();
   writer_.reset();
 }
 
-std::vector<std::string> ExternalDirectory::take_wishes() {
+std::vector<std::string> ExternalDirectory::take_requests() {
   std::vector<std::string> names;
-  if (wishes_.ok()) {
-    dds::take_all<indurop_wire_Wish>(wishes_.get(), [&](const auto& wish, const dds::SampleInfo& info) {
+  if (requests_.ok()) {
+    dds::take_all<indurop_wire_Wish>(requests_.get(), [&](const auto& request, const dds::SampleInfo& info) {
       if (info.valid) {
-        names.insert(names.end(), wish.variables._buffer, wish.variables._buffer + wish.variables._length);
+        names.insert(names.end(), request.variables._buffer, request.variables._buffer + request.variables._length);
       }
     });
   }

@@ -32,14 +32,14 @@ class ExternalDirectory {
   // `asked`: clients may request topics.
   Result<void, base::Problem> open(dds::Handle participant, const Content& content, bool asked);
   // Replaces the content that was announced before.
-  Result<void, base::Problem> tell(const Content& content);
+  Result<void, base::Problem> publish(const Content& content);
   void close() noexcept;
   // Returns the variables that clients request to read.
-  std::vector<std::string> take_wishes();
+  std::vector<std::string> take_requests();
 
  private:
   dds::Endpoint writer_;
-  dds::Endpoint wishes_;
+  dds::Endpoint requests_;
 };
 
 }  // namespace indurop::mirror

@@ -136,8 +136,8 @@ bool ExternalTopic::write(std::int64_t now_ns) noexcept {
   return true;
 }
 
-bool ExternalTopic::look_who_leads(std::int64_t now_ns) noexcept {
-  if (!lead_.look(now_ns)) {
+bool ExternalTopic::update_lead(std::int64_t now_ns) noexcept {
+  if (!lead_.update(now_ns)) {
     return false;
   }
   again_ = true;
@@ -211,9 +211,9 @@ void ExternalTopic::take_over(const std::uint8_t* sample, bool by_tool) noexcept
 
 std::string ExternalTopic::complaint() {
   const std::uint32_t disagreements = disagreements_.load(kRelaxed);
-  if (disagreements != told_) {
-    block_.mismatched.fetch_add(disagreements - told_, kRelaxed);
-    told_ = disagreements;
+  if (disagreements != reported_) {
+    block_.mismatched.fetch_add(disagreements - reported_, kRelaxed);
+    reported_ = disagreements;
     return fmt::format(
         "somebody who uses the topic {} has another type for it or wants what is not offered: generate its code from "
         "the same .idl, and ask for at most reliable, transient-local",

@@ -41,7 +41,7 @@ class ExternalTopic {
   void close() noexcept;
 
   // Checks whether this board's value is the one that counts. Returns true if that has changed.
-  bool look_who_leads(std::int64_t now_ns) noexcept;
+  bool update_lead(std::int64_t now_ns) noexcept;
   [[nodiscard]] bool leads() const noexcept { return lead_.ours(); }
   // Publishes if it is due, there is a reason to, and this board leads. Returns when to call again at the latest.
   std::int64_t publish(std::int64_t now_ns) noexcept;
@@ -95,7 +95,7 @@ class ExternalTopic {
   std::atomic<int> readers_{0};
   std::atomic<bool> arrived_{false};
   std::atomic<std::uint32_t> disagreements_{0};
-  std::uint32_t told_ = 0;
+  std::uint32_t reported_ = 0;
 };
 
 }  // namespace indurop::mirror

@@ -23,7 +23,7 @@ bool Lead::longest() const noexcept {
   });
 }
 
-bool Lead::look(std::int64_t now_ns) noexcept {
+bool Lead::update(std::int64_t now_ns) noexcept {
   if (rivals_.empty()) {
     return false;
   }

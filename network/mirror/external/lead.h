@@ -22,7 +22,7 @@ class Lead {
   Lead(const MirrorBlock* plant, const std::vector<std::string>& rivals);
   [[nodiscard]] bool ours() const noexcept { return ours_; }
   // Checks again who leads. Returns true if that has changed.
-  bool look(std::int64_t now_ns) noexcept;
+  bool update(std::int64_t now_ns) noexcept;
 
  private:
   [[nodiscard]] bool longest() const noexcept;

@@ -40,12 +40,12 @@ rt::MonoTime Beacons::cycle(rt::MonoTime now, const Schedule& schedule) noexcept
   block_.epoch_wall_ns.store(rt::to_ns(schedule.epoch), std::memory_order_relaxed);
   block_.clock_synchronised.store(sync.synchronised ? 1 : 0, std::memory_order_relaxed);
   block_.clock_error_ns.store(sync.max_error_ns, std::memory_order_relaxed);
-  std::vector<indurop_wire_Heard> heard;
+  std::vector<indurop_wire_Heard> received;
   {
     const std::lock_guard<std::mutex> guard(mutex_);
     for (Peer& peer : peers_) {
-      if (peer.clock.heard()) {
-        heard.push_back({peer.name.data(), peer.clock.least_delay()});
+      if (peer.clock.has_samples()) {
+        received.push_back({peer.name.data(), peer.clock.least_delay()});
       }
     }
   }
@@ -56,8 +56,8 @@ rt::MonoTime Beacons::cycle(rt::MonoTime now, const Schedule& schedule) noexcept
   beacon.basic_period_ns = schedule.basic.count();
   beacon.macro_period_ns = schedule.macro.count();
   beacon.synchronised = sync.synchronised;
-  beacon.heard._length = beacon.heard._maximum = static_cast<std::uint32_t>(heard.size());
-  beacon.heard._buffer = heard.data();
+  beacon.heard._length = beacon.heard._maximum = static_cast<std::uint32_t>(received.size());
+  beacon.heard._buffer = received.data();
   beacon.source_time_ns = board_wall_ns(store_);
   if (!plane_->send(beacon)) {
     block_.send_errors.fetch_add(1, std::memory_order_relaxed);
@@ -66,10 +66,10 @@ rt::MonoTime Beacons::cycle(rt::MonoTime now, const Schedule& schedule) noexcept
 }
 
 void Beacons::beacon_came(const indurop_wire_Beacon& beacon) noexcept {
-  heard(beacon, rt::wall_time(board_wall_ns(store_)));
+  receive_beacon(beacon, rt::wall_time(board_wall_ns(store_)));
 }
 
-void Beacons::heard(const indurop_wire_Beacon& beacon, rt::WallTime arrival) noexcept {
+void Beacons::receive_beacon(const indurop_wire_Beacon& beacon, rt::WallTime arrival) noexcept {
   const std::lock_guard<std::mutex> guard(mutex_);
   const auto found =
       std::find_if(peers_.begin(), peers_.end(), [&](const Peer& peer) { return peer.name == beacon.board; });

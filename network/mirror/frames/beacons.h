@@ -44,7 +44,7 @@ class Beacons final : public BeaconListener {
     ClockCompare clock;
   };
   void beacon_came(const indurop_wire_Beacon& beacon) noexcept override;
-  void heard(const indurop_wire_Beacon& beacon, rt::WallTime arrival) noexcept;
+  void receive_beacon(const indurop_wire_Beacon& beacon, rt::WallTime arrival) noexcept;
 
   const vars::Store& store_;
   std::string board_;

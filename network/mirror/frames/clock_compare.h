@@ -18,7 +18,7 @@ class ClockCompare {
   // Discards all stamps: the other board's clock was set, or the board was restarted.
   void reset() noexcept { count_ = 0; }
 
-  [[nodiscard]] bool heard() const noexcept { return count_ > 0; }
+  [[nodiscard]] bool has_samples() const noexcept { return count_ > 0; }
   // Returns the fastest of the last stamps, to be reported to the other board.
   [[nodiscard]] std::int64_t least_delay() const noexcept {
     return *std::min_element(delays_.begin(), delays_.begin() + std::min(count_, kWindow));

@@ -70,16 +70,16 @@ bool Collector::collect_group(Group& group, std::int64_t now_ns) const noexcept 
 }
 
 bool Collector::collect(std::int64_t now_ns) noexcept {
-  bool look_again = false;
+  bool poll_again = false;
   for (Group& group : groups_) {
     if (collect_group(group, now_ns)) {
       group.waiting_since_ns = 0;
       continue;
     }
     group.waiting_since_ns = group.waiting_since_ns == 0 ? now_ns : group.waiting_since_ns;
-    look_again = look_again || !group.writers->tells;
+    poll_again = poll_again || !group.writers->notifies;
   }
-  return look_again;
+  return poll_again;
 }
 
 }  // namespace indurop::mirror

@@ -68,9 +68,9 @@ Plane::Opened DdsPlane::exchange_beacons(BeaconListener& listener) {
   const dds::Qos qos = plane_qos(settings_, Stream::BestEffort);
   const std::string topic = beacon_topic(settings_.plant);
   beacons_ = dds::make_writer(participant_, indurop_wire_Beacon_desc, topic, qos);
-  heard_ = dds::make_reader(participant_, indurop_wire_Beacon_desc, topic, qos,
-                            dds::data_listener(&DdsPlane::on_beacon, &listener));
-  return offered(beacons_.ok() ? heard_ : beacons_, "cannot exchange beacons: ");
+  beacon_reader_ = dds::make_reader(participant_, indurop_wire_Beacon_desc, topic, qos,
+                                    dds::data_listener(&DdsPlane::on_beacon, &listener));
+  return offered(beacons_.ok() ? beacon_reader_ : beacons_, "cannot exchange beacons: ");
 }
 
 void DdsPlane::on_beacon(dds::Handle reader, void* listener) {
@@ -82,8 +82,8 @@ void DdsPlane::on_beacon(dds::Handle reader, void* listener) {
   });
 }
 
-Result<std::unique_ptr<Subscription>, base::Problem> DdsPlane::hear(const std::string& board, Stream stream,
-                                                                    FrameListener& listener) {
+Result<std::unique_ptr<Subscription>, base::Problem> DdsPlane::subscribe(const std::string& board, Stream stream,
+                                                                         FrameListener& listener) {
   auto reader = std::make_unique<Reader>(listener, stream);
   auto opened = reader->open(participant_, frames_topic(settings_.plant, board, stream), plane_qos(settings_, stream));
   if (!opened) {
@@ -93,7 +93,7 @@ Result<std::unique_ptr<Subscription>, base::Problem> DdsPlane::hear(const std::s
 }
 
 void DdsPlane::close() noexcept {
-  heard_.reset();
+  beacon_reader_.reset();
   beacons_.reset();
   for (dds::Endpoint& writer : frames_) {
     writer.reset();

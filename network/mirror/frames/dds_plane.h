@@ -23,8 +23,8 @@ class DdsPlane final : public Plane {
   Opened offer_frames(Stream stream) override;
   Opened offer_catalogue() override;
   Opened exchange_beacons(BeaconListener& listener) override;
-  Result<std::unique_ptr<Subscription>, base::Problem> hear(const std::string& board, Stream stream,
-                                                            FrameListener& listener) override;
+  Result<std::unique_ptr<Subscription>, base::Problem> subscribe(const std::string& board, Stream stream,
+                                                                 FrameListener& listener) override;
   void close() noexcept override;
   bool send(const indurop_wire_Frame& frame, Stream stream) noexcept override;
   bool send(const indurop_wire_Catalogue& catalogue) noexcept override;
@@ -38,7 +38,7 @@ class DdsPlane final : public Plane {
   std::array<dds::Endpoint, kStreams> frames_;
   dds::Endpoint catalogue_;
   dds::Endpoint beacons_;
-  dds::Endpoint heard_;  // beacons of other boards
+  dds::Endpoint beacon_reader_;  // beacons of other boards
 };
 
 }  // namespace indurop::mirror

@@ -10,9 +10,9 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kLookNs = 10'000'000;  // without a notification: another process may have written
+constexpr std::int64_t kPollNs = 10'000'000;  // without a notification: another process may have written
 constexpr std::int64_t kBulkLookNs = 20'000'000;
-constexpr std::int64_t kLookAgainNs = 100'000;  // for the end of a run that is not notified
+constexpr std::int64_t kPollAgainNs = 100'000;  // for the end of a run that is not notified
 
 void copy_name(char (&to)[kBoardName], const std::string& from) noexcept {
   const std::size_t length = std::min(from.size(), sizeof to - 1);
@@ -135,7 +135,7 @@ void Exchange::gone(const std::string& board) noexcept {
   }
 }
 
-std::int64_t Exchange::look(std::int64_t now_ns, const Schedule& schedule) noexcept {
+std::int64_t Exchange::poll(std::int64_t now_ns, const Schedule& schedule) noexcept {
   std::int64_t next = rt::to_ns(beacons_->cycle(rt::mono_time(now_ns), schedule));
   const std::lock_guard<std::mutex> guard(landings_mutex_);
   for (const auto& landing : landings_) {
@@ -147,9 +147,9 @@ std::int64_t Exchange::look(std::int64_t now_ns, const Schedule& schedule) noexc
 std::int64_t Exchange::send(std::int64_t now_ns, bool bulk) noexcept {
   const std::uint64_t begun = tick_.load(std::memory_order_acquire);
   if (sender_->cycle(now_ns, begun > 0 ? begun - 1 : 0, bulk)) {
-    return now_ns + kLookAgainNs;
+    return now_ns + kPollAgainNs;
   }
-  return now_ns + (bulk ? kBulkLookNs : kLookNs);
+  return now_ns + (bulk ? kBulkLookNs : kPollNs);
 }
 
 void Exchange::send_last(bool bulk) noexcept {

@@ -58,7 +58,7 @@ class Exchange {
     }
   }
   // Announces that this board is alive and sets fallback values, if it is due. Returns when to call again.
-  std::int64_t look(std::int64_t now_ns, const Schedule& schedule) noexcept;
+  std::int64_t poll(std::int64_t now_ns, const Schedule& schedule) noexcept;
 
   // Sends what has changed, large values only with `bulk`; one thread at a time for each of the two. Returns when to
   // call again if there is no notification.

@@ -56,7 +56,7 @@ struct Mirror::Impl {
   Result<void, base::Problem> open(dds::Handle participant);
   void close() noexcept;
   void take_catalogues() noexcept;
-  void look_for_other_releases();
+  void check_other_releases();
   void send_loop(bool bulk) noexcept;
   std::int64_t send(bool bulk) noexcept;
   [[nodiscard]] bool stopping() const noexcept { return stop.load(std::memory_order_acquire); }
@@ -151,14 +151,14 @@ void Mirror::Impl::manage() {
     const std::int64_t now = rt::now_ns();
     if (now >= others_due) {
       others_due = now + kOthersNs;
-      look_for_other_releases();
+      check_other_releases();
     }
     Schedule current;
     {
       const std::lock_guard<std::mutex> guard(schedule_mutex);
       current = schedule;
     }
-    const std::int64_t next = exchange->look(now, current);
+    const std::int64_t next = exchange->poll(now, current);
     block.dds_messages.store(dds::dds_message_count(), std::memory_order_relaxed);
     // Reports why expected boards do not come, or which participants were rejected.
     if (const std::string now_refused = dds::last_refusal(); now_refused != refused) {
@@ -185,16 +185,16 @@ void Mirror::Impl::take_catalogues() noexcept {
   });
 }
 
-void Mirror::Impl::look_for_other_releases() {
-  if (!others.look()) {
+void Mirror::Impl::check_other_releases() {
+  if (!others.poll()) {
     return;
   }
-  const auto speakers = others.speakers();
+  const auto senders = others.senders();
   exchange->other_releases([&](const std::string& board) {
-    const auto found = std::find_if(speakers.begin(), speakers.end(), [&](const auto& speaker) {
+    const auto found = std::find_if(senders.begin(), senders.end(), [&](const auto& speaker) {
       return speaker.topic.plant == settings.plant && (speaker.topic.board == board || speaker.name == board);
     });
-    return found == speakers.end()
+    return found == senders.end()
                ? std::string{}
                : fmt::format(
                      "it speaks protocol {} of another release, this board {}: install the same release on both",

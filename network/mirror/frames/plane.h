@@ -51,8 +51,8 @@ class Plane {
   // The listener is borrowed until close().
   virtual Opened exchange_beacons(BeaconListener& listener) = 0;
   // A late joiner gets the last frame of each part. The listener is borrowed until the subscription ends.
-  virtual Result<std::unique_ptr<Subscription>, base::Problem> hear(const std::string& board, Stream stream,
-                                                                    FrameListener& listener) = 0;
+  virtual Result<std::unique_ptr<Subscription>, base::Problem> subscribe(const std::string& board, Stream stream,
+                                                                         FrameListener& listener) = 0;
   // Withdraws all offers and receives no more beacons.
   virtual void close() noexcept = 0;
 

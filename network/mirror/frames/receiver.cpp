@@ -12,7 +12,7 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::size_t kMostParts = 100'000;  // maximum of a valid catalogue
+constexpr std::size_t kMaxParts = 100'000;  // maximum of a valid catalogue
 
 // The schema is read only now: that takes longer than the rest of a catalogue.
 std::string difference(const schema::Variable& mine, const char* their_schema) {
@@ -49,7 +49,7 @@ Result<std::vector<Receiver::Inbox>, base::Problem> Receiver::match(const induro
   const indurop_wire_CatalogueEntry* const first = catalogue.entries._buffer;
   const indurop_wire_CatalogueEntry* const last = first + catalogue.entries._length;
   for (const auto* entry = first; entry != last; ++entry) {
-    if (entry->part >= inboxes.size() && entry->part < kMostParts) {
+    if (entry->part >= inboxes.size() && entry->part < kMaxParts) {
       inboxes.resize(entry->part + 1);
     }
   }
@@ -67,7 +67,7 @@ Result<std::vector<Receiver::Inbox>, base::Problem> Receiver::match(const induro
       });
       continue;
     }
-    if (found->part >= kMostParts || found->offset > std::numeric_limits<std::uint32_t>::max() - found->size) {
+    if (found->part >= kMaxParts || found->offset > std::numeric_limits<std::uint32_t>::max() - found->size) {
       complain([&] { return fmt::format("the catalogue of board {} is damaged", board_); });
       continue;
     }
@@ -110,11 +110,11 @@ void Receiver::announced(const indurop_wire_Catalogue& catalogue, Plane& plane) 
   record_.session.store(session_, std::memory_order_relaxed);
   record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
   for (std::size_t i = 0; i < kStreams && matched_ && !items_.empty(); ++i) {
-    auto heard = plane.hear(board_, static_cast<Stream>(i), *this);
-    if (heard) {
-      ports_[i].subscription = std::move(heard).value();
+    auto subscription = plane.subscribe(board_, static_cast<Stream>(i), *this);
+    if (subscription) {
+      ports_[i].subscription = std::move(subscription).value();
     } else {
-      record_.problem.set(heard.error().text);
+      record_.problem.set(subscription.error().text);
     }
   }
 }

@@ -127,9 +127,9 @@ bool Sender::choose(std::int64_t now_ns, bool bulk) noexcept {
 }
 
 bool Sender::cycle(std::int64_t now_ns, std::uint64_t tick, bool bulk) noexcept {
-  const bool look_again = collectors_[bulk ? 1 : 0].collect(now_ns);
+  const bool poll_again = collectors_[bulk ? 1 : 0].collect(now_ns);
   if (!choose(now_ns, bulk)) {
-    return look_again;
+    return poll_again;
   }
   ++updates_[bulk ? 1 : 0];
   block_.updates.fetch_add(1, std::memory_order_relaxed);
@@ -138,7 +138,7 @@ bool Sender::cycle(std::int64_t now_ns, std::uint64_t tick, bool bulk) noexcept 
       send(number, tick, now_ns);
     }
   }
-  return look_again;
+  return poll_again;
 }
 
 void Sender::send(std::uint32_t number, std::uint64_t tick, std::int64_t now_ns) noexcept {

@@ -16,7 +16,7 @@ namespace indurop::mirror {
 struct Writers {
   // Returns a number that changes with every run and is odd during one. Real-time safe.
   std::function<std::uint64_t()> runs;
-  bool tells = true;  // notify() follows the end of a run; else the end is polled
+  bool notifies = true;  // notify() follows the end of a run; else the end is polled
   // Writers that are not seen between two runs for this time are stuck, and are no longer waited for.
   std::int64_t patience_ns = 1'000'000'000;
 };

@@ -50,25 +50,25 @@ struct RemotePlane::Impl {
   // Returns a note for the user.
   Result<std::string, base::Problem> open(const dds::NetworkSettings& settings);
   void take_publications();
-  void look_at_strangers(std::int64_t now_ns);
+  void check_unreadable(std::int64_t now_ns);
   [[nodiscard]] Strange describe(const dds::Publication& publication) const;
   using Topics = std::multimap<std::string, const dds::Publication*>;  // by name
   void make_topic(const std::string& variable, dds::RemoteTopic& topic, const Topics& topics);
   void make_topics();
-  void wish();
+  void send_request();
 
   rt::SignalWord wake{};  // used by listeners until the readers are gone
   dds::Participant participant;
   dds::Publications publications;
   dds::Endpoint directories;
-  dds::Endpoint wishes;
+  dds::Endpoint request_writer;
   RemoteSources sources;
   std::map<dds::Guid, dds::Publication> published;                    // by endpoint
   std::map<dds::Guid, std::int64_t> seen_ns;                          // participants, since when they are seen
-  std::map<std::string, Strange> strangers;                           // by topic
+  std::map<std::string, Strange> unreadable;                          // by topic
   std::map<std::string, std::unique_ptr<dds::RemoteTopic>> followed;  // by variable
-  std::vector<std::string> wished;
-  std::size_t wishes_told = 0;
+  std::vector<std::string> requested;
+  std::size_t requests_sent = 0;
   std::uint64_t generation = 0;
 };
 
@@ -87,13 +87,15 @@ Result<std::string, base::Problem> RemotePlane::Impl::open(const dds::NetworkSet
     return std::move(joined).error();
   }
   participant = std::move(joined->participant);
-  const auto looks = publications.open(participant.get(), wake);
+  const auto opened_all = publications.open(participant.get(), wake);
   directories = dds::make_reader(participant.get(), indurop_wire_Directory_desc, schema::directory_topic(),
                                  dds::make_qos({}), dds::wake_listener(wake));
-  wishes = dds::make_writer(participant.get(), indurop_wire_Wish_desc, schema::request_topic(), dds::make_qos({}));
-  if (!looks || !directories.ok() || !wishes.ok()) {
-    return base::Problem{"cannot look at what boards show: " +
-                         (looks ? (directories.ok() ? wishes.why() : directories.why()) : looks.error().text)};
+  request_writer =
+      dds::make_writer(participant.get(), indurop_wire_Wish_desc, schema::request_topic(), dds::make_qos({}));
+  if (!opened_all || !directories.ok() || !request_writer.ok()) {
+    return base::Problem{
+        "cannot look at what boards show: " +
+        (opened_all ? (directories.ok() ? request_writer.why() : directories.why()) : opened_all.error().text)};
   }
   return std::move(joined->note);
 }
@@ -125,14 +127,15 @@ RemotePlane::Impl::Strange RemotePlane::Impl::describe(const dds::Publication& p
   return strange;
 }
 
-void RemotePlane::Impl::look_at_strangers(std::int64_t now_ns) {
+void RemotePlane::Impl::check_unreadable(std::int64_t now_ns) {
   for (const auto& [endpoint, publication] : published) {
     const bool board = sources.at(publication.participant) != nullptr;
     const auto seen = seen_ns.find(publication.participant);
-    if (board || seen == seen_ns.end() || now_ns - seen->second < kPresentNs || strangers.contains(publication.topic)) {
+    if (board || seen == seen_ns.end() || now_ns - seen->second < kPresentNs ||
+        unreadable.contains(publication.topic)) {
       continue;
     }
-    strangers[publication.topic] = describe(publication);
+    unreadable[publication.topic] = describe(publication);
     ++generation;
   }
 }
@@ -169,20 +172,20 @@ void RemotePlane::Impl::make_topics() {
 }
 
 // Boards with many variables announce topics only to clients that request them.
-void RemotePlane::Impl::wish() {
-  if (wishes_told == wished.size()) {
+void RemotePlane::Impl::send_request() {
+  if (requests_sent == requested.size()) {
     return;
   }
-  wishes_told = wished.size();
+  requests_sent = requested.size();
   std::vector<char*> names;
-  names.reserve(wished.size());
-  for (std::string& name : wished) {
+  names.reserve(requested.size());
+  for (std::string& name : requested) {
     names.push_back(name.data());
   }
   indurop_wire_Wish out{};
   out.variables._buffer = names.data();
   out.variables._length = out.variables._maximum = static_cast<std::uint32_t>(names.size());
-  (void)dds::write(wishes.get(), out);
+  (void)dds::write(request_writer.get(), out);
 }
 
 Result<RemotePlane::Opened, base::Problem> RemotePlane::open(const dds::NetworkSettings& settings) {
@@ -197,14 +200,14 @@ Result<RemotePlane::Opened, base::Problem> RemotePlane::open(const dds::NetworkS
 RemotePlane::RemotePlane(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 RemotePlane::~RemotePlane() = default;
 
-void RemotePlane::look(rt::MonoTime deadline) {
+void RemotePlane::poll(rt::MonoTime deadline) {
   impl_->wake.wait_until(deadline);
   while (impl_->wake.try_wait()) {
   }
   impl_->sources.take(impl_->directories.get());
   impl_->take_publications();
-  impl_->look_at_strangers(rt::now_ns());
-  impl_->wish();
+  impl_->check_unreadable(rt::now_ns());
+  impl_->send_request();
   impl_->make_topics();
 }
 
@@ -223,7 +226,7 @@ std::vector<RemoteVariable> RemotePlane::variables() const {
       all.push_back({variable, source.board, source.writable.contains(variable.name)});
     }
   }
-  for (const auto& [topic, strange] : impl_->strangers) {
+  for (const auto& [topic, strange] : impl_->unreadable) {
     if (strange.problem.empty()) {
       all.push_back({strange.declared, {}, false});
     }
@@ -262,7 +265,7 @@ bool RemotePlane::complete() const {
 
 std::vector<std::string> RemotePlane::hidden() const {
   std::vector<std::string> all;
-  for (const auto& [topic, strange] : impl_->strangers) {
+  for (const auto& [topic, strange] : impl_->unreadable) {
     if (!strange.problem.empty()) {
       all.push_back(topic + ": " + strange.problem);
     }
@@ -275,7 +278,7 @@ void RemotePlane::follow(const std::string& variable, const std::string& board) 
   if (topic == nullptr) {
     topic = std::make_unique<dds::RemoteTopic>();
     if (!board.empty()) {
-      impl_->wished.push_back(variable);
+      impl_->requested.push_back(variable);
     }
   }
 }

@@ -47,7 +47,7 @@ class RemotePlane {
   ~RemotePlane();
 
   // Waits for news until `deadline` and processes them.
-  void look(rt::MonoTime deadline);
+  void poll(rt::MonoTime deadline);
 
   [[nodiscard]] std::vector<RemoteBoard> boards() const;        // by name
   [[nodiscard]] std::vector<RemoteVariable> variables() const;  // by name and board

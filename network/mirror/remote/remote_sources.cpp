@@ -8,33 +8,34 @@
 namespace indurop::mirror {
 
 void RemoteSources::take(dds::Handle directories) {
-  dds::take_all<indurop_wire_Directory>(directories, [&](const auto& told, const dds::SampleInfo& info) {
+  dds::take_all<indurop_wire_Directory>(directories, [&](const auto& directory, const dds::SampleInfo& info) {
     if (info.valid) {
-      take_one(directories, told, info);
+      take_one(directories, directory, info);
     }
     // No participant of this name is left; one that was killed is missed after the lease.
     if (!info.alive) {
-      const std::string board = told.board;
+      const std::string board = directory.board;
       std::erase_if(sources_, [&](const auto& entry) { return entry.second.board == board; });
       ++generation_;
     }
   });
 }
 
-void RemoteSources::take_one(dds::Handle directories, const indurop_wire_Directory& told, const dds::SampleInfo& info) {
+void RemoteSources::take_one(dds::Handle directories, const indurop_wire_Directory& directory,
+                             const dds::SampleInfo& info) {
   const auto participant = dds::participant_of(directories, info.publication);
-  auto schema = schema::from_json(told.schema);
+  auto schema = schema::from_json(directory.schema);
   if (!participant || !schema) {
     return;
   }
-  Source source{told.board, told.plant, std::move(schema).value(), {}, {}, told.session};
-  source.writable.insert(told.writable._buffer, told.writable._buffer + told.writable._length);
-  for (std::uint32_t i = 0; i < told.mirrored._length; ++i) {
-    source.mirrored.emplace(told.mirrored._buffer[i].name, told.mirrored._buffer[i].board);
+  Source source{directory.board, directory.plant, std::move(schema).value(), {}, {}, directory.session};
+  source.writable.insert(directory.writable._buffer, directory.writable._buffer + directory.writable._length);
+  for (std::uint32_t i = 0; i < directory.mirrored._length; ++i) {
+    source.mirrored.emplace(directory.mirrored._buffer[i].name, directory.mirrored._buffer[i].board);
   }
   boards_[source.board] = source.plant;
-  for (std::uint32_t i = 0; i < told.boards._length; ++i) {
-    boards_[told.boards._buffer[i]] = source.plant;
+  for (std::uint32_t i = 0; i < directory.boards._length; ++i) {
+    boards_[directory.boards._buffer[i]] = source.plant;
   }
   // An earlier run of the same board that ended without notice.
   std::erase_if(sources_, [&](const auto& entry) {

@@ -42,7 +42,7 @@ class RemoteSources {
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }
 
  private:
-  void take_one(dds::Handle directories, const indurop_wire_Directory& told, const dds::SampleInfo& info);
+  void take_one(dds::Handle directories, const indurop_wire_Directory& directory, const dds::SampleInfo& info);
 
   std::map<dds::Guid, Source> sources_;
   std::map<std::string, std::string> boards_;

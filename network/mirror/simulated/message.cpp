@@ -11,7 +11,7 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::uint32_t kMostItems = 1'000'000;  // maximum of a valid list
+constexpr std::uint32_t kMaxItems = 1'000'000;  // maximum of a valid list
 
 // The numbers of a message, in the order in which they are sent.
 template <class OneMessage>
@@ -107,7 +107,7 @@ bool with_catalogue(std::span<const std::uint8_t> bytes,
   catalogue.layout = in.get<std::uint64_t>();
   const auto count = in.get<std::uint32_t>();
   std::vector<indurop_wire_CatalogueEntry> entries;
-  for (std::uint32_t i = 0; i < std::min(count, kMostItems) && in.ok(); ++i) {
+  for (std::uint32_t i = 0; i < std::min(count, kMaxItems) && in.ok(); ++i) {
     indurop_wire_CatalogueEntry entry{};
     entry.name = text();
     in.get_all(numbers_of_entry(entry));
@@ -142,13 +142,13 @@ bool with_beacon(std::span<const std::uint8_t> bytes, const std::function<void(c
   beacon.board = text();
   in.get_all(numbers_of_beacon(beacon));
   const auto count = in.get<std::uint32_t>();
-  std::vector<indurop_wire_Heard> heard;
-  for (std::uint32_t i = 0; i < std::min(count, kMostItems) && in.ok(); ++i) {
+  std::vector<indurop_wire_Heard> received;
+  for (std::uint32_t i = 0; i < std::min(count, kMaxItems) && in.ok(); ++i) {
     char* const board = text();
-    heard.push_back({board, in.get<std::int64_t>()});
+    received.push_back({board, in.get<std::int64_t>()});
   }
-  beacon.heard._length = beacon.heard._maximum = static_cast<std::uint32_t>(heard.size());
-  beacon.heard._buffer = heard.data();
+  beacon.heard._length = beacon.heard._maximum = static_cast<std::uint32_t>(received.size());
+  beacon.heard._buffer = received.data();
   if (in.ok()) {
     use(beacon);
   }

@@ -28,8 +28,8 @@ struct Message {
     Bulk,
     Catalogue,
     Beacon,
-    Hear,  // to the network: requests frames of `board` and stream `part` from now on
-    Gone,  // from the network: nothing was received of `board` for a lease, or it has left
+    Subscribe,  // to the network: requests frames of `board` and stream `part` from now on
+    Gone,       // from the network: nothing was received of `board` for a lease, or it has left
   };
   Kind kind = Kind::Prompt;
   std::uint32_t board = 0;   // sender, by its index in the manifest

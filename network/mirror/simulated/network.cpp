@@ -118,7 +118,7 @@ void SimulatedNetwork::want(std::size_t from, std::size_t to, Kind stream, std::
 
 void SimulatedNetwork::send(Message message, std::int64_t earliest_ns) {
   Board& sender = boards_[message.board];
-  if (message.kind == Kind::Hear) {
+  if (message.kind == Kind::Subscribe) {
     const auto from = static_cast<std::size_t>(message.part / kStreams);
     if (from < boards_.size()) {
       want(from, message.board, static_cast<Kind>(message.part % kStreams), std::max(message.time_ns, earliest_ns));
@@ -127,8 +127,9 @@ void SimulatedNetwork::send(Message message, std::int64_t earliest_ns) {
   }
   for (std::size_t to = 0; to < boards_.size(); ++to) {
     const std::vector<Kind>& wanted = links_[message.board][to].wanted;
-    const bool heard = !message.is_frame() || std::find(wanted.begin(), wanted.end(), message.kind) != wanted.end();
-    if (heard && linked(message.board, to)) {
+    const bool is_subscribed =
+        !message.is_frame() || std::find(wanted.begin(), wanted.end(), message.kind) != wanted.end();
+    if (is_subscribed && linked(message.board, to)) {
       carry(message, to, earliest_ns, true);
     }
   }
@@ -167,7 +168,7 @@ std::int64_t SimulatedNetwork::next_arrival(std::size_t board) const noexcept {
 }
 
 // Reports to all boards that received `board` that it is gone.
-void SimulatedNetwork::tell_gone(std::size_t board, std::int64_t when_ns) {
+void SimulatedNetwork::report_gone(std::size_t board, std::int64_t when_ns) {
   for (std::size_t to = 0; to < boards_.size(); ++to) {
     if (to != board && boards_[to].runs) {
       put(to, {{Kind::Gone, static_cast<std::uint32_t>(board), 0, when_ns, {}}, 0, false});
@@ -214,7 +215,7 @@ void SimulatedNetwork::cut(std::size_t board, std::int64_t now_ns) {
   boards_[board].connected = false;
   drop_between(board);
   const std::int64_t when = now_ns + model_.lease.count();
-  tell_gone(board, when);
+  report_gone(board, when);
   for (std::uint32_t other = 0; other < boards_.size() && boards_[board].runs; ++other) {
     if (other != board) {
       put(board, {{Kind::Gone, other, 0, when, {}}, 0, false});
@@ -249,7 +250,7 @@ void SimulatedNetwork::leave(std::size_t board, std::int64_t now_ns) {
   for (std::vector<Link>& from : links_) {
     from[board].wanted.clear();
   }
-  tell_gone(board, now_ns + model_.delay.count());
+  report_gone(board, now_ns + model_.delay.count());
 }
 
 void SimulatedNetwork::start(std::size_t board, std::int64_t now_ns) {

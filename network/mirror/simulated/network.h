@@ -68,7 +68,7 @@ class SimulatedNetwork {
   void carry(const Message& message, std::size_t to, std::int64_t earliest_ns, bool may_be_lost);
   void put(std::size_t to, Pending pending);
   void want(std::size_t from, std::size_t to, Message::Kind stream, std::int64_t now_ns);
-  void tell_gone(std::size_t board, std::int64_t when_ns);
+  void report_gone(std::size_t board, std::int64_t when_ns);
   void forget_gone(std::size_t board);
   void introduce(std::size_t from, std::size_t to, std::int64_t now_ns);
   void drop_between(std::size_t board);

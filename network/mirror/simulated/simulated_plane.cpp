@@ -8,10 +8,10 @@
 
 namespace indurop::mirror {
 
-class SimulatedPlane::Heard final : public Subscription {
+class SimulatedPlane::PlaneSubscription final : public Subscription {
  public:
-  explicit Heard(FrameListener*& place) noexcept : place_(place) {}
-  ~Heard() override { place_ = nullptr; }
+  explicit PlaneSubscription(FrameListener*& place) noexcept : place_(place) {}
+  ~PlaneSubscription() override { place_ = nullptr; }
 
  private:
   FrameListener*& place_;
@@ -37,8 +37,8 @@ Plane::Opened SimulatedPlane::exchange_beacons(BeaconListener& listener) {
   return {};
 }
 
-Result<std::unique_ptr<Subscription>, base::Problem> SimulatedPlane::hear(const std::string& board, Stream stream,
-                                                                          FrameListener& listener) {
+Result<std::unique_ptr<Subscription>, base::Problem> SimulatedPlane::subscribe(const std::string& board, Stream stream,
+                                                                               FrameListener& listener) {
   const auto found = std::find(boards_.begin(), boards_.end(), board);
   if (found == boards_.end()) {
     return base::Problem{"the plant has no board " + board};
@@ -46,8 +46,8 @@ Result<std::unique_ptr<Subscription>, base::Problem> SimulatedPlane::hear(const 
   const auto number = static_cast<std::uint32_t>(found - boards_.begin());
   FrameListener*& place = listeners_[number][static_cast<std::size_t>(stream)];
   place = &listener;
-  put(Message::Kind::Hear, number * static_cast<std::uint32_t>(kStreams) + static_cast<std::uint32_t>(stream), {});
-  return std::unique_ptr<Subscription>(std::make_unique<Heard>(place));
+  put(Message::Kind::Subscribe, number * static_cast<std::uint32_t>(kStreams) + static_cast<std::uint32_t>(stream), {});
+  return std::unique_ptr<Subscription>(std::make_unique<PlaneSubscription>(place));
 }
 
 void SimulatedPlane::close() noexcept {
@@ -92,7 +92,7 @@ void SimulatedPlane::arrived(const Message& message, Exchange& exchange) {
     case Message::Kind::Gone:
       exchange.gone(boards_[message.board]);
       break;
-    case Message::Kind::Hear:
+    case Message::Kind::Subscribe:
       break;
   }
 }

@@ -31,15 +31,15 @@ class SimulatedPlane final : public Plane {
   Opened offer_frames(Stream stream) override;
   Opened offer_catalogue() override;
   Opened exchange_beacons(BeaconListener& listener) override;
-  Result<std::unique_ptr<Subscription>, base::Problem> hear(const std::string& board, Stream stream,
-                                                            FrameListener& listener) override;
+  Result<std::unique_ptr<Subscription>, base::Problem> subscribe(const std::string& board, Stream stream,
+                                                                 FrameListener& listener) override;
   void close() noexcept override;
   bool send(const indurop_wire_Frame& frame, Stream stream) noexcept override;
   bool send(const indurop_wire_Catalogue& catalogue) noexcept override;
   bool send(const indurop_wire_Beacon& beacon) noexcept override;
 
  private:
-  class Heard;
+  class PlaneSubscription;
   void put(Message::Kind kind, std::uint32_t part, std::vector<std::uint8_t> body);
 
   std::vector<std::string> boards_;

@@ -108,7 +108,7 @@ Result<void, Failure> RemoteSource::gather(const dds::NetworkSettings& network, 
   std::int64_t changed_ns = rt::now_ns();
   std::uint64_t generation = plane_->generation();
   while (!interrupted() && rt::now_ns() < end) {
-    plane_->look(rt::MonoClock::now() + kLook);
+    plane_->poll(rt::MonoClock::now() + kLook);
     if (plane_->generation() != generation) {
       generation = plane_->generation();
       changed_ns = rt::now_ns();
@@ -147,7 +147,7 @@ Result<void, Failure> RemoteSource::gather(const dds::NetworkSettings& network, 
 
 void RemoteSource::feed() {
   while (!stop_.load()) {
-    plane_->look(rt::MonoClock::now() + kLook);
+    plane_->poll(rt::MonoClock::now() + kLook);
     update();
   }
 }

@@ -22,7 +22,7 @@ class LeadTest : public ::testing::Test {
     plant_.session.store(20);
     plant_.network.store(Network::Up);
   }
-  void hear(std::size_t board, PeerState state, std::uint64_t session) {
+  void subscribe(std::size_t board, PeerState state, std::uint64_t session) {
     plant_.peers()[board].session.store(session);
     plant_.peers()[board].state.store(state);
   }
@@ -32,9 +32,9 @@ class LeadTest : public ::testing::Test {
 };
 
 TEST_F(LeadTest, Without_rivals_it_is_ours_always) {
-  hear(0, PeerState::Alive, 10);
+  subscribe(0, PeerState::Alive, 10);
   Lead sut(&plant_, {});
-  EXPECT_FALSE(sut.look(5 * kSecond));
+  EXPECT_FALSE(sut.update(5 * kSecond));
   EXPECT_TRUE(sut.ours());
   EXPECT_TRUE(Lead(nullptr, {"backup"}).ours()) << "no board of a plant";
 }
@@ -42,28 +42,28 @@ TEST_F(LeadTest, Without_rivals_it_is_ours_always) {
 TEST_F(LeadTest, Begins_only_after_it_has_had_time_to_hear_others) {
   plant_.network.store(Network::Connecting);
   Lead sut(&plant_, {"backup"});
-  EXPECT_FALSE(sut.look(kSecond));
-  EXPECT_FALSE(sut.look(5 * kSecond));
+  EXPECT_FALSE(sut.update(kSecond));
+  EXPECT_FALSE(sut.update(5 * kSecond));
   plant_.network.store(Network::Up);
-  EXPECT_FALSE(sut.look(6 * kSecond));
-  EXPECT_FALSE(sut.look(6 * kSecond + Lead::kPatienceNs - 1));
+  EXPECT_FALSE(sut.update(6 * kSecond));
+  EXPECT_FALSE(sut.update(6 * kSecond + Lead::kPatienceNs - 1));
   EXPECT_FALSE(sut.ours());
-  EXPECT_TRUE(sut.look(6 * kSecond + Lead::kPatienceNs));
+  EXPECT_TRUE(sut.update(6 * kSecond + Lead::kPatienceNs));
   EXPECT_TRUE(sut.ours());
 }
 
 TEST_F(LeadTest, Is_with_the_board_that_has_served_longest) {
   Lead sut(&plant_, {"backup"});
-  hear(0, PeerState::Alive, 10);
-  hear(1, PeerState::Alive, 5);
-  EXPECT_FALSE(sut.look(kSecond));
-  EXPECT_FALSE(sut.look(3 * kSecond));
+  subscribe(0, PeerState::Alive, 10);
+  subscribe(1, PeerState::Alive, 5);
+  EXPECT_FALSE(sut.update(kSecond));
+  EXPECT_FALSE(sut.update(3 * kSecond));
   EXPECT_FALSE(sut.ours()) << "backup has it";
-  hear(0, PeerState::Silent, 10);
-  EXPECT_TRUE(sut.look(3 * kSecond + 1));
+  subscribe(0, PeerState::Silent, 10);
+  EXPECT_TRUE(sut.update(3 * kSecond + 1));
   EXPECT_TRUE(sut.ours()) << "sensor has been there for longer, but does not have the variable";
-  hear(0, PeerState::Alive, 30);
-  EXPECT_FALSE(sut.look(4 * kSecond)) << "a restarted board does not take the lead back";
+  subscribe(0, PeerState::Alive, 30);
+  EXPECT_FALSE(sut.update(4 * kSecond)) << "a restarted board does not take the lead back";
   EXPECT_TRUE(sut.ours());
 }
 

@@ -23,9 +23,9 @@ Message message(Kind kind, std::uint32_t from, std::int64_t time_ns, std::uint32
 class NetworkTest : public ::testing::Test {
  protected:
   // Board `to` hears what `from` sends on the stream.
-  static void hear(SimulatedNetwork& network, std::uint32_t to, std::uint32_t from, Kind stream) {
+  static void subscribe(SimulatedNetwork& network, std::uint32_t to, std::uint32_t from, Kind stream) {
     const auto part = from * static_cast<std::uint32_t>(kStreams) + static_cast<std::uint32_t>(stream);
-    network.send(message(Kind::Hear, to, 0, part));
+    network.send(message(Kind::Subscribe, to, 0, part));
   }
   static std::vector<std::int64_t> times(const std::vector<Message>& messages) {
     std::vector<std::int64_t> out;
@@ -38,7 +38,7 @@ class NetworkTest : public ::testing::Test {
 
 TEST_F(NetworkTest, Delays_what_somebody_wants_to_hear) {
   SimulatedNetwork sut({.delay = 2ms}, 3);
-  hear(sut, 1, 0, Kind::Prompt);
+  subscribe(sut, 1, 0, Kind::Prompt);
   sut.send(message(Kind::Prompt, 0, 5 * kMs));
   EXPECT_EQ(sut.next_arrival(1), 7 * kMs);
   EXPECT_EQ(sut.next_arrival(2), INT64_MAX) << "it did not want it";
@@ -51,7 +51,7 @@ TEST_F(NetworkTest, Gives_the_last_frame_of_each_part_to_who_comes_late) {
   sut.send(message(Kind::Prompt, 0, kMs, 0, 1));
   sut.send(message(Kind::Prompt, 0, 2 * kMs, 0, 2));
   sut.send(message(Kind::Prompt, 0, 2 * kMs, 1, 3));
-  hear(sut, 1, 0, Kind::Prompt);
+  subscribe(sut, 1, 0, Kind::Prompt);
   const std::vector<Message> came = sut.take(1, kEnd);
   ASSERT_EQ(came.size(), 2U);
   EXPECT_EQ(came[0].body[0], 2);
@@ -61,7 +61,7 @@ TEST_F(NetworkTest, Gives_the_last_frame_of_each_part_to_who_comes_late) {
 TEST_F(NetworkTest, Loses_best_effort_and_repeats_the_rest_in_order) {
   const auto run = [](Kind stream) {
     SimulatedNetwork sut({.delay = 1ms, .jitter = 3ms, .loss = 0.3, .seed = 7}, 2);
-    hear(sut, 1, 0, stream);
+    subscribe(sut, 1, 0, stream);
     std::vector<std::uint8_t> values;
     std::vector<Message> all;
     for (std::uint8_t i = 0; i < 200; ++i) {
@@ -83,7 +83,7 @@ TEST_F(NetworkTest, Loses_best_effort_and_repeats_the_rest_in_order) {
 
 TEST_F(NetworkTest, Does_not_repeat_what_is_superseded) {
   SimulatedNetwork sut({.delay = 1ms, .loss = 0.5, .repeat = 100ms, .seed = 1}, 2);
-  hear(sut, 1, 0, Kind::Prompt);
+  subscribe(sut, 1, 0, Kind::Prompt);
   for (std::uint8_t i = 0; i < 100; ++i) {
     sut.send(message(Kind::Prompt, 0, i * kMs, 0, i));  // the same part again and again
   }
@@ -95,7 +95,7 @@ TEST_F(NetworkTest, Does_not_repeat_what_is_superseded) {
 TEST_F(NetworkTest, Is_the_same_with_the_same_seed_and_another_with_another) {
   const auto run = [](std::uint64_t seed) {
     SimulatedNetwork sut({.delay = 1ms, .jitter = 1ms, .loss = 0.1, .seed = seed}, 2);
-    hear(sut, 1, 0, Kind::Prompt);
+    subscribe(sut, 1, 0, Kind::Prompt);
     for (std::uint32_t i = 0; i < 100; ++i) {
       sut.send(message(Kind::Prompt, 0, i * kMs, i));
     }
@@ -107,7 +107,7 @@ TEST_F(NetworkTest, Is_the_same_with_the_same_seed_and_another_with_another) {
 
 TEST_F(NetworkTest, A_pulled_cable_is_noticed_after_the_lease_and_what_was_missed_comes_when_it_is_back) {
   SimulatedNetwork sut({.delay = 1ms, .lease = 50ms}, 2);
-  hear(sut, 1, 0, Kind::Prompt);
+  subscribe(sut, 1, 0, Kind::Prompt);
   sut.send(message(Kind::Catalogue, 0, 0));
   sut.send(message(Kind::Prompt, 0, 0, 0, 1));
   EXPECT_EQ(sut.take(1, kMs).size(), 2U);
