@@ -28,8 +28,8 @@ namespace {
 using Do = BoardTransaction::Do;
 
 constexpr std::chrono::milliseconds kAgentPoll{20};
-constexpr std::chrono::milliseconds kTell{500};  // maximum interval between reports
-constexpr std::chrono::milliseconds kTellFast{50};
+constexpr std::chrono::milliseconds kReportInterval{500};  // maximum interval between reports
+constexpr std::chrono::milliseconds kReportIntervalInTransaction{50};
 
 // Returns the result as the transaction expects it: empty is success.
 std::string text_of(const Result<void, base::Problem>& result) {
@@ -76,7 +76,7 @@ class Agent {
       if (link_ != nullptr) {
         listen(now);
         work(now);
-        tell(now);
+        send_report(now);
       }
       follow(now);
       pause(signals);
@@ -125,7 +125,7 @@ class Agent {
     const bool idle = transaction_.phase() == Phase::Steady && !fetcher_.active() && !busy_;
     if (net_.keep(now, state_.committed().plant, idle)) {
       others_.clear();
-      tell_now_ = true;
+      report_now_ = true;
     }
     link_ = net_.link();
     commands_ = net_.commands();
@@ -134,7 +134,7 @@ class Agent {
   void listen(rt::MonoTime now) {
     for (const auto& news : link_->take_orders()) {
       if (!news.gone && may_order(news.order)) {  // a deployer that is gone sends nothing
-        perform(transaction_.hear(news.order, now, rt::WallClock::now()), now);
+        perform(transaction_.receive(news.order, now, rt::WallClock::now()), now);
       }
     }
     for (const std::string& why : others_.listen(*link_, state_.committed().plant)) {
@@ -152,8 +152,8 @@ class Agent {
   void keep_box(const std::string& why) {
     if (transaction_.phase() == Phase::Steady && process_.condition() == NodeCondition::Running) {
       log_.info("{}: the black box of this board is kept, too", why);
-      if (const Status wished = vars::request_box(options_.board, why); !wished) {
-        log_.warning("the black box cannot be kept: {}", wished.error().where);
+      if (const Status requested = vars::request_box(options_.board, why); !requested) {
+        log_.warning("the black box cannot be kept: {}", requested.error().where);
       }
     }
   }
@@ -176,7 +176,7 @@ class Agent {
       log_.warning("an order of {} was refused: {}", order.host, why);
       refused_ = order.deployer;
       refusal_ = why;
-      tell_now_ = true;
+      report_now_ = true;
     }
     return why.empty();
   }
@@ -222,8 +222,8 @@ class Agent {
         fetcher_.begin(others_.with_files_of(order.plant, transaction_.source()), order.deployment, order.size);
         break;
       case Do::Check:
-        tell_now_ = true;
-        tell(now);  // it may take a while
+        report_now_ = true;
+        send_report(now);  // it may take a while
         perform(transaction_.checked(text_of(deployment_.check(order)), rt::MonoClock::now()), rt::MonoClock::now());
         break;
       case Do::Switch:
@@ -244,7 +244,7 @@ class Agent {
         state_.collect_garbage(order.deployment);
         break;
     }
-    tell_now_ = true;
+    report_now_ = true;
   }
 
   void commit(const Order& order) {
@@ -301,16 +301,17 @@ class Agent {
     return out;
   }
 
-  void tell(rt::MonoTime now) {
-    const bool moving = transaction_.phase() != Phase::Steady || process_.condition() != told_node_ ||
-                        (link_ != nullptr && process_.figures().faults != told_faults_);
-    if (link_ == nullptr || (!tell_now_ && now - told_ < (moving ? kTellFast : kTell))) {
+  void send_report(rt::MonoTime now) {
+    const bool moving = transaction_.phase() != Phase::Steady || process_.condition() != reported_condition_ ||
+                        (link_ != nullptr && process_.figures().faults != reported_faults_);
+    if (link_ == nullptr ||
+        (!report_now_ && now - reported_ < (moving ? kReportIntervalInTransaction : kReportInterval))) {
       return;
     }
-    told_ = now;
-    tell_now_ = false;
-    told_node_ = process_.condition();
-    told_faults_ = process_.figures().faults;
+    reported_ = now;
+    report_now_ = false;
+    reported_condition_ = process_.condition();
+    reported_faults_ = process_.figures().faults;
     link_->publish(report());
   }
 
@@ -348,10 +349,10 @@ class Agent {
   std::string refusal_;
   bool damaged_ = false;  // the committed deployment is damaged, and this board cannot restore it on its own
   bool busy_ = false;
-  bool tell_now_ = true;
-  rt::MonoTime told_;
-  NodeCondition told_node_ = NodeCondition::None;
-  std::uint64_t told_faults_ = 0;
+  bool report_now_ = true;
+  rt::MonoTime reported_;
+  NodeCondition reported_condition_ = NodeCondition::None;
+  std::uint64_t reported_faults_ = 0;
 };
 
 }  // namespace

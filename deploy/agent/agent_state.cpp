@@ -80,7 +80,7 @@ void remove_others(const fs::path& folder, const std::set<std::string>& wanted, 
 
 }  // namespace
 
-Result<AgentState, Problem> AgentState::open(const std::string& board, Tell tell) {
+Result<AgentState, Problem> AgentState::open(const std::string& board, Log log) {
   const fs::path folder = vars::state_directory(board);
   std::error_code error;
   for (const fs::path& needed : {folder / "files", folder / "parts", folder / "deployments"}) {
@@ -99,7 +99,7 @@ Result<AgentState, Problem> AgentState::open(const std::string& board, Tell tell
   if (lock < 0) {
     return failed("cannot open", lock_file, errno);
   }
-  AgentState state(folder, lock, std::move(tell));
+  AgentState state(folder, lock, std::move(log));
   if (!rt::lock_file(lock, rt::FileLock::Exclusive)) {
     return Problem{fmt::format("another agent of board {} runs on this host", board)};
   }
@@ -112,7 +112,7 @@ Result<AgentState, Problem> AgentState::open(const std::string& board, Tell tell
 AgentState::AgentState(AgentState&& other) noexcept
     : files_(std::move(other.files_)),
       lock_(std::exchange(other.lock_, -1)),
-      tell_(std::move(other.tell_)),
+      log_(std::move(other.log_)),
       committed_(std::move(other.committed_)) {}
 
 AgentState::~AgentState() {
@@ -121,9 +121,9 @@ AgentState::~AgentState() {
   }
 }
 
-void AgentState::tell(const std::string& line) const {
-  if (tell_) {
-    tell_(line);
+void AgentState::log(const std::string& line) const {
+  if (log_) {
+    log_(line);
   }
 }
 
@@ -143,7 +143,7 @@ Result<void, Problem> AgentState::load() {
   if (::rename(file.c_str(), aside.c_str()) != 0) {
     return failed("cannot rename", file, errno);
   }
-  tell(
+  log(
       fmt::format("{} is damaged: {}. It is kept as {}, and this board begins without a deployment: it takes over "
                   "that of the other boards of its plant, or deploy again",
                   file.string(), committed.error().text, aside.filename().string()));
@@ -178,7 +178,7 @@ bool AgentState::has_sound(const std::string& digest, const std::string& name) {
   // A file that cannot be read now may be intact; it stays until another one replaces it.
   std::error_code error;
   const bool dropped = !damage->found.empty() && fs::remove(file(digest), error);
-  tell(describe(*damage) + (dropped ? "; it is dropped" : ""));
+  log(describe(*damage) + (dropped ? "; it is dropped" : ""));
   return false;
 }
 
@@ -237,7 +237,7 @@ Result<void, Problem> AgentState::install(const std::string& id) {
       return {};
     }
     if (damage) {
-      tell(describe(*damage) + "; it is made again from files/");
+      log(describe(*damage) + "; it is made again from files/");
     }
   }
   const fs::path fresh = target.string() + ".new";
@@ -263,7 +263,7 @@ Result<void, Problem> AgentState::restore(const std::string& id, const PackageFi
   }
   auto kept = keep_copy(copy, entry.digest);
   if (kept) {
-    tell(fmt::format("{}: {} is made again from {}", entry.path, file(entry.digest).string(), copy.string()));
+    log(fmt::format("{}: {} is made again from {}", entry.path, file(entry.digest).string(), copy.string()));
   }
   return kept;
 }

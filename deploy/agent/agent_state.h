@@ -25,11 +25,11 @@ namespace indurop::deploy {
 
 class AgentState {
  public:
-  // Locks the board's folder for this process. `tell` gets a line for people about each damaged file. A damaged
+  // Locks the board's folder for this process. `log` gets a line for people about each damaged file. A damaged
   // committed.json is set aside: the board begins without a deployment and takes over that of the other boards. A
   // problem: no rights, or another agent holds the folder.
-  using Tell = std::function<void(const std::string& line)>;
-  static Result<AgentState, base::Problem> open(const std::string& board, Tell tell = {});
+  using Log = std::function<void(const std::string& line)>;
+  static Result<AgentState, base::Problem> open(const std::string& board, Log log = {});
   AgentState(AgentState&& other) noexcept;
   AgentState& operator=(AgentState&&) = delete;
   AgentState(const AgentState&) = delete;
@@ -72,10 +72,10 @@ class AgentState {
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return files_.folder(); }
 
  private:
-  AgentState(std::filesystem::path folder, int lock, Tell tell)
-      : files_(std::move(folder)), lock_(lock), tell_(std::move(tell)) {}
+  AgentState(std::filesystem::path folder, int lock, Log log)
+      : files_(std::move(folder)), lock_(lock), log_(std::move(log)) {}
   Result<void, base::Problem> load();
-  void tell(const std::string& line) const;
+  void log(const std::string& line) const;
   Result<void, base::Problem> lay_out(const Package& package, const std::filesystem::path& fresh);
   Result<void, base::Problem> keep_copy(const std::filesystem::path& copy, const std::string& digest);
   struct Needed {
@@ -87,7 +87,7 @@ class AgentState {
 
   DeploymentFiles files_;
   int lock_ = -1;
-  Tell tell_;
+  Log log_;
   Committed committed_;
 };
 

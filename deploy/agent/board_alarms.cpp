@@ -23,8 +23,8 @@ using alarms::AlarmEvent;
 using base::Json;
 
 constexpr std::chrono::milliseconds kAlarmPoll{100};
-constexpr std::chrono::seconds kLookIdle{1};
-constexpr std::size_t kMostEvents = 200;
+constexpr std::chrono::seconds kIdlePoll{1};
+constexpr std::size_t kMaxEvents = 200;
 
 // The result points into `store`.
 std::vector<alarms::DeclaredAlarm> declared_in(const Result<vars::Store>& store) {
@@ -68,11 +68,11 @@ AlarmEvent event_of(Action action) {
 }  // namespace
 
 void BoardAlarms::step(rt::MonoTime now) {
-  if (now < look_at_) {
+  if (now < next_check_) {
     return;
   }
   std::string problem = watch_.evaluate(modules_of(board_));
-  look_at_ = now + (watch_.idle() ? rt::MonoTime::duration(kLookIdle) : rt::MonoTime::duration(kAlarmPoll));
+  next_check_ = now + (watch_.idle() ? rt::MonoTime::duration(kIdlePoll) : rt::MonoTime::duration(kAlarmPoll));
   if (problem != problem_ && !problem.empty()) {
     log_.error("alarms cannot be kept: {}", problem);
   }
@@ -89,7 +89,7 @@ std::string alarms_text(const std::string& board) {
     list.push_back(json_of(one));
   }
   Json events = Json::array();
-  for (const alarms::AlarmEntry& one : journal.history(kMostEvents)) {
+  for (const alarms::AlarmEntry& one : journal.history(kMaxEvents)) {
     events.push_back(json_of(one));
   }
   return Json{{"watched", journal.watched()},

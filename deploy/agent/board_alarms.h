@@ -30,7 +30,7 @@ class BoardAlarms {
   std::string board_;
   alarms::AlarmWatch watch_;
   const base::Log& log_;
-  rt::MonoTime look_at_;
+  rt::MonoTime next_check_;
   std::string problem_;
 };
 

@@ -20,7 +20,7 @@ using scheduler::ModuleCommand;
 
 constexpr std::chrono::seconds kNonce{30};     // validity of an issued number
 constexpr std::chrono::seconds kPatience{20};  // timeout of one command
-constexpr std::size_t kMostCommanders = 64;
+constexpr std::size_t kMaxCommanders = 64;
 
 ModuleCommand module_command_of(Action action) {
   return action == Action::StopModule    ? ModuleCommand::Stop
@@ -117,16 +117,16 @@ bool BoardCommands::step(CommandLink& link, const std::string& plant, const std:
   bool any = false;
   for (const Command& command : link.take_commands()) {
     if (command.board == board_ && command.agent == self_) {
-      hear(link, command, plant, busy, now);
+      receive(link, command, plant, busy, now);
       any = true;
     }
   }
   if (!command_) {
     return any;
   }
-  if (const auto done = look(now)) {
+  if (const auto done = poll(now)) {
     if (!is_recording(command_->action)) {  // the recorder reports its own actions
-      tell(*done);
+      send_reply(*done);
     }
     known_[command_->commander].last = done;
     link.send(*done);
@@ -136,7 +136,7 @@ bool BoardCommands::step(CommandLink& link, const std::string& plant, const std:
   return any;
 }
 
-void BoardCommands::tell(const CommandReply& done) const {
+void BoardCommands::send_reply(const CommandReply& done) const {
   const std::string module = words_.lines.empty() ? "" : words_.lines.front();
   log_.info("command from {}: {} {}: {}", by(*command_, words_), word_of(command_->action),
             module.empty() ? "the node" : "module " + module, done.outcome == Outcome::Failed ? done.text : "done");
@@ -153,8 +153,8 @@ void BoardCommands::tell(const CommandReply& done) const {
   }
 }
 
-void BoardCommands::hear(CommandLink& link, const Command& command, const std::string& plant, const std::string& busy,
-                         rt::MonoTime now) {
+void BoardCommands::receive(CommandLink& link, const Command& command, const std::string& plant,
+                            const std::string& busy, rt::MonoTime now) {
   std::erase_if(known_, [&](const auto& entry) {
     const bool under_way = command_ && command_->commander == entry.first;
     return now - entry.second.given > kNonce && !under_way;
@@ -162,7 +162,7 @@ void BoardCommands::hear(CommandLink& link, const Command& command, const std::s
   auto found = known_.find(command.commander);
   const bool fresh = found == known_.end() || command.nonce != found->second.nonce;
   if (fresh) {
-    if (found == known_.end() && known_.size() >= kMostCommanders) {
+    if (found == known_.end() && known_.size() >= kMaxCommanders) {
       return;  // a client floods the agent; numbers expire, and then there is space again
     }
     Known& known = known_[command.commander];
@@ -269,10 +269,10 @@ CommandReply BoardCommands::keep_box(const Command& command) const {
     return reply(command, Outcome::Refused, "its node does not run");
   }
   const std::string why = one_line(command.target);
-  const Status wished = vars::request_box(board_, why);
+  const Status requested = vars::request_box(board_, why);
   log_.info("command from {}: {} {}: {}", command.host, word_of(command.action), why,
-            wished ? "done" : wished.error().where);
-  return wished ? reply(command, Outcome::Done) : reply(command, Outcome::Failed, wished.error().where);
+            requested ? "done" : requested.error().where);
+  return requested ? reply(command, Outcome::Done) : reply(command, Outcome::Failed, requested.error().where);
 }
 
 CommandReply BoardCommands::about_alarms(const Command& command) const {
@@ -290,8 +290,8 @@ CommandReply BoardCommands::begin_recording(const Command& command, rt::MonoTime
   return reply(command, answer.outcome, answer.text);
 }
 
-std::optional<CommandReply> BoardCommands::look_at_recording() {
-  const auto answer = recorder_.look(command_->action);
+std::optional<CommandReply> BoardCommands::poll_recording() {
+  const auto answer = recorder_.poll(command_->action);
   return answer ? std::optional(reply(*command_, answer->outcome, answer->text)) : std::nullopt;
 }
 
@@ -344,17 +344,17 @@ CommandReply BoardCommands::begin_node(const Command& command, const WriteOrder&
   return reply(command, Outcome::UnderWay);
 }
 
-std::optional<CommandReply> BoardCommands::look(rt::MonoTime now) {
-  auto done = is_recording(command_->action)    ? look_at_recording()
-              : is_about_node(command_->action) ? look_at_node()
-                                                : look_at_module();
+std::optional<CommandReply> BoardCommands::poll(rt::MonoTime now) {
+  auto done = is_recording(command_->action)    ? poll_recording()
+              : is_about_node(command_->action) ? poll_node()
+                                                : poll_module();
   if (!done && now > deadline_) {
     done = reply(*command_, Outcome::Failed, fmt::format("not done after {} s; it goes on", kPatience.count()));
   }
   return done;
 }
 
-std::optional<CommandReply> BoardCommands::look_at_module() {
+std::optional<CommandReply> BoardCommands::poll_module() {
   switch (scheduler::result_of(*module_, ticket_)) {
     case CommandResult::Done:
       return reply(*command_, Outcome::Done);
@@ -375,7 +375,7 @@ std::optional<CommandReply> BoardCommands::look_at_module() {
              : std::optional(reply(*command_, Outcome::Failed, "the node has ended"));
 }
 
-std::optional<CommandReply> BoardCommands::look_at_node() {
+std::optional<CommandReply> BoardCommands::poll_node() {
   if (!ended_) {
     if (process_.has_node()) {
       return std::nullopt;

@@ -36,22 +36,22 @@ class BoardCommands {
     rt::MonoTime given;
     std::optional<deploy::CommandReply> last;  // last reply to the command with this number
   };
-  void hear(CommandLink& link, const Command& command, const std::string& plant, const std::string& busy,
-            rt::MonoTime now);
+  void receive(CommandLink& link, const Command& command, const std::string& plant, const std::string& busy,
+               rt::MonoTime now);
   CommandReply begin(const Command& command, const std::string& plant, const std::string& busy, rt::MonoTime now);
   CommandReply begin_module(const Command& command, const WriteOrder& words);
   CommandReply begin_node(const Command& command, const WriteOrder& words);
-  void tell(const CommandReply& done) const;
+  void send_reply(const CommandReply& done) const;
   CommandReply perform(const Command& command, const WriteOrder& words, rt::MonoTime now);
   CommandReply write(const Command& command);
   [[nodiscard]] CommandReply keep_box(const Command& command) const;
   [[nodiscard]] CommandReply about_alarms(const Command& command) const;
   CommandReply begin_recording(const Command& command, rt::MonoTime now);
   // Returns the reply; empty while the command is under way.
-  std::optional<deploy::CommandReply> look(rt::MonoTime now);
-  std::optional<deploy::CommandReply> look_at_module();
-  std::optional<deploy::CommandReply> look_at_node();
-  std::optional<deploy::CommandReply> look_at_recording();
+  std::optional<deploy::CommandReply> poll(rt::MonoTime now);
+  std::optional<deploy::CommandReply> poll_module();
+  std::optional<deploy::CommandReply> poll_node();
+  std::optional<deploy::CommandReply> poll_recording();
   bool open_run();  // false: the node is not running
   scheduler::ModuleRecord* find(const std::string& module);
   [[nodiscard]] CommandReply reply(const Command& command, Outcome outcome, const std::string& text = {}) const;

@@ -12,13 +12,13 @@ namespace indurop::deploy {
 namespace {
 
 constexpr std::chrono::milliseconds kLinkRetry{500};
-constexpr std::chrono::seconds kLookForKeys{1};
+constexpr std::chrono::seconds kKeyCheckInterval{1};
 
 }  // namespace
 
 bool BoardLink::keep(rt::MonoTime now, const std::string& plant, bool idle) {
-  if (now >= look_at_ && (link_ == nullptr || idle)) {
-    look_at_ = now + kLookForKeys;
+  if (now >= next_check_ && (link_ == nullptr || idle)) {
+    next_check_ = now + kKeyCheckInterval;
     OwnKeys present = keys_.own(plant);
     if (present != own_ && link_ != nullptr) {
       log_.info("the keys of this board have changed: joining the network of agents again");
@@ -30,15 +30,15 @@ bool BoardLink::keep(rt::MonoTime now, const std::string& plant, bool idle) {
     return false;
   }
   join_at_ = now + kLinkRetry;
-  tell(join());
+  warn(join());
   return link_ != nullptr;
 }
 
-void BoardLink::tell(const std::string& told) {
-  if (!told.empty() && told != told_) {
-    log_.warning("{}", told);
+void BoardLink::warn(const std::string& message) {
+  if (!message.empty() && message != last_warning_) {
+    log_.warning("{}", message);
   }
-  told_ = told;
+  last_warning_ = message;
 }
 
 std::string BoardLink::join() {

@@ -31,7 +31,7 @@ class BoardLink {
  private:
   // Returns a note for people.
   std::string join();
-  void tell(const std::string& told);
+  void warn(const std::string& message);
 
   LinkSettings settings_;
   const DeployKeys& keys_;
@@ -40,8 +40,8 @@ class BoardLink {
   std::unique_ptr<CommandLink> commands_;  // destroyed first
   OwnKeys own_;
   rt::MonoTime join_at_;
-  rt::MonoTime look_at_;
-  std::string told_;
+  rt::MonoTime next_check_;
+  std::string last_warning_;
 };
 
 }  // namespace indurop::deploy

@@ -199,12 +199,12 @@ bool BoardProcess::ended(int& status) {
 }
 
 void BoardProcess::note_end(int status, rt::MonoTime now) {
-  const bool wished = asked_to_stop_;
+  const bool commanded = asked_to_stop_;
   pid_ = -1;
   asked_to_stop_ = false;
   run_.reset();
   faults_before_.clear();
-  if (wished) {
+  if (commanded) {
     condition_ = held_.empty() ? NodeCondition::None : NodeCondition::Stopped;
     return;
   }
@@ -265,7 +265,7 @@ void BoardProcess::step(rt::MonoTime now) {
   if (pid_ > 0) {
     if (wanted_.empty() || running_ != deployment_ || asked_to_stop_ || !held_.empty()) {
       signal_stop(now);
-    } else if (look() && condition_ == NodeCondition::Starting &&
+    } else if (attach_run() && condition_ == NodeCondition::Starting &&
                present(run_).state.load() == scheduler::NodeState::Running) {
       condition_ = NodeCondition::Running;
     }
@@ -284,10 +284,10 @@ void BoardProcess::step(rt::MonoTime now) {
 
 // A node that hangs cannot be asked to end; it is restarted like one that died.
 void BoardProcess::end_if_it_hangs(rt::MonoTime now) {
-  if (!look()) {
+  if (!attach_run()) {
     return;
   }
-  if (const auto stood = tick_watch_.look(present(run_), now)) {
+  if (const auto stood = tick_watch_.check(present(run_), now)) {
     hung_ = fmt::format("the node hung: its tick stood at {} for {:.1f} s", present(run_).tick.load(),
                         std::chrono::duration<double>(*stood).count());
     log_.error("{}; it is killed", hung_);
@@ -304,7 +304,7 @@ void BoardProcess::end() {
   }
 }
 
-bool BoardProcess::look() {
+bool BoardProcess::attach_run() {
   if (pid_ <= 0) {
     return false;
   }
@@ -321,7 +321,7 @@ bool BoardProcess::look() {
 
 NodeFigures BoardProcess::figures() {
   NodeFigures out;
-  if (!look()) {
+  if (!attach_run()) {
     return out;
   }
   const scheduler::RunBlock& block = present(run_);
@@ -338,7 +338,7 @@ NodeFigures BoardProcess::figures() {
 // one.
 void BoardProcess::remember_faults() {
   faults_before_.clear();
-  if (running_ != deployment_ || !look()) {
+  if (running_ != deployment_ || !attach_run()) {
     return;
   }
   const scheduler::RunBlock& block = present(run_);
@@ -353,8 +353,9 @@ std::string BoardProcess::fault() const {
     const scheduler::ModuleRecord& module = block.modules()[i];
     const std::uint64_t before = i < faults_before_.size() ? faults_before_[i] : 0;
     if (module.faults.load() > before || module.state.load() == scheduler::ModuleState::Faulted) {
-      const bool told = module.fault_kind.load(std::memory_order_acquire) != 0;
-      return fmt::format("module {} faulted{}{}", module.name, told ? ": " : "", told ? module.last_fault : "");
+      const bool known_fault = module.fault_kind.load(std::memory_order_acquire) != 0;
+      return fmt::format("module {} faulted{}{}", module.name, known_fault ? ": " : "",
+                         known_fault ? module.last_fault : "");
     }
   }
   return {};
@@ -367,7 +368,7 @@ BoardProcess::Health BoardProcess::health(const std::vector<std::string>& boards
   if (wanted_.empty()) {
     return {{}, pid_ > 0 ? "its node has not ended" : ""};
   }
-  if (condition_ != NodeCondition::Running || !look() || present(run_).tick.load() == 0) {
+  if (condition_ != NodeCondition::Running || !attach_run() || present(run_).tick.load() == 0) {
     return {{}, "its node has not begun to run"};
   }
   if (std::string faulted = fault(); !faulted.empty()) {
@@ -382,8 +383,8 @@ BoardProcess::Health BoardProcess::health(const std::vector<std::string>& boards
   for (std::uint32_t i = 0; i < mirror->peer_count; ++i) {
     const mirror::PeerRecord& peer = mirror->peers()[i];
     const mirror::PeerState state = peer.state.load();
-    const bool meant = std::find(boards.begin(), boards.end(), peer.name) != boards.end();
-    if (meant && peer.wanted > 0 && state != mirror::PeerState::Alive) {
+    const bool in_plant = std::find(boards.begin(), boards.end(), peer.name) != boards.end();
+    if (in_plant && peer.wanted > 0 && state != mirror::PeerState::Alive) {
       const std::string why = peer.problem.get();
       return {{},
               fmt::format("board {} is {} to its mirror{}{}", peer.name, to_text(state), why.empty() ? "" : ": ", why)};

@@ -78,7 +78,7 @@ class BoardProcess {
   bool ended(int& status);
   void note_end(int status, rt::MonoTime now);
   void signal_stop(rt::MonoTime now);
-  bool look();  // returns false if run_ is not that of the present node
+  bool attach_run();  // returns false if run_ is not that of the present node
   void remember_faults();
   // Returns the first module that is faulted, or has faulted since want(); empty if none has.
   [[nodiscard]] std::string fault() const;

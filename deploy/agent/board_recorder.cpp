@@ -147,7 +147,7 @@ BoardRecorder::Answer BoardRecorder::start(const std::vector<std::string>& names
   return {Outcome::UnderWay, ""};
 }
 
-std::optional<BoardRecorder::Answer> BoardRecorder::look(Action action) const {
+std::optional<BoardRecorder::Answer> BoardRecorder::poll(Action action) const {
   if (action == Action::Record) {
     if (pid_ <= 0 && !begun_) {
       return Answer{Outcome::Failed, ended_};
@@ -178,8 +178,8 @@ void BoardRecorder::step(rt::MonoTime now) {
     ::kill(pid_, SIGKILL);
   } else if (!asked_ && now > lease_until_) {
     end(fmt::format("{} was not heard for {} s", host_, limits_.lease.count()), now);
-  } else if (!asked_ && now >= look_at_) {
-    look_at_ = now + kRecorderPoll;
+  } else if (!asked_ && now >= next_check_) {
+    next_check_ = now + kRecorderPoll;
     if (const std::string why = limit(); !why.empty()) {
       end(why, now);
     }

@@ -41,7 +41,7 @@ class BoardRecorder {
   // client's.
   Answer begin(const Command& command, rt::MonoTime now);
   // Returns the outcome of a command; nothing while it is under way.
-  [[nodiscard]] std::optional<Answer> look(Action action) const;
+  [[nodiscard]] std::optional<Answer> poll(Action action) const;
   void step(rt::MonoTime now);
 
  private:
@@ -67,7 +67,7 @@ class BoardRecorder {
   bool asked_ = false;  // it was asked to end
   rt::MonoTime kill_at_;
   rt::MonoTime lease_until_;
-  rt::MonoTime look_at_;  // next check of its size
+  rt::MonoTime next_check_;  // next check of its size
 };
 
 // {"recordings": [{"name", "bytes"}]}

@@ -23,7 +23,7 @@ namespace {
 
 using base::Json;
 
-constexpr std::size_t kMostMessages = 200;
+constexpr std::size_t kMaxMessages = 200;
 
 std::string layout_of(const vars::Store& store) {
   return fmt::format("{:016x}", store.header().layout_hash);
@@ -49,7 +49,7 @@ std::string bytes_of(const vars::Store& store, std::int64_t now_ns) {
   for (const schema::Variable& variable : store.schema().variables) {
     const auto* const entry = store.find(variable.name_hash());
     const std::size_t size = variable.type.size();
-    if (all.size() + sizeof(std::int64_t) + size > BoardValues::kMostBytes) {
+    if (all.size() + sizeof(std::int64_t) + size > BoardValues::kMaxBytes) {
       return {};
     }
     bytes.assign(size, 0);
@@ -86,7 +86,7 @@ std::string BoardValues::variables() const {
     return {};
   }
   std::string text = Json{{"layout", layout_of(*store)}}.dump() + "\n" + schema::to_json(store->schema());
-  return text.size() > kMostBytes ? std::string() : text;
+  return text.size() > kMaxBytes ? std::string() : text;
 }
 
 const std::string& BoardValues::values(rt::MonoTime now) {
@@ -108,8 +108,8 @@ const std::string& BoardValues::values(rt::MonoTime now) {
   const Json head{{"layout", layout_of(*store)},
                   {"running", vars::running_node(board_) > 0},
                   {"now_ns", now_ns},
-                  {"forces", told_forces(board_)},
-                  {"lock", told_lock(board_)},
+                  {"forces", forces_to_json(board_)},
+                  {"lock", lock_to_json(board_)},
                   {"alarms", json_of(journal_.book().counts())}};
   kept_ = head.dump() + "\n" + bytes;
   return kept_;
@@ -122,7 +122,7 @@ std::string messages_text(const std::string& board) {
   const auto names = block != nullptr ? modules_of(*block, file->size()) : std::nullopt;
   if (names) {
     const auto count = static_cast<std::uint32_t>(names->size());
-    for (const auto& one : scheduler::printed_messages(*block, file->size(), count, kMostMessages)) {
+    for (const auto& one : scheduler::printed_messages(*block, file->size(), count, kMaxMessages)) {
       list.push_back(
           {{"who", one.module < count ? (*names)[one.module] : "node"}, {"time_ns", one.time_ns}, {"text", one.text}});
     }

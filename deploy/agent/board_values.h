@@ -26,12 +26,12 @@ inline constexpr std::int64_t kNotRead = std::numeric_limits<std::int64_t>::max(
 
 class BoardValues {
  public:
-  static constexpr std::size_t kMostBytes = 4U << 20U;
+  static constexpr std::size_t kMaxBytes = 4U << 20U;
   static constexpr std::chrono::milliseconds kKeep{100};
 
   explicit BoardValues(std::string board) : board_(std::move(board)), journal_(board_) {}
 
-  // Returns an empty text if no node of this board has left any variables, or they are larger than kMostBytes.
+  // Returns an empty text if no node of this board has left any variables, or they are larger than kMaxBytes.
   [[nodiscard]] std::string variables() const;
   // Empty as variables(). All callers within kKeep get the same text.
   const std::string& values(rt::MonoTime now);

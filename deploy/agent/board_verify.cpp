@@ -7,7 +7,7 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::size_t kMostAnswers = 16;
+constexpr std::size_t kMaxAnswers = 16;
 constexpr const char* kNotYet = R"({"done":false})";
 
 }  // namespace
@@ -33,7 +33,7 @@ std::optional<std::string> BoardVerify::step() {
   if (!report.damaged.empty()) {
     problem = mend(report);
   }
-  if (answers_.size() >= kMostAnswers) {
+  if (answers_.size() >= kMaxAnswers) {
     answers_.clear();
   }
   answers_[question_] = text_of(report);

@@ -5,7 +5,7 @@
 
 namespace indurop::deploy {
 
-std::optional<std::string> BoxWatch::hear(const BoardReport& report) {
+std::optional<std::string> BoxWatch::note_report(const BoardReport& report) {
   const Known now{report.agent, report.faults, report.overruns, report.tick, report.node};
   const auto found = known_.find(report.board);
   if (found == known_.end() || found->second.agent != report.agent) {

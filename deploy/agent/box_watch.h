@@ -19,7 +19,7 @@ class BoxWatch {
   static constexpr std::uint64_t kManyOverruns = 10;
 
   // Returns why the black box is to be kept; nothing if all is well, or the board is not known long enough to judge.
-  std::optional<std::string> hear(const BoardReport& report);
+  std::optional<std::string> note_report(const BoardReport& report);
   // The board's agent has left the network.
   std::optional<std::string> gone(const BoardReport& report);
 

@@ -49,7 +49,7 @@ void Fetcher::begin(std::vector<std::uint64_t> sources, const std::string& id, s
   sources_ = std::move(sources);
   source_ = 0;
   without_.clear();
-  heard_ = {};
+  last_progress_ = {};
   id_ = id;
   active_ = true;
   planned_ = false;
@@ -141,7 +141,7 @@ Fetcher::Attempt Fetcher::take(const BlobChunk& chunk, rt::MonoTime now) {
   if (chunk.source != sources_[source_] || chunk.blob != wanted.digest) {
     return {};
   }
-  heard_ = now;
+  last_progress_ = now;
   if (chunk.missing) {
     return next_source();
   }
@@ -253,11 +253,11 @@ Fetcher::State Fetcher::step(DeployLink& link, rt::MonoTime now) {
     cancel();
     return problem_.empty() ? State::Done : State::Failed;
   }
-  if (heard_ == rt::MonoTime{}) {
-    heard_ = now;
+  if (last_progress_ == rt::MonoTime{}) {
+    last_progress_ = now;
   }
-  if (now - heard_ > kSilent) {
-    heard_ = now;
+  if (now - last_progress_ > kSilent) {
+    last_progress_ = now;
     ask_another();
     return State::Working;
   }

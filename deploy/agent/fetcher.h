@@ -66,7 +66,7 @@ class Fetcher {
   std::vector<std::uint64_t> sources_;
   std::size_t source_ = 0;         // index of the source in use
   std::set<std::size_t> without_;  // sources without the file that is fetched now
-  rt::MonoTime heard_;             // when something arrived, or another source was asked
+  rt::MonoTime last_progress_;     // when something arrived, or another source was asked
   std::string id_;
   bool active_ = false;
   bool planned_ = false;  // the package is complete, wanted_ are its files

@@ -6,12 +6,12 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::size_t kMostWarnings = 32;  // beyond this a participant may be inventing them
+constexpr std::size_t kMaxWarnings = 32;  // beyond this a participant may be inventing them
 
 }  // namespace
 
 void OtherBoards::warn(const std::string& about) {
-  if (warned_.size() < kMostWarnings && warned_.insert(about).second) {
+  if (warned_.size() < kMaxWarnings && warned_.insert(about).second) {
     log_.warning("{}", about);
   }
 }
@@ -21,7 +21,7 @@ std::vector<std::string> OtherBoards::listen(DeployLink& link, const std::string
   for (auto& news : link.take_boards()) {
     const auto key = std::pair(news.report.board, news.report.agent);
     const bool same_plant = key.first != board_ && news.report.plant == plant;
-    const auto why = news.gone ? box_watch_.gone(news.report) : box_watch_.hear(news.report);
+    const auto why = news.gone ? box_watch_.gone(news.report) : box_watch_.note_report(news.report);
     if (why && same_plant) {
       boxes.push_back(*why);
     }

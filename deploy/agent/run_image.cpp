@@ -89,7 +89,7 @@ std::string block_of(const std::string& board) {
 
 }  // namespace
 
-base::Json told_forces(const std::string& board) {
+base::Json forces_to_json(const std::string& board) {
   using base::Json;
   Json list = Json::array();
   const auto store = vars::Store::attach(board, vars::Mode::ReadOnly);
@@ -116,7 +116,7 @@ base::Json told_forces(const std::string& board) {
   return list;
 }
 
-base::Json told_lock(const std::string& board) {
+base::Json lock_to_json(const std::string& board) {
   const vars::LockNote note = vars::lock_of(board);
   return {{"lock", vars::word_of(note.lock)},
           {"who", note.who},
@@ -128,8 +128,8 @@ base::Json told_lock(const std::string& board) {
 std::string run_image(const std::string& board) {
   const Json head{{"running", vars::running_node(board) > 0},
                   {"now_ns", rt::now_ns()},
-                  {"forces", told_forces(board)},
-                  {"lock", told_lock(board)}};
+                  {"forces", forces_to_json(board)},
+                  {"lock", lock_to_json(board)}};
   return head.dump() + "\n" + block_of(board);
 }
 

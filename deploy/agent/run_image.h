@@ -18,7 +18,7 @@ namespace indurop::deploy {
 // copy are marked as such. Only reads; not real-time safe.
 std::string run_image(const std::string& board);
 // Return its "forces" and "lock".
-base::Json told_forces(const std::string& board);
-base::Json told_lock(const std::string& board);
+base::Json forces_to_json(const std::string& board);
+base::Json lock_to_json(const std::string& board);
 
 }  // namespace indurop::deploy

@@ -36,13 +36,13 @@ std::chrono::nanoseconds half_of_watchdog() {
 ServiceManager::ServiceManager() : socket_(variable("NOTIFY_SOCKET")), every_(half_of_watchdog()) {}
 
 void ServiceManager::alive(rt::MonoTime now) {
-  if (every_.count() > 0 && now - told_ >= every_ / 2) {
-    told_ = now;
-    tell("WATCHDOG=1");
+  if (every_.count() > 0 && now - notified_ >= every_ / 2) {
+    notified_ = now;
+    notify("WATCHDOG=1");
   }
 }
 
-void ServiceManager::tell(const std::string& state) const {
+void ServiceManager::notify(const std::string& state) const {
   sockaddr_un address{};
   if (socket_.empty() || socket_.size() >= sizeof address.sun_path) {
     return;

@@ -14,16 +14,16 @@ class ServiceManager {
  public:
   // Uses $NOTIFY_SOCKET and $WATCHDOG_USEC; does nothing if they are not set.
   ServiceManager();
-  void ready() const { tell("READY=1"); }
-  void stopping() const { tell("STOPPING=1"); }
+  void ready() const { notify("READY=1"); }
+  void stopping() const { notify("STOPPING=1"); }
   // Reports that all is well, often enough for the watchdog.
   void alive(rt::MonoTime now);
 
  private:
-  void tell(const std::string& state) const;
+  void notify(const std::string& state) const;
   std::string socket_;
   std::chrono::nanoseconds every_{};  // 0: no watchdog
-  rt::MonoTime told_{};
+  rt::MonoTime notified_{};
 };
 
 }  // namespace indurop::deploy

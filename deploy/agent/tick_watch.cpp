@@ -7,7 +7,7 @@ namespace indurop::deploy {
 namespace {
 
 // Maximum that counts of the time between two checks: the agent checks every 20 ms when it can.
-constexpr std::chrono::milliseconds kMostBetweenLooks{100};
+constexpr std::chrono::milliseconds kMaxBetweenChecks{100};
 
 bool may_take_its_time(const scheduler::RunBlock& block) {
   for (std::uint32_t i = 0; i < block.module_count; ++i) {
@@ -22,11 +22,11 @@ bool may_take_its_time(const scheduler::RunBlock& block) {
 
 }  // namespace
 
-std::optional<std::chrono::nanoseconds> TickWatch::look(const scheduler::RunBlock& block, rt::MonoTime now) {
+std::optional<std::chrono::nanoseconds> TickWatch::check(const scheduler::RunBlock& block, rt::MonoTime now) {
   const std::uint64_t tick = block.tick.load();
   const bool runs = block.state.load() == scheduler::NodeState::Running;
-  const std::chrono::nanoseconds since = std::min<std::chrono::nanoseconds>(now - looked_, kMostBetweenLooks);
-  looked_ = now;
+  const std::chrono::nanoseconds since = std::min<std::chrono::nanoseconds>(now - checked_, kMaxBetweenChecks);
+  checked_ = now;
   if (!runs || seen_ != tick) {
     seen_ = tick;
     stood_ = {};

@@ -22,11 +22,11 @@ class TickWatch {
   // To be called repeatedly. Returns how long the tick has not advanced, if that is too long. Time in which nothing
   // called it, because the whole machine was suspended, does not count. A node that has a thread module without a
   // budget is never judged: such a module may run for any time.
-  std::optional<std::chrono::nanoseconds> look(const scheduler::RunBlock& block, rt::MonoTime now);
+  std::optional<std::chrono::nanoseconds> check(const scheduler::RunBlock& block, rt::MonoTime now);
 
  private:
   std::optional<std::uint64_t> seen_;  // tick
-  rt::MonoTime looked_{};
+  rt::MonoTime checked_{};
   std::chrono::nanoseconds stood_{};
 };
 

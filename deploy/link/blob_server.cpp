@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::chrono::seconds kStuck{5};  // after this the requester counts as gone
 constexpr int kPiecesAtOnce = 16;          // for one requester before the others are served
-constexpr std::size_t kMostRequests = 64;
+constexpr std::size_t kMaxRequests = 64;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void BlobServer::forget(Waiting& waiting) const {
   waiting.open_name.clear();
 }
 
-void BlobServer::look_up(Waiting& waiting, const std::string& name) const {
+void BlobServer::find_blob(Waiting& waiting, const std::string& name) const {
   if (waiting.open_name == name) {
     return;
   }
@@ -65,7 +65,7 @@ bool BlobServer::serve(DeployLink& link, rt::MonoTime now) {
     if (request.restart) {
       waiting.requests.clear();
     }
-    if (waiting.requests.size() < kMostRequests) {
+    if (waiting.requests.size() < kMaxRequests) {
       waiting.requests.push_back(request);
     }
     waiting.stuck_since = now;
@@ -74,7 +74,7 @@ bool BlobServer::serve(DeployLink& link, rt::MonoTime now) {
   for (auto& [requester, waiting] : waiting_) {
     for (int piece = 0; piece < kPiecesAtOnce && !waiting.requests.empty(); ++piece) {
       BlobRequest& request = waiting.requests.front();
-      look_up(waiting, request.blob);
+      find_blob(waiting, request.blob);
       const BlobChunk chunk = read(waiting, request);
       const DeployLink::Sent sent = link.send(requester, chunk);
       if (sent == DeployLink::Sent::Later && now - waiting.stuck_since < kStuck) {

@@ -44,7 +44,7 @@ class BlobServer {
     base::Descriptor file;
   };
   void forget(Waiting& waiting) const;
-  void look_up(Waiting& waiting, const std::string& name) const;
+  void find_blob(Waiting& waiting, const std::string& name) const;
   // Returns what to send of the open blob: at most `length` bytes from the offset, or that it is missing.
   [[nodiscard]] BlobChunk read(const Waiting& waiting, const BlobRequest& request) const;
 

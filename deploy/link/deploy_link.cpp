@@ -30,7 +30,7 @@ constexpr std::int64_t kChunkBlockNs = 100'000'000;  // maximum time that a chun
 constexpr std::int32_t kChunkDepth = 512;            // messages a receiver may lag behind
 constexpr std::int32_t kReports = 8;  // of one name, so that a report under a false name does not hide the true one
 constexpr std::int64_t kLettingInNs = 2'000'000'000;
-constexpr std::size_t kMostRoom = 2U << 20U;
+constexpr std::size_t kMaxRoom = 2U << 20U;
 
 std::string topic_name(const std::string& what) {
   return schema::deploy_topics() + what;
@@ -147,7 +147,7 @@ Result<DeployLink::Opened, base::Problem> DeployLink::open(const LinkSettings& s
 DeployLink::DeployLink(std::unique_ptr<Impl> impl, bool secured)
     : impl_(std::move(impl)),
       letting_in_ns_(secured ? kLettingInNs : 0),
-      room_(std::clamp(rt::largest_receive_buffer() / 2, 2 * kChunk, kMostRoom)) {}
+      room_(std::clamp(rt::largest_receive_buffer() / 2, 2 * kChunk, kMaxRoom)) {}
 DeployLink::~DeployLink() = default;
 
 void DeployLink::publish(const BoardReport& report) {

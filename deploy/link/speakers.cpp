@@ -9,12 +9,12 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::size_t kMost = 4096;  // maximum of each kind, then it is cleared: a participant invents them
-constexpr std::size_t kMostImpersonations = 64;
+constexpr std::size_t kMaxPerKind = 4096;  // maximum of each kind, then it is cleared: a participant invents them
+constexpr std::size_t kMaxImpersonations = 64;
 
 template <class Container>
 void bound(Container& container) {
-  if (container.size() >= kMost) {
+  if (container.size() >= kMaxPerKind) {
     container.clear();
   }
 }
@@ -112,7 +112,7 @@ void Speakers::note_impostor(const dds::Guid& who, const std::string& claimed) {
                                   [&](const Impersonation& one) { return one.who == who && one.claimed == claimed; });
   if (known != impersonations_.end()) {
     ++known->reports;
-  } else if (impersonations_.size() < kMostImpersonations) {
+  } else if (impersonations_.size() < kMaxImpersonations) {
     impersonations_.push_back({who, claimed, 1});
   }
 }

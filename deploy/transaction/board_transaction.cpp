@@ -15,7 +15,7 @@ constexpr std::chrono::nanoseconds kLongestHealth = std::chrono::minutes{10};
 
 using Do = BoardTransaction::Do;
 
-bool BoardTransaction::meant(const Order& order) const {
+bool BoardTransaction::is_addressed(const Order& order) const {
   return std::find(order.boards.begin(), order.boards.end(), board_) != order.boards.end();
 }
 
@@ -69,8 +69,8 @@ void BoardTransaction::agree_instant(const Order& order, rt::MonoTime now) {
   }
 }
 
-Do BoardTransaction::hear(const Order& order, rt::MonoTime now, rt::WallTime wall) {
-  if (!meant(order)) {
+Do BoardTransaction::receive(const Order& order, rt::MonoTime now, rt::WallTime wall) {
+  if (!is_addressed(order)) {
     return Do::Nothing;
   }
   const bool free = phase_ == Phase::Steady || (joining_ && phase_ != Phase::Trial && phase_ != Phase::Healthy);
@@ -174,7 +174,7 @@ Do BoardTransaction::time(rt::MonoTime now) {
   if (phase_ == Phase::Steady) {
     return Do::Nothing;
   }
-  if (!joining_ && silence_.look(now) > kSilence) {
+  if (!joining_ && silence_.update(now) > kSilence) {
     return end(fmt::format("the deployer was not heard for {} s", kSilence.count()));
   }
   if (phase_ == Phase::Prepared && switch_ && now >= *switch_) {

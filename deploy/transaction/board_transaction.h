@@ -37,7 +37,7 @@ class BoardTransaction {
   explicit BoardTransaction(std::string board) : board_(std::move(board)) {}
 
   // An order of a deployer arrived. One deployment at a time: orders of other deployers are ignored meanwhile.
-  Do hear(const Order& order, rt::MonoTime now, rt::WallTime wall);
+  Do receive(const Order& order, rt::MonoTime now, rt::WallTime wall);
   // Another board of this board's plant has a newer deployment: this one missed it and takes it over on its own.
   Do catch_up(const BoardReport& from, rt::MonoTime now);
   // An empty problem is success.
@@ -62,7 +62,7 @@ class BoardTransaction {
   Do begin(const Order& order, std::uint64_t source, bool joining);
   Do fail(const std::string& problem);
   Do end(const std::string& why);
-  [[nodiscard]] bool meant(const Order& order) const;
+  [[nodiscard]] bool is_addressed(const Order& order) const;
   void agree_instant(const Order& order, rt::MonoTime now);
 
   std::string board_;

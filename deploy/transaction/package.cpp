@@ -23,11 +23,11 @@ namespace {
 using base::Json;
 
 constexpr int kFormat = 1;
-constexpr std::size_t kMostFiles = 10'000;
-constexpr std::size_t kMostBoards = 1'000;
+constexpr std::size_t kMaxFiles = 10'000;
+constexpr std::size_t kMaxBoards = 1'000;
 constexpr std::size_t kLongestPath = 1'000;
 constexpr std::size_t kLongestComment = 1'000;
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36U;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 36U;
 
 enum class Use { Program, Data };  // a module or a library of types; anything else
 
@@ -148,7 +148,7 @@ std::string problem_of(const Package& package) {
     if (!keys::is_digest(file.digest)) {
       return fmt::format("{} has no SHA-256", file.path);
     }
-    if (file.size > kMostBytes || (bytes += file.size) > kMostBytes) {
+    if (file.size > kMaxBytes || (bytes += file.size) > kMaxBytes) {
       return "the package is larger than 64 GiB";
     }
   }
@@ -208,8 +208,8 @@ Result<Package, base::Problem> read_package(std::string_view text) {
   const Json& files = whole["files"];
   (void)read(whole, "comment", package.comment);
   if (!read(whole, "plant", package.plant) || !read(whole, "manifest", package.manifest) ||
-      !read(whole, "boards", package.boards) || package.boards.size() > kMostBoards || !files.is_array() ||
-      files.values().size() > kMostFiles || package.comment.size() > kLongestComment) {
+      !read(whole, "boards", package.boards) || package.boards.size() > kMaxBoards || !files.is_array() ||
+      files.values().size() > kMaxFiles || package.comment.size() > kLongestComment) {
     return damaged;
   }
   for (const Json& each : files.values()) {

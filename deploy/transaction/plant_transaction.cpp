@@ -33,7 +33,7 @@ void PlantTransaction::abort(Verdict verdict, const std::string& board, const st
   ending_ = now;
 }
 
-void PlantTransaction::hear(const BoardReport& report, rt::MonoTime now) {
+void PlantTransaction::receive(const BoardReport& report, rt::MonoTime now) {
   if (std::find(order_.boards.begin(), order_.boards.end(), report.board) == order_.boards.end()) {
     return;
   }
@@ -80,7 +80,7 @@ void PlantTransaction::board_lost(const std::string& board, std::uint64_t agent,
 
 void PlantTransaction::miss_lost(rt::MonoTime now) {
   for (auto& [board, silence] : lost_) {
-    if (silence.look(now) > kLost) {
+    if (silence.update(now) > kLost) {
       abort(Verdict::Refused, board, "it is not heard any more", now);
     }
   }
@@ -109,7 +109,7 @@ bool PlantTransaction::all_in(Phase phase) const {
   });
 }
 
-bool PlantTransaction::wound_up() {
+bool PlantTransaction::all_have_ended() {
   unconfirmed_.clear();
   for (const std::string& board : order_.boards) {
     const auto found = reports_.find(board);
@@ -179,7 +179,7 @@ bool PlantTransaction::time(rt::MonoTime now, rt::WallTime wall) {
       }
     }
   } else {
-    finished_ = wound_up() || now - ending_ > kWindUp;
+    finished_ = all_have_ended() || now - ending_ > kWindUp;
   }
   return before != order_.step;
 }

@@ -37,7 +37,7 @@ class PlantTransaction {
   // time without any event while boards prepare.
   PlantTransaction(Order order, std::chrono::nanoseconds patience, rt::MonoTime now);
 
-  void hear(const BoardReport& report, rt::MonoTime now);
+  void receive(const BoardReport& report, rt::MonoTime now);
   // The network has lost a board. It is waited for a while: on a busy machine it comes back.
   void board_lost(const std::string& board, std::uint64_t agent, rt::MonoTime now);
   // Another deployer sends orders to some of the same boards: the one with the smaller number continues.
@@ -62,7 +62,7 @@ class PlantTransaction {
   void miss_lost(rt::MonoTime now);
   void judge(const std::string& board, const BoardReport& report, rt::MonoTime now);
   [[nodiscard]] bool all_in(Phase phase) const;
-  [[nodiscard]] bool wound_up();
+  [[nodiscard]] bool all_have_ended();
   [[nodiscard]] bool ours(const BoardReport& report) const noexcept { return report.deployer == order_.deployer; }
 
   Order order_;

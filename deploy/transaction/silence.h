@@ -17,16 +17,16 @@ class Silence {
   static constexpr std::chrono::milliseconds kStep{500};  // maximum that is counted between two calls
 
   Silence() = default;
-  explicit Silence(rt::MonoTime begin) noexcept : looked_(begin) {}
+  explicit Silence(rt::MonoTime begin) noexcept : updated_(begin) {}
   // To be called often. Returns how long the silence has lasted.
-  std::chrono::nanoseconds look(rt::MonoTime now) noexcept {
-    lasted_ += std::min<std::chrono::nanoseconds>(now - looked_, kStep);
-    looked_ = now;
+  std::chrono::nanoseconds update(rt::MonoTime now) noexcept {
+    lasted_ += std::min<std::chrono::nanoseconds>(now - updated_, kStep);
+    updated_ = now;
     return lasted_;
   }
 
  private:
-  rt::MonoTime looked_{};
+  rt::MonoTime updated_{};
   std::chrono::nanoseconds lasted_{};
 };
 

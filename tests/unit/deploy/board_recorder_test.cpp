@@ -65,7 +65,7 @@ class Board_recorder : public testing::Test {
     auto answer = sut_->begin(command, now_);
     EXPECT_TRUE(wait_until([&] {
       sut_->step(now_);
-      if (const auto done = answer.outcome == Outcome::UnderWay ? sut_->look(action) : std::nullopt) {
+      if (const auto done = answer.outcome == Outcome::UnderWay ? sut_->poll(action) : std::nullopt) {
         answer = *done;
       }
       return answer.outcome != Outcome::UnderWay;

@@ -30,7 +30,7 @@ class Board : public testing::Test {
     out.switch_at_ns = rt::to_ns(wall_ + 300 * kMs);
     return out;
   }
-  Do hear(Step step, std::uint64_t deployer = 7) { return sut_.hear(order(step, deployer), now_, wall_); }
+  Do hear(Step step, std::uint64_t deployer = 7) { return sut_.receive(order(step, deployer), now_, wall_); }
   // Looks at the time in steps, as an agent does.
   Do listen_for(std::chrono::nanoseconds time) {
     for (const rt::MonoTime end = now_ + time; now_ < end;) {
@@ -76,7 +76,7 @@ TEST_F(Board, Commits_when_all_goes_well) {
 TEST_F(Board, Orders_for_others_are_not_heard) {
   Order other = order(Step::Prepare);
   other.boards = {"b"};
-  EXPECT_EQ(sut_.hear(other, now_, wall_), Do::Nothing);
+  EXPECT_EQ(sut_.receive(other, now_, wall_), Do::Nothing);
   EXPECT_EQ(sut_.phase(), Phase::Steady);
 }
 
@@ -167,14 +167,14 @@ TEST_F(Board, Switches_at_the_instant_by_the_clock_if_clocks_agree) {
   Order late = order(Step::Switch);
   late.said_at_ns -= std::chrono::nanoseconds(20 * kMs).count();
   late.switch_at_ns -= std::chrono::nanoseconds(20 * kMs).count();
-  ASSERT_EQ(sut_.hear(late, now_, wall_), Do::Nothing);
+  ASSERT_EQ(sut_.receive(late, now_, wall_), Do::Nothing);
   EXPECT_EQ(sut_.time(now_ + 279 * kMs), Do::Nothing);
   EXPECT_EQ(sut_.time(now_ + 280 * kMs), Do::Switch);
 }
 
 TEST_F(Board, A_clock_an_hour_off_does_not_hold_up_the_switch) {
   prepare();
-  ASSERT_EQ(sut_.hear(order(Step::Switch), now_, wall_ + 3600 * kSecond), Do::Nothing);
+  ASSERT_EQ(sut_.receive(order(Step::Switch), now_, wall_ + 3600 * kSecond), Do::Nothing);
   EXPECT_THAT(sut_.message(), HasSubstr("+3600.0 s"));
   EXPECT_EQ(sut_.time(now_ + 299 * kMs), Do::Nothing);
   EXPECT_EQ(sut_.time(now_ + 300 * kMs), Do::Switch);

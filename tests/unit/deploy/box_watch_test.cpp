@@ -21,28 +21,28 @@ BoardReport report(std::uint64_t tick, std::uint64_t faults = 0, std::uint64_t o
 
 TEST(BoxWatch, Tells_of_new_faults_and_of_many_overruns) {
   BoxWatch sut;
-  EXPECT_EQ(sut.hear(report(100, 3, 500)), std::nullopt) << "how old those are is not known";
-  EXPECT_EQ(sut.hear(report(600, 3, 509)), std::nullopt);
-  EXPECT_THAT(sut.hear(report(1100, 4, 509)).value_or(""), HasSubstr("board sensor faulted near its tick 1100"));
-  EXPECT_EQ(sut.hear(report(1600, 4, 509)), std::nullopt);
-  EXPECT_THAT(sut.hear(report(2100, 4, 519)).value_or(""), HasSubstr("10 overruns"));
+  EXPECT_EQ(sut.note_report(report(100, 3, 500)), std::nullopt) << "how old those are is not known";
+  EXPECT_EQ(sut.note_report(report(600, 3, 509)), std::nullopt);
+  EXPECT_THAT(sut.note_report(report(1100, 4, 509)).value_or(""), HasSubstr("board sensor faulted near its tick 1100"));
+  EXPECT_EQ(sut.note_report(report(1600, 4, 509)), std::nullopt);
+  EXPECT_THAT(sut.note_report(report(2100, 4, 519)).value_or(""), HasSubstr("10 overruns"));
 }
 
 TEST(BoxWatch, A_node_that_is_started_anew_is_no_fault_and_one_that_died_is) {
   BoxWatch sut;
-  EXPECT_EQ(sut.hear(report(1000, 0)), std::nullopt);
-  EXPECT_EQ(sut.hear(report(10, 2)), std::nullopt) << "another run, with figures of its own";
+  EXPECT_EQ(sut.note_report(report(1000, 0)), std::nullopt);
+  EXPECT_EQ(sut.note_report(report(10, 2)), std::nullopt) << "another run, with figures of its own";
   BoardReport dead = report(0);
   dead.node = NodeCondition::Restarting;
   dead.message = "was ended by signal 11";
-  EXPECT_THAT(sut.hear(dead).value_or(""), HasSubstr("signal 11"));
-  EXPECT_EQ(sut.hear(dead), std::nullopt) << "once";
+  EXPECT_THAT(sut.note_report(dead).value_or(""), HasSubstr("signal 11"));
+  EXPECT_EQ(sut.note_report(dead), std::nullopt) << "once";
 }
 
 TEST(BoxWatch, A_board_that_left_while_its_node_ran_is_told_once) {
   BoxWatch sut;
   EXPECT_EQ(sut.gone(report(5)), std::nullopt) << "it was never there";
-  EXPECT_EQ(sut.hear(report(1000)), std::nullopt);
+  EXPECT_EQ(sut.note_report(report(1000)), std::nullopt);
   EXPECT_THAT(sut.gone(report(1000)).value_or(""), HasSubstr("not heard any more"));
   EXPECT_EQ(sut.gone(report(1000)), std::nullopt);
 }

@@ -40,7 +40,7 @@ class Deployer : public testing::Test {
     out.generation = 3;
     return out;
   }
-  void say(const BoardReport& report) { sut_.hear(report, now_); }
+  void say(const BoardReport& report) { sut_.receive(report, now_); }
   void all(Phase phase) {
     say(report("a", phase));
     say(report("b", phase));

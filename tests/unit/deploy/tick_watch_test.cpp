@@ -36,7 +36,7 @@ class TickWatchTest : public testing::Test {
   // For how long the tick stood when that was found; 0 if it is not in `most`.
   std::chrono::nanoseconds found_after(std::chrono::nanoseconds most, std::chrono::nanoseconds step) {
     for (const rt::MonoTime end = now_ + most; now_ < end; now_ += step) {
-      if (const auto stood = sut_.look(*block_, now_)) {
+      if (const auto stood = sut_.check(*block_, now_)) {
         return *stood;
       }
     }

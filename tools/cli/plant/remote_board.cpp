@@ -95,9 +95,9 @@ bool RemoteBoard::take_variables(std::string_view text) {
   std::uint64_t size = 0;
   for (schema::Variable& variable : schema->variables) {
     variable.maxage_ns += variable.maxage_ns > 0 ? kLateNs : 0;
-    size += std::min<std::uint64_t>(variable.type.size(), deploy::BoardValues::kMostBytes + 1);
+    size += std::min<std::uint64_t>(variable.type.size(), deploy::BoardValues::kMaxBytes + 1);
   }
-  if (size > deploy::BoardValues::kMostBytes) {
+  if (size > deploy::BoardValues::kMaxBytes) {
     return false;  // no agent reports that much
   }
   const std::string name = remote_store_prefix() + std::to_string(next_store());

@@ -58,7 +58,7 @@ class Run {
   int run() {
     for (const std::string& board : deployment_.order.boards) {
       if (const auto* entry = roster_.find(board)) {
-        transaction_.hear(entry->report, rt::MonoClock::now());
+        transaction_.receive(entry->report, rt::MonoClock::now());
       }
     }
     say(true);
@@ -87,7 +87,7 @@ class Run {
     }
     for (const auto& [key, entry] : roster_.all()) {
       if (entry.heard_ns == rt::to_ns(now)) {
-        transaction_.hear(entry.report, now);
+        transaction_.receive(entry.report, now);
       }
     }
     for (const auto& news : link_.take_orders()) {
