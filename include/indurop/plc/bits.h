@@ -67,8 +67,8 @@ constexpr T shl(T in, N n) noexcept {
 }
 template <std::signed_integral T, Integer N>
 constexpr T shr(T in, N n) noexcept {
-  constexpr int kMost = std::numeric_limits<T>::digits;
-  return n <= N{} ? in : static_cast<T>(in >> (std::cmp_greater(n, kMost) ? kMost : static_cast<int>(n)));
+  constexpr int kMaxShift = std::numeric_limits<T>::digits;
+  return n <= N{} ? in : static_cast<T>(in >> (std::cmp_greater(n, kMaxShift) ? kMaxShift : static_cast<int>(n)));
 }
 template <std::signed_integral T, Integer N>
 constexpr T rol(T in, N n) noexcept {

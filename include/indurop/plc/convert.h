@@ -49,8 +49,8 @@ constexpr std::int64_t floor_mod(std::int64_t a, std::int64_t by) noexcept {
 
 // The date `days` days after 1970-01-01; saturates at the range of Date.
 constexpr Date day(std::int64_t days) noexcept {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / kDay;
-  return {std::clamp(days, -kMost, kMost) * kDay};
+  constexpr std::int64_t kMaxDays = std::numeric_limits<std::int64_t>::max() / kDay;
+  return {std::clamp(days, -kMaxDays, kMaxDays) * kDay};
 }
 
 // A Date is rounded down to midnight, a TimeOfDay wraps around there.

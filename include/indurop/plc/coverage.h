@@ -55,7 +55,7 @@ class Coverage {
  private:
   void open(const std::string& begin, std::size_t counters, std::string_view text) {
     int file = -1;
-    for (int number = 1; file < 0 && number <= kMostFiles; ++number) {
+    for (int number = 1; file < 0 && number <= kMaxFiles; ++number) {
       file = ::open((begin + std::to_string(number) + ".plccov").c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
       if (file < 0 && errno != EEXIST) {
         break;
@@ -85,7 +85,7 @@ class Coverage {
     counts_ = at + kHeadWords;
   }
 
-  static constexpr int kMostFiles = 10'000;
+  static constexpr int kMaxFiles = 10'000;
   std::vector<std::uint64_t> own_;
   std::uint64_t* counts_;
   void* mapped_ = nullptr;

@@ -90,14 +90,14 @@ void attempt(Place place, To& to, const From& from) {
 class Call {
  public:
   Call(int& inside, Place place) : inside_(inside) {
-    constexpr int kMost = 100;
-    if (inside_ >= kMost) [[unlikely]] {
+    constexpr int kMaxDepth = 100;
+    if (inside_ >= kMaxDepth) [[unlikely]] {
       fail(place, "more than 100 calls of methods inside each other (recursion)");
     }
     const auto here = reinterpret_cast<std::intptr_t>(this);
     if (inside_ == 0) {
       outermost = here;
-    } else if (outermost - here > kMostStack) [[unlikely]] {
+    } else if (outermost - here > kMaxStack) [[unlikely]] {
       fail(place, "calls of methods inside each other need more than 128 KiB of the stack (recursion)");
     }
     ++inside_;
@@ -107,7 +107,7 @@ class Call {
   ~Call() { --inside_; }
 
  private:
-  static constexpr std::intptr_t kMostStack = std::intptr_t{128} * 1024;
+  static constexpr std::intptr_t kMaxStack = std::intptr_t{128} * 1024;
   [[gnu::visibility("hidden")]] inline static std::intptr_t outermost = 0;  // each module has its own
 
   int& inside_;

@@ -97,9 +97,9 @@ Element& element(Place place, const Pointer<T>& pointer, std::int64_t index) {
 template <class Letter, std::int64_t first, class Text>
 Letter& character(Place place, Text& text, std::int64_t index) {
   static_assert(sizeof(Letter) == sizeof text.data[0]);
-  constexpr auto kMost = static_cast<std::int64_t>(sizeof(Text) / sizeof(Letter)) - 1;
-  if (index < first || index > kMost) [[unlikely]] {
-    fail_range(place, "index", index, first, kMost);
+  constexpr auto kMaxIndex = static_cast<std::int64_t>(sizeof(Text) / sizeof(Letter)) - 1;
+  if (index < first || index > kMaxIndex) [[unlikely]] {
+    fail_range(place, "index", index, first, kMaxIndex);
   }
   return reinterpret_cast<Letter&>(text.data[index - first]);
 }

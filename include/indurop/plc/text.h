@@ -84,16 +84,16 @@ template <class T>
 using PartOf = Sized<T, kTextSize<T>>;
 
 // The maximum length and position: an INT cannot count further.
-inline constexpr std::size_t kMostCounted = std::numeric_limits<std::int16_t>::max();
+inline constexpr std::size_t kMaxCounted = std::numeric_limits<std::int16_t>::max();
 
 // Returns `n` as a length or position that can be added to another one without overflow.
 template <Integer T>
 constexpr std::int64_t count(T n) noexcept {
-  constexpr std::int64_t kFar = std::int64_t{1} << 62;
-  if (std::cmp_greater(n, kFar)) {
-    return kFar;
+  constexpr std::int64_t kLimit = std::int64_t{1} << 62;
+  if (std::cmp_greater(n, kLimit)) {
+    return kLimit;
   }
-  return std::max(static_cast<std::int64_t>(n), -kFar);
+  return std::max(static_cast<std::int64_t>(n), -kLimit);
 }
 
 // The text before, inside and after the `length` characters from position `first` on.
@@ -117,7 +117,7 @@ Cut<View> cut(View text, std::int64_t first, std::int64_t length) noexcept {
 
 template <Text T>
 std::int16_t len(const T& in) noexcept {
-  return static_cast<std::int16_t>(std::min(in.size(), detail::kMostCounted));
+  return static_cast<std::int16_t>(std::min(in.size(), detail::kMaxCounted));
 }
 
 template <Text T, Integer L>
@@ -188,7 +188,7 @@ template <Text A, SameLetters<A> B>
 std::int16_t find(const A& in1, const B& in2) noexcept {
   const auto part = in2.view();
   const std::size_t at = part.empty() ? part.npos : in1.view().find(part);
-  return at == part.npos ? std::int16_t{0} : static_cast<std::int16_t>(std::min(at + 1, detail::kMostCounted));
+  return at == part.npos ? std::int16_t{0} : static_cast<std::int16_t>(std::min(at + 1, detail::kMaxCounted));
 }
 
 }  // namespace indurop::iec

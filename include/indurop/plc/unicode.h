@@ -32,7 +32,7 @@ constexpr CodePoint first_point(std::string_view utf8) noexcept {
   }
   constexpr std::uint32_t kLeadBits[] = {0, 0, 0x1F, 0x0F, 0x07};
   constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-  constexpr std::uint32_t kMost = 0x10FFFF;
+  constexpr std::uint32_t kMaxCodePoint = 0x10FFFF;
   std::uint32_t number = lead & kLeadBits[bytes];
   for (std::size_t i = 1; i < bytes; ++i) {
     if ((byte(i) & 0xC0U) != 0x80U) {
@@ -40,7 +40,7 @@ constexpr CodePoint first_point(std::string_view utf8) noexcept {
     }
     number = number << 6U | (byte(i) & 0x3FU);
   }
-  return number >= kLeast[bytes] && number <= kMost ? CodePoint{number, bytes} : CodePoint{lead, 1};
+  return number >= kLeast[bytes] && number <= kMaxCodePoint ? CodePoint{number, bytes} : CodePoint{lead, 1};
 }
 
 // Calls put(char16_t) for each character.
