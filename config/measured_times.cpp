@@ -8,7 +8,7 @@ namespace indurop::config {
 void add_times_option(base::Options& line, CheckOptions::Times& times) {
   line.add(
           "--times", "FILE", [&times](const std::string& file) { return read_measured_times(file, times); },
-          "Of modules without <wcet>, take the longest execution in this report of indurop run --report")
+          "For modules without <wcet>, use the longest execution time in this report of indurop run --report")
       .completes(base::Completion::File);
 }
 

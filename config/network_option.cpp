@@ -44,7 +44,7 @@ std::string read_one(std::string_view name, std::string_view value, SimulatedNet
   if (name == "loss") {
     double loss = -1;
     if (!read_number(value, loss) || loss < 0 || loss > SimulatedNetwork::kMaxLoss) {
-      return fmt::format("loss: {} is not the share of messages that are lost; write a number from 0 to {}",
+      return fmt::format("loss: {} is not a share of lost messages; write a number from 0 to {}",
                          base::in_quotes(value), SimulatedNetwork::kMaxLoss);
     }
     network.loss = loss;
@@ -55,7 +55,7 @@ std::string read_one(std::string_view name, std::string_view value, SimulatedNet
                ? ""
                : fmt::format("seed: {} is not a whole number from 0", base::in_quotes(value));
   }
-  return fmt::format("{} is nothing of a network{}", base::in_quotes(name),
+  return fmt::format("{} is not a property of a network{}", base::in_quotes(name),
                      base::suggestion(name, {"delay", "jitter", "loss", "repeat", "seed"}));
 }
 
@@ -68,7 +68,7 @@ std::string read_network(std::string_view text, SimulatedNetwork& network) {
     text.remove_prefix(std::min(one.size() + 1, text.size()));
     const auto equals = one.find('=');
     if (equals == std::string_view::npos) {
-      return fmt::format("{} says no value; write, for example, delay=200us,jitter=50us,loss=0.001,seed=7",
+      return fmt::format("{} has no value; write, for example, delay=200us,jitter=50us,loss=0.001,seed=7",
                          base::in_quotes(one));
     }
     if (std::string problem =

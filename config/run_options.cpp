@@ -45,22 +45,21 @@ std::string take_speed(const std::string& text, double& to) {
   }
   const auto end = std::from_chars(text.data(), text.data() + text.size(), to);
   const bool ok = end.ec == std::errc() && end.ptr == text.data() + text.size() && to > 0 && to <= kMaxSpeed;
-  return ok ? ""
-            : fmt::format("'{}' is no speed: use max, or how many times real time it is to run, 1 or 0.5 or 10", text);
+  return ok ? "" : fmt::format("'{}' is not a speed: use max or a factor of real time, such as 1, 0.5 or 10", text);
 }
 
 void declare_simulation(base::Options& line, Simulation& simulation) {
   const base::Option sim = line.flag("--sim", simulation.on, "Run in virtual time, the same way on every run");
   const auto speed = [&simulation](const std::string& text) { return take_speed(text, simulation.speed); };
-  line.add("--speed", "max|N", speed, "With --sim: times real time (default: max)").needs(sim);
-  line.flag("--step", simulation.step, "With --sim: stand after each tick; Enter goes on, 10 or 20ms goes further")
+  line.add("--speed", "max|N", speed, "With --sim: factor of real time (default: max)").needs(sim);
+  line.flag("--step", simulation.step, "With --sim: pause after each tick; Enter continues, 10 or 20ms runs further")
       .needs(sim);
   const auto times = [&simulation](const std::string& file) {
     simulation.times = file;
     return read_measured_times(file, simulation.measured);
   };
   line.add("--times", "FILE", times,
-           "With --sim: modules without <wcet> take as long as they took at most in this report of --report")
+           "With --sim: modules without <wcet> take their maximum execution time in this report of --report")
       .needs(sim)
       .completes(base::Completion::File);
   const auto network = [&simulation](const std::string& text) {
@@ -72,11 +71,10 @@ void declare_simulation(base::Options& line, Simulation& simulation) {
            "With --sim of a plant: delay=200us,jitter=50us,loss=0.001,seed=7 between its boards")
       .needs(sim);
   line.add("--script", "FILE", simulation.script,
-           "With --sim of a plant: when boards are killed, cut off and returned: lines like 500ms kill sensor")
+           "With --sim of a plant: when boards are killed, cut off and reconnected: lines like 500ms kill sensor")
       .needs(sim)
       .completes(base::Completion::File);
-  line.add("--conductor", "FD", simulation.conductor, "Part of a simulated plant (given by whoever simulates it)")
-      .needs(sim);
+  line.add("--conductor", "FD", simulation.conductor, "Part of a simulated plant (set by the simulation)").needs(sim);
 }
 
 std::string spin_word(const SpinSetting& spin) {
@@ -101,29 +99,30 @@ void declare_run_options(base::Options& line, RunOptions& options) {
   };
   const auto spin = [&options](const std::string& text) { return take_spin(text, options.spin); };
   line.add("config", "FILE", options.config, "module.xml, or a plant's manifest with --board");
-  const base::Option board = line.add("--board", "NAME", options.board, "Board of the plant to be").check(check_node);
+  const base::Option board =
+      line.add("--board", "NAME", options.board, "Board of the plant to run as").check(check_node);
   line.flag("--one-host", options.one_host, "All boards of the plant run on this host: stay on loopback").needs(board);
-  line.add("--deployment", "ID", options.deployment, "Id that indurop status shows (given by the agent)").needs(board);
+  line.add("--deployment", "ID", options.deployment, "Id that indurop status shows (set by the agent)").needs(board);
   line.add("--node", "NAME", options.node, "Name of the node on this host (default: that of the board, else local)")
       .check(check_node);
   line.add("--duration,--until", "TIME", take_duration, "End after this time (5s, 500ms)");
   line.add("--report", "FILE", options.report, "Write statistics to this JSON file at the end");
   line.flag("--require-rt", options.require_rt, "Exit with code 7 unless real-time rights were obtained");
-  line.flag("--adjust", options.adjust, "Use the nearest periods that work instead of refusing too small ones");
-  line.add("--core", "N", options.core, "Core of all modules that name none");
+  line.flag("--adjust", options.adjust, "Use the nearest valid periods instead of rejecting too short ones");
+  line.add("--core", "N", options.core, "Core for all modules without <core>");
   line.add("--spin", "auto|off|TIME", spin, "Time to spin before each tick");
   line.add("--tape", "MB", options.tape_megabytes,
-           "Memory for what the last runs saw and wrote, in MB (default: 20); 0: none, then nothing can be recorded");
+           "Memory for the tape of the last runs, in MB (default: 20); 0: no tape, nothing can be recorded");
   line.add("--replay", "FILE", options.replay.file,
-           "Run what this recording of --record tells once more, and compare what modules leave")
+           "Run this recording of --record again and compare the values that modules write")
       .completes(base::Completion::File);
   line.add("--replay-board", "NAME", options.replay.board,
-           "With --replay: whose runs, of a recording of several boards");
+           "With --replay: board to replay, if the recording has several");
   line.add("--with", "FILE.so", options.replay.with,
            "With --replay: use this file for the module of its name; may be given several times")
       .completes(base::Completion::File);
   line.add("--replay-output", "FILE", options.replay.output,
-           "With --replay: write what the modules leave now to this MCAP file")
+           "With --replay: write the values that modules write now to this MCAP file")
       .completes(base::Completion::File);
   line.add("--record", "FILE", options.record, "Record every run of every module to this MCAP file")
       .completes(base::Completion::File);

@@ -116,7 +116,7 @@ class AlarmReader {
         return false;
       }
       if (order <= last) {
-        context_.error(one.at, "behind the text come priority, delay and deadband, in this order, each once");
+        context_.error(one.at, "after the text come priority, delay and deadband, in this order, each once");
         return false;
       }
       last = order;

@@ -193,7 +193,7 @@ class Checker {
       if (declarator.is_function) {
         shared_function(found, declarator, type);
       } else if (type && is_void(*type)) {
-        context_.error(declarator.name.at, "a variable cannot be void, declare it by itself");
+        context_.error(declarator.name.at, "a variable cannot be void, give it a type");
       } else {
         variable(found, declarator, type);
       }

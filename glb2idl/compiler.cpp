@@ -109,7 +109,7 @@ class Compiler {
       return std::nullopt;
     }
     if (got.identity != path && !got.identity.ends_with(kExtension) && path.ends_with(kExtension)) {
-      report(from, fmt::format("'{}' is a link to a file that is no .glb file, name that file", path));
+      report(from, fmt::format("'{}' is a link to a file that is not a .glb file, name that file", path));
       return std::nullopt;
     }
     const auto stem = stem_of(path, from);

@@ -133,7 +133,7 @@ bool DeclarationParser::finish(std::string_view what) {
     return true;
   }
   in_.error(in_.peek().at,
-            fmt::format("expected ';' or a new line behind {}, found {}", what, TokenReader::spelled(in_.peek())));
+            fmt::format("expected ';' or a new line after {}, found {}", what, TokenReader::spelled(in_.peek())));
   return false;
 }
 

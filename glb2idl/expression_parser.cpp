@@ -138,7 +138,7 @@ std::optional<ast::Expression> ExpressionParser::unary() {
 std::optional<ast::Expression> ExpressionParser::primary() {
   const Token& token = in_.peek();
   if (!more() || token.kind == TokenKind::End) {
-    in_.error(in_.previous().at, "a value is missing behind this");
+    in_.error(in_.previous().at, "a value is missing after this");
     return std::nullopt;
   }
   ast::Expression result;
@@ -235,7 +235,7 @@ std::optional<ast::Path> ExpressionParser::path(std::string_view what) {
   while ((in_.peek().is(".") || in_.peek().is("::")) && !in_.peek().newline_before) {
     in_.take();
     if (in_.peek().kind != TokenKind::Identifier || in_.peek().newline_before) {
-      in_.error(in_.previous().at, "a name is missing behind this");
+      in_.error(in_.previous().at, "a name is missing after this");
       return std::nullopt;
     }
     result.at = join(result.at, in_.peek().at);
@@ -291,7 +291,7 @@ bool ExpressionParser::annotations(std::vector<ast::Annotation>& to) {
     const Token& name = in_.peek();
     if (name.kind != TokenKind::Identifier) {
       in_.error(name.at,
-                "the annotation's name is missing behind '@': unit, range, retain, maxage, fallback, alarm or desc");
+                "the annotation's name is missing after '@': unit, range, retain, maxage, fallback, alarm or desc");
       return false;
     }
     in_.take();

@@ -142,7 +142,7 @@ class Parser {
     }
     auto value = values_.expression(true);
     if (value && !in_.peek().newline_before && !in_.accept(";")) {
-      in_.error(in_.peek().at, fmt::format("expected the end of the line behind the value, found {}",
+      in_.error(in_.peek().at, fmt::format("expected the end of the line after the value, found {}",
                                            TokenReader::spelled(in_.peek())));
       value.reset();
     }

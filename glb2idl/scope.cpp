@@ -58,7 +58,7 @@ bool Scope::claim_idl(const std::string& full_name, Span at, bool is_struct) {
     return found == in.end() ? nullptr : &found->second;
   };
   const std::string c_name = mangled(full_name);
-  if (clash(lookup(idl_, lower(full_name)), full_name, at, "differ only in case, which IDL does not tell apart") ||
+  if (clash(lookup(idl_, lower(full_name)), full_name, at, "differ only in case, which IDL does not distinguish") ||
       clash(lookup(c_names_, c_name), full_name, at, fmt::format("are both '{}' in C", c_name))) {
     return false;
   }
@@ -88,7 +88,7 @@ bool Scope::claim_cpp(const std::string& prefix, const std::string& full_name, S
 
 bool Scope::claim_variable(const std::string& full_name, Span at) {
   const auto [entry, is_new] = variables_.emplace(lower(full_name), Claim{full_name, at});
-  return is_new || !clash(&entry->second, full_name, at, "differ only in case, which IDL does not tell apart");
+  return is_new || !clash(&entry->second, full_name, at, "differ only in case, which IDL does not distinguish");
 }
 
 const Symbol* Scope::find(const std::string& from, std::span<const std::string> parts, std::uint32_t file) const {

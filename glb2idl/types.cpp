@@ -263,7 +263,7 @@ bool TypeBuilder::check_field(const ast::Declarator& declarator, const schema::T
     context_.error(name.at,
                    other->second == name.text
                        ? fmt::format("the struct already has a field '{}', choose another name", name.text)
-                       : fmt::format("'{}' and '{}' differ only in case, which IDL does not tell apart, rename one",
+                       : fmt::format("'{}' and '{}' differ only in case, which IDL does not distinguish, rename one",
                                      name.text, other->second));
     return false;
   }

@@ -143,7 +143,7 @@ class AccessCheck {
                                " before" + (flow.age.meetings > 1 ? " whenever both are due" : "");
       if (round) {
         context_.report.note(reader.places.priority,
-                             what + "; values go round between them, so one of them has to be first");
+                             what + "; they exchange values in a cycle, so one of them has to run first");
       } else {
         context_.report.warning(reader.places.priority, what + "; " + better_order(flow));
       }

@@ -125,7 +125,7 @@ void check_determinism(CheckContext& context) {
   for (std::size_t i = 0; i < context.config.modules.size() && i < result.facts.size(); ++i) {
     const Module& module = context.config.modules[i];
     const std::string as_it_likes = module.operation == scheduler::Operation::NonReal && module.period.count() == 0
-                                        ? "it runs beside the schedule, as it likes"
+                                        ? "it runs outside the schedule, at any time"
                                         : "";
     std::vector<std::string> reasons = sources_of_chance(result.facts[i].file.imports);
     if (!reasons.empty()) {

@@ -36,7 +36,7 @@ void resolve_rules(std::vector<VariableRule>& rules, const schema::Schema& schem
     const schema::Variable& variable = *place.value().variable;
     if (schema::canonical(place.value().type) != schema::canonical(variable.type)) {
       report.error(rule.place, base::in_quotes(rule.name) +
-                                   " is a part of a variable, which travels as a whole; write name=\"" + variable.name +
+                                   " is a part of a variable, which is sent as a whole; write name=\"" + variable.name +
                                    "\"");
       return true;
     }
@@ -58,15 +58,16 @@ void check_external_rules(const std::vector<VariableRule>& rules, bool shown, co
       continue;
     }
     if (!shown) {
-      report.warning(rule.place, "nobody can set " + base::in_quotes(rule.name) +
+      report.warning(rule.place, "no tool can set " + base::in_quotes(rule.name) +
                                      " from outside: without <types>, or with <external>off</external>, there are no "
                                      "topics for other tools");
     }
     const auto users = uses.variables().find(rule.name);
     if (users != uses.variables().end() && !users->second.writers.empty()) {
-      report.warning(rule.place, base::in_quotes(rule.name) + " may be set from outside, but is also written by " +
-                                     base::enumerate(uses.names(users->second.writers)) +
-                                     ", which replaces what was set; let one of them have a variable of its own");
+      report.warning(rule.place,
+                     base::in_quotes(rule.name) + " may be set from outside, but is also written by " +
+                         base::enumerate(uses.names(users->second.writers)) +
+                         ", which overwrites the value that was set; use a separate variable for one of them");
     }
   }
 }

@@ -30,7 +30,7 @@ constexpr std::uint16_t kThisMachine = 183;
 #elif defined(__riscv)
 constexpr std::uint16_t kThisMachine = 243;
 #else
-#error "InduRoP does not know this kind of processor: its number of ELF files belongs here"
+#error "unknown processor: add its ELF machine number here"
 #endif
 
 std::string machine_name(std::uint16_t number) {
@@ -134,7 +134,7 @@ class FileCheck {
 
   void check_abi() {
     if (facts_.file.abi == schema::kMixedAbi) {
-      error("is made of parts built with different InduRoP versions; build all of it again");
+      error("contains parts built with different InduRoP versions; rebuild all of it");
     } else if (facts_.file.abi != 0 && facts_.file.abi != abi::kVersion) {
       error("is built for InduRoP ABI " + std::to_string(facts_.file.abi) + ", this is ABI " +
             std::to_string(abi::kVersion) + "; build it again with this version's headers");
@@ -150,7 +150,7 @@ class FileCheck {
     if (read) {
       facts_.schema = std::move(read.value());
     } else if (read.error().code == Errc::VersionMismatch) {
-      error("describes its variables in the form of another InduRoP version; build it again with this one");
+      error("describes its variables in the format of another InduRoP version; rebuild it with this one");
     } else {
       error("has a damaged description of its variables; build it again");
     }
@@ -165,7 +165,7 @@ class FileCheck {
     const bool described = has(file.exports, "indurop_module_describe");
     const bool runs = has(file.exports, "run") || has(file.exports, "_Z3runv");
     if (!described && !runs) {
-      error("has nothing to run; write INDUROP_MODULE(run = &::onRun) or extern \"C\" void run(), and do not hide it");
+      error("has no run function; write INDUROP_MODULE(run = &::onRun) or extern \"C\" void run(), and export it");
       return;
     }
     const bool condition = has(file.exports, "condition") || has(file.exports, "_Z9conditionv");
@@ -193,7 +193,7 @@ class FileCheck {
     if (module_.operation != Operation::NonReal && module_.signal == 0 &&
         !imports_of(facts_.file, "_ZN3irp10waitPeriod")) {
       warning(
-          "neither calls irp::waitPeriod() nor has a <signal>, so nothing tells it when to run; add "
+          "neither calls irp::waitPeriod() nor has a <signal>, so nothing starts its runs; add "
           "<signal>SIGUSR1</signal>, or make it non-real");
     }
   }
@@ -245,7 +245,7 @@ std::string unreadable_file(const Error& failure, const NamedFile& file, bool se
     return "no such file: " + name + (search ? missing_hint(file.path, file.element) : "");
   }
   if (failure.code == Errc::PermissionDenied) {
-    return name + " must not be read by this user; check the permissions of the file and its folders (ls -l)";
+    return name + " is not readable by this user; check the permissions of the file and its folders (ls -l)";
   }
   return name + " cannot be used: " + failure.where +
          (failure.code == Errc::Corrupt ? "; is it a module, and completely built?" : "");

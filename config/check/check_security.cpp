@@ -32,11 +32,11 @@ std::string check_board(const Plant& plant, const std::string& board, bool runs_
     case keys::KeyFault::Missing:
       if (keys::reserved_name(board)) {
         report.error(plant.security_place, "a board of a plant with keys cannot be called " + base::in_quotes(board) +
-                                               ", which is a word for a role; choose another name");
+                                               ", which is the name of a role; choose another name");
         break;
       }
-      report.error(plant.security_place, whose + "; make them with indurop keys init or indurop keys add " + board +
-                                             ", or copy them from where they were made");
+      report.error(plant.security_place, whose + "; create them with indurop keys init or indurop keys add " + board +
+                                             ", or copy them from the machine that created them");
       break;
     case keys::KeyFault::Wrong:
       report.error(plant.security_place, whose + "; indurop keys list shows what is there");
@@ -90,9 +90,10 @@ void check_security(const Plant& plant, const CheckOptions& options, base::Diagn
     const std::string authority = check_board(plant, board.name, !options.board.empty(), report);
     first = first.empty() ? authority : first;
     if (!authority.empty() && authority != first) {
-      report.error(plant.security_place, "the keys of board " + base::in_quotes(board.name) +
-                                             " were made by another authority than those of the boards before it; they "
-                                             "would not let each other in");
+      report.error(
+          plant.security_place,
+          "the keys of board " + base::in_quotes(board.name) +
+              " were issued by another authority than those of the boards above; the boards would reject each other");
     }
   }
 }

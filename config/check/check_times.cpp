@@ -150,7 +150,7 @@ class Times {
       if (behind_unknown && module.wcet > limit) {
         context_.report.error(
             module.places.wcet,
-            fmt::format("{} executes for {}, and has {} for it; make it shorter, or its period longer", module.name,
+            fmt::format("{} executes for {} and has only {}; shorten it or raise its period", module.name,
                         base::format_duration(module.wcet), base::format_duration(limit)));
       }
     }
@@ -207,18 +207,19 @@ class Times {
     const base::Nanos deadline = module.deadline > base::Nanos::zero() ? module.deadline : module.period;
     std::string text;
     if (worst == WorstResponses::kNotDone) {
-      text = fmt::format("{} is not done before its next release: it and what runs before it need {:.0f} % of a core",
-                         module.name, share_up_to(place) * 100);
+      text = fmt::format(
+          "{} does not end before its next release: with the modules that run before it, it needs {:.0f} % of a core",
+          module.name, share_up_to(place) * 100);
     } else if (worst > deadline) {
       text = fmt::format(
-          "{} ends up to {} after its release, and its deadline is {}: it executes for {}, the rest is "
-          "what runs before it and what the platform takes",
+          "{} ends up to {} after its release, and its deadline is {}: it executes for {}, the rest is modules that "
+          "run before it and the platform's overhead",
           module.name, base::format_duration(worst), base::format_duration(deadline),
           base::format_duration(module.wcet));
     } else {
       return;
     }
-    text += "; make what runs up to it shorter, its period longer, or take modules to another board";
+    text += "; shorten the modules that run up to it, raise its period, or move modules to another board";
     if (!cores_known_) {
       context_.report.warning(
           module.places.wcet,

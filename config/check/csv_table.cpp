@@ -129,7 +129,7 @@ class Reader {
     row.time_ns = static_cast<std::int64_t>(std::llround(seconds * kNanos));
     if (!table_.rows.empty() && row.time_ns <= table_.rows.back().time_ns) {
       problem(cells.front(),
-              fmt::format("time {} is not after that of the row before; sort the rows by time", cells.front().text));
+              fmt::format("time {} is not after that of the previous row; sort the rows by time", cells.front().text));
       return;
     }
     for (std::size_t i = 1; i < cells.size(); ++i) {

@@ -93,8 +93,9 @@ IoAccess io_access_of(const Module& module, CheckContext& context) {
                                            "; write both, inputs or outputs");
   }
   if (!context.options.machine && !std::filesystem::exists(*file)) {
-    context.report.note(module.places.file, fmt::format("{} is not here; what {} reads and writes is not known",
-                                                        file->string(), module.name));
+    context.report.note(module.places.file,
+                        fmt::format("{} does not exist; the variables that {} reads and writes are unknown",
+                                    file->string(), module.name));
     return access;
   }
   ReadIo read = read_io_config(*file);

@@ -136,11 +136,10 @@ class Placer {
       }
     }
     if (!without_wcet.empty()) {
-      context_.report.note(
-          config_.cores->place,
-          fmt::format("<cores>: the execution time of {} is not known, taken is {}; say it with <wcet>, or "
-                      "--times with a report",
-                      base::enumerate(without_wcet), base::format_duration(assumed)));
+      context_.report.note(config_.cores->place,
+                           fmt::format("<cores>: the execution time of {} is unknown, assumed is {}; give it with "
+                                       "<wcet>, or use --times with a report",
+                                       base::enumerate(without_wcet), base::format_duration(assumed)));
     }
     return problem;
   }

@@ -62,9 +62,8 @@ class RouteFinder {
                                       [&](const User& writer) { return writer.board != first.board; });
       report_.error(uses_.module(*other).places.file,
                     base::in_quotes(name) + " is written by " + base::enumerate(uses_.names(users.writers)) +
-                        ", but one board must own it; say whose value counts with <variable name=\"" + name +
-                        "\" owner=\"" + uses_.board(first).name +
-                        "\"/>, or let the others use a variable of their own");
+                        ", but one board must own it; name the owner with <variable name=\"" + name + "\" owner=\"" +
+                        uses_.board(first).name + "\"/>, or use separate variables on the other boards");
     }
     if (writing.empty() && !users.readers.empty() && rule != nullptr &&
         rule->external == VariableRule::External::Write) {
@@ -181,7 +180,8 @@ class RouteFinder {
       if (!missing.empty()) {
         constexpr std::size_t kMaxShown = 3;
         report_.warning(uses_.module(user).places.file,
-                        uses_.name(user) + " reads by name, which brings nothing here from other boards, such as " +
+                        uses_.name(user) +
+                            " reads by name, so this board receives nothing from other boards, such as " +
                             base::enumerate(missing, kMaxShown) + "; name what it needs in <access><read>");
       }
     }

@@ -16,7 +16,7 @@ std::string read_measured_times(const std::string& file, CheckOptions::Times& ti
   }
   const auto report = base::Json::parse(*text);
   if (!report || !(*report)["modules"].is_array()) {
-    return file + " is no report; indurop run --report FILE writes one";
+    return file + " is not a report; indurop run --report FILE writes one";
   }
   for (const base::Json& module : (*report)["modules"].values()) {
     const auto name = module["name"].text();

@@ -112,7 +112,7 @@ std::string load(const Config& config, const CheckResult& check) {
     return {};
   }
   const double modules = utilisation(config);
-  return fmt::format("Takes {:.1f} % of a core: modules that say how long they execute {:.1f} %, ticks {:.1f} %\n",
+  return fmt::format("Takes {:.1f} % of a core: modules with known execution times {:.1f} %, ticks {:.1f} %\n",
                      (modules + check.dispatch_share) * 100, modules * 100, check.dispatch_share * 100);
 }
 

@@ -25,12 +25,12 @@ std::string explain_spreading(const Config& config, const CheckResult& check, co
       "basic period of {}{}\n",
       enumerate_cores(spreading.cores), base::format_duration(spreading.busiest),
       base::format_duration(check.table.basic_period),
-      spreading.holds ? "" : "; NOT ALL END IN TIME, no better way was found");
+      spreading.holds ? "" : "; NOT ALL END IN TIME, no better placement was found");
   text += config.cores->split_sharing
               ? "Modules that share data may be on different cores and then wait for one another.\n"
               : "Modules that share data are on one core.\n";
   text += spreading.reordered
-              ? "Modules that share nothing have changed places: with the given priorities cores are done later.\n"
+              ? "Modules that share nothing were reordered: with the given priorities the cores would finish later.\n"
               : "";
   std::size_t longest = 0;
   for (const Spreading::One& one : spreading.modules) {

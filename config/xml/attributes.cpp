@@ -38,7 +38,7 @@ std::optional<std::string> Attributes::text(const char* name, base::SourcePlace*
 std::optional<std::string> Attributes::need(const char* name, std::string_view example, base::SourcePlace* place) {
   const base::Attribute* found = find(name);
   if (found == nullptr || found->value.empty()) {
-    report_.error(element_.place, fmt::format("<{}> does not say {}; write {}", element_.name, name, example));
+    report_.error(element_.place, fmt::format("<{}> has no {}; write {}", element_.name, name, example));
     return std::nullopt;
   }
   if (place != nullptr) {

@@ -149,7 +149,7 @@ std::optional<std::size_t> choose(const base::Element& element, const std::vecto
 void check_no_text(const base::Element& container, base::Diagnostics& report) {
   if (!container.text.empty()) {
     report.error(container.text_place, "text " + base::in_quotes(container.text) + " inside <" + container.name +
-                                           ">; values belong into elements, remarks into <!-- -->");
+                                           ">; put values in elements and comments in <!-- -->");
   }
 }
 

@@ -16,7 +16,7 @@ void interpret(const base::Element& root, config::Config& config, base::Diagnost
   if (root.name == "plant") {
     report.error(root.place,
                  "this is the manifest of a plant of several boards; run one of them with --board NAME, all of them "
-                 "here with --local, or put it to work with indurop deploy");
+                 "here with --local, or deploy it with indurop deploy");
     return;
   }
   if (root.name != "root") {

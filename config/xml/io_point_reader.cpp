@@ -108,7 +108,7 @@ class PointReader {
       report_.error(element_.place,
                     fmt::format("type: one bit cannot be {}; write bool or leave it out", name_of(point_.type)));
     } else if (address.number + registers_of(point_.type) > kRegisters) {
-      report_.error(point_.at_place, fmt::format("at: a {} does not fit behind {} {}, the last is 65535",
+      report_.error(point_.at_place, fmt::format("at: a {} does not fit at {} {}, the last is 65535",
                                                  name_of(point_.type), name_of(address.table), address.number));
     }
     // The client writes coils and holding registers of its server: this node its outputs, a panel the node's inputs.
@@ -126,7 +126,7 @@ class PointReader {
       return;
     }
     if (*cycle % device_.cycle != base::Nanos{0}) {
-      report_.error(element_.place, fmt::format("cycle: {} is no multiple of the device's cycle, {}; write one",
+      report_.error(element_.place, fmt::format("cycle: {} is not a multiple of the device's cycle, {}; write one",
                                                 base::format_duration(*cycle), base::format_duration(device_.cycle)));
       return;
     }

@@ -67,7 +67,7 @@ class Rules {
     if (module_.offset >= module_.period) {
       report_.error(module_.places.offset,
                     "the offset " + base::format_duration(module_.offset) + " is not shorter than the period " +
-                        base::format_duration(module_.period) + "; write what is left beyond whole periods");
+                        base::format_duration(module_.period) + "; write the remainder after whole periods");
       module_.offset = base::Nanos::zero();
     }
     if (module_.deadline > module_.period) {

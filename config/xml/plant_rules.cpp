@@ -71,7 +71,7 @@ void check_addresses(const Plant& plant, base::Diagnostics& report) {
     if (board.address.empty()) {
       if (!plant.multicast) {
         report.error(board.place, "the board " + base::in_quotes(board.name) +
-                                      " has no address, so with <multicast>off</multicast> nobody finds it; write " +
+                                      " has no address, so with <multicast>off</multicast> no board finds it; write " +
                                       R"(<board name=")" + board.name + R"(" address="10.0.0.1">)");
       }
       continue;
@@ -190,7 +190,7 @@ void check_plant_rules(const Plant& plant, const PlantPlaces& places, base::Diag
     report.error(given ? places.external : places.domain,
                  "the boards' domain and the external one are both " + std::to_string(plant.domain) +
                      (given ? "" : " (<external> is 0 unless given)") +
-                     "; other tools must not hear the boards' own traffic: give them different numbers");
+                     "; other tools must not receive the boards' own traffic: give them different numbers");
   }
 }
 

@@ -100,8 +100,8 @@ DeviceImage::Outputs ExchangeThread::check_outputs(Clock::time_point now) {
   }
   const bool late = now - last_outputs_ > device_.watchdog;
   if (late != std::exchange(holding_, late) && !image_.current().outputs.empty()) {
-    irp::printf(late ? "I/O device %s: the tick stands still; its outputs are not refreshed any more\n"
-                     : "I/O device %s: the tick goes on, and so do the outputs\n",
+    irp::printf(late ? "I/O device %s: the tick has stopped; its outputs are no longer refreshed\n"
+                     : "I/O device %s: the tick runs again, and outputs are refreshed again\n",
                 device_.name);
   }
   return late ? DeviceImage::Outputs::Hold : DeviceImage::Outputs::Fresh;

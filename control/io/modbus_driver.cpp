@@ -181,7 +181,7 @@ ModbusDriver::Reply ModbusDriver::judge(const ModbusRequest& request, bool is_wr
   if (is_refusal(error)) {
     const bool unusual = error == EMBXILFUN && (request.masked || device_.together);
     problem_ += unusual ? "; the device cannot do this, see 'single bits' and 'together' in the documentation"
-                        : "; the device has no such point, check its at";
+                        : "; the device has no such point, check its attribute at";
     return Reply::Refused;
   }
   problem_ += "; trying again";

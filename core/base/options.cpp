@@ -206,7 +206,7 @@ Option Options::add(const std::string& names, const std::string& value, int& to,
   return make(
       names, value,
       [&to](const std::string& text) {
-        return read_number(text, to) ? std::string() : fmt::format("'{}' is no whole number", text);
+        return read_number(text, to) ? std::string() : fmt::format("'{}' is not a whole number", text);
       },
       help);
 }
@@ -215,7 +215,7 @@ Option Options::add(const std::string& names, const std::string& value, std::uin
   return make(
       names, value,
       [&to](const std::string& text) {
-        return read_number(text, to) ? std::string() : fmt::format("'{}' is no whole number from 0 on", text);
+        return read_number(text, to) ? std::string() : fmt::format("'{}' is not a whole number from 0 on", text);
       },
       help);
 }
@@ -224,7 +224,7 @@ Option Options::add(const std::string& names, const std::string& value, double& 
   return make(
       names, value,
       [&to](const std::string& text) {
-        return read_number(text, to) ? std::string() : fmt::format("'{}' is no number", text);
+        return read_number(text, to) ? std::string() : fmt::format("'{}' is not a number", text);
       },
       help);
 }
@@ -237,7 +237,7 @@ Option Options::add(const std::string& names, const std::string& value, std::opt
         int number = 0;
         const bool good = read_number(text, number);
         to = good ? std::optional(number) : to;
-        return good ? std::string() : fmt::format("'{}' is no whole number", text);
+        return good ? std::string() : fmt::format("'{}' is not a whole number", text);
       },
       help);
 }

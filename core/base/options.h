@@ -109,7 +109,7 @@ class Options {
   enum class Outcome { Parsed, Info, Wrong };
   struct Result {
     Outcome outcome = Outcome::Parsed;
-    std::string text;  // Told: help or version to print; Wrong: the error
+    std::string text;  // Info: help or version to print; Wrong: the error
   };
   // Parses the words after the program's name.
   [[nodiscard]] Result parse(std::vector<std::string> words);

@@ -146,7 +146,7 @@ Done done(int error) {
 Done write_into(const fs::path& path, bool pipe, std::string_view bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (!file.is_open()) {
-    return pipe && errno == ENXIO ? Done{FileProblem{FileProblem::Kind::System, ENXIO, "nobody reads this pipe"}}
+    return pipe && errno == ENXIO ? Done{FileProblem{FileProblem::Kind::System, ENXIO, "no process reads this pipe"}}
                                   : done(errno);
   }
   const int flags = ::fcntl(file.get(), F_GETFL);

@@ -29,7 +29,7 @@ std::optional<XmlMistake> mistake_of_bytes(std::string_view bytes, const XmlRule
     return XmlMistake{{1, 1}, "the file is encoded as UTF-16; save it as UTF-8"};
   }
   if (rules.tolerant && bytes.find('\0') != std::string_view::npos) {
-    return XmlMistake{{}, "the file holds zero bytes; it is no XML text"};
+    return XmlMistake{{}, "the file holds zero bytes; it is not XML text"};
   }
   if (without_mark(bytes).find_first_not_of(kSpace) == std::string_view::npos) {
     return XmlMistake{{1, 1}, std::string("the file is empty; a ") + rules.name + " is " + rules.form};

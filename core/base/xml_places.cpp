@@ -141,7 +141,7 @@ class Scanner {
     }
     if (!skip_behind("-->")) {
       if (!stopped_) {
-        stop(start, "this comment has no end; write --> behind it");
+        stop(start, "this comment has no end; write --> after it");
       }
     } else if (nested < pos_ && !rules_.tolerant) {
       stop(start, "a comment inside a comment: this one already ends at " + at(here()) + "; remove the inner one");
@@ -156,7 +156,7 @@ class Scanner {
     }
     remember_text(here());
     if (!stopped_ && !skip_behind("]]>") && !stopped_) {
-      stop(start, "this CDATA section has no end; write ]]> behind it");
+      stop(start, "this CDATA section has no end; write ]]> after it");
     }
   }
 
@@ -165,7 +165,7 @@ class Scanner {
     advance(2);
     if (!skip_behind("?>")) {
       if (!stopped_) {
-        stop(start, "this has no end; write ?> behind it");
+        stop(start, "this has no end; write ?> after it");
       }
       return;
     }
@@ -330,7 +330,7 @@ class Scanner {
       if (open_.empty()) {
         stop(start, found_.tags.empty()
                         ? std::string("the file does not begin with a tag; a ") + rules_.name + " is " + rules_.form
-                        : "text behind the root element; move it into an element or a comment");
+                        : "text after the root element; move it into an element or a comment");
         return;
       }
       remember_text(start);

@@ -43,7 +43,7 @@ std::string deploy_list_text(const std::vector<DeployKey>& list) {
   for (const DeployKey& key : list) {
     text += "# " + key.deployer + (key.former ? std::string(" ") + kFormer : "") + "\n" + key.pem;
   }
-  return text.empty() ? "# nobody\n" : text;
+  return text.empty() ? "# no deployer\n" : text;
 }
 
 bool signed_by_any(const std::string& text, const std::string& signature, const std::string& deploy_list) {

@@ -127,7 +127,7 @@ KeyCheck check_keys(const fs::path& folder, const Holder& holder, Instant now) {
                                 utc_text(facts->validity.from), utc_text(facts->validity.until), utc_text(now));
   } else if (!is_current(permissions, holder, *facts)) {
     check.fault = KeyFault::Outdated;
-    check.problem = fmt::format("{} is not what this release{} makes of it", keys.permissions.string(),
+    check.problem = fmt::format("{} does not match this release{}", keys.permissions.string(),
                                 holder.role == Role::Tool ? " and variables.txt" : "");
   }
   return check;
@@ -144,7 +144,7 @@ std::string exposed_key(const fs::path& file) {
   if (error || !fs::exists(found) || (found.permissions() & kOthers) == fs::perms::none) {
     return {};
   }
-  return fmt::format("{} is a private key that others than its owner can read; chmod 600 '{}'", file.string(),
+  return fmt::format("{} is a private key that users other than its owner can read; chmod 600 '{}'", file.string(),
                      file.string());
 }
 

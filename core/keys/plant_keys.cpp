@@ -20,7 +20,7 @@ Done PlantKeys::make(const std::string& plant, const std::vector<std::string>& b
     return not_for(Role::Board, *reserved);
   }
   if (fs::exists(folder_, error) && !fs::is_empty(folder_, error)) {
-    return base::Problem{fmt::format("there is already something in {}; nothing was written", folder_.string())};
+    return base::Problem{fmt::format("{} is not empty; nothing was written", folder_.string())};
   }
   const fs::path target = fs::absolute(folder_, error).lexically_normal();
   const fs::path fresh = aside(target.has_filename() ? target : target.parent_path());
@@ -83,10 +83,11 @@ Done PlantKeys::rotate(const KeyListing& deployer) const {
   std::error_code error;
   const fs::path before = deployer.folder / kDeployKeyBefore;
   if (fs::exists(before, error)) {
-    return base::Problem{fmt::format(
-        "{} has a new key already that is not the only one yet: when all boards have deploy.pub, indurop keys rotate "
-        "--finish",
-        deployer.name)};
+    return base::Problem{
+        fmt::format("{} already has a new key, and the old one is still valid: when all boards have deploy.pub, "
+                    "indurop keys rotate "
+                    "--finish",
+                    deployer.name)};
   }
   const std::string key = make_key(KeyKind::Ed25519);
   const std::string list = with_deploy_key(folder_, deployer.name, key);
@@ -96,7 +97,7 @@ Done PlantKeys::rotate(const KeyListing& deployer) const {
   fs::rename(deployer.folder / kDeployKey, before, error);
   if (error) {
     return base::Problem{
-        fmt::format("cannot put {} aside: {}", (deployer.folder / kDeployKey).string(), error.message())};
+        fmt::format("cannot move {} away: {}", (deployer.folder / kDeployKey).string(), error.message())};
   }
   return in_turn([&] { return write_new(deployer.folder / kDeployKey, key, kSecret); },
                  [&] { return share(kDeployPublic, list); });

@@ -90,7 +90,7 @@ const char* unit_of(Role role) {
 
 base::Problem not_for(Role role, const std::string& name) {
   const char* const what = role == Role::Board ? "board" : unit_of(role);
-  std::string text = fmt::format("'{}' is a word for a role, no name for a {}", name, what);
+  std::string text = fmt::format("'{}' is the name of a role and cannot name a {}", name, what);
   for (const Role one_role : {Role::Viewer, Role::Deployer}) {
     if (name == unit_of(one_role)) {
       text += fmt::format("; keys of a further {}: {}", name, how_to_add(one_role, "NAME"));

@@ -99,7 +99,9 @@ class Carrier {
     }
   }
 
-  void lost(const std::string& name, const std::string& why) { line(fmt::format("{}: {}, begins anew", name, why)); }
+  void lost(const std::string& name, const std::string& why) {
+    line(fmt::format("{}: {}, starts with its initial value", name, why));
+  }
   void line(std::string text) {
     ++count_;
     if (lines_.size() < kMaxLines) {

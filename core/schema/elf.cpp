@@ -147,7 +147,7 @@ class Reader {
       dynamic = dynamic || segment.p_type == PT_DYNAMIC;
       interpreter = interpreter || segment.p_type == PT_INTERP;
       if (segment.p_type == PT_LOAD && !file_.holds(segment.p_offset, segment.p_filesz)) {
-        return corrupt("the module file is truncated: a segment ends behind the file");
+        return corrupt("the module file is truncated: a segment ends beyond the file");
       }
     }
     out_.shared_object = header_.e_type == ET_DYN && dynamic && !interpreter;

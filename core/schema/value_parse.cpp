@@ -32,7 +32,7 @@ class Parser {
       return false;
     }
     cursor_.skip_spaces();
-    return cursor_.at_end() || syntax(fmt::format("'{}' behind the value", cursor_.rest().substr(0, 20)));
+    return cursor_.at_end() || syntax(fmt::format("'{}' after the value", cursor_.rest().substr(0, 20)));
   }
 
   Errc code = Errc::Ok;

@@ -97,7 +97,7 @@ class Agent {
       return;
     }
     if (!deployment_.belongs(committed.members)) {
-      log_.info("board {}: not part of plant {} any more", options_.board, committed.plant);
+      log_.info("board {}: no longer part of plant {}", options_.board, committed.plant);
       return;
     }
     log_.info("board {}: resuming deployment {} of plant {}", options_.board, shown_id(committed.current),
@@ -151,7 +151,7 @@ class Agent {
   // A deployment ends nodes; that is no fault.
   void keep_box(const std::string& why) {
     if (transaction_.phase() == Phase::Steady && process_.condition() == NodeCondition::Running) {
-      log_.info("{}: the black box of this board is kept, too", why);
+      log_.info("{}: the black box of this board is also kept", why);
       if (const Status requested = vars::request_box(options_.board, why); !requested) {
         log_.warning("the black box cannot be kept: {}", requested.error().where);
       }
@@ -173,7 +173,7 @@ class Agent {
       why = "this board has a newer deployment than that; deploy again";
     }
     if (!why.empty() && order.step == Step::Prepare && refused_ != order.deployer) {
-      log_.warning("an order of {} was refused: {}", order.host, why);
+      log_.warning("an order from {} was rejected: {}", order.host, why);
       refused_ = order.deployer;
       refusal_ = why;
       report_now_ = true;
@@ -235,12 +235,12 @@ class Agent {
         commit(order);
         break;
       case Do::GoBack:
-        log_.error("deployment {}: going back: {}", shown_id(order.deployment), transaction_.message());
+        log_.error("deployment {}: rolling back: {}", shown_id(order.deployment), transaction_.message());
         go_back(order);
         break;
       case Do::Forget:
         fetcher_.cancel();
-        log_.warning("deployment {}: given up: {}", shown_id(order.deployment), transaction_.message());
+        log_.warning("deployment {}: abandoned: {}", shown_id(order.deployment), transaction_.message());
         state_.collect_garbage(order.deployment);
         break;
     }
@@ -288,13 +288,13 @@ class Agent {
     out.refusal = refusal_;
     out.message = transaction_.message();
     if (!out.message.empty() && out.phase == Phase::Steady && order.deployment != committed.current) {
-      out.message = fmt::format("deployment {} was taken back: {}", shown_id(order.deployment), out.message);
+      out.message = fmt::format("deployment {} was rolled back: {}", shown_id(order.deployment), out.message);
     }
     if (out.message.empty() && process_.condition() != NodeCondition::Running) {
       out.message = process_.reason();
     }
     if (out.message.empty() && !committed.current.empty() && !deployment_.belongs(committed.members)) {
-      out.message = fmt::format("not part of plant {} any more", committed.plant);
+      out.message = fmt::format("no longer part of plant {}", committed.plant);
     }
     out.node = process_.condition();
     out.clock_offset_ns = transaction_.clock_offset().count();

@@ -92,7 +92,7 @@ Result<AgentState, Problem> AgentState::open(const std::string& board, Log log) 
   }
   // Deployed files may contain data that not every user of the machine may read.
   if (::chmod(folder.c_str(), kProgramMode) != 0) {
-    return failed("cannot keep others out of", folder, errno);
+    return failed("cannot lock", folder, errno);
   }
   const fs::path lock_file = folder / "agent.lock";
   const int lock = ::open(lock_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kStateMode);
@@ -144,8 +144,8 @@ Result<void, Problem> AgentState::load() {
     return failed("cannot rename", file, errno);
   }
   log(
-      fmt::format("{} is damaged: {}. It is kept as {}, and this board begins without a deployment: it takes over "
-                  "that of the other boards of its plant, or deploy again",
+      fmt::format("{} is damaged: {}. It is kept as {}, and this board starts without a deployment: it takes over that "
+                  "of the other boards of its plant; otherwise deploy again",
                   file.string(), committed.error().text, aside.filename().string()));
   return {};
 }
@@ -237,7 +237,7 @@ Result<void, Problem> AgentState::install(const std::string& id) {
       return {};
     }
     if (damage) {
-      log(describe(*damage) + "; it is made again from files/");
+      log(describe(*damage) + "; it is restored from files/");
     }
   }
   const fs::path fresh = target.string() + ".new";
@@ -263,7 +263,7 @@ Result<void, Problem> AgentState::restore(const std::string& id, const PackageFi
   }
   auto kept = keep_copy(copy, entry.digest);
   if (kept) {
-    log(fmt::format("{}: {} is made again from {}", entry.path, file(entry.digest).string(), copy.string()));
+    log(fmt::format("{}: {} is restored from {}", entry.path, file(entry.digest).string(), copy.string()));
   }
   return kept;
 }

@@ -22,7 +22,7 @@ std::string BlackBox::keep() const {
       folder_ / fmt::format("{:%Y%m%dT%H%M%S}.{:03}Z.run", fmt::gmtime(std::chrono::system_clock::to_time_t(now)),
                             now.time_since_epoch().count() % 1000);
   if (const auto written = base::replace_file(file, run_image(board_), base::Durable::Yes); !written) {
-    return fmt::format("what it did last could not be kept: {}", base::cannot_write(file.string(), written.error()));
+    return fmt::format("its black box could not be kept: {}", base::cannot_write(file.string(), written.error()));
   }
   // Their names are times: the oldest comes first.
   std::vector<std::filesystem::path> files;
@@ -33,7 +33,7 @@ std::string BlackBox::keep() const {
   for (std::size_t i = 0; i + kKept < files.size(); ++i) {
     std::filesystem::remove(files[i], error);
   }
-  return fmt::format("what it did last is in {}", file.string());
+  return fmt::format("its black box is in {}", file.string());
 }
 
 }  // namespace indurop::deploy

@@ -249,7 +249,7 @@ scheduler::ModuleRecord* BoardCommands::find(const std::string& module) {
 
 CommandReply BoardCommands::write(const Command& command) {
   if (process_.condition() != NodeCondition::Running) {
-    return reply(command, Outcome::Refused, "its node does not run");
+    return reply(command, Outcome::Refused, "its node is not running");
   }
   const auto order = parse_write_order(command.target);
   const auto done = forces_.carry_out(command);
@@ -266,7 +266,7 @@ CommandReply BoardCommands::write(const Command& command) {
 // The node writes the box shortly after: only it has all the data of its runs.
 CommandReply BoardCommands::keep_box(const Command& command) const {
   if (process_.condition() != NodeCondition::Running) {
-    return reply(command, Outcome::Refused, "its node does not run");
+    return reply(command, Outcome::Refused, "its node is not running");
   }
   const std::string why = one_line(command.target);
   const Status requested = vars::request_box(board_, why);
@@ -284,7 +284,7 @@ CommandReply BoardCommands::about_alarms(const Command& command) const {
 
 CommandReply BoardCommands::begin_recording(const Command& command, rt::MonoTime now) {
   if (command.action == Action::Record && process_.condition() != NodeCondition::Running) {
-    return reply(command, Outcome::Refused, "its node does not run");
+    return reply(command, Outcome::Refused, "its node is not running");
   }
   const BoardRecorder::Answer answer = recorder_.begin(command, now);
   return reply(command, answer.outcome, answer.text);
@@ -298,7 +298,7 @@ std::optional<CommandReply> BoardCommands::poll_recording() {
 CommandReply BoardCommands::begin_module(const Command& command, const WriteOrder& words) {
   const std::string name = words.lines.empty() ? "" : words.lines.front();
   if (process_.condition() != NodeCondition::Running || !open_run()) {
-    return reply(command, Outcome::Refused, "its node does not run");
+    return reply(command, Outcome::Refused, "its node is not running");
   }
   if (const std::string why = locked_against_commands(board_); !why.empty()) {
     return reply(command, Outcome::Refused, why);
@@ -349,7 +349,7 @@ std::optional<CommandReply> BoardCommands::poll(rt::MonoTime now) {
               : is_about_node(command_->action) ? poll_node()
                                                 : poll_module();
   if (!done && now > deadline_) {
-    done = reply(*command_, Outcome::Failed, fmt::format("not done after {} s; it goes on", kPatience.count()));
+    done = reply(*command_, Outcome::Failed, fmt::format("not done after {} s; it continues", kPatience.count()));
   }
   return done;
 }
@@ -359,7 +359,7 @@ std::optional<CommandReply> BoardCommands::poll_module() {
     case CommandResult::Done:
       return reply(*command_, Outcome::Done);
     case CommandResult::OldCode:
-      return reply(*command_, Outcome::Done, "its file is another one now, the code that was loaded before runs");
+      return reply(*command_, Outcome::Done, "its file was replaced, the code that was loaded before is running");
     case CommandResult::Unchanged:
       return reply(*command_, Outcome::Unchanged);
     case CommandResult::Failed:

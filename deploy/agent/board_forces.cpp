@@ -93,7 +93,7 @@ Done BoardForces::renew(const Command& command, const WriteOrder& order) {
   const auto found = leases_.find(command.commander);
   if (found == leases_.end() || found->second.store.retired()) {
     leases_.erase(command.commander);
-    return Problem{"there is no such lease any more"};
+    return Problem{"this lease no longer exists"};
   }
   Held& held = found->second;
   if (!order.end) {

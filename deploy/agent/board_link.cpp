@@ -71,9 +71,9 @@ std::string BoardLink::join() {
   link_ = std::move(opened->link);
   commands_ = std::move(commands).value();
   if (own_.folder.empty()) {
-    log_.info("open: this board has no keys, so anybody on this network may speak with its agent");
+    log_.info("open: this board has no keys, so any program on this network can command its agent");
   } else {
-    log_.info("speaking with holders of keys of plant {} only", own_.plant);
+    log_.info("accepting only participants with keys of plant {}", own_.plant);
   }
   return note.empty() ? opened->note : note;
 }

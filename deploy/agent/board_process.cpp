@@ -122,7 +122,7 @@ bool BoardProcess::adopt() {
 void BoardProcess::launch(rt::MonoTime now) {
   if (std::string damage = verify(); !damage.empty()) {
     condition_ = NodeCondition::Failed;
-    reason_ = "it is not run, for it is not what was deployed: " + damage;
+    reason_ = "it is not started, because it is not what was deployed: " + damage;
     log_.error("{}", reason_);
     return;
   }
@@ -288,7 +288,7 @@ void BoardProcess::end_if_it_hangs(rt::MonoTime now) {
     return;
   }
   if (const auto stood = tick_watch_.check(present(run_), now)) {
-    hung_ = fmt::format("the node hung: its tick stood at {} for {:.1f} s", present(run_).tick.load(),
+    hung_ = fmt::format("the node hung: its tick stayed at {} for {:.1f} s", present(run_).tick.load(),
                         std::chrono::duration<double>(*stood).count());
     log_.error("{}; it is killed", hung_);
     ::kill(pid_, SIGKILL);
@@ -366,10 +366,10 @@ BoardProcess::Health BoardProcess::health(const std::vector<std::string>& boards
     return {reason_, {}};
   }
   if (wanted_.empty()) {
-    return {{}, pid_ > 0 ? "its node has not ended" : ""};
+    return {{}, pid_ > 0 ? "its node is still running" : ""};
   }
   if (condition_ != NodeCondition::Running || !attach_run() || present(run_).tick.load() == 0) {
-    return {{}, "its node has not begun to run"};
+    return {{}, "its node has not started to run"};
   }
   if (std::string faulted = fault(); !faulted.empty()) {
     return {std::move(faulted), {}};
@@ -378,7 +378,7 @@ BoardProcess::Health BoardProcess::health(const std::vector<std::string>& boards
   const mirror::MirrorBlock* mirror =
       file ? mirror::mirror_block_in({file.value().data(), file.value().size()}) : nullptr;
   if (mirror == nullptr) {
-    return {{}, "its mirror has not begun to run"};
+    return {{}, "its mirror has not started to run"};
   }
   for (std::uint32_t i = 0; i < mirror->peer_count; ++i) {
     const mirror::PeerRecord& peer = mirror->peers()[i];

@@ -72,7 +72,7 @@ BoardRecorder::Answer BoardRecorder::begin(const Command& command, rt::MonoTime 
     return record(command, now);
   }
   if (command.target != name_) {
-    return {Outcome::Refused, "it has no such recording: its agent was started anew, or another one has begun"};
+    return {Outcome::Refused, "it has no such recording: its agent was restarted, or another recording has begun"};
   }
   if (command.action == Action::EndRecord && pid_ <= 0) {
     return {Outcome::Unchanged, ended_};
@@ -95,7 +95,7 @@ BoardRecorder::Answer BoardRecorder::record(const Command& command, rt::MonoTime
   }
   std::vector<std::string> names(lines.begin() + 2, lines.end());
   if (std::any_of(names.begin(), names.end(), [](const auto& name) { return name.empty() || name.front() == '-'; })) {
-    return {Outcome::Refused, "a variable has no such name"};
+    return {Outcome::Refused, "a name of a variable cannot be empty or begin with '-'"};
   }
   const auto store = vars::Store::attach(board_, vars::Mode::ReadOnly);
   if (!store) {
@@ -177,7 +177,7 @@ void BoardRecorder::step(rt::MonoTime now) {
   if (asked_ && now >= kill_at_) {
     ::kill(pid_, SIGKILL);
   } else if (!asked_ && now > lease_until_) {
-    end(fmt::format("{} was not heard for {} s", host_, limits_.lease.count()), now);
+    end(fmt::format("{} did not report for {} s", host_, limits_.lease.count()), now);
   } else if (!asked_ && now >= next_check_) {
     next_check_ = now + kRecorderPoll;
     if (const std::string why = limit(); !why.empty()) {
@@ -213,11 +213,11 @@ std::string BoardRecorder::limit() const {
   std::error_code error;
   const fs::space_info space = fs::space(folder_of(board_), error);
   if (!error && space.available < limits_.least_free_bytes) {
-    return fmt::format("{} MB are left on its disk, and it leaves {}", megabytes(space.available),
+    return fmt::format("{} MB are left on its disk, and it keeps {} MB free", megabytes(space.available),
                        megabytes(limits_.least_free_bytes));
   }
   return size_of(file_of(board_, name_)) >= limits_.most_bytes
-             ? fmt::format("it has {} MB, which is the most", megabytes(limits_.most_bytes))
+             ? fmt::format("it reached the limit of {} MB", megabytes(limits_.most_bytes))
              : "";
 }
 

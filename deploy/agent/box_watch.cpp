@@ -40,7 +40,7 @@ std::optional<std::string> BoxWatch::gone(const BoardReport& report) {
   if (ran) {
     known_.erase(found);
   }
-  return ran ? std::optional(fmt::format("board {} is not heard any more", report.board)) : std::nullopt;
+  return ran ? std::optional(fmt::format("board {} no longer reports", report.board)) : std::nullopt;
 }
 
 }  // namespace indurop::deploy

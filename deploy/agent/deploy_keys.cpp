@@ -62,8 +62,8 @@ OwnKeys DeployKeys::own(const std::string& plant) const {
     return {{},
             {},
             {},
-            fmt::format("not in the network of agents: this board has keys of {} in {} and runs none of "
-                        "these plants; leave those of one there",
+            fmt::format("not in the network of agents: this board has keys of {} in {} and runs none of these plants; "
+                        "keep only those of one plant there",
                         base::enumerate(plants), folder_.string())};
   }
   OwnKeys own{runs ? plant : plants.front(), {}, {}, {}};
@@ -81,7 +81,7 @@ std::string DeployKeys::refusal(const std::string& plant, const std::string& tex
   std::error_code error;
   if (!any(error)) {
     // Unreadable keys must not count as no keys.
-    return error ? fmt::format("the keys of this board in {} cannot be read ({}), so nobody can be trusted",
+    return error ? fmt::format("the keys of this board in {} cannot be read ({}), so no order can be trusted",
                                folder_.string(), error.message())
                  : std::string{};
   }

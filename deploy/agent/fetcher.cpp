@@ -59,7 +59,7 @@ void Fetcher::begin(std::vector<std::uint64_t> sources, const std::string& id, s
   at_ = 0;
   wanted_.clear();
   if (!keys::is_digest(id) || size > kLargestPackage) {
-    problem_ = "the deployment offered has no sound id or size";
+    problem_ = "the deployment offered has no valid id or size";
   } else if (const bool here = state_.has_sound(id, "the package"); !here && size == 0) {
     problem_ = fmt::format(
         "the package of deployment {} (SHA-256 {}) is not on this board as it was deployed, and none of the boards "
@@ -165,9 +165,9 @@ Fetcher::Attempt Fetcher::take(const BlobChunk& chunk, rt::MonoTime now) {
 Fetcher::Attempt Fetcher::next_source() {
   without_.insert(source_);
   if (without_.size() == sources_.size()) {
-    return Problem{
-        fmt::format("{} (SHA-256 {}) is not on this board as it was deployed, and nobody that was asked has it",
-                    wanted_[at_].name, wanted_[at_].digest)};
+    return Problem{fmt::format(
+        "{} (SHA-256 {}) is not on this board as it was deployed, and none of the boards that were asked has it",
+        wanted_[at_].name, wanted_[at_].digest)};
   }
   ask_another();
   return {};

@@ -45,11 +45,11 @@ LinkSettings link_settings(const AgentOptions& options, std::uint64_t self) {
 Result<AgentOptions, int> parse_options(int argc, char** argv) {
   AgentOptions options;
   base::Options line("indurop-agent",
-                     "Make this host a board of a plant: run what indurop deploy brought last, take new deployments");
+                     "Make this host a board of a plant: run the last deployment of indurop deploy, accept new ones");
   line.version(INDUROP_VERSION);
   line.add("--board", "NAME", options.board, "Name of the board").required().check(check_board);
   add_agent_options(line, options.link);
-  line.add("--core", "N", options.core, "Core of all modules that name none");
+  line.add("--core", "N", options.core, "Core for all modules without <core>");
   line.flag("--require-rt", options.require_rt, "The node ends unless real-time rights were obtained");
   line.flag("-q,--quiet", options.quiet, "Only warnings and errors");
   line.exit_codes({kOk, kFailed, kUsage, kInterrupted});

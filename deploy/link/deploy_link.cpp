@@ -110,7 +110,7 @@ void add_link_options(base::Options& line, LinkSettings& settings) {
     const auto done = use_keys(settings);
     return done ? std::string() : done.error().text;
   };
-  line.add("--keys", "DIR", take, "Folder of the plant's keys, or of its deployer or viewer, if its boards have some")
+  line.add("--keys", "DIR", take, "Folder of the plant's keys, or of its deployer or viewer, if its boards have keys")
       .completes(base::Completion::Folder);
 }
 

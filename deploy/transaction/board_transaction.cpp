@@ -64,7 +64,7 @@ void BoardTransaction::agree_instant(const Order& order, rt::MonoTime now) {
   const bool trusted = clock_offset_ > -kClockTrust && clock_offset_ < kClockTrust;
   switch_ = now + (trusted ? ahead - clock_offset_ : ahead);
   if (!trusted) {
-    message_ = fmt::format("its clock is {:+.1f} s from the deployer's; it switches by the deployer's word instead",
+    message_ = fmt::format("its clock is {:+.1f} s from the deployer's; it switches on the deployer's order instead",
                            std::chrono::duration<double>(clock_offset_).count());
   }
 }
@@ -101,7 +101,7 @@ Do BoardTransaction::receive(const Order& order, rt::MonoTime now, rt::WallTime 
       }
       break;
     case Step::Abort:
-      return end("another board could not, or the deployer gave up");
+      return end("another board failed, or the deployer gave up");
   }
   return Do::Nothing;
 }
@@ -175,7 +175,7 @@ Do BoardTransaction::time(rt::MonoTime now) {
     return Do::Nothing;
   }
   if (!joining_ && silence_.update(now) > kSilence) {
-    return end(fmt::format("the deployer was not heard for {} s", kSilence.count()));
+    return end(fmt::format("there was no message from the deployer for {} s", kSilence.count()));
   }
   if (phase_ == Phase::Prepared && switch_ && now >= *switch_) {
     phase_ = Phase::Trial;

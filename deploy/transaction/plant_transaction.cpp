@@ -81,7 +81,7 @@ void PlantTransaction::board_lost(const std::string& board, std::uint64_t agent,
 void PlantTransaction::miss_lost(rt::MonoTime now) {
   for (auto& [board, silence] : lost_) {
     if (silence.update(now) > kLost) {
-      abort(Verdict::Refused, board, "it is not heard any more", now);
+      abort(Verdict::Refused, board, "it no longer reports", now);
     }
   }
 }
@@ -169,7 +169,7 @@ bool PlantTransaction::time(rt::MonoTime now, rt::WallTime wall) {
       for (const std::string& board : order_.boards) {
         const auto found = reports_.find(board);
         if (found == reports_.end() || !ours(found->second) || found->second.phase != wanted) {
-          const char* at = found == reports_.end() ? "never heard" : to_text(found->second.phase);
+          const char* at = found == reports_.end() ? "never reported" : to_text(found->second.phase);
           abort(Verdict::Refused, board,
                 fmt::format("nothing happened for {} s ({})",
                             std::chrono::floor<std::chrono::seconds>(now - moved_).count(), at),

@@ -58,7 +58,7 @@ std::string order_text(const Order& order) {
 }
 
 std::string describe(const OtherAgent& agent, unsigned own_protocol) {
-  return fmt::format("{}{} speaks protocol {} of another release, here it is {}: install the same release on both",
+  return fmt::format("{}{} uses protocol {} of another release, this one uses {}: install the same release on both",
                      agent.board.empty() ? "an agent" : "the agent of board " + agent.board,
                      agent.host.empty() ? "" : " on " + agent.host, agent.protocol, own_protocol);
 }
@@ -66,12 +66,12 @@ std::string describe(const OtherAgent& agent, unsigned own_protocol) {
 std::string describe(const Impostor& impostor) {
   return impostor.board.empty()
              ? fmt::format(
-                   "somebody with keys of the plant reports in the name of board {}, which is not believed: find "
-                   "out whose keys are in wrong hands (indurop keys list), and revoke them",
+                   "a participant with keys of the plant reports in the name of board {}; its reports are rejected: "
+                   "find out which keys are compromised (indurop keys list), and revoke them",
                    impostor.claimed)
              : fmt::format(
-                   "board {} reports in the name of board {}, which is not believed: its keys may be in wrong "
-                   "hands (indurop keys revoke {})",
+                   "board {} reports in the name of board {}; its reports are rejected: its keys may be compromised "
+                   "(indurop keys revoke {})",
                    impostor.board, impostor.claimed, impostor.board);
 }
 

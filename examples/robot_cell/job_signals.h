@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared variables that jobs set and look at, by name: any number or bool. Name them in <access> of module.xml, so
+// The shared variables that jobs set and read, by name: any number or bool. Name them in <access> of module.xml, so
 // that the checks know them.
 #pragma once
 

@@ -36,7 +36,7 @@ struct Answer {
 };
 
 inline Answer not_known(std::string why) {
-  return {Cause::NotKnown, {}, "I do not know, because " + std::move(why), {}};
+  return {Cause::NotKnown, {}, "Not known, because " + std::move(why), {}};
 }
 
 }  // namespace indurop::explain

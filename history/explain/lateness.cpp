@@ -152,7 +152,7 @@ Answer Lateness::explain(const RunFact& run, int depth) const {
   } else if (compared.others > 0 && compared.more_ns * 10 < response && response - compared.more_ns > limit) {
     answer = {Cause::Schedule,
               {},
-              fmt::format("{} always takes about this long to its end: too much is due at once", module.name),
+              fmt::format("{} always takes about this long to its end: too many modules are due at once", module.name),
               {}};
   } else {
     answer = blame(run, compared, depth);
@@ -167,7 +167,7 @@ Answer Lateness::explain(const RunFact& run, int depth) const {
 
 Answer Lateness::blame(const RunFact& run, const Compared& compared, int depth) const {
   if (compared.all.empty() || depth > kDeepest) {
-    return not_known("what ran meanwhile is not known");
+    return not_known("it is not known what ran meanwhile");
   }
   if (const HoleFact* hole = facts_.hole_within(facts_.modules[run.module].core, run.release_ns, run.end_ns)) {
     return not_known(
@@ -176,8 +176,8 @@ Answer Lateness::blame(const RunFact& run, const Compared& compared, int depth) 
   const Excess& first = compared.all[0];
   if (!most_of(first.more_ns, compared.more_ns)) {
     return not_known(
-        fmt::format("no single one accounts for it: {} ended {} later than usual, and the most that one "
-                    "module or the machine had more than usual is {}",
+        fmt::format("no single cause accounts for it: {} ended {} later than usual, and neither a module nor the "
+                    "machine took more than {} above its usual time",
                     name(run.module), short_time(compared.more_ns), short_time(first.more_ns)));
   }
   if (compared.all.size() > 1 && compared.all[1].more_ns * 10 > first.more_ns * 6) {
@@ -200,7 +200,7 @@ Answer Lateness::blame_itself(const RunFact& run, const Excess& own) const {
     const Answer kernel =
         machine({run.start_ns, run.end_ns}, facts_.modules[run.module].core, facts_.modules[run.module], own.more_ns);
     if (kernel.cause == Cause::Machine) {
-      return with_prefix(fmt::format("the run of {} took {} longer than usual, and not by its own computing: ", self,
+      return with_prefix(fmt::format("the run of {} took {} longer than usual, but not for its own computation: ", self,
                                      short_time(own.more_ns)),
                          kernel);
     }
@@ -244,7 +244,7 @@ Answer Lateness::blame_other(const RunFact& run, const Excess& other, int depth)
   if (most_of(compared.more_ns, other.more_ns) && compared.others > 0) {
     return with_prefix(prefix + ", because it was late itself. ", blame(*its, compared, depth + 1));
   }
-  return not_known(fmt::format("{}, longer than usual, and neither took it longer itself nor was it late", prefix));
+  return not_known(fmt::format("{}, longer than usual, although it neither took longer itself nor was late", prefix));
 }
 
 // Also true if a module that precedes it in the same thread waits for the other one.
@@ -286,7 +286,7 @@ Answer Lateness::blame_gap(const RunFact& run, const Excess& gap, int depth) con
   if (kernel.cause == Cause::AllIsWell) {
     kernel.cause = facts_.is_virtual ? Cause::Machine : Cause::NotKnown;
   }
-  return with_prefix(fmt::format("for {} longer than usual nothing of the node ran on core {}: ",
+  return with_prefix(fmt::format("for {} longer than usual, no thread of the node ran on core {}: ",
                                  short_time(gap.more_ns), module.core),
                      kernel);
 }
@@ -319,14 +319,14 @@ Answer Lateness::machine(Span span, std::int32_t core, const ModuleFact& module,
     return {Cause::AllIsWell, {}, "virtual time knows no other programs", {}};
   }
   if (facts_.kernel_from_ns > span.from_ns || span.to_ns > facts_.kernel_to_ns) {
-    return not_known("what the kernel counted then was not kept");
+    return not_known("the kernel's counters of that time were not kept");
   }
   const Waited counted = waited(span, core, module);
   const std::int64_t enough = so_much_ns / 2;
   Answer answer{Cause::Machine, {}, {}, {}};
   if (counted.stolen_ns >= enough) {
     answer.culprit = "host";
-    answer.text = fmt::format("the machine below took the processor away for {}", short_time(counted.stolen_ns));
+    answer.text = fmt::format("the hypervisor took the processor away for {}", short_time(counted.stolen_ns));
   } else if (counted.pages > 0) {
     answer.culprit = "page fault";
     answer.text = fmt::format("memory had to be read from the disk ({} pages)", counted.pages);

@@ -51,13 +51,16 @@ class Question {
 
   Answer answer() {
     if (module_.operation == "non-real") {
-      return {Cause::NotDue, {}, fmt::format("{} has no place in the schedule: it runs beside it", module_.name), {}};
+      return {Cause::NotDue,
+              {},
+              fmt::format("{} is not part of the schedule: it runs in the background", module_.name),
+              {}};
     }
     if (const RunFact* run = find(tick_); run != nullptr) {
       return run->faulted ? faulted(*run) : lateness_.explain(*run);
     }
     if (tick_ < facts_.first_tick) {
-      return not_known(fmt::format("what is known begins with tick {}", facts_.first_tick));
+      return not_known(fmt::format("data is available from tick {} on", facts_.first_tick));
     }
     for (Answer one : {not_there(), not_due(), not_recorded(), after_fault(), stopped(), restarting()}) {
       if (!one.text.empty()) {
@@ -215,8 +218,7 @@ class Question {
     return {Cause::Fault,
             module_.name,
             fmt::format("the process of {} had died and {}: {}", module_.name,
-                        stays ? "stays stopped, as often as it was started again" : "was being started again",
-                        module_.fault),
+                        stays ? "stays stopped after too many restarts" : "was being started again", module_.fault),
             {}};
   }
 
@@ -275,7 +277,7 @@ class Question {
     }
     if (any) {
       return not_known(
-          fmt::format("others ran in {}, and nothing kept {} from it that was noted", place(), module_.name));
+          fmt::format("other modules ran in {}, and nothing on record kept {} from running", place(), module_.name));
     }
     return stood_still();
   }
@@ -310,8 +312,8 @@ class Question {
     Answer answer = lateness_.machine({release_ns_, gap.to_ns}, module_.core, module_, gap.length());
     answer.cause = Cause::Machine;
     answer.text = fmt::format(
-        "no module ran on core {} in {}: nothing of the node had it for {}, so the machine stood still "
-        "or was taken ({})",
+        "no module ran on core {} in {}: no thread of the node ran on it for {}, so the machine was suspended or "
+        "preempted ({})",
         module_.core, place(), short_time(gap.length()), answer.text);
     answer.evidence.push_back(fmt::format("lost ticks: {}", facts_.lost_ticks));
     return answer;

@@ -97,7 +97,7 @@ class Old {
     }
     const std::string writer = here();
     if (writer.empty()) {
-      return not_known(fmt::format("{} is written by {}, of which nothing is known here", variable_.name,
+      return not_known(fmt::format("{} is written by {}, about which nothing is known here", variable_.name,
                                    fmt::join(variable_.writers, ", ")));
     }
     Answer answer = of_writer(writer);
@@ -145,7 +145,7 @@ class Old {
     if (module.operation != "periodic") {
       return {Cause::Unchanged, writer,
               fmt::format("{} is written by {}, which runs {}", variable_.name, writer,
-                          module.operation == "sporadic" ? "when its event comes" : "beside the schedule"),
+                          module.operation == "sporadic" ? "when its event comes" : "in the background"),
               ran == nullptr ? std::vector<std::string>()
                              : std::vector{fmt::format("its last run was in {}", at_tick(facts_, ran->tick))}};
     }
@@ -224,9 +224,11 @@ Answer silent(const Facts& facts, const Facts& its, const BoardFact& peer, std::
     if (back != nullptr) {
       evidence.push_back(fmt::format("{} sees {} as {}", board, facts.board, back->state));
     }
-    return {Cause::Network, board,
-            fmt::format("{} went on running and was not heard: the network between the two carried nothing", board),
-            evidence};
+    return {
+        Cause::Network, board,
+        fmt::format("{} kept running, but nothing was received from it: the network between the two carried nothing",
+                    board),
+        evidence};
   }
   if (!listened && !its.stop_reason.empty() && last + slack > facts.now_ns) {
     Answer answer = not_known(
@@ -268,7 +270,7 @@ Answer why_ended(const Facts& facts) {
             {when_last}};
   }
   Answer answer = not_known(fmt::format(
-      "the recording does not say that {} stopped; give those of other boards, which heard it", facts.board));
+      "the recording does not say that {} stopped; give those of other boards, which received from it", facts.board));
   answer.evidence.push_back(when_last);
   return answer;
 }
@@ -281,22 +283,24 @@ Answer why_gone(std::span<const Facts> plant, std::size_t asked, const std::stri
   }
   std::vector<std::string> evidence;
   if (peer->heard_ns > 0) {
-    evidence.push_back(fmt::format("{} was heard last in {} of {}", board, when(facts, peer->heard_ns), facts.board));
+    evidence.push_back(
+        fmt::format("{} was last received in {} of {}", board, when(facts, peer->heard_ns), facts.board));
   }
   if (peer->state == "alive") {
     return {Cause::AllIsWell,
             {},
-            fmt::format("{} is heard{}", board,
-                        peer->losses > 0 ? fmt::format("; it was gone {} times", peer->losses) : std::string()),
+            fmt::format("{} is connected{}", board,
+                        peer->losses > 0 ? fmt::format("; it was lost {} times", peer->losses) : std::string()),
             evidence};
   }
   if (peer->state == "mismatched") {
-    return {Cause::Board, board, fmt::format("{} is there, but does not fit: {}", board, peer->problem), evidence};
+    return {Cause::Board, board, fmt::format("{} is connected, but does not match: {}", board, peer->problem),
+            evidence};
   }
   const Facts* its = find_board(plant, board);
   if (its == nullptr) {
     Answer answer =
-        not_known(fmt::format("{} is silent, and nothing of {} itself is at hand: it may have ended, or be "
+        not_known(fmt::format("{} is silent, and no data of {} itself is available: it may have ended, or be "
                               "cut off; give its recording too, or ask on its host",
                               board, board));
     answer.evidence = evidence;
@@ -328,7 +332,7 @@ Answer why_old(std::span<const Facts> plant, std::size_t asked, const std::strin
   const VariableFact* there = its == nullptr ? nullptr : its->find_variable(variable);
   if (there == nullptr) {
     return not_known(
-        fmt::format("{} comes from board {}, which is heard; what its modules do is known there only: give "
+        fmt::format("{} comes from board {}, which is connected; the runs of its modules are known only there: give "
                     "its recording too, or ask on its host",
                     variable, known->owner));
   }
@@ -341,7 +345,7 @@ Answer why_old(std::span<const Facts> plant, std::size_t asked, const std::strin
             {fmt::format("board {} changed it last in {} there", known->owner, at_tick(*its, change->tick))}};
   }
   Answer answer = Old(*its, *there, its_now).answer();
-  answer.text = fmt::format("{} comes from board {}, which is heard. {}", variable, known->owner, answer.text);
+  answer.text = fmt::format("{} comes from board {}, which is connected. {}", variable, known->owner, answer.text);
   return answer;
 }
 
@@ -349,7 +353,7 @@ Answer who_changed(const Facts& facts, const std::string& variable, std::int64_t
   const OrderFact* order = last_order(facts, variable, at_ns);
   const ChangeFact* change = last_change(facts, variable, at_ns);
   if (order == nullptr && change == nullptr) {
-    return not_known(fmt::format("nobody is known to have written {} since tick {}", variable, facts.first_tick));
+    return not_known(fmt::format("no writer of {} is known since tick {}", variable, facts.first_tick));
   }
   std::vector<std::string> evidence;
   if (order != nullptr) {
@@ -358,7 +362,7 @@ Answer who_changed(const Facts& facts, const std::string& variable, std::int64_t
   }
   if (change != nullptr) {
     evidence.push_back(fmt::format("{}: new value by {}", at_tick(facts, change->tick),
-                                   change->module.empty() ? "somebody beside the schedule" : change->module));
+                                   change->module.empty() ? "a writer outside the schedule" : change->module));
   }
   const std::int64_t since =
       std::max(order != nullptr ? order->node_ns : INT64_MIN, change != nullptr ? change->time_ns : INT64_MIN);
@@ -377,12 +381,12 @@ Answer who_changed(const Facts& facts, const std::string& variable, std::int64_t
             fmt::format("{} {} {} last{}", who(*order),
                         order->action == "force" ? "forced"
                         : order->action == "set" ? "set"
-                                                 : "let go",
+                                                 : "released",
                         order->what, order->value.empty() ? "" : ", to " + order->value),
             evidence};
   }
   if (change->module.empty()) {
-    Answer answer = not_known("it was written by nobody of the schedule, and no order was noted");
+    Answer answer = not_known("no module of the schedule wrote it, and no command was noted");
     answer.evidence = evidence;
     return answer;
   }

@@ -72,7 +72,7 @@ std::string when(const Facts& facts, std::int64_t time_ns) {
 }
 
 std::string who(const OrderFact& order) {
-  const std::string user = order.who.empty() ? "somebody" : order.who;
+  const std::string user = order.who.empty() ? "unknown user" : order.who;
   return order.from.empty() ? user : fmt::format("{} on {}", user, order.from);
 }
 

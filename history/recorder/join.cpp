@@ -112,7 +112,7 @@ Result<Part, Problem> open(const std::filesystem::path& file) {
   }
   Sources sources = find_sources(*reader);
   if (sources.all.empty()) {
-    return Problem{fmt::format("{} is no recording of indurop record or run --record", file.string())};
+    return Problem{fmt::format("{} is not a recording of indurop record or run --record", file.string())};
   }
   Part part{file.string(), std::move(reader).value(), std::move(sources), {}, {}};
   for (const Source& source : part.sources.all) {
@@ -156,8 +156,8 @@ Result<void, Problem> sort_in(Part part, std::vector<Chain>& chains, Joined& joi
     }
     if (simulated(part) && part.names != other.names && !share_virtual_time(part, other)) {
       return Problem{
-          fmt::format("{} and {} are two simulations, not boards of one plant: their times begin alike, but are "
-                      "not common; simulate them as boards of a plant, or look at each by itself",
+          fmt::format("{} and {} are two simulations, not boards of one plant: their times begin at the same value, "
+                      "but are not common; simulate them as boards of a plant, or examine each on its own",
                       other.file, part.file)};
     }
     if (of_one_recording(part, other)) {

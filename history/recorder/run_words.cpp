@@ -77,7 +77,7 @@ void to_cdr(const AnswerRecord& answer, std::vector<std::uint8_t>& cdr) {
 Result<AnswerRecord> answer_from_cdr(std::span<const std::uint8_t> cdr) {
   constexpr std::size_t kCodeEnd = kLittleEndian.size() + sizeof(std::int64_t);
   std::array<std::uint8_t, sizeof(std::uint32_t)> length{};
-  const Error damaged{Errc::Corrupt, 0, "what a run of a recording was told"};
+  const Error damaged{Errc::Corrupt, 0, "an input record of a recording"};
   if (cdr.size() < kCodeEnd + length.size()) {
     return damaged;
   }

@@ -89,7 +89,7 @@ Sources find_sources(const recording::McapReader& reader) {
 Result<std::size_t, Problem> choose_source(const Sources& sources, const std::string& name, const std::string& file) {
   if (sources.all.empty()) {
     return Problem{
-        fmt::format("{} tells no runs: only recordings of indurop record and run --record can be replayed", file)};
+        fmt::format("{} has no runs: only recordings of indurop record and run --record can be replayed", file)};
   }
   std::string names;
   for (std::size_t i = 0; i < sources.all.size(); ++i) {
@@ -108,7 +108,7 @@ Result<std::size_t, Problem> choose_source(const Sources& sources, const std::st
 
 std::string module_name(const Source& source, std::uint32_t module) {
   if (module == kOthers) {
-    return "nobody";
+    return "no module";
   }
   return module < source.modules.size() ? source.modules[module] : fmt::format("module {}", module);
 }

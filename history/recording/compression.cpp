@@ -19,7 +19,7 @@ using base::Problem;
 constexpr int kLevel = 1;
 
 Problem damaged(std::string_view compression, std::string_view why) {
-  return {fmt::format("what {} compressed is damaged ({})", compression, why)};
+  return {fmt::format("data compressed by {} is damaged ({})", compression, why)};
 }
 
 // Checks the size that the bytes announce before memory is reserved for it. A zstd block has at least 4 bytes and

@@ -28,7 +28,7 @@ Result<std::uint64_t, Problem> read_header(const InputFile& file, McapHeader& he
     return std::move(begin).error();
   }
   if (begin->size < kMagic.size() || !is_magic(begin->view().first(kMagic.size()))) {
-    return file.problem(0, "this is no recording: it does not begin as an MCAP file does");
+    return file.problem(0, "this is not a recording: it does not begin like an MCAP file");
   }
   if (begin->size < kMagic.size() + kRecordHead) {
     return file.problem(file.size(), "the file ends within its header");
@@ -36,7 +36,7 @@ Result<std::uint64_t, Problem> read_header(const InputFile& file, McapHeader& he
   const RecordHead head = record_head(begin->view().subspan(kMagic.size()));
   const std::uint64_t end = kMagic.size() + kRecordHead + head.length;
   if (head.opcode != Opcode::Header || head.length > kMaxHeaderBytes) {
-    return file.problem(kMagic.size(), "this is no recording: it has no header");
+    return file.problem(kMagic.size(), "this is not a recording: it has no header");
   }
   auto content = file.read(kMagic.size() + kRecordHead, head.length);
   if (!content) {

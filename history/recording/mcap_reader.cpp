@@ -56,10 +56,9 @@ Result<void, Problem> McapReader::open_segment(const Segment& segment) {
     return file_.problem(segment.offset, "a chunk with older messages than the summary says");
   }
   if (loaded->records.size > kMaxOpenBytes - open_bytes_) {
-    return file_.problem(segment.offset,
-                         fmt::format("a chunk is passed over: those of its time together have more than "
-                                     "the {} bytes that are read at once",
-                                     kMaxOpenBytes));
+    return file_.problem(segment.offset, fmt::format("a chunk is skipped: those of its time together have more than "
+                                                     "the {} bytes that are read at once",
+                                                     kMaxOpenBytes));
   }
   const auto first = std::partition_point(messages.begin(), messages.end(),
                                           [this](const auto& each) { return each.log_time_ns < from_ns_; });

@@ -56,7 +56,7 @@ class Walk {
   // Reads one record; returns false at the end.
   bool step() {
     if (at_ == file_.size()) {
-      return stop("the file was not closed; it ends here, behind a whole record");
+      return stop("the file was not closed; it ends here, after a whole record");
     }
     const bool has_head = file_.has(at_, kRecordHead);
     const auto bytes = window_.at(at_, has_head ? kRecordHead : file_.size() - at_);

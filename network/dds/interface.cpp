@@ -68,8 +68,8 @@ Result<Interface, base::Problem> choose_interface(const NetworkSettings& setting
     for (const Card& card : usable) {
       names += (names.empty() ? "" : ", ") + card.name;
     }
-    chosen.note =
-        fmt::format("{} was chosen of {}: say which with interface= or address= of the board", chosen.name, names);
+    chosen.note = fmt::format("{} was chosen from {}: name another one with interface= or address= of the board",
+                              chosen.name, names);
   }
   return chosen;
 }

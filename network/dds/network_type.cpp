@@ -100,7 +100,7 @@ class Reader {
 
   template <class Bounds>
   Found array(const Bounds& bounds, const Identifier* element, int depth) {
-    auto type = element == nullptr ? refuse("its publisher does not tell its type") : read(*element, depth + 1);
+    auto type = element == nullptr ? refuse("its publisher does not announce the type") : read(*element, depth + 1);
     if (!type) {
       return type;
     }
@@ -113,12 +113,12 @@ class Reader {
     dds_typeobj_t* raw = nullptr;
     if (dds_get_typeobj(participant_, reinterpret_cast<const dds_typeid_t*>(&id), timeout_ns_, &raw) < 0 ||
         raw == nullptr) {
-      return refuse("its publisher does not tell its type");
+      return refuse("its publisher does not announce the type");
     }
     const std::unique_ptr<dds_typeobj_t, FreeObject> object(raw);
     const auto& whole = *reinterpret_cast<const Object*>(raw);
     if (whole._d != DDS_XTypes_EK_COMPLETE) {
-      return refuse("its publisher tells only what its type must agree with");
+      return refuse("its publisher announces only the minimal description of its type");
     }
     const auto& complete = whole._u.complete;
     switch (complete._d) {

@@ -40,7 +40,7 @@ Result<void, base::Problem> OtherReleases::open(Handle participant) {
   participants_in_ = Entity(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr));
   publications_in_ = Entity(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr));
   if (!participants_in_.ok() || !publications_in_.ok()) {
-    return base::Problem{"cannot see who is in the network: " +
+    return base::Problem{"cannot discover the participants of the network: " +
                          (participants_in_.ok() ? publications_in_.why() : participants_in_.why())};
   }
   return {};

@@ -74,7 +74,7 @@ bool Publications::with(const Publication& publication,
 
 Result<schema::Type, base::Problem> Publications::type_of(const Publication& publication,
                                                           std::int64_t timeout_ns) const {
-  Result<schema::Type, base::Problem> type = base::Problem{"its publisher tells nothing about its type"};
+  Result<schema::Type, base::Problem> type = base::Problem{"its publisher does not announce its type"};
   (void)with(publication, [&](dds_builtintopic_endpoint_t& info_of_endpoint) {
     const dds_typeinfo_t* information = nullptr;
     if (dds_builtintopic_get_endpoint_type_info(&info_of_endpoint, &information) >= 0 && information != nullptr) {

@@ -87,7 +87,7 @@ Result<void, base::Problem> security_usable(const Security& security, const fs::
   }
   if (plugins.empty()) {
     return base::Problem{
-        fmt::format("the plant is secured, but {} and the other two plugins of DDS Security are not beside {}; "
+        fmt::format("the plant is secured, but {} and the other two plugins of DDS Security are not next to {}; "
                     "install the package libddsc0debian",
                     kPlugins[0], kLibrary)};
   }

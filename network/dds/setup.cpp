@@ -135,11 +135,12 @@ Result<Joined, base::Problem> join_network(const NetworkSettings& settings) {
   if (!participant.ok()) {
     const std::string reason = last_dds_message();
     const std::string why = reason.empty() ? participant.why() : reason;
-    return base::Problem{settings.security.on() ? fmt::format("keys refused (indurop keys list tells more): {}", why)
-                                                : why};
+    return base::Problem{settings.security.on() ? fmt::format("keys refused (see indurop keys list): {}", why) : why};
   }
   if (interface->note.empty() && !waits_are_steady()) {
-    interface->note = "this program is not heard for as long as its clock is put back, because DDS waits by that clock";
+    interface->note =
+        "other programs receive nothing from this one for as long as its clock was set back, because DDS uses that "
+        "clock";
   }
   return Joined{{std::move(domain), std::move(participant)}, std::move(interface->note)};
 }

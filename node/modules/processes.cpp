@@ -63,8 +63,8 @@ bool Processes::enrolled(Child& child) {
   }
   if (!child.warned && rt::MonoClock::now() - child.launched > kStartPatience) {
     child.warned = true;
-    console_.warning("module {} neither catches nor blocks {} ({}): it is not woken until it does", record(child).name,
-                     child.module->signal, ::strsignal(child.module->signal));
+    console_.warning("module {} neither catches nor blocks {} ({}): it is not started until it does",
+                     record(child).name, child.module->signal, ::strsignal(child.module->signal));
   }
   return false;
 }
@@ -90,8 +90,9 @@ bool Processes::is_sound(Child& child) {
   if (!digest.empty() && digest == child.digest) {
     return true;
   }
-  console_.error("module {}: it is not started again, for {} is not what was deployed: its SHA-256 is {}, it was {}",
-                 child.module->name, child.module->file.string(), digest.empty() ? "unknown" : digest, child.digest);
+  console_.error(
+      "module {}: it is not started again, because {} is not what was deployed: its SHA-256 is {}, it was {}",
+      child.module->name, child.module->file.string(), digest.empty() ? "unknown" : digest, child.digest);
   return false;
 }
 

@@ -79,9 +79,9 @@ Result<std::filesystem::path, base::Problem> write_box(recorder::About about, co
 void log_box(const Result<std::filesystem::path, base::Problem>& box, const std::string& reason,
              const Console& console) {
   if (box) {
-    console.info("{}: what led to it is in {}", reason, box->string());
+    console.info("{}: the black box is in {}", reason, box->string());
   } else {
-    console.warning("{}: no black box could be kept: {}", reason, box.error().text);
+    console.warning("{}: the black box could not be written: {}", reason, box.error().text);
   }
 }
 
@@ -143,7 +143,7 @@ void keep_box_of_crash(const std::string& node, const Console& console) {
   if (run.abi != scheduler::kRunAbi || !crashed || !follower || follower->header().node_pid != run.node_pid.load()) {
     return;
   }
-  const std::string reason = fmt::format("the last run of node {} did not end, it crashed", node);
+  const std::string reason = fmt::format("the last run of node {} crashed", node);
   log_box(write_box(about_crashed(node, run, file->size(), *store), *store, reason), reason, console);
 }
 

@@ -34,8 +34,8 @@ void MemoryWatch::on_lost_page(void* context, const char* name) noexcept {
 
 void MemoryWatch::lose(const std::string& file) {
   engine_.halt();
-  why_ = fmt::format("somebody who may write /dev/shm/{} cut it or emptied it: values were lost", file);
-  console_.error("{}; modules are stopped and fail-safe values written. `ls -l /dev/shm/{}` shows who may write it",
+  why_ = fmt::format("a process with write access to /dev/shm/{} truncated it: values were lost", file);
+  console_.error("{}; modules are stopped and fail-safe values written. `ls -l /dev/shm/{}` shows who has write access",
                  why_, file);
 }
 
@@ -55,9 +55,8 @@ void MemoryWatch::check_names(rt::MonoTime now) {
   if ((gone || !locked) && !unnamed_) {
     unnamed_ = true;
     console_.warning(
-        "somebody removed files of this node from /dev/shm ({}): the schedule goes on, but no tool can see all of it "
-        "any "
-        "more. End it with `indurop stop --node {}` or `kill {}`, and start it again",
+        "a process removed files of this node from /dev/shm ({}): the schedule continues, but tools cannot show all of "
+        "it. End it with `indurop stop --node {}` or `kill {}`, and start it again",
         store == vars::ShmFile::Named::Gone ? vars::block_file(node_)
         : run == vars::ShmFile::Named::Gone ? vars::run_file(node_)
                                             : vars::lock_file(node_),

@@ -62,7 +62,7 @@ Result<std::unique_ptr<tape::Tape>> make_tape(const Options& options, const Chec
   }
   const auto plan = tape::plan_tape(accesses, directory, basic_period_ns, kReachNs, options.tape_megabytes * kMegabyte);
   if (plan.reach_ns < kReachNs && !options.simulation.on) {
-    console.info("the tape tells of the last {} at least, two seconds want --tape {}",
+    console.info("the tape holds at least the last {}; two seconds need --tape {}",
                  base::format_duration(std::chrono::milliseconds(plan.reach_ns / 1'000'000)),
                  (plan.bytes_wanted + kMegabyte - 1) / kMegabyte);
   }

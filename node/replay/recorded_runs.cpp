@@ -109,7 +109,7 @@ Result<std::optional<RecordedRuns::Item>, Problem> RecordedRuns::next() {
     if (one.channel == answer_channel_ && answer_channel_ != 0) {
       auto told = recorder::answer_from_cdr(one.data.view);
       if (!told) {
-        return Problem{"what a run of the recording was told is damaged"};
+        return Problem{"an input record of the recording is damaged"};
       }
       return std::optional<Item>(RecordedTold{recorder::from_sequence(one.sequence).module, *told});
     }

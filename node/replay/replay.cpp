@@ -28,7 +28,7 @@ bool names(const std::vector<std::string>& list, const std::string& name) {
 // Returns why the module is not run again; empty: it is.
 std::string reason_to_leave_out(const config::Module& module, const std::vector<std::string>& imports) {
   if (module.operation == Operation::NonReal) {
-    return "it runs beside the schedule";
+    return "it runs in the background";
   }
   if (module.signal != 0) {
     return "it does not say when a run ends";

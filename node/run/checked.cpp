@@ -39,8 +39,8 @@ bool take_files(const std::vector<std::string>& files, config::Config& config,
     if (module == config.modules.end()) {
       wrong(file, "no module has this name or such a file; rename the file");
     } else if (const auto [first, fresh] = taken.emplace(module->name, file); !fresh) {
-      wrong(file, fmt::format("takes the place of module {}, as {} does; leave one of them out", module->name,
-                              first->second.string()));
+      wrong(file,
+            fmt::format("replaces module {}, as {} does; leave one of them out", module->name, first->second.string()));
     } else {
       module->file = std::filesystem::absolute(file);
     }
@@ -114,7 +114,7 @@ Result<Checked, Ending> check(const Options& options, const Console& console) {
   const bool plant = config::is_plant_file(options.config);
   if (plant == options.board.empty()) {
     console.error("{} {}", options.config.string(),
-                  plant ? "is the manifest of a plant: say with --board NAME which of its boards this is"
+                  plant ? "is the manifest of a plant: name one of its boards with --board NAME"
                         : "is not the manifest of a plant, so there is no --board");
     return Ending{kUsage};
   }

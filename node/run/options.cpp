@@ -30,7 +30,7 @@ std::string idle_options(const Options& options) {
     return "--replay-output is for --replay; to record a run: --record";
   }
   if (replays && options.duration) {
-    return "a replay ends with its recording; shorten that: indurop recording cut";
+    return "a replay ends with its recording; shorten that with indurop recording cut";
   }
   const bool part = options.simulation.conductor.has_value();
   if (!part && !simulates_plant(options) &&
@@ -51,7 +51,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     options.node = named;
   }
   base::Options line("indurop-node",
-                     "Run the modules of a module.xml, or of one board of a plant, each on its own schedule");
+                     "Run the modules of a module.xml, or of one board of a plant, each with its own period");
   line.version(INDUROP_VERSION);
   config::declare_run_options(line, options);
   line.flag("-q,--quiet", options.quiet, "Only warnings and errors");

@@ -176,7 +176,7 @@ void Conductor::advance(std::int64_t until_ns, bool all) {
       took += std::chrono::nanoseconds(boards_[i].answer().took_ns);
       take_answer(i, until_ns);
     } else {
-      console_.warning("board {} has ended; the others go on", boards_[i].name());
+      console_.warning("board {} has ended; the others continue", boards_[i].name());
       network_.leave(i, until_ns);
     }
   }
@@ -268,7 +268,7 @@ Ending Conductor::conduct() {
     const std::int64_t limit = std::min(script, stands_at_ns_);
     const std::int64_t until = std::max(std::min(reachable(), limit), now_ns_);
     if (until == kNever) {
-      return {kFailed, "nothing happens any more"};
+      return {kFailed, "no further events"};
     }
     advance(until, until == limit);
     for (; next_event_ < events_.size() && epoch_ns_ + events_[next_event_].at.count() <= now_ns_; ++next_event_) {

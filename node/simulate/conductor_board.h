@@ -26,7 +26,7 @@ class ConductorBoard {
   ~ConductorBoard();  // kills it if it runs
 
   // Starts the board's program, which then waits before virtual time advances from `place.begin_ns`. `options` are
-  // those of the plant; empty `options.duration`: the board runs until it is told to end.
+  // those of the plant; empty `options.duration`: the board runs until it is commanded to end.
   Status start(const Options& options, const BoardPlace& place);
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }

@@ -55,7 +55,7 @@ class ScriptReader {
     }
     if (board.empty() || !more.empty()) {
       report_.error(place,
-                    "this is no line of a script; write a time, then kill, cut or return, then a board: "
+                    "this is not a line of a script; write a time, then kill, cut or return, then a board: "
                     "500ms kill sensor");
       return;
     }
@@ -69,8 +69,8 @@ class ScriptReader {
     const auto* const word =
         std::find_if(kWords.begin(), kWords.end(), [&](const auto& known) { return what == known.first; });
     if (word == kWords.end()) {
-      report_.error(place,
-                    base::in_quotes(what) + " befalls no board" + base::suggestion(what, {"kill", "cut", "return"}));
+      report_.error(place, base::in_quotes(what) + " cannot happen to a board" +
+                               base::suggestion(what, {"kill", "cut", "return"}));
     }
     const auto found = std::find(boards_.begin(), boards_.end(), board);
     if (found == boards_.end()) {
@@ -106,7 +106,7 @@ class ScriptReader {
       if (board.runs == before.runs && board.wired == before.wired) {
         report_.warning(event.place, fmt::format("'{}' changes nothing: the board {} then", event.text,
                                                  event.what == What::Return ? "is there"
-                                                 : event.what == What::Kill ? "is dead already"
+                                                 : event.what == What::Kill ? "is down already"
                                                                             : "is cut off already"));
       }
     }

@@ -54,7 +54,7 @@ std::optional<StepInput::Order> StepInput::understand(const std::string& line, s
   const base::DurationText read = base::read_duration(line, false, base::PlainNumber::Nanoseconds);
   const bool is_count = line.find_first_not_of("0123456789") == std::string::npos;
   if (!read.value || read.value->count() <= 0) {
-    fmt::print(stderr, "'{}' is not understood: Enter goes on by one tick, 10 by ten, 20ms by a time, q ends the run\n",
+    fmt::print(stderr, "'{}' is not understood: Enter runs one tick, 10 runs ten, 20ms by a time, q ends the run\n",
                line);
     return std::nullopt;
   }

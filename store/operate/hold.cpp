@@ -108,7 +108,7 @@ Result<void, Refusal> renew(Lease& lease, vars::Store& store, std::int64_t for_n
   const Status held = vars::prolong(store, lease.values, lease.until, until);
   lease.until = until;
   return held ? Result<void, Refusal>()
-              : Refusal{Why::Forced, {"another user has released one of the values or forced it again"}};
+              : Refusal{Why::Forced, {"another user released or re-forced one of the values"}};
 }
 
 void end(const std::string& node, vars::Store& store, Lease& lease, const Who& who) {

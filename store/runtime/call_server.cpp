@@ -245,7 +245,7 @@ class FunctionServers::Server {
     guard_.recovered();
     release_calls_of_this_thread();
     attachment_->store().release_locks_of_this_thread();
-    irp::printf("shared function %s crashed with signal %d (%s): its module's functions are not served any more\n",
+    irp::printf("shared function %s crashed with signal %d (%s): its module's functions are no longer served\n",
                 working_offer_->name, guard_.signal_number(), ::strsignal(guard_.signal_number()));
     answer(*working_, working_sequence_, Errc::Failed);
   }

@@ -36,7 +36,7 @@ constexpr int kExitSchemaMismatch = 8;
 
 // The memory of this process's node was lost; the process ends too. Called in a signal handler.
 void end_without_memory(void* /*context*/, const char* file) {
-  constexpr std::string_view kSaid = ": somebody cut this shared memory of the node; this program ends\n";
+  constexpr std::string_view kSaid = ": a process truncated this shared memory of the node; this program ends\n";
   (void)!::write(STDERR_FILENO, "indurop: error: ", 16);
   (void)!::write(STDERR_FILENO, file, std::strlen(file));
   (void)!::write(STDERR_FILENO, kSaid.data(), kSaid.size());
@@ -114,14 +114,14 @@ Enrolment::Outcome Enrolment::enrol(Again again) {
     const Errc code = mapping.error().code;
     if (code == Errc::NotFound || code == Errc::Busy) {
       return {Errc::NotFound,
-              fmt::format("node '{}' does not run; start it with: indurop run module.xml --node {}", node_, node_)};
+              fmt::format("node '{}' is not running; start it with: indurop run module.xml --node {}", node_, node_)};
     }
     return {code, fmt::format("cannot use node '{}': {} ({})", node_, to_string(code), mapping.error().where)};
   }
   if (!mapping->node_alive() || is_ending(mapping->block())) {
     return {
         Errc::NotFound,
-        fmt::format("node '{}' does not run any more; start it with: indurop run module.xml --node {}", node_, node_)};
+        fmt::format("node '{}' is no longer running; start it with: indurop run module.xml --node {}", node_, node_)};
   }
   if (again == Again::Yes && mapping->block().state.load(std::memory_order_acquire) != NodeState::Running) {
     return {Errc::NotFound, {}};  // it is still starting: wait for whether it starts its own process for this module
@@ -300,7 +300,7 @@ void Enrolment::check_node() {
   const std::int32_t node_pid = mapping_->block().node_pid.load(std::memory_order_acquire);
   const bool alive = idle_ % kIdlesPerFullCheck == 0 ? mapping_->node_alive() : process_exists(node_pid);
   if (!alive) {
-    std::fprintf(stderr, "indurop: node '%s' is gone; waiting for it to come back\n", node_.c_str());
+    std::fprintf(stderr, "indurop: node '%s' has ended; waiting for it to start again\n", node_.c_str());
     phase_ = Phase::NoNode;
   }
 }

@@ -75,7 +75,8 @@ BindingProblem RefTables::describe(Table& table, const abi::Ref& ref, const Atta
   const vars::DirectoryEntry* entry = to.store().find(ref.name_hash);
   if (entry == nullptr) {
     problem.text = fmt::format(
-        "variable {}: node '{}' does not have it, so nobody else sees it: name this program in the node's module.xml "
+        "variable {}: node '{}' does not have it, so no other process sees it: name this program in the node's "
+        "module.xml "
         "and restart the node",
         ref.name, to.node());
     return problem;

@@ -46,7 +46,7 @@ Result<TapeIndex> index_tape(std::span<const std::byte> memory) {
   if (head.abi != kTapeAbi) {
     return Error{Errc::VersionMismatch, 0, "the tape of another release"};
   }
-  const Error wrong{Errc::Corrupt, 0, "the tape does not add up"};
+  const Error wrong{Errc::Corrupt, 0, "the tape is inconsistent"};
   TapeIndex index;
   const std::uint64_t tracks = index.tracks_offset = head.tracks_offset;
   const std::uint64_t count = head.track_count;

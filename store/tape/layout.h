@@ -30,7 +30,7 @@ enum class EntryKind : std::uint32_t {
 // First word of an entry. It is followed by the value's bytes, in whole words, or by RunTail.
 struct EntryHead {
   EntryKind kind{};
-  std::uint32_t which = 0;  // index of a variable; for Run: RunFlags; for Told: number of bytes
+  std::uint32_t which = 0;  // index of a variable; for Run: RunFlags; for Answer: number of bytes
 };
 static_assert(sizeof(EntryHead) == sizeof(std::uint64_t) && std::is_trivially_copyable_v<EntryHead>);
 

@@ -18,7 +18,7 @@ Result<Member> Member::open(const std::string& node, std::uint32_t module, const
     return good.error();
   }
   if (header_of(memory).layout_hash != store.header().layout_hash) {
-    return Error{Errc::NotFound, 0, "the tape is of another run"};
+    return Error{Errc::NotFound, 0, "the tape belongs to another run"};
   }
   auto* const tracks = reinterpret_cast<TapeTrack*>(memory + header_of(memory).tracks_offset);
   auto* const end = tracks + header_of(memory).track_count;

@@ -79,7 +79,7 @@ Result<ReplayInputReader> ReplayInputReader::open(const std::string& node, std::
     return file.error();
   }
   if (file->size() != kWords * sizeof(std::uint64_t) || header_of(*file).magic != kMagic) {
-    return Error{Errc::Corrupt, 0, "what a replay tells is damaged"};
+    return Error{Errc::Corrupt, 0, "the input of the replay is damaged"};
   }
   if (header_of(*file).abi != kReplayInputAbi) {
     return Error{Errc::VersionMismatch, 0, "the replay is of another release"};

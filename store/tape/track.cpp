@@ -217,7 +217,7 @@ void Track::record_next_again() noexcept {
   }
 }
 
-// Written from data at hand, and a mark without a division: most runs consist only of this.
+// Written from available data, and a mark without a division: most runs consist only of this.
 void Track::publish(const RunTail& times, std::uint32_t flags) noexcept {
   claim(1 + kRunWords);
   const std::uint32_t restarted = restarted_.load(std::memory_order_acquire);

@@ -196,7 +196,7 @@ Result<std::uint64_t> change_in_one_tick(const std::string& node, const Store& s
   const rt::MonoTime end = rt::MonoClock::now() + patience;
   const Asking asking(*block);
   if (!asking.locked() || !wait_until_done(*block, end)) {
-    return Error{Errc::Busy, 0, "somebody else's changes are not done yet"};
+    return Error{Errc::Busy, 0, "the changes of another process are not done yet"};
   }
   if (!put(*block, store, changes)) {
     return Error{Errc::InvalidArgument, 0, "more than one tick may change"};

@@ -21,7 +21,7 @@ inline constexpr std::chrono::seconds kBetweenBoxes{10};
 Status request_box(const std::string& node, const std::string& why);
 // The message for Busy.
 inline constexpr const char* kBoxesTooClose =
-    "it has just kept a black box, and keeps another ten seconds after that at the earliest";
+    "it has just written a black box; the next one is possible ten seconds after that";
 // Called by the node: returns the request and removes it.
 std::optional<std::string> take_box_request(const std::string& node);
 // Called by the node: no request is accepted until this time of CLOCK_MONOTONIC; 0: requests are accepted.

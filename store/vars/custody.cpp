@@ -184,7 +184,7 @@ Result<Custody> Custody::create(const std::string& node) {
   }
   CustodyBlock& block = block_in(*file);
   if (!rt::init_shared_mutex(block.mutex)) {
-    return Error{Errc::System, 0, "lock of the custody"};
+    return Error{Errc::System, 0, "lock of a node's write lock"};
   }
   write(block.lock, line_of(before, 0, 0, static_cast<std::uint32_t>(before.lock)));
   block.magic.store(kCustodyMagic, std::memory_order_release);
@@ -200,7 +200,7 @@ Result<Custody> Custody::open(const std::string& node, Mode mode) {
     return file.error();
   }
   if (file->size() != sizeof(CustodyBlock) || block_in(*file).magic.load(std::memory_order_acquire) != kCustodyMagic) {
-    return Error{Errc::NotFound, 0, "custody of a node of another version"};
+    return Error{Errc::NotFound, 0, "write lock of a node of another version"};
   }
   return Custody(std::move(file).value());
 }

@@ -142,7 +142,7 @@ class Restorer {
       return;
     }
     if ((entry->flags & kRetain) == 0) {
-      report_.lost.push_back(record.name + ": is no longer declared retain, begins anew");
+      report_.lost.push_back(record.name + ": is no longer declared retain, starts with its initial value");
       return;
     }
     const schema::Variable& variable = store_.schema().variables[entry->schema_index];
@@ -153,7 +153,7 @@ class Restorer {
         write(record.name, *entry, record.value);
       }
     } else if (before == nullptr) {
-      report_.lost.push_back(record.name + ": its type has changed, begins anew");
+      report_.lost.push_back(record.name + ": its type has changed, starts with its initial value");
     } else {
       carry(record, *entry, *before, variable);
     }
@@ -164,7 +164,7 @@ class Restorer {
              const schema::Variable& now) {
     Bytes value(entry.value_size);
     if (!store_.read(entry, 0, value).ok()) {
-      report_.lost.push_back(record.name + ": its type has changed, begins anew");
+      report_.lost.push_back(record.name + ": its type has changed, starts with its initial value");
       return;
     }
     auto lost = schema::carry_value(record.name, {before.type, before.unit}, record.value, {now.type, now.unit}, value);
@@ -306,7 +306,7 @@ void RetainFile::keep_losses(RetainReport& report) const {
   std::filesystem::copy_file(directory_ / kNames[static_cast<std::size_t>(newest_)], kept,
                              std::filesystem::copy_options::overwrite_existing, failure);
   report.lost.push_back(failure ? kept.string() + ": cannot be written: " + failure.message()
-                                : "the values of before are kept in " + kept.string());
+                                : "the previous values are kept in " + kept.string());
   std::string text;
   for (const std::string& one : report.lost) {
     text += one + "\n";

@@ -287,7 +287,7 @@ Status Store::read(const DirectoryEntry& variable, std::uint32_t offset, std::sp
       return Error{Errc::Timeout, 0, "read a variable that is written without a pause"};
     }
   }
-  return lost() ? Status(Error{Errc::Dead, 0, "the store was cut by somebody who may write it"}) : Status();
+  return lost() ? Status(Error{Errc::Dead, 0, "the store was truncated by a process with write access"}) : Status();
 }
 
 Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept {
@@ -327,14 +327,14 @@ Status Store::force(const DirectoryEntry& variable, std::uint32_t offset, std::s
 Status Store::prolong(const DirectoryEntry& variable, std::uint32_t offset, rt::MonoTime was,
                       rt::MonoTime until) noexcept {
   if (impl_->file.mode() == Mode::ReadOnly) {
-    return Error{Errc::PermissionDenied, 0, "prolong through a read-only view"};
+    return Error{Errc::PermissionDenied, 0, "extend a force through a read-only view"};
   }
   return vars::prolong(impl_->header(), variable, offset, was, until);
 }
 
 Status Store::release(const DirectoryEntry& variable, std::uint32_t offset) noexcept {
   if (impl_->file.mode() == Mode::ReadOnly) {
-    return Error{Errc::PermissionDenied, 0, "let go through a read-only view"};
+    return Error{Errc::PermissionDenied, 0, "release through a read-only view"};
   }
   return vars::release(impl_->header(), variable, offset);
 }

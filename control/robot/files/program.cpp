@@ -27,7 +27,7 @@ std::unique_ptr<Program> read_program(const FileNames& names, const std::string&
     return nullptr;
   }
   if (read.urdf != urdf) {
-    error = "the arm's description (property urdf) has changed; start the node anew to use it";
+    error = "the arm's description (property urdf) has changed; restart the node to use it";
     return nullptr;
   }
   return std::make_unique<Program>(read.model->arm, std::move(read.book), std::move(read.clearance));

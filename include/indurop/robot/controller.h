@@ -102,7 +102,7 @@ class Signals {
   // false, with the reason in `why`, if it cannot. Called by a thread of the controller, or in the tick of a
   // simulation; not real-time safe.
   virtual bool prepare(const std::vector<std::string>& /*names*/, std::string& why) {
-    why = "the jobs name other variables than before; start the node anew";
+    why = "the jobs name other variables than before; restart the node";
     return false;
   }
   // Switches to the prepared variables. Real-time safe.

@@ -159,7 +159,7 @@ Result<void, base::Problem> External::Impl::open(dds::Handle participant) {
   }
   if (!eager) {
     if (auto opened = wanted_topics.open(participant); !opened) {
-      return base::Problem{"cannot look for readers: " + opened.error().text};
+      return base::Problem{"cannot discover readers: " + opened.error().text};
     }
   }
   describe();

@@ -33,13 +33,13 @@ void lend(Sequence& sequence, std::vector<char*>& pointers) {
 Result<void, base::Problem> ExternalDirectory::open(dds::Handle participant, const Content& content, bool asked) {
   writer_ = dds::make_writer(participant, indurop_wire_Directory_desc, schema::directory_topic(), dds::make_qos({}));
   if (!writer_.ok()) {
-    return base::Problem{"cannot tell which variables there are: " + writer_.why()};
+    return base::Problem{"cannot announce the variables: " + writer_.why()};
   }
   if (asked) {
     requests_ = dds::make_reader(participant, indurop_wire_Wish_desc, schema::request_topic(),
                                  dds::make_qos({.depth = kRequestDepth}));
     if (!requests_.ok()) {
-      return base::Problem{"cannot hear which variables are wanted: " + requests_.why()};
+      return base::Problem{"cannot receive requests for variables: " + requests_.why()};
     }
   }
   return publish(content);
@@ -62,7 +62,7 @@ Result<void, base::Problem> ExternalDirectory::publish(const Content& content) {
   out.mirrored._buffer = mirrored.data();
   out.mirrored._length = out.mirrored._maximum = static_cast<std::uint32_t>(mirrored.size());
   if (const dds::Written written = dds::write(writer_.get(), out); !written.ok()) {
-    return base::Problem{"cannot tell which variables there are: " + written.why()};
+    return base::Problem{"cannot announce the variables: " + written.why()};
   }
   return {};
 }

@@ -197,11 +197,11 @@ void ExternalTopic::take_over(const std::uint8_t* sample, bool by_tool) noexcept
   bool taken = message.empty() && schema::check_range(range, known.type, scratch_, message).ok();
   if (taken && !store_.write(entry_, 0, scratch_)) {
     taken = false;
-    message = "its writer lock is held by somebody who is stopped";
+    message = "its write lock is held by a stopped process";
   }
   (taken ? block_.received : block_.refused).fetch_add(1, kRelaxed);
   if (!taken) {
-    refusal_ = fmt::format("a value for {} from outside is refused: {}", known.name, message);
+    refusal_ = fmt::format("a value for {} from outside is rejected: {}", known.name, message);
   }
   // Readers of the topic have seen the requested value; now the valid one is published.
   again_ = true;
@@ -215,8 +215,8 @@ std::string ExternalTopic::complaint() {
     block_.mismatched.fetch_add(disagreements - reported_, kRelaxed);
     reported_ = disagreements;
     return fmt::format(
-        "somebody who uses the topic {} has another type for it or wants what is not offered: generate its code from "
-        "the same .idl, and ask for at most reliable, transient-local",
+        "a participant that uses the topic {} has another type for it or requests a QoS that is not offered: generate "
+        "its code from the same .idl, and request at most reliable, transient-local",
         topic_name_);
   }
   return std::exchange(refusal_, {});

@@ -163,7 +163,7 @@ void Mirror::Impl::manage() {
     // Reports why expected boards do not come, or which participants were rejected.
     if (const std::string now_refused = dds::last_refusal(); now_refused != refused) {
       refused = now_refused;
-      block.problem.set("keys of somebody in the network do not match: " + refused);
+      block.problem.set("keys of another participant in the network do not match: " + refused);
     }
     wake_manager.wait_until(rt::mono_time(next));
   }
@@ -179,7 +179,7 @@ void Mirror::Impl::take_catalogues() noexcept {
       }
     } else if (settings.network.board == catalogue.board) {  // not a sample of this board: own samples are left out
       block.problem.set(!info.alive ? ""
-                                    : fmt::format("another node in the network calls itself board {} of plant {}",
+                                    : fmt::format("another node in the network runs as board {} of plant {}",
                                                   settings.network.board, settings.plant));
     }
   });
@@ -197,7 +197,7 @@ void Mirror::Impl::check_other_releases() {
     return found == senders.end()
                ? std::string{}
                : fmt::format(
-                     "it speaks protocol {} of another release, this board {}: install the same release on both",
+                     "it uses protocol {} of another release, this board uses {}: install the same release on both",
                      found->topic.protocol, schema::protocol());
   });
 }

@@ -94,7 +94,7 @@ Result<std::string, base::Problem> RemotePlane::Impl::open(const dds::NetworkSet
       dds::make_writer(participant.get(), indurop_wire_Wish_desc, schema::request_topic(), dds::make_qos({}));
   if (!opened_all || !directories.ok() || !request_writer.ok()) {
     return base::Problem{
-        "cannot look at what boards show: " +
+        "cannot discover the variables of boards: " +
         (opened_all ? (directories.ok() ? request_writer.why() : directories.why()) : opened_all.error().text)};
   }
   return std::move(joined->note);

@@ -47,7 +47,7 @@ TEST_F(BadInput, A_node_starts_after_one_that_could_not_load_its_modules) {
 }
 
 TEST_F(BadInput, Library_without_a_run_function) {
-  expect_refused(run_to_end({{.file = "no_run.so"}}), "4:15", "has nothing to run; write INDUROP_MODULE");
+  expect_refused(run_to_end({{.file = "no_run.so"}}), "4:15", "has no run function; write INDUROP_MODULE");
 }
 
 TEST_F(BadInput, Truncated_module) {

@@ -35,8 +35,8 @@ class LostMemory : public NodeTest {
   [[nodiscard]] std::string block() const { return "/dev/shm/" + vars::block_file(node()); }
   void expect_defined_end() {
     EXPECT_EQ(sut_->wait(), 1) << sut_->err();
-    EXPECT_THAT(sut_->err(), HasSubstr("cut it or emptied it: values were lost"));
-    EXPECT_THAT(sut_->err(), HasSubstr("what led to it is in"));
+    EXPECT_THAT(sut_->err(), HasSubstr("truncated it: values were lost"));
+    EXPECT_THAT(sut_->err(), HasSubstr("the black box is in"));
     EXPECT_THAT(run()->stop_reason, HasSubstr("values were lost"));
     EXPECT_EQ(run()->state.load(), scheduler::NodeState::Failed);
     EXPECT_TRUE(wait_until([this] { return !alive(child_); }));
@@ -82,7 +82,7 @@ TEST_F(LostMemory, The_run_block_or_the_tape_counts_as_well) {
   SKIP_CRASHES_UNDER_TSAN();
   ASSERT_EQ(::truncate(("/dev/shm/" + vars::tape_file(node())).c_str(), 4096), 0);
   EXPECT_EQ(sut_->wait(), 1) << sut_->err();
-  EXPECT_THAT(sut_->err(), HasSubstr(vars::tape_file(node()) + " cut it or emptied it"));
+  EXPECT_THAT(sut_->err(), HasSubstr(vars::tape_file(node()) + " truncated it"));
 }
 
 TEST_F(LostMemory, Of_removed_names_is_told_and_nobody_takes_them) {
@@ -92,7 +92,7 @@ TEST_F(LostMemory, Of_removed_names_is_told_and_nobody_takes_them) {
   const Outcome second = run_to_end(with_failsafe(), {"--duration", "20ms"});
   EXPECT_EQ(second.code, 1);
   EXPECT_THAT(second.err, HasSubstr("already running"));
-  EXPECT_TRUE(sut_->says("somebody removed files of this node from /dev/shm")) << sut_->err();
+  EXPECT_TRUE(sut_->says("a process removed files of this node from /dev/shm")) << sut_->err();
   EXPECT_TRUE(sut_->running());
   EXPECT_TRUE(wait_until([this] { return contains(indurop({"nodes"}).out, node() + "  files removed"); }));
   EXPECT_THAT(indurop({"vars", "--node", node()}).err, HasSubstr("its files in /dev/shm were removed"));

@@ -84,7 +84,7 @@ TEST(PeriodicProcess, Started_before_the_node_waits_for_it) {
   const std::string name = TestNode::next_name();
   Program child = hosted_program(PERIODIC_PROGRAM, name, "");
   ASSERT_TRUE(child.prints("initPeriodExe -2"));
-  EXPECT_NE(child.out().find("node '" + name + "' does not run; start it with: indurop run module.xml"),
+  EXPECT_NE(child.out().find("node '" + name + "' is not running; start it with: indurop run module.xml"),
             std::string::npos)
       << child.out();
   TestNode node(one_process());
@@ -140,7 +140,7 @@ TEST(PeriodicProcess, Outlives_its_node_and_enrols_with_the_next) {
   Program child = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
   ASSERT_TRUE(enrolled(node, child)) << child.out();
   node.run().node_pid = indurop::test::dead_pid();
-  ASSERT_TRUE(child.prints("is gone; waiting for it to come back"));
+  ASSERT_TRUE(child.prints("has ended; waiting for it to start again"));
   // Another layout, so the variables move to another block too.
   auto schema = sample_schema();
   schema.variables.pop_back();

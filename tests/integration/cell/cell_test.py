@@ -140,7 +140,7 @@ def starts_clean(folder, arguments):
         found = json.loads(tools.indurop("check", file, "-o", "json").stdout)["diagnostics"]
         assert not [one for one in found if one["severity"] != "note"], found
     done = tools.indurop("run", "module.xml", "--duration", "1s", "--node", "clean_test")
-    begin = (done.stdout + done.stderr).split("stopped: end of the duration")[0].split("the tick stands still")[0]
+    begin = (done.stdout + done.stderr).split("stopped: end of the duration")[0].split("the tick has stopped")[0]
     tools.indurop("clean", "--node", "clean_test")
     assert done.returncode == 0 and not [word for word in ("warning", "note:", "cannot", "--tape") if word in begin], begin
 

@@ -80,7 +80,9 @@ TEST_F(PlcRetain, Values_go_on_in_variables_of_another_type) {
     EXPECT_EQ(value("main_large"), 0);
     const std::string status = indurop({"status", "--node", "keep"}).out;
     for (const std::string& shown : {ran.err, status}) {
-      EXPECT_EQ(shown.find("keep::main_large: 70000 is no value of int16_t, begins anew") != std::string::npos, !again)
+      EXPECT_EQ(shown.find("keep::main_large: 70000 is no value of int16_t, starts with its initial value") !=
+                    std::string::npos,
+                !again)
           << shown;
       EXPECT_EQ(shown.find("keep::main_gone: is no longer declared") != std::string::npos, !again) << shown;
       EXPECT_EQ(shown.find("retain.before.") != std::string::npos, !again) << shown;

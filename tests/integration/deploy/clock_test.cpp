@@ -56,7 +56,7 @@ TEST_F(Clock, Of_a_board_is_an_hour_ahead) {
   const Json seen = report("b");
   EXPECT_TRUE(about(seen["clock_offset_ns"], kHour)) << seen;
   EXPECT_THAT(seen["message"].get<std::string>(),
-              HasSubstr("s from the deployer's; it switches by the deployer's word"));
+              HasSubstr("s from the deployer's; it switches on the deployer's order"));
   EXPECT_EQ(report("a")["message"], "");
   // The nodes hear each other and know it too.
   EXPECT_TRUE(wait_until([&] {

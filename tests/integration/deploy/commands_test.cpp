@@ -147,7 +147,7 @@ TEST_F(Commands, A_board_left_out_of_the_plant_stops_with_the_switch) {
   EXPECT_EQ(vars::running_node(board("b")), 0);
   const Json seen = report("b");
   EXPECT_EQ(seen["state"], "empty");
-  EXPECT_THAT(seen["message"].get<std::string>(), HasSubstr("not part of plant"));
+  EXPECT_THAT(seen["message"].get<std::string>(), HasSubstr("no longer part of plant"));
   // Its agent comes back and knows it.
   stop_agent("b", SIGKILL);
   start_agent("b");

@@ -37,7 +37,7 @@ TEST_F(Killed, A_node_that_hangs_is_killed_and_started_again) {
   const pid_t node = vars::running_node(board("a"));
   ASSERT_EQ(::kill(node, SIGSTOP), 0);
   EXPECT_TRUE(wait_until([&] {
-    return agent("a").err().find("the node hung: its tick stood at") != std::string::npos;
+    return agent("a").err().find("the node hung: its tick stayed at") != std::string::npos;
   })) << agent("a").err();
   EXPECT_TRUE(wait_until([&] { return vars::running_node(board("a")) != node && runs("a", committed_); }));
 }

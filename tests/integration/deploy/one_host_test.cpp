@@ -49,7 +49,7 @@ TEST_F(Deploying, A_module_that_faults_on_one_board_rolls_all_back) {
   EXPECT_TRUE(wait_until([&] { return runs("a", good) && runs("b", good); }));
   // What is said of it is past.
   const std::string taken_back = "deployment " + bad.json()["deployment"].get<std::string>().substr(0, 12) +
-                                 " was taken back: module faulty faulted: SIGSEGV";
+                                 " was rolled back: module faulty faulted: SIGSEGV";
   EXPECT_THAT(report("b")["message"].get<std::string>(), HasSubstr(taken_back));
 }
 

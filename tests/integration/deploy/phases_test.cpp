@@ -115,7 +115,7 @@ TEST_F(Phases, A_board_killed_while_it_fetches_resumes_and_fetches_on) {
   deployer.signal(SIGCONT);
   const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 1) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr(board("a") + ": it is not heard any more"));
+  EXPECT_THAT(outcome.err, HasSubstr(board("a") + ": it no longer reports"));
   const std::uintmax_t there = fetched();
   EXPECT_GT(there, 0U) << "what came is kept";
   start_agent("a");
@@ -144,7 +144,7 @@ TEST_F(Phases, A_board_killed_while_it_checks_resumes) {
   lose("b");
   const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 1) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr(board("b") + ": it is not heard any more"));
+  EXPECT_THAT(outcome.err, HasSubstr(board("b") + ": it no longer reports"));
   let_b_check();
   start_agent("b");
   EXPECT_TRUE(both_run_the_committed());
@@ -160,7 +160,7 @@ TEST_F(Phases, A_board_killed_while_it_is_prepared_resumes) {
   let_b_check();
   const Outcome outcome = deployer.finish();
   EXPECT_THAT(outcome.code, AnyOf(1, 5)) << "b may have begun its trial when a is missed: " << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr(board("a") + ": it is not heard any more"));
+  EXPECT_THAT(outcome.err, HasSubstr(board("a") + ": it no longer reports"));
   start_agent("a");
   EXPECT_TRUE(both_run_the_committed());
 }

@@ -36,7 +36,7 @@ TEST_F(Releases, An_agent_of_another_one_is_named_and_nothing_is_deployed) {
   EXPECT_EQ(refused.code, 6);
   EXPECT_THAT(refused.err, HasSubstr("missing: " + board("b")));
   EXPECT_THAT(refused.err,
-              HasSubstr("speaks protocol 1 of another release, here it is " + std::to_string(schema::protocol())));
+              HasSubstr("uses protocol 1 of another release, this one uses " + std::to_string(schema::protocol())));
   const Json seen = indurop({"boards", "-o", "json"}).json();
   ASSERT_EQ(seen["other_releases"].size(), 1U);
   EXPECT_EQ(seen["other_releases"][0]["board"], board("b"));
@@ -63,7 +63,7 @@ TEST_F(Releases, A_node_of_another_one_is_named_by_the_others) {
   Program& older = start({OLDER_NODE, file_, "--board", board("b"), "--one-host", "--quiet"});
   ASSERT_TRUE(peer_is("mismatched")) << older.err();
   EXPECT_THAT(peer()["problem"].get<std::string>(),
-              HasSubstr("speaks protocol 1 of another release, this board " + std::to_string(schema::protocol())));
+              HasSubstr("uses protocol 1 of another release, this board uses " + std::to_string(schema::protocol())));
   EXPECT_TRUE(runs("a", done.json()["deployment"]));
   older.signal(SIGTERM);
   (void)older.finish();

@@ -129,7 +129,7 @@ TEST_F(Live, A_Fast_DDS_program_sets_the_target_within_its_range) {
   EXPECT_CONTAINS(bad.out(), "target is 42.500 mm");
   EXPECT_CONTAINS(get("station::target"), "42.5");
   EXPECT_GE(block()->refused.load(), 1U);
-  EXPECT_CONTAINS(block()->problem.get(), "station::target from outside is refused: 501 is outside 0..500");
+  EXPECT_CONTAINS(block()->problem.get(), "station::target from outside is rejected: 501 is outside 0..500");
 }
 #else
 TEST_F(Live, Fast_DDS_programs) {

@@ -176,7 +176,7 @@ TEST_F(Plane, What_is_out_of_range_is_refused_and_the_truth_is_said_again) {
   EXPECT_EQ(get<double>("kinds::wanted"), 1);
   EXPECT_EQ(block().received.load(), 0U);
   EXPECT_TRUE(wait_until([&] {
-    return block().problem.get() == "a value for kinds::wanted from outside is refused: -11 is outside -10..10";
+    return block().problem.get() == "a value for kinds::wanted from outside is rejected: -11 is outside -10..10";
   })) << block().problem.get();
 }
 

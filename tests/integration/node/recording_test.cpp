@@ -101,7 +101,7 @@ TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
   const std::string walker = std::string(MODULE_DIR) + "/walker.so";
   const Outcome twice = replay({"--with", std::string(MODULE_DIR) + "/new/walker.so", "--with", walker});
   EXPECT_EQ(twice.code, 1);
-  EXPECT_CONTAINS(twice.err, "takes the place of module walker, as ");
+  EXPECT_CONTAINS(twice.err, "replaces module walker, as ");
 }
 
 TEST_F(Recording, What_runs_print_is_printed_again) {
@@ -250,7 +250,7 @@ TEST_F(Recording, Is_kept_when_a_module_faults) {
   Program& sut = start_and_wait(
       {{.file = "counter.so", .name = "counter"},
        {.file = "faulty.so", .name = "faulty", .priority = 2, .properties = {{"fault", "segv"}, {"after", "100"}}}});
-  ASSERT_TRUE(sut.says("what led to it is in ")) << sut.err();
+  ASSERT_TRUE(sut.says("the black box is in ")) << sut.err();
   EXPECT_CONTAINS(sut.err(), "fault of module faulty at tick ");
   EXPECT_TRUE(runs_reach("counter", 400)) << "it goes on";
   sut.signal(SIGTERM);
@@ -264,15 +264,15 @@ TEST_F(Recording, Is_kept_when_a_module_faults) {
 TEST_F(Recording, Is_not_said_to_be_kept_when_it_is_not) {
   Program& sut = start_and_wait(threads());
   EXPECT_EQ(indurop({"blackbox", "keep", "mine", "--node", node()}).code, 0);
-  ASSERT_TRUE(sut.says("mine: what led to it is in ")) << sut.err();
+  ASSERT_TRUE(sut.says("mine: the black box is in ")) << sut.err();
   const Outcome second = indurop({"blackbox", "keep", "yours", "--node", node()});
   EXPECT_EQ(second.code, 1);
-  EXPECT_CONTAINS(second.err, "it has just kept a black box, and keeps another ten seconds after that at the earliest");
+  EXPECT_CONTAINS(second.err, "it has just written a black box; the next one is possible ten seconds after that");
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 0);
   Program& next = start_and_wait(threads());
   EXPECT_EQ(indurop({"blackbox", "keep", "ours", "--node", node()}).code, 0) << "another run begins anew";
-  ASSERT_TRUE(next.says("ours: what led to it is in ")) << next.err();
+  ASSERT_TRUE(next.says("ours: the black box is in ")) << next.err();
   next.signal(SIGTERM);
   EXPECT_EQ(next.wait(), 0);
 }
@@ -293,7 +293,7 @@ TEST_F(Recording, Is_kept_by_the_next_run_when_the_node_crashed) {
   first.kill();
   first.wait();
   Program& second = start_and_wait(threads());
-  EXPECT_TRUE(second.says("did not end, it crashed: what led to it is in ")) << second.err();
+  EXPECT_TRUE(second.says("crashed: the black box is in ")) << second.err();
   second.signal(SIGTERM);
   EXPECT_EQ(second.wait(), 0);
   Program& third = start_and_wait(threads());
@@ -310,7 +310,7 @@ TEST_F(Recording, Is_kept_by_the_next_run_when_the_node_crashed) {
   EXPECT_EQ(replayed.code, 0);
   const Outcome shown = indurop({"blackbox", "show", "--node", node()});
   EXPECT_EQ(shown.out, indurop({"recording", "info", newest_box(list)}).out) << shown.err;
-  EXPECT_CONTAINS(shown.err, "did not end, it crashed");
+  EXPECT_CONTAINS(shown.err, "crashed");
   const auto csv = folder() / "box.csv";
   EXPECT_EQ(indurop({"blackbox", "export", "--csv", csv, "--node", node()}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(csv));

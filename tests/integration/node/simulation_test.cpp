@@ -122,7 +122,7 @@ TEST_F(Simulation, Check_names_what_it_cannot_repeat) {
                                {.file = "process.exe", .name = "beside", .type = "process", .operation = "non-real"}}));
   const Outcome notes = indurop({"check", "--sim", file});
   EXPECT_EQ(notes.code, 0) << notes.err;
-  EXPECT_CONTAINS(notes.out + notes.err, "module beside: it runs beside the schedule, as it likes");
+  EXPECT_CONTAINS(notes.out + notes.err, "module beside: it runs outside the schedule, at any time");
   EXPECT_FALSE(contains(notes.out + notes.err, "module plain:"));
   const Outcome none = indurop({"check", file});
   EXPECT_FALSE(contains(none.out + none.err, "module beside:"));
@@ -133,7 +133,7 @@ TEST_F(Simulation, Refuses_what_makes_no_sense) {
   EXPECT_EQ(run_to_end(modules, {"--speed", "2"}).code, 2) << "without --sim";
   const Outcome speed = run_to_end(modules, {"--sim", "--speed", "fast"});
   EXPECT_EQ(speed.code, 2);
-  EXPECT_CONTAINS(speed.err, "'fast' is no speed: use max");
+  EXPECT_CONTAINS(speed.err, "'fast' is not a speed: use max");
   const Outcome times = run_to_end(modules, {"--sim", "--times", folder() / "none.json"});
   EXPECT_EQ(times.code, 2);
   EXPECT_CONTAINS(times.err, "none.json");

@@ -109,7 +109,7 @@ TEST_F(SimulatedPlant, Stands_after_each_tick_and_goes_on_as_standard_input_says
 TEST_F(SimulatedPlant, Says_what_is_wrong_before_anything_runs) {
   Program& wrong = run({"--script", script("1s kil " + board("sensor") + "\n")});
   EXPECT_EQ(wrong.wait(), 4);
-  EXPECT_THAT(wrong.err(), HasSubstr("script.txt:1:1: error: 'kil' befalls no board; did you mean 'kill'?"));
+  EXPECT_THAT(wrong.err(), HasSubstr("script.txt:1:1: error: 'kil' cannot happen to a board; did you mean 'kill'?"));
   Program& slow = run({"--network", "delay=0"});
   EXPECT_EQ(slow.wait(), 2);
   EXPECT_THAT(slow.err(), HasSubstr("delay: 0 ns is not possible; write a time from 1 us to 10 s"));
@@ -119,7 +119,7 @@ TEST_F(SimulatedPlant, A_board_that_crashes_leaves_the_others_and_the_code_tells
   Program& sut = run({"--speed", "1"});
   ASSERT_TRUE(wait_until([&] { return number("sensor-sim", "cell::encoder", 16) > 10; })) << sut.err();
   ::kill(pid_of("control-sim"), SIGKILL);
-  EXPECT_TRUE(sut.says("board " + board("control") + " has ended; the others go on"));
+  EXPECT_TRUE(sut.says("board " + board("control") + " has ended; the others continue"));
   sut.signal(SIGINT);
   EXPECT_EQ(sut.wait(), 130);
 }

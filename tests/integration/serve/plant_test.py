@@ -52,7 +52,7 @@ def test_hears_boards_and_misses_those_that_die(setting):
     assert seen["boards"][0]["state"] == "empty" and seen["boards"][0]["deployment"] == "", seen
     setting.end(dying, signal.SIGKILL)
     wait_for(lambda: names(plant()) == {left: True, right: False}, "the board to be missed")
-    assert plant()["trouble"][0].startswith(f"board {right} is not heard any more, last "), plant()
+    assert plant()["trouble"][0].startswith(f"board {right} no longer reports, last "), plant()
     assert server.get(API + "/plant/history").json() == {"deployments": []}
     start_agent(setting, right, domain)
     wait_for(lambda: names(plant()) == {left: True, right: True}, "the board to be back")

@@ -116,7 +116,7 @@ TEST_F(CheckAccess, Loops_are_noted_not_warned_of) {
   write("a.so", {"n::y"}, {"n::x"});
   write("b.so", {"n::x"}, {"n::y"});
   EXPECT_THAT(check_lines(periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2)),
-              ElementsAre(AllOf(HasSubstr("note: a runs before b"), HasSubstr("values go round"))));
+              ElementsAre(AllOf(HasSubstr("note: a runs before b"), HasSubstr("they exchange values in a cycle"))));
 }
 
 TEST_F(CheckAccess, Modules_never_released_together_have_no_wrong_order) {

@@ -74,7 +74,7 @@ TEST_F(CheckFiles, Unreadable_file_is_told) {
   ::chmod((folder_ / ".").c_str(), 0755);
   const test::WithoutRoot user;
   ASSERT_TRUE(user.held());
-  EXPECT_THAT(check_lines(periodic("a.so", "1ms", 1)), ElementsAre(HasSubstr("must not be read by this user")));
+  EXPECT_THAT(check_lines(periodic("a.so", "1ms", 1)), ElementsAre(HasSubstr("is not readable by this user")));
 }
 
 TEST_F(CheckFiles, Other_machine_and_other_abi_are_refused) {

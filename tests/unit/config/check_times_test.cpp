@@ -55,7 +55,7 @@ TEST(Times, Too_much_for_a_core_is_an_error_with_the_share) {
       root("<spin>off</spin>" + periodic("a.so", "1ms", 1, wcet("600us")) + periodic("b.so", "1ms", 2, wcet("500us"))),
       kTimesOnly);
   EXPECT_EQ(sut.result.timings[1].worst, base::Nanos(-1));
-  EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("b is not done before its next release: it and what runs before it "
+  EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("b does not end before its next release: it and what runs before it "
                                                  "need 110 % of a core")));
 }
 
@@ -67,8 +67,8 @@ TEST(Times, Of_several_cores_count_what_waits_for_another_one) {
                  {.files = false})
         .lines();
   };
-  EXPECT_THAT(lines("<order>data</order>"), ElementsAre(HasSubstr("error: b is not done before its next release")));
-  EXPECT_THAT(lines("<order>total</order>"), ElementsAre(HasSubstr("error: b is not done before its next release")));
+  EXPECT_THAT(lines("<order>data</order>"), ElementsAre(HasSubstr("error: b does not end before its next release")));
+  EXPECT_THAT(lines("<order>total</order>"), ElementsAre(HasSubstr("error: b does not end before its next release")));
 }
 
 TEST(Times, With_a_core_that_the_node_chooses_it_is_a_warning) {

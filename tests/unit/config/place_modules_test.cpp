@@ -90,7 +90,7 @@ TEST_F(PlaceModules, Times_that_nobody_knows_are_assumed_and_said) {
   write("a.so", {}, {});
   write("b.so", {}, {});
   EXPECT_THAT(of(periodic("a.so", "1ms", 1, wcet("100us")) + periodic("b.so", "1ms", 2)).lines(),
-              Contains(HasSubstr("note: <cores>: the execution time of b is not known, taken is 100 us")));
+              Contains(HasSubstr("note: <cores>: the execution time of b is unknown, assumed is 100 us")));
   EXPECT_THAT(of(periodic("a.so", "1ms", 1, wcet("100us")) + periodic("b.so", "1ms", 2, wcet("1us"))).lines(),
               Not(Contains(HasSubstr("not known"))));
 }

@@ -29,7 +29,7 @@ TEST(Syntax, Mistakes_are_told_with_line_and_column) {
       {"<root>\n <module>\n", "m.xml:2:2: ", "<module> is never closed"},
       {"<root>\n</root>\n</module>", "m.xml:3:1: ", "closes nothing"},
       {"<root>\n</root>\n<root/>", "m.xml:3:1: ", "second root element"},
-      {"<root>\n</root>\n more", "m.xml:3:2: ", "text behind the root element"},
+      {"<root>\n</root>\n more", "m.xml:3:2: ", "text after the root element"},
       {"hello", "m.xml:1:1: ", "does not begin with a tag"},
       {"<root>\n<!-- open\n", "m.xml:2:1: ", "no end"},
       {"<root><!-- a <!-- b --> -->", "m.xml:1:7: ", "comment inside a comment: this one already ends at 1:24"},

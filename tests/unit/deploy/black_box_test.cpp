@@ -36,7 +36,7 @@ TEST_F(BlackBoxTest, The_newest_are_kept) {
   const BlackBox sut(folder_, "black_box_test_none");
   std::set<std::string> all = files();
   while (all.size() < BlackBox::kKept) {
-    EXPECT_THAT(sut.keep(), StartsWith("what it did last is in " + folder_.string()));
+    EXPECT_THAT(sut.keep(), StartsWith("its black box is in " + folder_.string()));
     all = files();
   }
   EXPECT_TRUE(all.contains("20250101T000000.000Z.run"));

@@ -125,15 +125,15 @@ TEST_F(Board_recorder, Ends_when_nobody_asks_for_it_any_more) {
   EXPECT_EQ(give(Action::Record, "one\nnow").outcome, Outcome::Unchanged);
   now_ += std::chrono::seconds(16);
   sut_->step(now_);
-  EXPECT_EQ(why_it_ended("one"), "desk was not heard for 15 s");
+  EXPECT_EQ(why_it_ended("one"), "desk did not report for 15 s");
   EXPECT_THAT(text("one"), HasSubstr("end")) << "it could close its file";
-  EXPECT_EQ(give(Action::EndRecord, "one").text, "desk was not heard for 15 s");
+  EXPECT_EQ(give(Action::EndRecord, "one").text, "desk did not report for 15 s");
 }
 
 TEST_F(Board_recorder, Leaves_room_on_the_disk) {
   make({std::chrono::seconds(15), 10, 0});
   give(Action::Record, "one\nnow");
-  EXPECT_EQ(why_it_ended("one"), "it has 0 MB, which is the most");
+  EXPECT_EQ(why_it_ended("one"), "it reached the limit of 0 MB");
   make({std::chrono::seconds(15), 1U << 30U, std::uint64_t{1} << 60U});
   EXPECT_THAT(give(Action::Record, "two\nnow").text, HasSubstr("left on its disk"));
   EXPECT_EQ(recordings_text(node_.name()), R"({"recordings":[]})") << "the one before made room";

@@ -46,7 +46,7 @@ TEST_F(Boxes_text, Damaged_ones_are_in_the_list_with_what_is_wrong) {
   write(recorder::box_folder("a") / "20261122-100000-000.mcap");
   const std::string text = boxes_text("a");
   EXPECT_NE(text.find("20261122-100000-000.mcap"), std::string::npos) << text;
-  EXPECT_NE(text.find("this is no recording"), std::string::npos) << text;
+  EXPECT_NE(text.find("this is not a recording"), std::string::npos) << text;
   EXPECT_EQ(boxes_text("nobody"), R"({"boxes":[]})");
 }
 

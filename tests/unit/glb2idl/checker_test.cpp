@@ -269,7 +269,7 @@ TEST(Checker, A_link_to_a_file_that_is_no_glb_is_not_read) {
                             : ReadResult{"topsecret word", "/etc/secret", ""};
   });
   EXPECT_FALSE(sut.ok);
-  EXPECT_THAT(messages(sut), HasSubstr("'other.glb' is a link to a file that is no .glb file"));
+  EXPECT_THAT(messages(sut), HasSubstr("'other.glb' is a link to a file that is not a .glb file"));
   EXPECT_THAT(messages(sut), Not(HasSubstr("topsecret")));
 }
 

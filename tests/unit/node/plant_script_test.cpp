@@ -39,7 +39,8 @@ TEST(PlantScript, Is_read_and_sorted_by_time) {
 
 TEST(PlantScript, Says_all_that_is_wrong_with_its_lines) {
   const std::string said = errors("1s kil sensor\n2s cut control now\nsoon kill sensor\n3s kill sensr\n");
-  EXPECT_NE(said.find("s.txt:1:1: error: 'kil' befalls no board; did you mean 'kill'?"), std::string::npos) << said;
+  EXPECT_NE(said.find("s.txt:1:1: error: 'kil' cannot happen to a board; did you mean 'kill'?"), std::string::npos)
+      << said;
   EXPECT_NE(said.find("s.txt:2:1: error: this is no line of a script"), std::string::npos) << said;
   EXPECT_NE(said.find("s.txt:3:1: error: "), std::string::npos) << said;
   EXPECT_NE(said.find("s.txt:4:1: error: the plant has no board 'sensr'; did you mean 'sensor'?"), std::string::npos)
@@ -64,7 +65,7 @@ TEST(PlantScript, What_changes_nothing_is_said) {
   EXPECT_EQ(errors("1s return sensor\n2s kill sensor\n3s kill sensor\n4s cut sensor\n5s cut sensor\n6s return sensor\n"
                    "7s return sensor\n8s cut control\n9s kill control\n"),
             "s.txt:1:1: warning: 'return sensor' changes nothing: the board is there then\n"
-            "s.txt:3:1: warning: 'kill sensor' changes nothing: the board is dead already then\n"
+            "s.txt:3:1: warning: 'kill sensor' changes nothing: the board is down already then\n"
             "s.txt:5:1: warning: 'cut sensor' changes nothing: the board is cut off already then\n"
             "s.txt:7:1: warning: 'return sensor' changes nothing: the board is there then\n");
 }

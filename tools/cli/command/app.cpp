@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kPurpose = "check, run and look at InduRoP nodes";
 constexpr const char* kDescription =
-    "A node runs the modules of a module.xml on one board, each on its own schedule, and holds the variables they\n"
+    "A node runs the modules of a module.xml on one board, each with its own period, and holds the variables they\n"
     "share. indurop checks configurations before they run, starts and stops nodes, and shows and changes what a\n"
     "running node does. It reads the node's shared memory and never asks the node itself: looking does not disturb.\n"
     "A TIME is in seconds (2, 0.5) or has a unit: 500ms, 2s, 1min.\n"

@@ -67,7 +67,7 @@ void check_variables(const robot::Findings& found, const schema::Schema& schema,
     const auto place = schema::find_place(schema, one.name, message);
     if (!place || !is_number(place->type)) {
       all.push_back({base::Diagnostic::Severity::Error, one.file, one.place,
-                     place ? fmt::format("'{}' is no number or bool; name a part that is one", one.name)
+                     place ? fmt::format("'{}' is not a number or bool; name a part that is one", one.name)
                            : fmt::format("{} (jobs name variables of this board's modules)", message)});
     }
   }

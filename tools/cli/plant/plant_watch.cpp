@@ -85,8 +85,8 @@ base::Json PlantWatch::troubles(const base::Json& boards) const {
     const auto number = [&row](const char* what) { return row[what].natural().value_or(0); };
     if (!row["heard"].boolean().value_or(false)) {
       silent.insert(name);
-      worst.push_back(fmt::format("board {} is not heard any more, last {} ago", name,
-                                  human_age(row["age_ns"].integer().value_or(0))));
+      worst.push_back(
+          fmt::format("board {} no longer reports, last {} ago", name, human_age(row["age_ns"].integer().value_or(0))));
       continue;
     }
     const std::string state = row["state"].text().value_or("");

@@ -181,7 +181,7 @@ Result<void, Failure> PlcView::check_marks() const {
     }
     if (bytes.size() != plan_.layouts[i].bytes || (mark != 0 && mark != plan_.layouts[i].mark)) {
       return Failure{kSchemaMismatch,
-                     "the program that runs is not the one in these files; build it again and start the node anew"};
+                     "the program that runs is not the one in these files; build it again and restart the node"};
     }
   }
   return {};

@@ -63,8 +63,7 @@ Result<Exported, Problem> recorded_trace(const std::filesystem::path& file) {
   }
   const recorder::Sources sources = recorder::find_sources(*reader);
   if (sources.all.empty()) {
-    return Problem{
-        fmt::format("{} tells no runs: only recordings of indurop record and run --record do", file.string())};
+    return Problem{fmt::format("{} has no runs: only recordings of indurop record and run --record do", file.string())};
   }
   Exported out;
   out.text = "{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n";

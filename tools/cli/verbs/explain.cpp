@@ -170,7 +170,7 @@ Result<std::vector<Asked>, Failure> ask(const std::vector<Facts>& plant, const O
     for (const explain::BoardFact& board : plant[i].boards) {
       if (board.name == options.what) {
         return std::vector<Asked>{
-            {fmt::format("why is board {} not heard?", options.what), explain::why_gone(plant, i, options.what)}};
+            {fmt::format("why is board {} silent?", options.what), explain::why_gone(plant, i, options.what)}};
       }
       names.push_back(board.name);
     }
@@ -244,7 +244,7 @@ Action declare(base::Options& app, Context& context) {
 const Verb kExplainVerb{"explain", "Timing", "Say why a module was late, a value is old or a board is gone",
                         "Of a module: why it did not run in a tick, or ended late. Of a variable: why its value is "
                         "old, and who wrote, set\n"
-                        "or forced it last. Of a board: why it is not heard. The answer names a culprit only if what "
+                        "or forced it last. Of a board: why it is silent. The answer names a culprit only if what "
                         "is known shows it, and\n"
                         "says what shows it; else it says why it does not know.\n"
                         "Examples:\n"

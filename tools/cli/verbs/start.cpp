@@ -15,7 +15,7 @@ Action declare(base::Options& app, Context& context) {
 
 const Verb kStartVerb{
     "start", "Start and stop", "Start modules that were stopped or have faulted",
-    "Calls the module's start() beside the schedule and puts it back into its place; a process module is launched.\n"
+    "Calls the module's start() in the background and puts it back into its place; a process module is launched.\n"
     "If the module has faulted, its stop() is called first. The module finds its own memory as it left it.\n"
     "MODULE@BOARD and @BOARD (its node) go through the agent of a board in the network, signed with --keys if it\n"
     "has keys. Exit code 1 if start() failed or the command was refused, 6 if board or node did not answer in time.\n"

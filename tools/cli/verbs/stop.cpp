@@ -95,7 +95,7 @@ const Verb kStopVerb{
     "stop() of the modules is called and retained values are written. Exit code 6 if the node has not ended in\n"
     "time; 0 if it did not run anyway.\n"
     "With MODULE the node goes on without it: the module's place in the schedule stays empty, its stop() is called\n"
-    "beside the schedule, then its fail-safe values are written. It stays stopped until indurop start, or until the\n"
+    "in the background, then its fail-safe values are written. It stays stopped until indurop start, or until the\n"
     "node is started again. MODULE@BOARD and @BOARD (its node) go through the agent of a board in the network, signed\n"
     "with --keys if it has keys. A board stopped this way starts again by command, with the next deployment, or when\n"
     "it is switched on again. Exit code 1 if the command was refused, 6 if board or node did not answer in time.\n"

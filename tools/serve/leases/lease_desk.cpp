@@ -51,7 +51,7 @@ bool LeaseDesk::renew(const std::string& board, const std::string& name, const s
   Held& held = found->second;
   auto store = vars::Store::attach(board, vars::Mode::ReadWrite);
   if (!store || !bind(held, *store) || !operate::renew(held.lease, *store, kLeaseNs)) {
-    note(held, "lost: another user has released one of the values or forced it again, or the node was started again");
+    note(held, "lost: another user released or re-forced one of the values, or the node was started again");
     all_.erase(found);
     return false;
   }

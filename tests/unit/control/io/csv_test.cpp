@@ -51,7 +51,7 @@ TEST(Csv, Says_everything_that_is_wrong_with_its_place) {
               ElementsAre("in.csv:1:8: error: a second column 'a'; names are unique",
                           "in.csv:1:10: error: this column has no name; give it one",
                           "in.csv:2:3: error: 'x' is not a number; leave the cell empty if there is no value",
-                          "in.csv:3:1: error: time 0 is not after that of the row before; sort the rows by time",
+                          "in.csv:3:1: error: time 0 is not after that of the previous row; sort the rows by time",
                           "in.csv:4:3: error: 2 cells, the first row has 4",
                           "in.csv:5:1: error: time -1 is not possible; times begin at 0",
                           "in.csv:6:1: error: 'soon' is not a number; leave the cell empty if there is no value"));

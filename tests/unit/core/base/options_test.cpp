@@ -93,18 +93,18 @@ TEST(Options, Of_two_values_the_last_counts_and_of_a_list_all) {
 
 TEST(Options, What_is_wrong_names_the_option) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"--count", "x"}, "--count: 'x' is no whole number from 0 on"},
+      {{"--count", "x"}, "--count: 'x' is not a whole number from 0 on"},
       {{"--count", "-1"}, "--count: -1 is not in the range 1 to 9"},
       {{"--count", "10"}, "--count: 10 is not in the range 1 to 9"},
-      {{"--rate", "fast"}, "--rate: 'fast' is no number"},
-      {{"--core", "1.5"}, "--core: '1.5' is no whole number"},
+      {{"--rate", "fast"}, "--rate: 'fast' is not a number"},
+      {{"--core", "1.5"}, "--core: '1.5' is not a whole number"},
       {{"--form", "wide"}, "--form: 'wide' is not one of short|long"},
       {{"--form"}, "--form: FORM is missing"},
       {{"--quiet=3"}, "--quiet takes no value"},
       {{"--one-host"}, "--one-host requires --board"},
       {{"--cuont=3"}, "there is no option --cuont; did you mean --count?"},
       {{"--zzzzz"}, "there is no option --zzzzz"},
-      {{"--count", "x", "--", "in.xml"}, "--count: 'x' is no whole number from 0 on"},
+      {{"--count", "x", "--", "in.xml"}, "--count: 'x' is not a whole number from 0 on"},
   };
   for (const auto& [words, text] : cases) {
     Sample sut;

@@ -113,7 +113,7 @@ TEST_F(ReplaceFile, A_pipe_is_written_to_and_not_replaced) {
   ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
   const auto unread = replace_file(at("pipe"), "text", Durable::Yes);
   ASSERT_FALSE(unread.ok());
-  EXPECT_EQ(unread.error().text, "nobody reads this pipe");
+  EXPECT_EQ(unread.error().text, "no process reads this pipe");
   const Descriptor reader(::open(at("pipe").c_str(), O_RDONLY | O_NONBLOCK));
   ASSERT_TRUE(replace_file(at("pipe"), "text", Durable::Yes).ok());
   std::array<char, 10> got{};

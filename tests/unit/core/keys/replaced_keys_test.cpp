@@ -92,7 +92,7 @@ TEST_F(Keys, A_deploy_pub_of_an_earlier_release_is_one_key) {
 TEST_F(Keys, No_board_is_made_of_a_word_that_means_a_role) {
   make();
   for (const char* name : {"deployer", "viewer", "deployers", "viewers", "tool", "board"}) {
-    EXPECT_THAT(sut.add(name, now + days(1)).error().text, HasSubstr("is a word for a role")) << name;
+    EXPECT_THAT(sut.add(name, now + days(1)).error().text, HasSubstr("is the name of a role")) << name;
     EXPECT_FALSE(sut.add_tool(name, {{"*"}, {}}, now + days(1))) << name;
     EXPECT_FALSE(PlantKeys(folder_ / "other").make("cell", {"a", name}, now + days(1))) << name;
     EXPECT_FALSE(fs::exists(sut.board(name)));
@@ -102,7 +102,7 @@ TEST_F(Keys, No_board_is_made_of_a_word_that_means_a_role) {
   config::ReadPlant read = config::read_plant_text(
       "<plant name=\"cell\"><security>keys</security><board name=\"viewer\"></board></plant>", folder_ / "plant.xml");
   EXPECT_THAT(config::lines(config::check_plant(read.plant, {}).diagnostics),
-              Contains(AllOf(HasSubstr("error: "), HasSubstr("a word for a role"))));
+              Contains(AllOf(HasSubstr("error: "), HasSubstr("the name of a role"))));
   EXPECT_EQ(how_to_add(Role::Viewer, "eve"), "indurop keys add --viewer eve");
   EXPECT_EQ(how_to_add(Role::Board, "drive"), "indurop keys add drive");
 }
@@ -111,7 +111,7 @@ TEST_F(Keys, A_private_key_that_others_can_read_is_said) {
   make();
   EXPECT_EQ(check(sut.board("a")).exposed, "");
   EXPECT_EQ(exposed_key(folder_ / "none"), "");
-  EXPECT_THAT(checked("<security>keys</security>"), Not(Contains(HasSubstr("others than its owner"))));
+  EXPECT_THAT(checked("<security>keys</security>"), Not(Contains(HasSubstr("users other than its owner"))));
   fs::permissions(ParticipantKeys(sut.board("a")).key, fs::perms::group_read, fs::perm_options::add);
   fs::permissions(sut.deployer() / "deploy.key", fs::perms::others_read, fs::perm_options::add);
   EXPECT_THAT(check(sut.board("a")).exposed, HasSubstr("chmod 600"));

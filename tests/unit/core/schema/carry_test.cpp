@@ -343,7 +343,7 @@ std::vector<std::string> carry(const std::string& from, const std::string& old, 
 TEST(Carry, Says_what_is_lost) {
   std::string value;
   EXPECT_THAT(carry("int32_t x", "70000", "int16_t x", value),
-              ElementsAre("x: 70000 is no value of int16_t, begins anew"));
+              ElementsAre("x: 70000 is no value of int16_t, starts with its initial value"));
   EXPECT_EQ(value, "0");
   EXPECT_THAT(carry("int32_t x[3]", "[1, 2, 3]", "int64_t x[2]", value),
               ElementsAre("x: had 3 elements, has 2; 2 are kept from the first on"));
@@ -364,7 +364,7 @@ TEST(Carry, Says_what_is_lost) {
 TEST(Carry, A_number_of_another_unit_is_another_value) {
   std::string value;
   EXPECT_THAT(carry("int64_t x", "5", "int64_t x", value, "ns"),
-              ElementsAre("x: its unit was '', is 'ns', begins anew"));
+              ElementsAre("x: its unit was '', is 'ns', starts with its initial value"));
   EXPECT_EQ(value, "0");
 }
 

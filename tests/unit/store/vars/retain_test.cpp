@@ -195,7 +195,7 @@ TEST_F(Retain, Values_of_a_changed_type_are_carried_and_losses_are_said) {
   EXPECT_EQ(report->restored, 2U);
   const std::string kept = (directory_ / "retain.before.1").string();
   EXPECT_THAT(report->lost, ElementsAre("a::offsets: had 12 elements, has 3; 3 are kept from the first on",
-                                        "the values of before are kept in " + kept));
+                                        "the previous values are kept in " + kept));
   EXPECT_EQ(sut.losses(), report->lost) << "for those who look later";
   EXPECT_EQ(contents(kept), contents(a()));
   std::vector<std::uint8_t> value(8);
@@ -236,9 +236,9 @@ TEST_F(Retain, Variables_that_are_gone_are_told_one_by_one) {
   ASSERT_TRUE(store.ok());
   const auto report = RetainFile(directory_).load(*store);
   ASSERT_TRUE(report.ok());
-  EXPECT_THAT(report->lost, testing::UnorderedElementsAre(HasSubstr("a::count: its unit was '', is 'mm', begins anew"),
-                                                          HasSubstr("a::offsets: is no longer declared retain"),
-                                                          HasSubstr("retain.before.2")));
+  EXPECT_THAT(report->lost, testing::UnorderedElementsAre(
+                                HasSubstr("a::count: its unit was '', is 'mm', starts with its initial value"),
+                                HasSubstr("a::offsets: is no longer declared retain"), HasSubstr("retain.before.2")));
   schema::Schema less = schema_with(schema::Base::UInt32);
   less.variables.erase(less.variables.begin() + 1);
   auto smaller = Store::create(other.name(), less);

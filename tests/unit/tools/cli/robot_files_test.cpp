@@ -71,7 +71,7 @@ TEST_F(Robot_files, Jobs_name_variables_that_there_are) {
   write("pick.job", "WAIT I4 ON\nSET PLC_ROBOT::I4 ON\nSET I5 OFF\nIF I4 ON AND  name = 1\n SET I5 ON\nEND\n");
   EXPECT_THAT(errors(),
               testing::IsSupersetOf({HasSubstr("pick.job:3:5: error: no variable 'I5'; did you mean 'PLC_ROBOT::I4'?"),
-                                     HasSubstr("pick.job:4:15: error: 'name' is no number")}));
+                                     HasSubstr("pick.job:4:15: error: 'name' is not a number")}));
   write("pick.job", "WAIT I4 ON\nSET PLC_ROBOT::I4 ON\n");
   EXPECT_THAT(errors(), testing::Not(testing::Contains(HasSubstr("pick.job"))));
 }
