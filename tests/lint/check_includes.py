@@ -52,7 +52,7 @@ EVERYWHERE = {"std", "posix", "public", "own"}
 
 def table(root, file, rules):
     """The rooms with a job, in the order of the file, as Markdown."""
-    lines = ["| room | job | may include, beside the standard library and `<indurop/...>` |", "|---|---|---|"]
+    lines = ["| room | job | may include, in addition to the standard library and `<indurop/...>` |", "|---|---|---|"]
     for folder, job in re.findall(r"^# ([\w/]+/): (.+)$", file.read_text(), re.MULTILINE):
         shown = f"`{folder}`"
         if (root / folder / "README.md").is_file():

@@ -284,6 +284,17 @@ class Functions(Sample):
         self.put("core/rt/a.cpp", HEAD + 'int a;  // what nobody reads\nint b;  // `nobody`, "anew", again\n')
         self.found(check_text.words(self.root), "core/rt/a.cpp:4", "nobody", "no user")
 
+    def test_retired_word_in_a_name_and_in_a_message(self):
+        self.put("core/rt/a.cpp", HEAD + 'int let_go();\nint LetGo();\nauto text = "nobody reads";\nint outlet_gone;\n')
+        self.put("control/plc/a.cpp", HEAD + "int let_go();\n")  # a room that is not finished
+        found = list(check_text.words(self.root))
+        self.assertEqual([one.split(":")[0] for one in found], ["core/rt/a.cpp"] * 3)
+
+    def test_retired_word_on_a_page(self):
+        self.put("docs/a.md", "What nobody reads.\n")
+        self.put("docs/serve.md", "What nobody reads.\n")  # a page that is not finished
+        self.found(check_text.words(self.root), "docs/a.md:1", "nobody", "no user")
+
     def test_long_function(self):
         self.found(self.check(f"namespace a {{\nint b::c(int d) const {{\n{self.BODY}}}\n}}\n"), "core/rt/a.cpp:5", "b::c has 62 lines")
 
