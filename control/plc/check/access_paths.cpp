@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "control/plc/check/designator.h"
 #include "control/plc/check/expression_checker.h"
 #include "control/plc/check/global_table.h"
 #include "control/plc/check/shared_names.h"
@@ -308,7 +309,7 @@ class Resolver {
       one.initial.emplace();
       one.initial->at = one.at;
       one.initial->value = one.value;
-      if (!ExpressionChecker(context_).initial(*one.initial, *parameter->type)) {
+      if (!ExpressionChecker(context_).initials().initial(*one.initial, *parameter->type)) {
         return;
       }
       made.value = &*one.initial;
@@ -324,7 +325,7 @@ class Resolver {
 
   // Returns true for a variable, false for a value.
   [[nodiscard]] bool is_path(const ast::Expression& value) const {
-    const ast::Expression& root = ExpressionChecker::root_of(value);
+    const ast::Expression& root = root_of(value);
     return value.kind == ast::Expression::Kind::Direct ||
            (root.kind == ast::Expression::Kind::Name && value.kind != ast::Expression::Kind::Call &&
             context_.program.global_names.contains(upper(root.name)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks arguments passed as VAR_IN_OUT, as an instance, and to inputs of types such as ANY_NUM.
+#include "control/plc/check/argument_checker.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,8 @@
 #include <string>
 
 #include "control/plc/check/bare_number.h"
-#include "control/plc/check/call_checker.h"
+#include "control/plc/check/designator.h"
+#include "control/plc/check/expression_checker.h"
 #include "control/plc/check/generic_functions.h"
 
 namespace indurop::plc {
@@ -38,8 +39,8 @@ const ast::Variable* generic_parameter(const ast::Pou& tree, const Argument& arg
 
 }  // namespace
 
-void CallChecker::in_out(const Expression& call, Expression& given, const Variable& parameter) {
-  const Type* type = expressions_.reference(given);
+void ArgumentChecker::in_out(const Expression& call, Expression& given, const Variable& parameter) {
+  const Type* type = expressions_.writes().reference(given);
   if (context_.pou != nullptr && call.operands[0].kind == Expression::Kind::Name) {
     context_.pou->given[upper(call.operands[0].name + "." + parameter.name)] = given;
   }
@@ -56,7 +57,7 @@ void CallChecker::in_out(const Expression& call, Expression& given, const Variab
 
 // Checks that a call without names passes each input that has no initial value of its own; returns false after an
 // error. A call with names may omit any input, or all.
-bool CallChecker::all_given(const Expression& call, const Pou& pou) {
+bool ArgumentChecker::all_given(const Expression& call, const Pou& pou) {
   const std::vector<Resolved::Actual>& actuals = call.resolved->actuals;
   const bool with_names = std::none_of(actuals.begin(), actuals.end(),
                                        [](const Resolved::Actual& one) { return one.argument->name.empty(); });
@@ -86,7 +87,7 @@ bool CallChecker::all_given(const Expression& call, const Pou& pou) {
 }
 
 // Checks an instance as an input: it is copied in its state at the call.
-void CallChecker::instance_input(Expression& given, const Variable& parameter) {
+void ArgumentChecker::instance_input(Expression& given, const Variable& parameter) {
   const Type* type = expressions_.typed(given, nullptr);
   if (type != nullptr && !same_type(*type, *parameter.type)) {
     context_.error(given.at, fmt::format("{} needs an instance of {}, not {}", parameter.name,
@@ -96,7 +97,7 @@ void CallChecker::instance_input(Expression& given, const Variable& parameter) {
 
 // Returns the function for the types of the inputs. All inputs of one generic type have one type, as in the library.
 // `wanted`: the required type of the result; numbers without a type take it if no other input has a type.
-const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree, const Type* wanted) {
+const Pou* ArgumentChecker::generic_function(Expression& call, const ast::Pou& tree, const Type* wanted) {
   std::map<std::string, const Type*> types;
   const std::string of_result = tree.result ? generic_name(*tree.result) : "";
   for (const bool bare : {false, true}) {  // numbers without a type take that of the others
@@ -139,8 +140,8 @@ const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree,
 }
 
 // Checks the instance of a call: not an input, which is only a copy of the argument.
-bool CallChecker::may_run(const Expression& callee) {
-  const Resolved* root = ExpressionChecker::root_of(callee).resolved.get();
+bool ArgumentChecker::may_run(const Expression& callee) {
+  const Resolved* root = root_of(callee).resolved.get();
   const bool copy = root != nullptr && root->variable != nullptr && root->variable->section == ast::Section::Input &&
                     root->variable->type != nullptr && root->variable->type->kind == Type::Kind::Block &&
                     root->variable->owner == context_.pou;

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "control/plc/check/generic_functions.h"
+#include "control/plc/check/expression_checker.h"
 #include "control/plc/library/hidden.h"
 #include "control/plc/model/make.h"
 
@@ -68,7 +68,7 @@ bool is_drawn_as(const Type& type, std::string_view drawn) {
 
 // Records EN and ENO; returns false with an error if they are not allowed here.
 bool CallChecker::take_enable(Expression& call, bool allowed) {
-  Resolved& out = ExpressionChecker::resolved(call);
+  Resolved& out = resolved(call);
   out.enable = nullptr;  // the call may have been checked before
   out.enable_out = nullptr;
   bool fine = true;
@@ -119,8 +119,8 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   Expression& callee = call.operands[0];
   leave_out_library(callee);
   bool said = false;
-  if (const Pou* found = method_of(callee, said)) {
-    return take_enable(call, whole_side) ? method(call, *found) : nullptr;
+  if (const Pou* found = expressions_.methods().method_of(callee, said)) {
+    return take_enable(call, whole_side) ? expressions_.methods().method(call, *found) : nullptr;
   }
   if (said) {
     return nullptr;
@@ -148,18 +148,18 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   }
   if (const auto generic = context_.program.generic_functions.find(upper(callee.name));
       generic != context_.program.generic_functions.end()) {
-    const Pou* pou = generic_function(call, *generic->second, wanted);
+    const Pou* pou = arguments_.generic_function(call, *generic->second, wanted);
     return pou != nullptr ? user_function(call, *pou) : nullptr;
   }
-  if (const Type* type = nullptr; address_call(call, type)) {
+  if (const Type* type = nullptr; intrinsics_.address_call(call, type)) {
     return type;
   }
-  if (const Type* type = nullptr; enumeration_call(call, type)) {
+  if (const Type* type = nullptr; expressions_.casts().enumeration_call(call, type)) {
     return type;
   }
   auto overloads = overloads_of(callee.name, wanted);
   if (!overloads.empty()) {
-    return library_function(call, overloads, wanted);
+    return overloads_.library_function(call, overloads, wanted);
   }
   no_function(call);
   return nullptr;
@@ -170,8 +170,8 @@ void CallChecker::statement(Expression& call) {
   Expression& callee = call.operands[0];
   leave_out_library(callee);
   bool said = false;
-  if (const Pou* found = method_of(callee, said)) {
-    call.type = take_enable(call, true) ? method(call, *found) : nullptr;
+  if (const Pou* found = expressions_.methods().method_of(callee, said)) {
+    call.type = take_enable(call, true) ? expressions_.methods().method(call, *found) : nullptr;
     return;
   }
   if (said) {
@@ -180,7 +180,7 @@ void CallChecker::statement(Expression& call) {
   const bool is_instance = callee.kind != Expression::Kind::Name ||
                            (context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr) ||
                            same_name(callee.name, "SUPER") || same_name(callee.name, "THIS") ||
-                           expressions_.program_named(callee.name) != nullptr ||
+                           expressions_.names().program_named(callee.name) != nullptr ||
                            context_.program.global_names.contains(upper(callee.name));
   if (!is_instance) {
     call.type = function(call, nullptr, true);
@@ -200,8 +200,8 @@ void CallChecker::statement(Expression& call) {
                                         call.name, with_article(*type)));
     return;
   }
-  expressions_.note_call(callee);
-  if (!may_run(callee) || !take_enable(call, true)) {
+  expressions_.writes().note_call(callee);
+  if (!arguments_.may_run(callee) || !take_enable(call, true)) {
     return;
   }
   call.type = type;
@@ -229,7 +229,7 @@ void CallChecker::statement(Expression& call) {
 }
 
 void CallChecker::output_to(Argument& argument, const Type& type) {
-  const Type* to = expressions_.target(*argument.value);
+  const Type* to = expressions_.writes().target(*argument.value);
   if (to == nullptr) {
     return;
   }
@@ -242,7 +242,7 @@ void CallChecker::output_to(Argument& argument, const Type& type) {
 }
 
 void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
-  Resolved& out = ExpressionChecker::resolved(call);
+  Resolved& out = resolved(call);
   out.actuals.clear();
   std::size_t position = 0;
   std::set<const LibraryParameter*> given;
@@ -311,7 +311,7 @@ std::vector<const Variable*> CallChecker::by_position(const Expression& call, co
 }
 
 void CallChecker::user_block(Expression& call, const Pou& pou) {
-  Resolved& out = ExpressionChecker::resolved(call);
+  Resolved& out = resolved(call);
   out.pou = &pou;
   out.actuals.clear();
   const std::vector<const Variable*> inputs = by_position(call, pou);
@@ -354,9 +354,9 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
     if (argument.output) {
       output_to(argument, *parameter->type);
     } else if (parameter->section == ast::Section::InOut) {
-      in_out(call, *argument.value, *parameter);
+      arguments_.in_out(call, *argument.value, *parameter);
     } else if (parameter->type->kind == Type::Kind::Block) {
-      instance_input(*argument.value, *parameter);
+      arguments_.instance_input(*argument.value, *parameter);
     } else {
       expressions_.assigned(*argument.value, *parameter->type);
     }
@@ -376,11 +376,11 @@ const Type* CallChecker::user_function(Expression& call, const Pou& pou) {
   }
   const std::size_t before = context_.diagnostics.errors();
   user_block(call, pou);
-  if (context_.diagnostics.errors() != before || !all_given(call, pou)) {
+  if (context_.diagnostics.errors() != before || !arguments_.all_given(call, pou)) {
     return nullptr;
   }
   // In order of the declaration, including omitted ones.
-  Resolved& out = ExpressionChecker::resolved(call);
+  Resolved& out = resolved(call);
   std::vector<Resolved::Actual> ordered;
   for (const Variable* each : parameters_of(pou)) {
     const Variable& parameter = *each;

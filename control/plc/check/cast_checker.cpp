@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conversions between enumerations and numbers.
+#include "control/plc/check/cast_checker.h"
 
 #include <fmt/format.h>
 
-#include "control/plc/check/call_checker.h"
 #include "control/plc/check/expression_checker.h"
 #include "control/plc/check/foreign_types.h"
 #include "control/plc/model/make.h"
@@ -24,7 +23,7 @@ bool is_number(const Type& type) noexcept {
 
 }  // namespace
 
-void ExpressionChecker::cast(Expression& expression, const Type& to) {
+void CastChecker::cast(Expression& expression, const Type& to) {
   const Type* from = expression.type;
   const Place at = expression.at;
   const auto known = expression.resolved->constant;
@@ -39,7 +38,7 @@ void ExpressionChecker::cast(Expression& expression, const Type& to) {
 }
 
 // Returns whether the rules of CODESYS converted the expression to `to`: from an enumeration to a number or back.
-bool ExpressionChecker::convert_enumeration(Expression& expression, const Type& to) {
+bool CastChecker::convert_enumeration(Expression& expression, const Type& to) {
   if (!context_.codesys() || expression.type == nullptr) {
     return false;
   }
@@ -60,7 +59,7 @@ bool ExpressionChecker::convert_enumeration(Expression& expression, const Type& 
 
 // Checks COLOR_TO_INT(c), INT_TO_COLOR(i), TO_COLOR(i). Returns false if it is none of these. Otherwise sets `type` to
 // that of the result, null after an error; COLOR_TO_INT(c) becomes TO_INT() of a number, for the library.
-bool CallChecker::enumeration_call(Expression& call, const Type*& type) {
+bool CastChecker::enumeration_call(Expression& call, const Type*& type) {
   const std::string name = upper(call.operands[0].name);
   const std::size_t at = name.starts_with("TO_") ? 0 : name.find("_TO_");
   if (at == std::string::npos || call.arguments.size() != 1 || !call.arguments[0].value) {
@@ -91,7 +90,7 @@ bool CallChecker::enumeration_call(Expression& call, const Type*& type) {
     return true;
   }
   if (value.type->kind == Type::Kind::Enum) {
-    expressions_.cast(value, *context_.elementary(value.type->elementary));
+    cast(value, *context_.elementary(value.type->elementary));
   }
   if (to == nullptr) {
     call.operands[0].name = "TO_" + to_name;
@@ -104,7 +103,7 @@ bool CallChecker::enumeration_call(Expression& call, const Type*& type) {
   }
   Expression inner = std::move(value);
   call = std::move(inner);
-  expressions_.cast(call, *to);
+  cast(call, *to);
   type = to;
   return true;
 }

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "control/plc/check/call_checker.h"
+#include "control/plc/check/designator.h"
 #include "control/plc/check/loss.h"
 #include "control/plc/model/characters.h"
 
@@ -31,7 +31,42 @@ Constant constant_of_literal(const ast::LiteralValue& value) {
   return std::get<std::string>(value);
 }
 
+// Turns x into x <> 0.
+Expression& make_truth(Expression& expression) {
+  Expression number = std::move(expression);
+  number.as_truth = false;
+  Expression zero;
+  zero.at = number.at;
+  zero.value = std::uint64_t{0};
+  expression = Expression{};
+  expression.kind = Expression::Kind::Binary;
+  expression.op = ast::Operator::NotEqual;
+  expression.at = zero.at;
+  expression.operands.push_back(std::move(number));
+  expression.operands.push_back(std::move(zero));
+  static_cast<void>(resolved(expression));
+  return expression;
+}
+
 }  // namespace
+
+ExpressionChecker::ExpressionChecker(Context& context)
+    : context_(context),
+      names_(*this, context),
+      methods_(*this, context),
+      pointers_(*this, context),
+      operations_(*this, context),
+      writes_(*this, context),
+      casts_(*this, context),
+      initials_(*this, context),
+      calls_(*this, context) {}
+
+bool counts_as_truth(const Expression& expression, const Type& type) noexcept {
+  const Resolved* root = root_of(expression).resolved.get();
+  const bool shared = root != nullptr && root->global != nullptr && root->global->kind == Global::Kind::Foreign;
+  return expression.as_truth && shared && type.kind == Type::Kind::Elementary &&
+         (is_int(type.elementary) || (is_bit(type.elementary) && !type.is(Elementary::Bool)));
+}
 
 bool adapt_character(Expression& expression, const Type& to) {
   if (to.kind != Type::Kind::Elementary || !is_character(to.elementary) ||
@@ -63,7 +98,7 @@ const Constant* constant_of(const Expression& expression) noexcept {
   return expression.resolved && expression.resolved->constant ? &*expression.resolved->constant : nullptr;
 }
 
-Resolved& ExpressionChecker::resolved(Expression& expression) {
+Resolved& resolved(Expression& expression) {
   if (!expression.resolved) {
     expression.resolved = std::make_shared<Resolved>();
   }
@@ -102,13 +137,13 @@ const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted)
       type = literal(expression, wanted);
       break;
     case Expression::Kind::Name:
-      type = name(expression, wanted);
+      type = names_.name(expression, wanted);
       break;
     case Expression::Kind::Direct:
-      type = direct(expression);
+      type = names_.direct(expression);
       break;
     case Expression::Kind::Member:
-      type = member(expression);
+      type = names_.member(expression);
       break;
     case Expression::Kind::Bit:
       type = bit(expression);
@@ -117,23 +152,23 @@ const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted)
       type = index(expression);
       break;
     case Expression::Kind::Deref:
-      type = deref(expression);
+      type = pointers_.deref(expression);
       break;
     case Expression::Kind::Call:
-      type = CallChecker(*this).function(expression, wanted, false);
+      type = calls_.function(expression, wanted, false);
       break;
     case Expression::Kind::Unary:
-      type = unary(expression, wanted);
+      type = operations_.unary(expression, wanted);
       break;
     case Expression::Kind::Binary:
-      type = binary(expression, wanted);
+      type = operations_.binary(expression, wanted);
       break;
   }
   const bool made = expression.kind == Expression::Kind::Call && expression.resolved->pou == nullptr;  // REF()
-  if (type != nullptr && type->is_reference() && following_ && !made) {
-    return follow(expression, *type);
+  if (type != nullptr && type->is_reference() && mode_.following && !made) {
+    return pointers_.follow(expression, *type);
   }
-  if (type != nullptr && reading_ && counts_as_truth(expression, *type)) {
+  if (type != nullptr && mode_.reading && counts_as_truth(expression, *type)) {
     return typed(make_truth(expression), nullptr);
   }
   if (expression.resolved->meaning != Meaning::Type) {  // a type stays recorded for the member after it
@@ -144,24 +179,24 @@ const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted)
 
 bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
   if (to.is_reference()) {
-    return bind(expression, to);
+    return pointers_.bind(expression, to);
   }
   if (to.open) {
     context_.error(expression.at, "an ARRAY[*] is not assigned as a whole, assign its elements");
     return false;
   }
   if (to.kind == Type::Kind::Pointer) {
-    return assigned_pointer(expression, to);
+    return pointers_.assigned_pointer(expression, to);
   }
   if (to.kind == Type::Kind::Interface) {
-    return assigned_interface(expression, to);
+    return pointers_.assigned_interface(expression, to);
   }
   const Type* type = expression.kind == Expression::Kind::Call ? top_call(expression, &to) : value(expression, &to);
   if (type == nullptr) {
     return false;
   }
   const bool fine =
-      adapt(expression, to) || context_.assignable(*expression.type, to) || convert_enumeration(expression, to);
+      adapt(expression, to) || context_.assignable(*expression.type, to) || casts_.convert_enumeration(expression, to);
   if (!fine) {
     const Constant* known = constant_of(expression);
     if (known != nullptr && expression.resolved->untyped) {
@@ -192,10 +227,10 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
 
 const Type* ExpressionChecker::top_call(Expression& expression, const Type* wanted) {
   if (!resolved(expression).cast && !expression.resolved->settled) {
-    const Type* type = CallChecker(*this).function(expression, wanted, true);
+    const Type* type = calls_.function(expression, wanted, true);
     expression.type = type;  // the call may have been replaced by another expression
     if (type != nullptr && type->is_reference() && expression.resolved->pou != nullptr) {
-      return follow(expression, *type);
+      return pointers_.follow(expression, *type);
     }
   }
   return expression.type;
@@ -203,7 +238,7 @@ const Type* ExpressionChecker::top_call(Expression& expression, const Type* want
 
 void ExpressionChecker::call_statement(Expression& expression) {
   static_cast<void>(resolved(expression));
-  CallChecker(*this).statement(expression);
+  calls_.statement(expression);
 }
 
 const Type* ExpressionChecker::literal(Expression& expression, const Type* wanted) {
@@ -266,10 +301,8 @@ const Type* ExpressionChecker::part(Expression& expression, const Type& base) {
 
 // Checks s[1], the first character, a CHAR; in CODESYS s[0], a BYTE. Characters of a WSTRING are a WCHAR or a WORD.
 const Type* ExpressionChecker::character(Expression& expression, const Type& text) {
-  const bool reading = std::exchange(reading_, true);
   Expression& index = expression.operands[1];
-  const Type* type = value(index);
-  reading_ = reading;
+  const Type* type = with({true, mode_.following}, [&] { return value(index); });
   if (type == nullptr || !is_whole(*type)) {
     if (type != nullptr) {
       context_.error(index.at, fmt::format("an index is a whole number, not {}", with_article(*type)));
@@ -292,12 +325,11 @@ const Type* ExpressionChecker::character(Expression& expression, const Type& tex
 const Type* ExpressionChecker::index(Expression& expression) {
   const Type* base = value(expression.operands[0]);
   if (base != nullptr && base->kind == Type::Kind::Pointer && expression.operands.size() == 2) {
-    return pointer_index(expression, *base);
+    return pointers_.pointer_index(expression, *base);
   }
   if (base != nullptr && base->is_text() && expression.operands.size() == 2) {
     return character(expression, *base);
   }
-  const bool reading = std::exchange(reading_, true);
   bool fine = base != nullptr;
   if (base != nullptr && base->kind != Type::Kind::Array) {
     context_.error(expression.at, fmt::format("{} has no elements, remove the index", with_article(*base)));
@@ -309,7 +341,7 @@ const Type* ExpressionChecker::index(Expression& expression) {
   }
   for (std::size_t i = 1; i < expression.operands.size(); ++i) {
     Expression& one = expression.operands[i];
-    const Type* type = value(one);
+    const Type* type = with({true, mode_.following}, [&] { return value(one); });
     if (type == nullptr || !fine) {
       fine = false;
       continue;
@@ -328,7 +360,6 @@ const Type* ExpressionChecker::index(Expression& expression) {
       fine = false;
     }
   }
-  reading_ = reading;
   return fine ? base->element : nullptr;
 }
 

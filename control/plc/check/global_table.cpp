@@ -126,7 +126,7 @@ void declare_one(Context& context, ast::Variable& variable, const Type& type) {
   global.address = variable.address ? ast::to_string(*variable.address) : "";
   if (variable.initial && holds_instances(type)) {
     context.open_initials.push_back({&*variable.initial, &type, nullptr});
-  } else if (variable.initial && !ExpressionChecker(context).initial(*variable.initial, type)) {
+  } else if (variable.initial && !ExpressionChecker(context).initials().initial(*variable.initial, type)) {
     context.known_errors.insert({nullptr, upper(variable.name)});
     return;
   }

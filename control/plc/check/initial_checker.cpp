@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks initial values: one value, [..] of arrays, (..) of structures and instances of function blocks.
+#include "control/plc/check/initial_checker.h"
 
 #include <fmt/format.h>
 
@@ -17,14 +17,14 @@ using Kind = ast::Initial::Kind;
 
 }  // namespace
 
-bool ExpressionChecker::initial(ast::Initial& initial, const Type& type) {
+bool InitialChecker::initial(ast::Initial& initial, const Type& type) {
   if (initial.kind == Kind::Array) {
     return array_initial(initial, type);
   }
   if (initial.kind == Kind::Struct) {
     return struct_initial(initial, type);
   }
-  if (type.kind == Type::Kind::Block || !assigned(*initial.value, type)) {
+  if (type.kind == Type::Kind::Block || !expressions_.assigned(*initial.value, type)) {
     if (type.kind == Type::Kind::Block) {
       context_.error(initial.at, "an instance begins with values of its inputs: (PT := T#1s)");
     }
@@ -37,7 +37,7 @@ bool ExpressionChecker::initial(ast::Initial& initial, const Type& type) {
   return true;
 }
 
-bool ExpressionChecker::array_initial(ast::Initial& initial, const Type& type) {
+bool InitialChecker::array_initial(ast::Initial& initial, const Type& type) {
   if (type.kind != Type::Kind::Array) {
     context_.error(initial.at, fmt::format("[...] is for arrays, not for {}", with_article(type)));
     return false;
@@ -47,7 +47,7 @@ bool ExpressionChecker::array_initial(ast::Initial& initial, const Type& type) {
   for (ast::InitialElement& element : initial.elements) {
     std::int64_t repeat = 1;
     if (element.count) {
-      repeat = constant(*element.count, "the number of repetitions").value_or(0);
+      repeat = expressions_.constant(*element.count, "the number of repetitions").value_or(0);
     }
     fine = repeat >= 0 && this->initial(element.value, *type.element) && fine;
     count += static_cast<std::uint64_t>(std::clamp<std::int64_t>(repeat, 0, std::numeric_limits<std::int32_t>::max()));
@@ -59,7 +59,7 @@ bool ExpressionChecker::array_initial(ast::Initial& initial, const Type& type) {
   return fine;
 }
 
-bool ExpressionChecker::struct_initial(ast::Initial& initial, const Type& type) {
+bool InitialChecker::struct_initial(ast::Initial& initial, const Type& type) {
   bool fine = true;
   if (type.overlaps) {
     context_.error(initial.at, "a UNION begins with zeros, assign its fields in the body");

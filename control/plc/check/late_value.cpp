@@ -51,7 +51,7 @@ void set_late_value(const Context& context, ast::Variable& declared, const Type&
 void check_open_initials(Context& context) {
   for (const OpenInitial& one : std::exchange(context.open_initials, {})) {
     Pou* before = std::exchange(context.pou, one.pou);
-    static_cast<void>(ExpressionChecker(context).initial(*one.initial, *one.type));
+    static_cast<void>(ExpressionChecker(context).initials().initial(*one.initial, *one.type));
     context.pou = before;
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/plc/check/lifetime.h"
 
-#include "control/plc/check/expression_checker.h"
+#include "control/plc/check/designator.h"
 
 namespace indurop::plc {
 namespace {
@@ -33,8 +33,8 @@ bool outlasts_call(const ast::Expression& expression) {
 }
 
 bool ends_with_call(const ast::Expression& expression) {
-  const Resolved* root = ExpressionChecker::root_of(expression).resolved.get();
-  if (root == nullptr || ExpressionChecker::through_pointer(expression) != nullptr) {
+  const Resolved* root = root_of(expression).resolved.get();
+  if (root == nullptr || through_pointer(expression) != nullptr) {
     return false;
   }
   const bool result = root->meaning == Resolved::Meaning::FunctionResult;
@@ -51,7 +51,7 @@ void look_at_lifetime(Context& context, const ast::Statement& one) {
     return;
   }
   const bool kept = one.target->resolved->meaning == Resolved::Meaning::FunctionResult ||
-                    !(ends_with_call(*one.target) || ExpressionChecker::through_pointer(*one.target) != nullptr);
+                    !(ends_with_call(*one.target) || through_pointer(*one.target) != nullptr);
   if (kept && address) {
     context.warning(value.at,
                     "this variable is gone when the call is over, and using the pointer then is a fault; "

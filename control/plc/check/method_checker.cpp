@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks calls of methods, properties, THIS^ and SUPER^.
+#include "control/plc/check/method_checker.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "control/plc/check/call_checker.h"
+#include "control/plc/check/designator.h"
+#include "control/plc/check/expression_checker.h"
 #include "control/plc/model/make.h"
 #include "control/plc/model/walk.h"
 
@@ -49,7 +50,7 @@ std::vector<std::string> methods_of(const Pou& pou, bool properties) {
 }  // namespace
 
 // Checks THIS and SUPER, which are the instance itself, with or without ^; null with an error if there is no instance.
-const Type* ExpressionChecker::this_or_super(Expression& expression) {
+const Type* MethodChecker::this_or_super(Expression& expression) {
   const Pou* self = context_.pou != nullptr ? context_.pou->self() : nullptr;
   const bool super = same_name(expression.name, "SUPER");
   if (self == nullptr || (super && self->base == nullptr)) {
@@ -68,7 +69,7 @@ const Type* ExpressionChecker::this_or_super(Expression& expression) {
 
 // Checks THIS^.x, a variable of the instance even if the method declares one of that name. Returns false if it is not a
 // variable.
-bool ExpressionChecker::variable_of_this(Expression& expression) {
+bool MethodChecker::variable_of_this(Expression& expression) {
   const Expression& base = expression.operands[0];
   const Expression& root = base.kind == Expression::Kind::Deref ? base.operands[0] : base;
   if (!is_this(root)) {
@@ -88,7 +89,7 @@ bool ExpressionChecker::variable_of_this(Expression& expression) {
 }
 
 // Returns whether a method can access the variable of its instance.
-bool ExpressionChecker::can_see(Variable& variable, const Place& at) {
+bool MethodChecker::can_see(Variable& variable, const Place& at) {
   if (variable.owner == context_.pou || variable.owner == nullptr) {
     return true;
   }
@@ -117,7 +118,7 @@ bool ExpressionChecker::can_see(Variable& variable, const Place& at) {
   return true;
 }
 
-bool ExpressionChecker::may_call(const Pou& method, const Place& at) {
+bool MethodChecker::may_call(const Pou& method, const Place& at) {
   const Pou* self = context_.pou != nullptr ? context_.pou->self() : nullptr;
   const bool inside = self == method.owner;
   const bool extends = self != nullptr && is_a(*self, *method.owner);
@@ -135,16 +136,16 @@ bool ExpressionChecker::may_call(const Pou& method, const Place& at) {
 
 // Returns the type of the instance before the dot, including THIS and SUPER; null if it has no methods. Reports no
 // errors.
-const Type* ExpressionChecker::object(Expression& expression) {
-  const bool reading = std::exchange(reading_, true);
+const Type* MethodChecker::object(Expression& expression) {
   const bool known = expression.type != nullptr && expression.resolved && comes_from_call(expression);
-  const Type* type = known ? expression.type : typed(expression, nullptr);  // chained calls are checked only once
-  reading_ = reading;
+  const ExpressionChecker::Mode mode{true, expressions_.mode().following};
+  const Type* type = known ? expression.type  // chained calls are checked only once
+                           : expressions_.with(mode, [&] { return expressions_.typed(expression, nullptr); });
   return type != nullptr && has_methods(*type) ? type : nullptr;
 }
 
 // Checks pump.Restart; if it is not an action, the instance is unchanged.
-bool ExpressionChecker::is_action(Expression& callee) {
+bool MethodChecker::is_action(Expression& callee) {
   const Type* type = object(callee.operands[0]);
   const Pou* method =
       type != nullptr && type->kind == Type::Kind::Block ? find_method(*type->pou, callee.name) : nullptr;
@@ -159,7 +160,7 @@ bool ExpressionChecker::is_action(Expression& callee) {
 }
 
 // Checks x.Speed or Speed as a value: a call of its GET. Null without an error if it is not one.
-const Pou* ExpressionChecker::accessor(const Pou& pou, const Expression& expression, ast::Accessor which) {
+const Pou* MethodChecker::accessor(const Pou& pou, const Expression& expression, ast::Accessor which) {
   const Pou* found = find_method(pou, expression.name, which);
   const ast::Accessor other = which == ast::Accessor::Get ? ast::Accessor::Set : ast::Accessor::Get;
   if (found == nullptr && find_method(pou, expression.name, other) != nullptr) {
@@ -171,8 +172,8 @@ const Pou* ExpressionChecker::accessor(const Pou& pou, const Expression& express
   return found;
 }
 
-const Type* ExpressionChecker::read_property(Expression& expression, const Pou& getter) {
-  if (!reading_ && (getter.result == nullptr || !getter.result->is_reference())) {
+const Type* MethodChecker::read_property(Expression& expression, const Pou& getter) {
+  if (!expressions_.mode().reading && (getter.result == nullptr || !getter.result->is_reference())) {
     context_.error(expression.at,
                    fmt::format("{} is a PROPERTY, which only an assignment x := ... of the whole of it sets; "
                                "use a variable between",
@@ -184,11 +185,11 @@ const Type* ExpressionChecker::read_property(Expression& expression, const Pou& 
   Expression callee = std::move(expression);
   callee.resolved = nullptr;
   expression = make::call(at, std::move(callee), std::move(none));
-  return CallChecker(*this).method(expression, getter);
+  return method(expression, getter);
 }
 
 // Turns x.Speed := 5 into a call of its SET. Returns false for an ordinary assignment.
-bool ExpressionChecker::write_property(ast::Statement& statement) {
+bool MethodChecker::write_property(ast::Statement& statement) {
   Expression& target = *statement.target;
   const Pou* found = nullptr;
   const std::size_t before = context_.diagnostics.errors();
@@ -213,7 +214,7 @@ bool ExpressionChecker::write_property(ast::Statement& statement) {
   const Place at = target.at;
   Expression call = make::call(at, std::move(target), std::move(arguments));
   call.operands[0].resolved = nullptr;
-  static_cast<void>(CallChecker(*this).method(call, *found));
+  static_cast<void>(method(call, *found));
   statement.kind = ast::Statement::Kind::Call;
   statement.value = std::move(call);
   statement.target.reset();
@@ -221,7 +222,7 @@ bool ExpressionChecker::write_property(ast::Statement& statement) {
 }
 
 // Returns the method that is called; null if there is none. `said`: an error was reported.
-const Pou* CallChecker::method_of(Expression& callee, bool& said) {
+const Pou* MethodChecker::method_of(Expression& callee, bool& said) {
   said = false;
   if (!context_.program.has_objects || context_.pou == nullptr) {
     return nullptr;
@@ -238,7 +239,7 @@ const Pou* CallChecker::method_of(Expression& callee, bool& said) {
     return nullptr;
   }
   const std::size_t before = context_.diagnostics.errors();
-  const Type* type = expressions_.object(callee.operands[0]);
+  const Type* type = object(callee.operands[0]);
   if (type == nullptr) {
     said = context_.diagnostics.errors() != before;
     return nullptr;
@@ -253,25 +254,25 @@ const Pou* CallChecker::method_of(Expression& callee, bool& said) {
 }
 
 // Checks the call of the method; returns the type of its result, null after an error or if it has none.
-const Type* CallChecker::method(Expression& call, const Pou& pou) {
+const Type* MethodChecker::method(Expression& call, const Pou& pou) {
   Expression& callee = call.operands[0];
-  Resolved& out = ExpressionChecker::resolved(call);
-  if (!expressions_.may_call(pou, callee.at)) {
+  Resolved& out = resolved(call);
+  if (!may_call(pou, callee.at)) {
     return nullptr;
   }
   if (callee.kind == Expression::Kind::Member) {
-    const Type* type = expressions_.object(callee.operands[0]);
-    const Expression& root = ExpressionChecker::root_of(callee.operands[0]);
+    const Type* type = object(callee.operands[0]);
+    const Expression& root = root_of(callee.operands[0]);
     out.by_super = is_this(root) && root.resolved->meaning == Meaning::Super && type->pou == context_.pou->self()->base;
     if (out.by_super && (pou.tree->is_abstract || pou.owner->tree->kind == ast::Pou::Kind::Interface)) {
       context_.error(callee.at, fmt::format("{} is ABSTRACT, there is nothing to call", pou.title()));
       return nullptr;
     }
-    expressions_.note_call(callee.operands[0]);
+    expressions_.writes().note_call(callee.operands[0]);
     context_.pou->uses.insert(type->pou);
   }
-  ExpressionChecker::resolved(callee).pou = &pou;
-  return user_function(call, pou);
+  resolved(callee).pou = &pou;
+  return expressions_.calls().user_function(call, pou);
 }
 
 }  // namespace indurop::plc

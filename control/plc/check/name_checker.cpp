@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Resolves names: variables, members, values of enumerations, shared variables, addresses.
+#include "control/plc/check/name_checker.h"
 
 #include <fmt/format.h>
 
@@ -47,7 +47,7 @@ const Pou* innermost_pou(const Type& type) noexcept {
 }  // namespace
 
 // Long: one case for each kind of named item, in the order in which they hide each other.
-const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) {
+const Type* NameChecker::name(Expression& expression, const Type* wanted) {
   Resolved& out = resolved(expression);
   const std::string capitals = upper(expression.name);
   Program& program = context_.program;
@@ -65,7 +65,7 @@ const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) 
   if (Variable* variable = from != nullptr ? from->find(capitals) : nullptr) {
     variable->used = true;
     variable->aliased = variable->aliased || variable->owner != context_.pou;
-    if (!can_see(*variable, expression.at)) {
+    if (!expressions_.methods().can_see(*variable, expression.at)) {
       return nullptr;
     }
     if (variable->global != nullptr) {
@@ -81,12 +81,12 @@ const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) 
     return context_.pou->result;
   }
   if (same_name(expression.name, "THIS") || same_name(expression.name, "SUPER")) {
-    return this_or_super(expression);
+    return expressions_.methods().this_or_super(expression);
   }
   if (from != nullptr && from->self() != nullptr && context_.program.has_objects) {
     const std::size_t before = context_.diagnostics.errors();
-    if (const Pou* getter = accessor(*from->self(), expression, ast::Accessor::Get)) {
-      return read_property(expression, *getter);
+    if (const Pou* getter = expressions_.methods().accessor(*from->self(), expression, ast::Accessor::Get)) {
+      return expressions_.methods().read_property(expression, *getter);
     }
     if (context_.diagnostics.errors() != before) {
       return nullptr;
@@ -111,33 +111,9 @@ const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) 
   return unknown(expression, wanted);
 }
 
-bool ExpressionChecker::counts_as_truth(const Expression& expression, const Type& type) noexcept {
-  const Resolved* root = ExpressionChecker::root_of(expression).resolved.get();
-  const bool shared = root != nullptr && root->global != nullptr && root->global->kind == Global::Kind::Foreign;
-  return expression.as_truth && shared && type.kind == Type::Kind::Elementary &&
-         (is_int(type.elementary) || (is_bit(type.elementary) && !type.is(Elementary::Bool)));
-}
-
-// Turns x into x <> 0.
-Expression& ExpressionChecker::make_truth(Expression& expression) {
-  Expression number = std::move(expression);
-  number.as_truth = false;
-  Expression zero;
-  zero.at = number.at;
-  zero.value = std::uint64_t{0};
-  expression = Expression{};
-  expression.kind = Expression::Kind::Binary;
-  expression.op = ast::Operator::NotEqual;
-  expression.at = zero.at;
-  expression.operands.push_back(std::move(number));
-  expression.operands.push_back(std::move(zero));
-  static_cast<void>(resolved(expression));
-  return expression;
-}
-
 // Resolves a value of the required enumeration, else of the only one that has it. Null if none has it, or `both` do.
-const Type* ExpressionChecker::bare_enum_value(Expression& expression, const Type* wanted,
-                                               std::pair<std::string, std::string>& both) {
+const Type* NameChecker::bare_enum_value(Expression& expression, const Type* wanted,
+                                         std::pair<std::string, std::string>& both) {
   Program& program = context_.program;
   index_enumerations(program);
   const std::string capitals = upper(expression.name);
@@ -160,7 +136,7 @@ const Type* ExpressionChecker::bare_enum_value(Expression& expression, const Typ
   return first;
 }
 
-Global* ExpressionChecker::program_named(std::string_view name) {
+Global* NameChecker::program_named(std::string_view name) {
   Program& program = context_.program;
   const auto found = context_.codesys() ? program.pou_names.find(upper(name)) : program.pou_names.end();
   if (found == program.pou_names.end() || found->second->tree->kind != ast::Pou::Kind::Program) {
@@ -185,7 +161,7 @@ Global* ExpressionChecker::program_named(std::string_view name) {
   return pou.instance;
 }
 
-const Type* ExpressionChecker::enum_value(Expression& expression, const Type& type, std::string_view item) {
+const Type* NameChecker::enum_value(Expression& expression, const Type& type, std::string_view item) {
   index_enumerations(context_.program);
   const auto& values = context_.program.enum_values;
   if (const auto found = values.find({id_of(type), upper(item)}); found != values.end()) {
@@ -205,12 +181,12 @@ const Type* ExpressionChecker::enum_value(Expression& expression, const Type& ty
   return nullptr;
 }
 
-const Type* ExpressionChecker::global(Expression& expression, Global& global) {
+const Type* NameChecker::global(Expression& expression, Global& global) {
   Resolved& out = resolved(expression);
   out.meaning = Meaning::Global;
   out.global = &global;
   out.constant = global.constant;
-  if (context_.pou != nullptr && reading_) {
+  if (context_.pou != nullptr && expressions_.mode().reading) {
     context_.pou->globals[&global].read = true;
   }
   if (const Pou* instance = context_.pou != nullptr && global.type != nullptr ? innermost_pou(*global.type) : nullptr) {
@@ -219,7 +195,7 @@ const Type* ExpressionChecker::global(Expression& expression, Global& global) {
   return global.type;
 }
 
-const Type* ExpressionChecker::direct(Expression& expression) {
+const Type* NameChecker::direct(Expression& expression) {
   if (expression.address.numbers.empty()) {
     context_.error(expression.at, fmt::format("{} says no place, write it behind AT in a declaration only",
                                               ast::to_string(expression.address)));
@@ -228,9 +204,9 @@ const Type* ExpressionChecker::direct(Expression& expression) {
   return global(expression, located_global(context_, expression.address, expression.at));
 }
 
-const Type* ExpressionChecker::member(Expression& expression) {
+const Type* NameChecker::member(Expression& expression) {
   Expression& base = expression.operands[0];
-  const Type* type = typed(base, nullptr);
+  const Type* type = expressions_.typed(base, nullptr);
   if (type == nullptr) {
     if (base.resolved->meaning == Meaning::Namespace) {
       return namespace_member(expression, base.resolved->path);
@@ -240,16 +216,16 @@ const Type* ExpressionChecker::member(Expression& expression) {
     }
     return nullptr;
   }
-  if (variable_of_this(expression)) {
-    return typed(expression, nullptr);
+  if (expressions_.methods().variable_of_this(expression)) {
+    return expressions_.typed(expression, nullptr);
   }
   if (type->pou != nullptr && (type->kind == Type::Kind::Block || type->kind == Type::Kind::Interface)) {
     const std::size_t before = context_.diagnostics.errors();
     const Pou* getter = type->pou->find(upper(expression.name)) == nullptr
-                            ? accessor(*type->pou, expression, ast::Accessor::Get)
+                            ? expressions_.methods().accessor(*type->pou, expression, ast::Accessor::Get)
                             : nullptr;
     if (getter != nullptr) {
-      return read_property(expression, *getter);
+      return expressions_.methods().read_property(expression, *getter);
     }
     if (context_.diagnostics.errors() != before) {
       return nullptr;
@@ -284,7 +260,7 @@ const Type* ExpressionChecker::member(Expression& expression) {
 }
 
 // Resolves w.RUNNING, where RUNNING is a CONSTANT: the bit of that number.
-const Type* ExpressionChecker::named_bit(Expression& expression, const Type& base) {
+const Type* NameChecker::named_bit(Expression& expression, const Type& base) {
   const std::string capitals = upper(expression.name);
   const Constant* known = nullptr;
   if (Variable* local = context_.pou != nullptr ? context_.pou->find(capitals) : nullptr) {
@@ -302,10 +278,10 @@ const Type* ExpressionChecker::named_bit(Expression& expression, const Type& bas
   }
   expression.kind = Expression::Kind::Bit;
   expression.bit = static_cast<unsigned>(*number);
-  return bit(expression);
+  return expressions_.typed(expression, nullptr);
 }
 
-const Type* ExpressionChecker::library_pin(Expression& expression, const LibraryBlock& block) {
+const Type* NameChecker::library_pin(Expression& expression, const LibraryBlock& block) {
   const LibraryParameter* output = block.output(expression.name);
   const LibraryParameter* found = output != nullptr ? output : block.input(expression.name);
   if (found == nullptr) {
@@ -316,7 +292,7 @@ const Type* ExpressionChecker::library_pin(Expression& expression, const Library
   return context_.elementary(std::get<Elementary>(found->type));
 }
 
-const Type* ExpressionChecker::block_member(Expression& expression, const Type& block) {
+const Type* NameChecker::block_member(Expression& expression, const Type& block) {
   if (block.block != nullptr) {
     if (const Type* pin = library_pin(expression, *block.block)) {
       return pin;
@@ -346,13 +322,14 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
       expression.name = found->name;
       return found->type;
     }
-    if (found != nullptr && found->section == ast::Section::InOut && reading_ && context_.pou != nullptr) {
+    if (found != nullptr && found->section == ast::Section::InOut && expressions_.mode().reading &&
+        context_.pou != nullptr) {
       // It is the variable that was passed to the preceding call.
       const auto given = context_.pou->given.find(upper(expression.operands[0].name + "." + expression.name));
       if (given != context_.pou->given.end()) {
         expression = ast::Expression(given->second);
         expression.resolved = nullptr;
-        return typed(expression, nullptr);
+        return expressions_.typed(expression, nullptr);
       }
     }
     if (found != nullptr && found->section == ast::Section::InOut) {
@@ -366,7 +343,7 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
   return nullptr;
 }
 
-const Type* ExpressionChecker::namespace_member(Expression& expression, const std::string& path) {
+const Type* NameChecker::namespace_member(Expression& expression, const std::string& path) {
   const auto own = context_.program.global_names.find(upper(expression.name));
   if (is_global_list(context_.program, path) && own != context_.program.global_names.end()) {
     return global(expression, *own->second);

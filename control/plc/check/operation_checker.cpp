@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks binary operators: the common type of both sides, and the result if it is constant.
+#include "control/plc/check/operation_checker.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "control/plc/check/bare_number.h"
-#include "control/plc/check/call_checker.h"
 #include "control/plc/check/expression_checker.h"
 
 namespace indurop::plc {
@@ -51,7 +50,7 @@ bool loses_fraction(const Expression& expression, const Constant& a, const Const
 }  // namespace
 
 // In CODESYS the values of an enumeration are numbers, except when two of one enumeration are compared.
-void ExpressionChecker::count_enumerations(Expression& expression) {
+void OperationChecker::count_enumerations(Expression& expression) {
   Expression& a = expression.operands[0];
   Expression& b = expression.operands[1];
   const bool equality = expression.op == Operator::Equal || expression.op == Operator::NotEqual;
@@ -60,13 +59,13 @@ void ExpressionChecker::count_enumerations(Expression& expression) {
   }
   for (Expression* one : {&a, &b}) {
     if (one->type->kind == Type::Kind::Enum) {
-      cast(*one, *context_.elementary(one->type->elementary));
+      expressions_.casts().cast(*one, *context_.elementary(one->type->elementary));
     }
   }
 }
 
 // Returns true for a name that is not a variable, but may be a value of an enumeration.
-bool ExpressionChecker::is_no_variable(const Expression& expression) const {
+bool OperationChecker::is_no_variable(const Expression& expression) const {
   const std::string capitals = upper(expression.name);
   return expression.kind == Expression::Kind::Name && expression.value_enum.empty() &&
          (context_.pou == nullptr || context_.pou->find(capitals) == nullptr) &&
@@ -74,7 +73,7 @@ bool ExpressionChecker::is_no_variable(const Expression& expression) const {
          (context_.pou == nullptr || !same_name(context_.pou->name, expression.name));
 }
 
-const Type* ExpressionChecker::unary(Expression& expression, const Type* wanted) {
+const Type* OperationChecker::unary(Expression& expression, const Type* wanted) {
   Expression& operand = expression.operands[0];
   Resolved& out = resolved(expression);
   const bool negated_literal =
@@ -89,7 +88,7 @@ const Type* ExpressionChecker::unary(Expression& expression, const Type* wanted)
     }
     return type;
   }
-  const Type* type = value(operand, wanted);
+  const Type* type = expressions_.value(operand, wanted);
   if (type == nullptr) {
     return nullptr;
   }
@@ -99,9 +98,10 @@ const Type* ExpressionChecker::unary(Expression& expression, const Type* wanted)
   const bool number =
       type->kind == Type::Kind::Elementary && (is_signed_int(type->elementary) || is_real(type->elementary) ||
                                                type->is(Elementary::Time) || operand.resolved->untyped);
-  if (expression.op == Operator::Not ? !is_elementary_bit(*type) && !(context_.codesys() && is_whole(*type)) &&
-                                           !adapt(operand, *context_.elementary(Elementary::Bool))
-                                     : !number) {
+  if (expression.op == Operator::Not
+          ? !is_elementary_bit(*type) && !(context_.codesys() && expressions_.is_whole(*type)) &&
+                !adapt(operand, *context_.elementary(Elementary::Bool))
+          : !number) {
     context_.error(expression.at, expression.op == Operator::Not
                                       ? fmt::format("NOT needs a BOOL or a bit string, not {}", with_article(*type))
                                       : fmt::format("{} has no sign", with_article(*type)));
@@ -120,20 +120,20 @@ const Type* ExpressionChecker::unary(Expression& expression, const Type* wanted)
 
 // Checks the values of both sides: first one that has a type, which numbers without one on the other side take if the
 // context requires none. Without any type, none is too small: MAX(300, 1) * 300 > 30000. Returns false after an error.
-bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
+bool OperationChecker::sides(Expression& expression, const Type* wanted) {
   Expression& a = expression.operands[0];
   Expression& b = expression.operands[1];
   const bool a_bare = is_bare(a, context_.program);
   const bool b_bare = is_bare(b, context_.program);
   const bool a_value = is_no_variable(a);
   if (expression.op >= Operator::Less && expression.op <= Operator::NotEqual && a_value != is_no_variable(b)) {
-    const Type* type = value(a_value ? b : a);  // determines the enumeration of the value
-    return value(a_value ? a : b, type) != nullptr && type != nullptr;
+    const Type* type = expressions_.value(a_value ? b : a);  // determines the enumeration of the value
+    return expressions_.value(a_value ? a : b, type) != nullptr && type != nullptr;
   }
   const bool a_inverted = is_inverted(a, context_.program);
   if (expression.op >= Operator::And && a_inverted != is_inverted(b, context_.program)) {  // w AND NOT 16#2
-    const Type* known = value(a_inverted ? b : a, wanted);
-    return value(a_inverted ? a : b, is_bits(known) ? known : wanted) != nullptr && known != nullptr;
+    const Type* known = expressions_.value(a_inverted ? b : a, wanted);
+    return expressions_.value(a_inverted ? a : b, is_bits(known) ? known : wanted) != nullptr && known != nullptr;
   }
   if (a_bare == b_bare) {
     const Type* hint = wanted;
@@ -144,18 +144,18 @@ bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
         is_real(hint->elementary)) {  // only whole numbers have it: the widest that become this REAL
       hint = context_.elementary(hint->is(Elementary::Real) ? Elementary::Int : Elementary::Dint);
     }
-    const bool fine = value(a, hint) != nullptr;
-    return value(b, hint) != nullptr && fine;
+    const bool fine = expressions_.value(a, hint) != nullptr;
+    return expressions_.value(b, hint) != nullptr && fine;
   }
-  const Type* known = value(a_bare ? b : a, wanted);
+  const Type* known = expressions_.value(a_bare ? b : a, wanted);
   const Type* hint = wanted;
   if (hint == nullptr && known != nullptr && is_number(*known)) {
     hint = context_.elementary(known->elementary);
   }
-  return value(a_bare ? a : b, hint) != nullptr && known != nullptr;
+  return expressions_.value(a_bare ? a : b, hint) != nullptr && known != nullptr;
 }
 
-const Type* ExpressionChecker::binary(Expression& expression, const Type* wanted) {
+const Type* OperationChecker::binary(Expression& expression, const Type* wanted) {
   const bool compares = expression.op >= Operator::Less && expression.op <= Operator::NotEqual;
   const bool combines = expression.op >= Operator::And;
   if (!sides(expression, compares ? nullptr : wanted)) {
@@ -166,10 +166,11 @@ const Type* ExpressionChecker::binary(Expression& expression, const Type* wanted
     return one.type->kind == Type::Kind::Pointer || one.type->kind == Type::Kind::Interface;
   };
   if (leads(expression.operands[0]) || leads(expression.operands[1])) {
-    return compares ? pointer_comparison(expression) : pointer_operation(expression);
+    return compares ? expressions_.pointers().pointer_comparison(expression)
+                    : expressions_.pointers().pointer_operation(expression);
   }
   if (!expression.operands[0].resolved->untyped || !expression.operands[1].resolved->untyped) {
-    return compares ? comparison(expression) : combines ? logic(expression, wanted) : arithmetic(expression, wanted);
+    return compares ? comparison(expression) : combines ? logic(expression) : arithmetic(expression, wanted);
   }
   const Constant& a = *constant_of(expression.operands[0]);
   const Constant& b = *constant_of(expression.operands[1]);
@@ -189,7 +190,7 @@ const Type* ExpressionChecker::binary(Expression& expression, const Type* wanted
 }
 
 // Converts both to one type; returns false if there is none.
-bool ExpressionChecker::meet(Expression& a, Expression& b) {
+bool OperationChecker::meet(Expression& a, Expression& b) {
   static_cast<void>(adapt_character(a, *b.type) || adapt_character(b, *a.type));
   if (a.resolved->untyped && !adapt(a, *context_.elementary(b.type->elementary)) && !b.type->is_text()) {
     adapt(a, *a.type);
@@ -200,7 +201,7 @@ bool ExpressionChecker::meet(Expression& a, Expression& b) {
   return context_.common_type(*a.type, *b.type) != nullptr;
 }
 
-const Type* ExpressionChecker::comparison(Expression& expression) {
+const Type* OperationChecker::comparison(Expression& expression) {
   Expression& a = expression.operands[0];
   Expression& b = expression.operands[1];
   const bool scalar = a.type->kind <= Type::Kind::Enum && b.type->kind <= Type::Kind::Enum;
@@ -230,8 +231,8 @@ const Type* ExpressionChecker::comparison(Expression& expression) {
 
 // Warns of exact comparisons: sums of REALs are rounded, but a value that is compared with 0 or 2.5 may never have been
 // computed.
-void ExpressionChecker::warn_about_exactness(const Place& at, const Type& type, const Expression& a,
-                                             const Expression& b) {
+void OperationChecker::warn_about_exactness(const Place& at, const Type& type, const Expression& a,
+                                            const Expression& b) {
   if (type.kind != Type::Kind::Elementary || !is_real(type.elementary)) {
     return;
   }
@@ -246,7 +247,7 @@ void ExpressionChecker::warn_about_exactness(const Place& at, const Type& type, 
   }
 }
 
-const Type* ExpressionChecker::logic(Expression& expression, const Type* /*wanted*/) {
+const Type* OperationChecker::logic(Expression& expression) {
   Expression& a = expression.operands[0];
   Expression& b = expression.operands[1];
   const auto has_bits = [this](const Type& type) {
@@ -270,8 +271,8 @@ const Type* ExpressionChecker::logic(Expression& expression, const Type* /*wante
   return type;
 }
 
-const Type* ExpressionChecker::arithmetic(Expression& expression, const Type* wanted) {
-  const Type* type = CallChecker(*this).operation(expression, wanted);
+const Type* OperationChecker::arithmetic(Expression& expression, const Type* wanted) {
+  const Type* type = expressions_.calls().operation(expression, wanted);
   if (type == nullptr) {
     return nullptr;
   }
@@ -287,7 +288,7 @@ const Type* ExpressionChecker::arithmetic(Expression& expression, const Type* wa
   return type;
 }
 
-void ExpressionChecker::fold(Expression& expression, const Type& operand) {
+void OperationChecker::fold(Expression& expression, const Type& operand) {
   const Constant* a = constant_of(expression.operands[0]);
   const Constant* b = constant_of(expression.operands[1]);
   if (a == nullptr || b == nullptr || operand.is(Elementary::Wstring)) {

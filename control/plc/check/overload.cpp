@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects the overload of a library function by the types of its inputs, and resolves its generic types.
+#include "control/plc/check/overload.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <array>
 
 #include "control/plc/check/bare_number.h"
-#include "control/plc/check/call_checker.h"
+#include "control/plc/check/expression_checker.h"
 
 namespace indurop::plc {
 namespace {
@@ -91,7 +91,7 @@ bool compares_one_enumeration(const LibraryFunction& function, const std::vector
 }  // namespace
 
 // Returns the values by position; none after an error.
-std::optional<CallChecker::Inputs> CallChecker::positions(Expression& call, const LibraryFunction& first) {
+std::optional<OverloadResolver::Inputs> OverloadResolver::positions(Expression& call, const LibraryFunction& first) {
   Inputs inputs;
   std::size_t next = 0;
   for (ast::Argument& argument : call.arguments) {
@@ -130,7 +130,7 @@ std::optional<CallChecker::Inputs> CallChecker::positions(Expression& call, cons
 
 // Returns the common type of numbers without a type, if one of them is computed: EQ(MAX(300, 1) * 300, 2.5). Null if
 // none is.
-const Type* CallChecker::widest_beside(const Inputs& inputs, const LibraryFunction& function, Generic generic) {
+const Type* OverloadResolver::widest_beside(const Inputs& inputs, const LibraryFunction& function, Generic generic) {
   std::optional<Elementary> widest;
   bool computed = false;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -146,8 +146,8 @@ const Type* CallChecker::widest_beside(const Inputs& inputs, const LibraryFuncti
 
 // Checks first the inputs that have a type, which numbers without one take if the context requires none: MAX(d, 807 *
 // MIN(1, 2)).
-bool CallChecker::input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads,
-                               const Type* wanted) {
+bool OverloadResolver::input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads,
+                                    const Type* wanted) {
   const LibraryFunction& first = *overloads.front();
   std::map<Generic, const Type*> beside;
   bool fine = true;
@@ -176,8 +176,8 @@ bool CallChecker::input_values(const Inputs& inputs, const std::vector<const Lib
   return fine;
 }
 
-const Type* CallChecker::library_function(Expression& call, std::vector<const LibraryFunction*> overloads,
-                                          const Type* wanted) {
+const Type* OverloadResolver::library_function(Expression& call, std::vector<const LibraryFunction*> overloads,
+                                               const Type* wanted) {
   if (wanted == nullptr && is_bare(call, context_.program) && computes(call)) {  // without any type, none is too small
     wanted = context_.elementary(widest_of(call, context_.program));
   }
@@ -190,7 +190,7 @@ const Type* CallChecker::library_function(Expression& call, std::vector<const Li
   const bool counts = context_.codesys() || first.name.starts_with("TO_") || compares_one_enumeration(first, inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (counts && inputs[i]->type->kind == Type::Kind::Enum && first.input(i).type != LibraryType(Generic::Any)) {
-      expressions_.cast(*inputs[i], *context_.elementary(inputs[i]->type->elementary));
+      expressions_.casts().cast(*inputs[i], *context_.elementary(inputs[i]->type->elementary));
     }
   }
   const bool to_text = first.name == "TO_STRING" || first.name == "TO_WSTRING";
@@ -201,7 +201,7 @@ const Type* CallChecker::library_function(Expression& call, std::vector<const Li
   if (result == nullptr) {
     return nullptr;
   }
-  Resolved& out = ExpressionChecker::resolved(call);
+  Resolved& out = resolved(call);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     for (const ast::Argument& argument : call.arguments) {
       if (argument.value && &*argument.value == inputs[i]) {
@@ -212,13 +212,13 @@ const Type* CallChecker::library_function(Expression& call, std::vector<const Li
   return result;
 }
 
-const Type* CallChecker::operation(Expression& expression, const Type* wanted) {
+const Type* OverloadResolver::operation(Expression& expression, const Type* wanted) {
   return choose(expression, find_functions(function_of(expression.op)),
                 {&expression.operands[0], &expression.operands[1]}, wanted);
 }
 
-const Type* CallChecker::choose(Expression& at, const std::vector<const LibraryFunction*>& overloads,
-                                const Inputs& inputs, const Type* wanted) {
+const Type* OverloadResolver::choose(Expression& at, const std::vector<const LibraryFunction*>& overloads,
+                                     const Inputs& inputs, const Type* wanted) {
   std::optional<Choice> best;
   for (const LibraryFunction* one : overloads) {
     auto choice = match(*one, inputs, wanted);
@@ -247,8 +247,8 @@ const Type* CallChecker::choose(Expression& at, const std::vector<const LibraryF
   return nullptr;
 }
 
-std::optional<CallChecker::Choice> CallChecker::match(const LibraryFunction& function, const Inputs& inputs,
-                                                      const Type* wanted) {
+std::optional<OverloadResolver::Choice> OverloadResolver::match(const LibraryFunction& function, const Inputs& inputs,
+                                                                const Type* wanted) {
   const bool right_count =
       function.extensible ? inputs.size() >= function.inputs.size() : inputs.size() == function.inputs.size();
   if (!right_count) {
@@ -283,7 +283,7 @@ std::optional<CallChecker::Choice> CallChecker::match(const LibraryFunction& fun
 }
 
 // Returns 0: the type itself, 1: widened; none: cannot be used.
-std::optional<int> CallChecker::cost_of(const Expression& input, const Type& type) {
+std::optional<int> OverloadResolver::cost_of(const Expression& input, const Type& type) {
   if (untyped(input)) {
     return adapts(*input.resolved->constant, type) ? std::optional(0) : std::nullopt;
   }
@@ -294,8 +294,8 @@ std::optional<int> CallChecker::cost_of(const Expression& input, const Type& typ
 }
 
 // Returns the common type of all inputs in the group of this one; null if there is none.
-const Type* CallChecker::group_type(const LibraryFunction& function, std::size_t member, const Inputs& inputs,
-                                    const Type* wanted) {
+const Type* OverloadResolver::group_type(const LibraryFunction& function, std::size_t member, const Inputs& inputs,
+                                         const Type* wanted) {
   const Generic generic = std::get<Generic>(function.input(member).type);
   const Type* group = nullptr;
   bool first = true;
@@ -330,7 +330,8 @@ const Type* CallChecker::group_type(const LibraryFunction& function, std::size_t
 }
 
 // Returns the type of the group after a number without a type has joined it.
-const Type* CallChecker::join_untyped(Generic generic, const Type* group, const Expression& input, const Type* wanted) {
+const Type* OverloadResolver::join_untyped(Generic generic, const Type* group, const Expression& input,
+                                           const Type* wanted) {
   const Constant& number = *input.resolved->constant;
   if (group != nullptr && adapts(number, *group)) {
     return group;
@@ -363,8 +364,8 @@ const LibraryFunction& infinite_division() {
   return kMade;
 }
 
-void CallChecker::apply(Expression& at, const Choice& choice, const Inputs& inputs) {
-  Resolved& out = ExpressionChecker::resolved(at);
+void OverloadResolver::apply(Expression& at, const Choice& choice, const Inputs& inputs) {
+  Resolved& out = resolved(at);
   out.function = choice.function;
   const bool real = choice.result != nullptr && is_real(choice.result->elementary);
   const bool divides = choice.function->cpp == "iec::div";
@@ -380,7 +381,7 @@ void CallChecker::apply(Expression& at, const Choice& choice, const Inputs& inpu
                                         name_of(choice.result->elementary)));
   }
   for (std::size_t i = 1; (choice.function->name == "EQ" || choice.function->name == "NE") && i < inputs.size(); ++i) {
-    expressions_.warn_about_exactness(at.at, *choice.types[i], *inputs[i - 1], *inputs[i]);
+    expressions_.operations().warn_about_exactness(at.at, *choice.types[i], *inputs[i - 1], *inputs[i]);
   }
   out.actuals.clear();
   for (std::size_t i = 0; i < inputs.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks POINTER TO, REF_TO and REFERENCE TO: their targets, arithmetic with them, ADR and SIZEOF.
+#include "control/plc/check/pointer_checker.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "control/plc/check/call_checker.h"
 #include "control/plc/check/expression_checker.h"
 #include "control/plc/check/lifetime.h"
 #include "control/plc/model/make.h"
@@ -34,12 +33,9 @@ bool is_null(const Expression& expression) noexcept {
 
 }  // namespace
 
-const Type* ExpressionChecker::deref(Expression& expression) {
-  const bool following = std::exchange(following_, false);
-  const bool reading = std::exchange(reading_, true);
-  const Type* base = typed(expression.operands[0], nullptr);
-  following_ = following;
-  reading_ = reading;
+const Type* PointerChecker::deref(Expression& expression) {
+  const Type* base =
+      expressions_.with({true, false}, [&] { return expressions_.typed(expression.operands[0], nullptr); });
   if (base == nullptr) {
     return nullptr;
   }
@@ -55,7 +51,7 @@ const Type* ExpressionChecker::deref(Expression& expression) {
 }
 
 // Replaces r of a REFERENCE TO by r^.
-const Type* ExpressionChecker::follow(Expression& expression, const Type& reference) {
+const Type* PointerChecker::follow(Expression& expression, const Type& reference) {
   expression.type = &reference;
   Expression inner = std::move(expression);
   expression = Expression{};
@@ -67,26 +63,24 @@ const Type* ExpressionChecker::follow(Expression& expression, const Type& refere
   return reference.element;
 }
 
-const Type* ExpressionChecker::reference_itself(Expression& expression) {
-  const bool following = std::exchange(following_, false);
-  const Type* type = typed(expression, nullptr);
-  following_ = following;
-  return type;
+const Type* PointerChecker::reference_itself(Expression& expression) {
+  const ExpressionChecker::Mode mode{expressions_.mode().reading, false};
+  return expressions_.with(mode, [&] { return expressions_.typed(expression, nullptr); });
 }
 
 // Reports a pointer to another range: values written through it would not be checked.
-void ExpressionChecker::complain_of_range(const Place& at, const Type& type, const Type& to) {
+void PointerChecker::complain_of_range(const Place& at, const Type& type, const Type& to) {
   context_.error(at, fmt::format("{} and what {} leads to have other limits, so a value could be written that is none "
                                  "of them; use one type for both",
                                  with_article(type), with_article(to)));
 }
 
-bool ExpressionChecker::bind(Expression& expression, const Type& to) {
+bool PointerChecker::bind(Expression& expression, const Type& to) {
   const bool named = expression.kind == Expression::Kind::Name && context_.pou->find("NULL") != nullptr;  // a variable
   if (is_null(expression) && !named) {
-    return value(expression, nullptr) != nullptr;
+    return expressions_.value(expression, nullptr) != nullptr;
   }
-  const Type* type = reference(expression);
+  const Type* type = expressions_.writes().reference(expression);
   if (type == nullptr || is_open(expression)) {
     return false;
   }
@@ -100,7 +94,7 @@ bool ExpressionChecker::bind(Expression& expression, const Type& to) {
     return false;
   }
   context_.pou->points_to_own = context_.pou->points_to_own || ends_with_call(expression);
-  note_address(expression);
+  expressions_.writes().note_address(expression);
   const Place at = expression.at;
   std::vector<ast::Argument> arguments;
   arguments.push_back(make::argument("", std::move(expression)));
@@ -110,14 +104,15 @@ bool ExpressionChecker::bind(Expression& expression, const Type& to) {
   return true;
 }
 
-bool ExpressionChecker::assigned_pointer(Expression& expression, const Type& to) {
+bool PointerChecker::assigned_pointer(Expression& expression, const Type& to) {
   if (expression.kind == Expression::Kind::Name && same_name(expression.name, "THIS")) {  // its address
     const Place at = expression.at;
     std::vector<ast::Argument> arguments;
     arguments.push_back(make::argument("", std::move(expression)));
     expression = make::call(at, make::name(at, "ADR"), std::move(arguments));
   }
-  const Type* type = expression.kind == Expression::Kind::Call ? top_call(expression, &to) : value(expression, &to);
+  const Type* type = expression.kind == Expression::Kind::Call ? expressions_.top_call(expression, &to)
+                                                               : expressions_.value(expression, &to);
   if (type == nullptr) {
     return false;
   }
@@ -135,8 +130,9 @@ bool ExpressionChecker::assigned_pointer(Expression& expression, const Type& to)
 }
 
 // Checks an instance that implements the interface, or another variable of the interface.
-bool ExpressionChecker::assigned_interface(Expression& expression, const Type& to) {
-  const Type* type = expression.kind == Expression::Kind::Call ? top_call(expression, &to) : typed(expression, nullptr);
+bool PointerChecker::assigned_interface(Expression& expression, const Type& to) {
+  const Type* type = expression.kind == Expression::Kind::Call ? expressions_.top_call(expression, &to)
+                                                               : expressions_.typed(expression, nullptr);
   if (type == nullptr) {
     return false;
   }
@@ -152,18 +148,17 @@ bool ExpressionChecker::assigned_interface(Expression& expression, const Type& t
     return false;
   }
   if (type->kind == Type::Kind::Block) {
-    note_call(expression);
+    expressions_.writes().note_call(expression);
   }
   return true;
 }
 
 // Checks p[3]: the value at this offset from p^, counted in values.
-const Type* ExpressionChecker::pointer_index(Expression& expression, const Type& pointer) {
-  const bool reading = std::exchange(reading_, true);
+const Type* PointerChecker::pointer_index(Expression& expression, const Type& pointer) {
   Expression& index = expression.operands[1];
-  const Type* type = value(index);
-  reading_ = reading;
-  if (type != nullptr && !is_whole(*type)) {
+  const ExpressionChecker::Mode mode{true, expressions_.mode().following};
+  const Type* type = expressions_.with(mode, [&] { return expressions_.value(index); });
+  if (type != nullptr && !expressions_.is_whole(*type)) {
     context_.error(index.at, fmt::format("an index is a whole number, not {}", with_article(*type)));
     return nullptr;
   }
@@ -171,7 +166,7 @@ const Type* ExpressionChecker::pointer_index(Expression& expression, const Type&
 }
 
 // Checks pointer arithmetic: p + 3 is three bytes further.
-const Type* ExpressionChecker::pointer_operation(Expression& expression) {
+const Type* PointerChecker::pointer_operation(Expression& expression) {
   Expression& a = expression.operands[0];
   Expression& b = expression.operands[1];
   if (expression.op == Operator::Add && b.type->kind == Type::Kind::Pointer) {
@@ -190,7 +185,7 @@ const Type* ExpressionChecker::pointer_operation(Expression& expression) {
   return a.type;
 }
 
-const Type* ExpressionChecker::pointer_comparison(Expression& expression) {
+const Type* PointerChecker::pointer_comparison(Expression& expression) {
   const Expression& a = expression.operands[0];
   const Expression& b = expression.operands[1];
   const Type::Kind kind = is_zero(a) ? b.type->kind : a.type->kind;
@@ -202,6 +197,18 @@ const Type* ExpressionChecker::pointer_comparison(Expression& expression) {
   }
   resolved(expression).operand = a.type->kind == kind ? a.type : b.type;
   return context_.elementary(Elementary::Bool);
+}
+
+// Reports accesses into an ARRAY[*]: it exists during the call only, so no pointer or reference may lead into it.
+bool PointerChecker::is_open(const Expression& expression) {
+  for (const Expression* at = &expression; !at->operands.empty(); at = &at->operands[0]) {
+    if (at->operands[0].type != nullptr && at->operands[0].type->open) {
+      context_.error(expression.at,
+                     "elements of an ARRAY[*] have no address, because it is there during the call only");
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace indurop::plc

@@ -64,7 +64,7 @@ class VariableDeclarer {
       made->global = &declare_located(context_, declared, *type);
     } else if (declared.initial && holds_instances(*type)) {
       context_.open_initials.push_back({&*declared.initial, type, &pou_});
-    } else if (declared.initial && expressions_.initial(*declared.initial, *type) && declared.constant &&
+    } else if (declared.initial && expressions_.initials().initial(*declared.initial, *type) && declared.constant &&
                declared.section == Section::Local) {  // VAR_INPUT CONSTANT is passed by the caller
       remember_constant(*made, declared);
     }
@@ -212,6 +212,56 @@ void declare_methods(Context& context, Pou& pou) {
   }
 }
 
+void check_result(Context& context, const Pou& pou) {
+  if (pou.result != nullptr && holds_instances(*pou.result) && !context.codesys()) {
+    context.error(pou.tree->result->at, "a function block cannot be a result, use a REFERENCE TO it or an INTERFACE");
+  }
+  if (pou.result != nullptr && pou.result->open) {
+    context.error(pou.tree->result->at, kOpenArray);
+  }
+}
+
+void declare_variables_of(Context& context, Pou& pou) {
+  Pou* before = std::exchange(context.pou, &pou);
+  VariableDeclarer declarer(context, pou);
+  if (pou.tree->result) {
+    pou.result = build_type(context, *pou.tree->result);
+    check_result(context, pou);
+    if (pou.result != nullptr) {
+      declarer.use_types(*pou.result);
+    }
+  }
+  for (ast::Variable& one : pou.tree->variables) {
+    declarer.declare(one);
+  }
+  context.pou = before;
+}
+
+// Checks what is known only after the variables of all function blocks are declared.
+void check_instances(Context& context) {
+  for (const Pou& pou : context.program.pous) {
+    context.pou = nullptr;
+    for (const Variable& one : pou.variables) {
+      const bool own = one.type != nullptr && one.section != Section::External && one.section != Section::InOut;
+      if (!own || !holds_instances(*one.type)) {
+        continue;
+      }
+      const bool lasts = !one.declared->is_static && !one.declared->of_instance && !pou.is_callable() &&
+                         one.section != Section::Temp && (one.section != Section::Input || context.codesys());
+      if (!lasts && holds_places(*one.type)) {
+        context.error(one.declared->at,
+                      fmt::format("{} has variables AT %I* or %Q*, which only an instance in VAR of a program or "
+                                  "function block, or in VAR_GLOBAL, gives a place",
+                                  to_string(*one.type)));
+      }
+      if (const LibraryBlock* block = one.retain ? forgetful_block(*one.type) : nullptr) {
+        context.warning(one.declared->at,
+                        fmt::format("of {} only inputs and outputs are kept over a restart", block->name));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void declare_pous(Context& context) {
@@ -240,39 +290,6 @@ void declare_pous(Context& context) {
   }
 }
 
-namespace {
-
-void check_result(Context& context, const Pou& pou) {
-  if (pou.result != nullptr && holds_instances(*pou.result) && !context.codesys()) {
-    context.error(pou.tree->result->at, "a function block cannot be a result, use a REFERENCE TO it or an INTERFACE");
-  }
-  if (pou.result != nullptr && pou.result->open) {
-    context.error(pou.tree->result->at, kOpenArray);
-  }
-}
-
-}  // namespace
-
-namespace {
-
-void declare_variables_of(Context& context, Pou& pou) {
-  Pou* before = std::exchange(context.pou, &pou);
-  VariableDeclarer declarer(context, pou);
-  if (pou.tree->result) {
-    pou.result = build_type(context, *pou.tree->result);
-    check_result(context, pou);
-    if (pou.result != nullptr) {
-      declarer.use_types(*pou.result);
-    }
-  }
-  for (ast::Variable& one : pou.tree->variables) {
-    declarer.declare(one);
-  }
-  context.pou = before;
-}
-
-}  // namespace
-
 void declare_variables(Context& context) {
   for (Pou& pou : context.program.pous) {
     declare_variables_of(context, pou);
@@ -296,35 +313,6 @@ void declare_method(Context& context, Pou& owner, ast::Pou& tree) {
   declare_variables_of(context, method);
   check_open_initials(context);
 }
-
-namespace {
-
-// Checks what is known only after the variables of all function blocks are declared.
-void check_instances(Context& context) {
-  for (const Pou& pou : context.program.pous) {
-    context.pou = nullptr;
-    for (const Variable& one : pou.variables) {
-      const bool own = one.type != nullptr && one.section != Section::External && one.section != Section::InOut;
-      if (!own || !holds_instances(*one.type)) {
-        continue;
-      }
-      const bool lasts = !one.declared->is_static && !one.declared->of_instance && !pou.is_callable() &&
-                         one.section != Section::Temp && (one.section != Section::Input || context.codesys());
-      if (!lasts && holds_places(*one.type)) {
-        context.error(one.declared->at,
-                      fmt::format("{} has variables AT %I* or %Q*, which only an instance in VAR of a program or "
-                                  "function block, or in VAR_GLOBAL, gives a place",
-                                  to_string(*one.type)));
-      }
-      if (const LibraryBlock* block = one.retain ? forgetful_block(*one.type) : nullptr) {
-        context.warning(one.declared->at,
-                        fmt::format("of {} only inputs and outputs are kept over a restart", block->name));
-      }
-    }
-  }
-}
-
-}  // namespace
 
 void check_bodies(Context& context) {
   check_instances(context);

@@ -141,7 +141,7 @@ bool StatementChecker::action_with_values(Statement& one) {
   if (callee.kind != ast::Expression::Kind::Member || one.value->arguments.empty() || !context_.program.has_objects) {
     return false;
   }
-  if (!expressions_.is_action(callee)) {
+  if (!expressions_.methods().is_action(callee)) {
     return false;
   }
   ast::Body before;
@@ -198,7 +198,7 @@ bool StatementChecker::infer(Statement& one) {
 
 // Checks r REF= x; for the reference itself, not its target.
 void StatementChecker::bind(Statement& one) {
-  const Type* to = expressions_.reference_itself(*one.target);
+  const Type* to = expressions_.pointers().reference_itself(*one.target);
   if (to != nullptr && !to->is_reference()) {
     context_.error(one.at, fmt::format("REF= sets a REFERENCE TO, not {}", with_article(*to)));
   } else if (to != nullptr) {
@@ -219,7 +219,7 @@ void StatementChecker::attempt(Statement& one) {
     return to != nullptr && to->pou != nullptr &&
            (to->kind == Type::Kind::Interface ? &type == to : to->pou->is_object);
   };
-  const Type* to = expressions_.target(*one.target);
+  const Type* to = expressions_.writes().target(*one.target);
   const Type* from = expressions_.value(*one.value);
   if (to != nullptr && from != nullptr && !(leads(*to) && leads(*from))) {
     context_.error(one.at,
@@ -241,10 +241,10 @@ void StatementChecker::assign(Statement& one) {
   if (!infer(one)) {
     return;
   }
-  if (expressions_.write_property(one)) {
+  if (expressions_.methods().write_property(one)) {
     return;
   }
-  const Type* to = expressions_.target(*one.target, true);
+  const Type* to = expressions_.writes().target(*one.target, true);
   if (to == nullptr) {
     expressions_.value_or_instance(*one.value);
     return;
@@ -253,7 +253,7 @@ void StatementChecker::assign(Statement& one) {
     copy_instance(one, *to);
     return;
   }
-  if (ExpressionChecker::counts_as_truth(*one.target, *to)) {  // a coil writes 1 or 0
+  if (counts_as_truth(*one.target, *to)) {  // a coil writes 1 or 0
     std::vector<ast::Argument> arguments;
     arguments.push_back(make::argument("", std::move(*one.value)));
     one.value = make::call(one.at, make::name(one.at, fmt::format("BOOL_TO_{}", name_of(to->elementary))),
@@ -346,7 +346,7 @@ void StatementChecker::case_label(ast::CaseLabel& label, const Type& type) {
 }
 
 void StatementChecker::for_statement(Statement& one) {
-  const Type* type = expressions_.target(*one.target);
+  const Type* type = expressions_.writes().target(*one.target);
   const bool whole = type != nullptr && expressions_.is_whole(*type);
   if (type != nullptr && (!whole || one.target->kind != ast::Expression::Kind::Name)) {
     context_.error(one.target->at, "the variable of a FOR is a plain variable of a whole number type");

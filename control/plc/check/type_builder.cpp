@@ -273,7 +273,7 @@ class TypeBuilder {
         context_.error(
             field.at, why.empty() ? "a field of a UNION has no initial value, because the others have its place" : why);
       }
-      const bool valid = !field.initial || expressions_.initial(*field.initial, *one);
+      const bool valid = !field.initial || expressions_.initials().initial(*field.initial, *one);
       type.fields.push_back({field.name, one, valid && field.initial ? &*field.initial : nullptr, field.comment});
     }
     if (type.fields.empty() && fine && context_.codesys()) {

@@ -104,7 +104,7 @@ class TypeOrder {
       context_.error(one.at, kOpenArray);
       return nullptr;
     }
-    if (type == nullptr || !one.initial || !ExpressionChecker(context_).initial(*one.initial, *type)) {
+    if (type == nullptr || !one.initial || !ExpressionChecker(context_).initials().initial(*one.initial, *type)) {
       return type;
     }
     // TYPE Speed : INT := 5; is a type of its own, because INT begins with 0.

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "control/plc/check/call_checker.h"
 #include "control/plc/check/expression_checker.h"
 #include "control/plc/check/foreign_types.h"
 #include "control/plc/check/global_table.h"
@@ -19,7 +18,7 @@ namespace indurop::plc {
 
 using ast::Expression;
 
-const Type* ExpressionChecker::unknown(Expression& expression, const Type* wanted) {
+const Type* NameChecker::unknown(Expression& expression, const Type* wanted) {
   std::pair<std::string, std::string> both;
   if (const Type* found = bare_enum_value(expression, wanted, both)) {
     return found;
@@ -60,7 +59,7 @@ const Type* ExpressionChecker::unknown(Expression& expression, const Type* wante
   return nullptr;
 }
 
-void ExpressionChecker::no_member(const Expression& expression, const Type& block) {
+void NameChecker::no_member(const Expression& expression, const Type& block) {
   std::vector<std::string> known;
   if (block.block != nullptr) {
     for (const LibraryParameter& one : block.block->outputs) {

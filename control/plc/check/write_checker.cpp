@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks what can be written and passed by reference, and records the writers.
+#include "control/plc/check/write_checker.h"
 
 #include <fmt/format.h>
 
 #include <set>
 #include <utility>
 
+#include "control/plc/check/designator.h"
 #include "control/plc/check/expression_checker.h"
 #include "control/plc/check/places.h"
 
@@ -14,27 +15,6 @@ namespace {
 
 using ast::Expression;
 using Meaning = Resolved::Meaning;
-
-// Returns true for an expression that can be left of := : a name, with members, indices and bits of it.
-bool is_designator(const Expression& expression) noexcept {
-  switch (expression.kind) {
-    case Expression::Kind::Name:
-    case Expression::Kind::Direct:
-      return true;
-    case Expression::Kind::Member:
-    case Expression::Kind::Bit:
-    case Expression::Kind::Index:
-      return is_designator(expression.operands[0]);
-    case Expression::Kind::Deref:  // also of a call that returns a reference
-      return expression.operands[0].kind == Expression::Kind::Call || is_designator(expression.operands[0]);
-    case Expression::Kind::Literal:
-    case Expression::Kind::Call:
-    case Expression::Kind::Unary:
-    case Expression::Kind::Binary:
-      break;
-  }
-  return false;
-}
 
 // Returns ".a.b" up to the first index; `fixed` is false if there is one.
 std::string path_of(const Expression& expression, bool& fixed) {
@@ -67,18 +47,10 @@ void mark_aliased(const Type& type, std::set<const Pou*>& marked) {
 
 }  // namespace
 
-const Expression& ExpressionChecker::root_of(const Expression& expression) noexcept {
-  const Expression* at = &expression;
-  while (!at->operands.empty() && (!at->resolved || at->resolved->meaning == Meaning::Value)) {
-    at = &at->operands[0];
-  }
-  return *at;
-}
-
-const Type* ExpressionChecker::target(Expression& expression, bool instances) {
-  const bool reading = std::exchange(reading_, expression.kind == Expression::Kind::Bit);
-  const Type* type = instances ? value_or_instance(expression) : value(expression);
-  reading_ = reading;
+const Type* WriteChecker::target(Expression& expression, bool instances) {
+  const ExpressionChecker::Mode mode{expression.kind == Expression::Kind::Bit, expressions_.mode().following};
+  const Type* type = expressions_.with(
+      mode, [&] { return instances ? expressions_.value_or_instance(expression) : expressions_.value(expression); });
   if (type == nullptr || !writable(expression)) {
     return nullptr;
   }
@@ -86,8 +58,8 @@ const Type* ExpressionChecker::target(Expression& expression, bool instances) {
   return type;
 }
 
-const Type* ExpressionChecker::reference(Expression& expression) {
-  const Type* type = typed(expression, nullptr);
+const Type* WriteChecker::reference(Expression& expression) {
+  const Type* type = expressions_.typed(expression, nullptr);
   if (type == nullptr || !writable(expression)) {
     return nullptr;
   }
@@ -100,7 +72,7 @@ const Type* ExpressionChecker::reference(Expression& expression) {
   return type;
 }
 
-bool ExpressionChecker::writable(const Expression& expression) {
+bool WriteChecker::writable(const Expression& expression) {
   if (is_designator(expression) && through_pointer(expression) != nullptr) {
     return true;
   }
@@ -142,21 +114,7 @@ bool ExpressionChecker::writable(const Expression& expression) {
   return true;
 }
 
-const Expression* ExpressionChecker::through_pointer(const Expression& expression) noexcept {
-  for (const Expression* at = &expression; !at->operands.empty(); at = &at->operands[0]) {
-    const Type* base = at->operands[0].type;
-    const Resolved* of = at->operands[0].resolved.get();
-    const bool own = of != nullptr && (of->meaning == Meaning::This || of->meaning == Meaning::Super);
-    const bool follows = (at->kind == Expression::Kind::Deref && !own) ||
-                         (at->kind == Expression::Kind::Index && base != nullptr && base->kind == Type::Kind::Pointer);
-    if (follows) {
-      return &at->operands[0];
-    }
-  }
-  return nullptr;
-}
-
-void ExpressionChecker::note_call(const Expression& expression) {
+void WriteChecker::note_call(const Expression& expression) {
   const Resolved* root = root_of(expression).resolved.get();
   if (context_.pou != nullptr && root != nullptr && root->variable != nullptr) {
     Variable& variable = *context_.pou->find(upper(root->variable->name));
@@ -166,7 +124,7 @@ void ExpressionChecker::note_call(const Expression& expression) {
 }
 
 // A pointer can be moved anywhere in the variable to which it points.
-void ExpressionChecker::note_address(const Expression& expression) {
+void WriteChecker::note_address(const Expression& expression) {
   if (through_pointer(expression) != nullptr) {
     return;
   }
@@ -183,7 +141,7 @@ void ExpressionChecker::note_address(const Expression& expression) {
   }
 }
 
-void ExpressionChecker::note_write(const Expression& expression) {
+void WriteChecker::note_write(const Expression& expression) {
   if (context_.pou == nullptr || through_pointer(expression) != nullptr) {
     return;  // recorded where its address was taken
   }

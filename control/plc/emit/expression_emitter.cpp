@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "control/plc/check/designator.h"
 #include "control/plc/check/expression_checker.h"
 #include "control/plc/check/lifetime.h"
 #include "control/plc/emit/object_emitter.h"
@@ -220,12 +221,11 @@ std::string ExpressionEmitter::intrinsic(const Expression& expression) const {
   if (resolved.intrinsic == Resolved::Intrinsic::IsValid) {
     return fmt::format("({}.base != nullptr)", raw(of));
   }
-  if (const Expression* pointer = ExpressionChecker::through_pointer(of)) {
+  if (const Expression* pointer = through_pointer(of)) {
     const bool itself = of.kind == Expression::Kind::Deref && pointer == &of.operands[0];
     return itself ? raw(*pointer) : fmt::format("iec::address_in({}, {})", raw(*pointer), raw(of));
   }
-  return fmt::format("iec::address({}, {}{})", raw(of), raw(ExpressionChecker::root_of(of)),
-                     ends_with_call(of) ? ", lifetime" : "");
+  return fmt::format("iec::address({}, {}{})", raw(of), raw(root_of(of)), ends_with_call(of) ? ", lifetime" : "");
 }
 
 // Emits access to one element through a pointer: only that element must exist, not the whole array.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Intrinsics that look like function calls: ADR, REF, SIZEOF, __ISVALIDREF, LOWER_BOUND, UPPER_BOUND.
+#include "control/plc/check/intrinsic_checker.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "control/plc/check/call_checker.h"
+#include "control/plc/check/expression_checker.h"
 #include "control/plc/check/lifetime.h"
 #include "control/plc/model/make.h"
 
@@ -74,7 +74,7 @@ std::optional<Extent> extent_of(const Type& type) {
 
 // Checks ADR(x), REF(x), SIZEOF(x), __ISVALIDREF(r), LOWER_BOUND(a, 1). Returns false if it is none of these. `type` is
 // null after an error.
-bool CallChecker::address_call(Expression& call, const Type*& type) {
+bool IntrinsicChecker::address_call(Expression& call, const Type*& type) {
   const std::string name = upper(call.operands[0].name);
   if (name == "LOWER_BOUND" || name == "UPPER_BOUND") {
     type = bound_of(call, name == "LOWER_BOUND");
@@ -90,15 +90,15 @@ bool CallChecker::address_call(Expression& call, const Type*& type) {
     return true;
   }
   Expression& of = *call.arguments[0].value;
-  Resolved& out = ExpressionChecker::resolved(call);
+  Resolved& out = resolved(call);
   if (adr) {
-    const Type* found = expressions_.reference(of);
-    if (found != nullptr && expressions_.is_open(of)) {
+    const Type* found = expressions_.writes().reference(of);
+    if (found != nullptr && expressions_.pointers().is_open(of)) {
       return true;
     }
     out.intrinsic = Resolved::Intrinsic::Address;
     if (found != nullptr) {
-      expressions_.note_address(of);
+      expressions_.writes().note_address(of);
     }
     context_.pou->points_to_own = context_.pou->points_to_own || (found != nullptr && ends_with_call(of));
     type = found == nullptr
@@ -107,7 +107,7 @@ bool CallChecker::address_call(Expression& call, const Type*& type) {
   } else if (name == "SIZEOF") {
     type = size_of(call, of);
   } else {
-    const Type* found = expressions_.reference_itself(of);
+    const Type* found = expressions_.pointers().reference_itself(of);
     const Variable* variable = of.kind == Expression::Kind::Name && of.resolved ? of.resolved->variable : nullptr;
     if (found != nullptr && variable != nullptr && variable->section == ast::Section::InOut) {
       call = make::truth(call.at, true);  // an argument of each call
@@ -125,7 +125,7 @@ bool CallChecker::address_call(Expression& call, const Type*& type) {
 }
 
 // Checks LOWER_BOUND(a, 1), UPPER_BOUND(a, 2): a constant unless the array is ARRAY[*].
-const Type* CallChecker::bound_of(Expression& call, bool lower) {
+const Type* IntrinsicChecker::bound_of(Expression& call, bool lower) {
   if (call.arguments.size() != 2 || !call.arguments[0].value || !call.arguments[1].value) {
     context_.error(call.at, fmt::format("{} takes an array and the number of a dimension", call.operands[0].name));
     return nullptr;
@@ -148,7 +148,7 @@ const Type* CallChecker::bound_of(Expression& call, bool lower) {
                    fmt::format("the dimensions of {} are 1 to {}, as a number known now", to_string(*array), most));
     return nullptr;
   }
-  Resolved& out = ExpressionChecker::resolved(call);
+  Resolved& out = resolved(call);
   out.intrinsic = lower ? Resolved::Intrinsic::LowerBound : Resolved::Intrinsic::UpperBound;
   if (!array->open) {
     const Bounds& bounds = array->dimensions[static_cast<std::size_t>(number.value_or(1) - 1)];
@@ -157,7 +157,7 @@ const Type* CallChecker::bound_of(Expression& call, bool lower) {
   return dint;
 }
 
-const Type* CallChecker::size_of(Expression& call, Expression& of) {
+const Type* IntrinsicChecker::size_of(Expression& call, Expression& of) {
   const auto elementary = of.kind == Expression::Kind::Name ? elementary_named(of.name) : std::nullopt;
   const Type* found = elementary ? context_.elementary(*elementary) : expressions_.typed(of, nullptr);
   if (found == nullptr && of.resolved && of.resolved->meaning == Meaning::Type) {
@@ -170,7 +170,7 @@ const Type* CallChecker::size_of(Expression& call, Expression& of) {
     context_.error(of.at, "an ARRAY[*] has no size known now, use UPPER_BOUND() and SIZEOF() of an element");
     return nullptr;
   }
-  Resolved& out = ExpressionChecker::resolved(call);
+  Resolved& out = resolved(call);
   out.intrinsic = Resolved::Intrinsic::Size;
   out.operand = found;
   if (const auto extent = extent_of(*found)) {
@@ -179,18 +179,6 @@ const Type* CallChecker::size_of(Expression& call, Expression& of) {
     return context_.elementary(default_type(*out.constant));
   }
   return context_.elementary(Elementary::Udint);
-}
-
-// Reports accesses into an ARRAY[*]: it exists during the call only, so no pointer or reference may lead into it.
-bool ExpressionChecker::is_open(const Expression& expression) {
-  for (const Expression* at = &expression; !at->operands.empty(); at = &at->operands[0]) {
-    if (at->operands[0].type != nullptr && at->operands[0].type->open) {
-      context_.error(expression.at,
-                     "elements of an ARRAY[*] have no address, because it is there during the call only");
-      return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace indurop::plc
