@@ -67,15 +67,14 @@ class Declarer {
       base(pou, one);
     }
     for (const ast::NameAt& one : pou.tree->interfaces) {
-      if (const Pou* found =
-              this->find(one, pou, "IMPLEMENTS names an INTERFACE", {Kind::Interface, Kind::Interface})) {
+      if (const Pou* found = this->find(one, "IMPLEMENTS names an INTERFACE", {Kind::Interface, Kind::Interface})) {
         add_interface(pou, *found, one.at);
       }
     }
   }
 
  private:
-  const Pou* find(const ast::NameAt& at, const Pou& by, std::string_view rule, std::array<Kind, 2> kinds) {
+  const Pou* find(const ast::NameAt& at, std::string_view rule, std::array<Kind, 2> kinds) {
     const auto found = context_.program.pou_names.find(upper(at.name));
     if (found == context_.program.pou_names.end()) {
       std::vector<std::string> known;
@@ -95,13 +94,12 @@ class Declarer {
       context_.error(at.at, fmt::format("{}, and {} is none", rule, pou.name));
       return nullptr;
     }
-    static_cast<void>(by);
     return &pou;
   }
 
   void base(Pou& pou, const ast::NameAt& at) {
     if (pou.tree->kind == Kind::Interface) {
-      if (const Pou* found = find(at, pou, "an INTERFACE extends interfaces", {Kind::Interface, Kind::Interface})) {
+      if (const Pou* found = find(at, "an INTERFACE extends interfaces", {Kind::Interface, Kind::Interface})) {
         add_interface(pou, *found, at.at);
       }
       return;
@@ -112,7 +110,7 @@ class Declarer {
     }
     const Kind other = pou.tree->kind == Kind::Class ? Kind::Class : Kind::FunctionBlock;
     const Pou* found =
-        find(at, pou,
+        find(at,
              pou.tree->kind == Kind::Class ? "a CLASS extends a CLASS; of interfaces say IMPLEMENTS"
                                            : "EXTENDS names a function block or class; of interfaces say IMPLEMENTS",
              {other, Kind::Class});
