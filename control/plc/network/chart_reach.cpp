@@ -4,14 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <deque>
+#include <iterator>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace indurop::plc::network {
 namespace {
 
-using Active = std::vector<bool>;  // by step
+using Active = std::vector<std::size_t>;  // the active steps, in order: few of a long chart
 
 // Charts with more situations than this are checked only partly.
 constexpr std::size_t kMostSituations = 5'000;
@@ -19,19 +22,27 @@ constexpr std::size_t kMostSteps = 50'000'000;  // checked in all situations tog
 
 class Walk {
  public:
-  explicit Walk(const Chart& chart) : chart_(chart), reached_(chart.steps.size()), twice_(chart.steps.size()) {}
+  explicit Walk(const Chart& chart)
+      : chart_(chart), leaving_(chart.steps.size()), reached_(chart.steps.size()), twice_(chart.steps.size()) {
+    for (std::size_t i = 0; i < chart.transitions.size(); ++i) {
+      const auto& from = chart.transitions[i].from;
+      std::vector<std::size_t>& of = from.empty() ? always_ : leaving_[from.front()];
+      of.push_back(i);
+    }
+  }
 
   void run() {
-    Active first(chart_.steps.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      first[i] = chart_.steps[i].initial;
+    Active first;
+    for (std::size_t i = 0; i < chart_.steps.size(); ++i) {
+      if (chart_.steps[i].initial) {
+        first.push_back(i);
+      }
     }
     enter(first);
     for (; !left_.empty() && seen_.size() < kMostSituations && looked_at_ < kMostSteps; left_.pop_front()) {
-      for (const Transition& transition : chart_.transitions) {
-        fire(transition, left_.front());
+      for (const std::size_t transition : candidates(left_.front())) {
+        fire(chart_.transitions[transition], left_.front());
       }
-      looked_at_ += chart_.transitions.size();
     }
   }
 
@@ -40,26 +51,42 @@ class Walk {
   [[nodiscard]] bool twice(std::size_t step) const { return twice_[step]; }
 
  private:
+  // Returns the transitions whose first step is active, in their order.
+  std::vector<std::size_t> candidates(const Active& active) {
+    std::vector<std::size_t> out = always_;
+    for (const std::size_t step : active) {
+      out.insert(out.end(), leaving_[step].begin(), leaving_[step].end());
+    }
+    std::sort(out.begin(), out.end());
+    looked_at_ += out.size();
+    return out;
+  }
+
   void fire(const Transition& transition, const Active& before) {
-    const auto active = [&](std::size_t step) { return static_cast<bool>(before[step]); };
+    const auto active = [&](std::size_t step) { return std::binary_search(before.begin(), before.end(), step); };
     if (!std::all_of(transition.from.begin(), transition.from.end(), active)) {
       return;
     }
-    Active now = before;
-    for (const std::size_t step : transition.from) {
-      now[step] = false;
-    }
+    const auto ends = [&](std::size_t step) {
+      return std::find(transition.from.begin(), transition.from.end(), step) != transition.from.end();
+    };
+    Active now;
+    std::remove_copy_if(before.begin(), before.end(), std::back_inserter(now), ends);
     for (const std::size_t step : transition.to) {
-      twice_[step] = twice_[step] || now[step];
-      now[step] = true;
+      const auto at = std::lower_bound(now.begin(), now.end(), step);
+      if (at != now.end() && *at == step) {
+        twice_[step] = true;
+      } else {
+        now.insert(at, step);
+      }
     }
     enter(std::move(now));
   }
 
   void enter(Active situation) {
     looked_at_ += situation.size();
-    for (std::size_t i = 0; i < situation.size(); ++i) {
-      reached_[i] = reached_[i] || situation[i];
+    for (const std::size_t step : situation) {
+      reached_[step] = true;
     }
     if (seen_.insert(situation).second) {
       left_.push_back(std::move(situation));
@@ -67,8 +94,10 @@ class Walk {
   }
 
   const Chart& chart_;
-  Active reached_;
-  Active twice_;
+  std::vector<std::vector<std::size_t>> leaving_;  // transitions by their first step
+  std::vector<std::size_t> always_;                // transitions without a step before them
+  std::vector<bool> reached_;
+  std::vector<bool> twice_;
   std::set<Active> seen_;
   std::deque<Active> left_;
   std::size_t looked_at_ = 0;
