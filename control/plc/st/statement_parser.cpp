@@ -111,8 +111,8 @@ bool StatementParser::fill(Statement& out) {
   }
   if (in_.peek().is("__TRY")) {
     in_.unsupported(in_.peek(),
-                    "__TRY is not supported: a fault ends its module, so look at divisors, indices and "
-                    "pointers before they are used");
+                    "__TRY is not supported: a fault is a C++ exception, which takes memory when it is thrown, so no "
+                    "scan goes on after one; check divisors, indices and pointers before they are used");
     in_.skip_behind("__ENDTRY");
     return true;
   }

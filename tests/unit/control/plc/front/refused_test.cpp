@@ -204,7 +204,7 @@ TEST(PlcRefused, What_is_not_supported_is_said_once) {
       "__FINALLY\nj := 1;\n__ENDTRY\nEND_PROGRAM");
   EXPECT_FALSE(sut.ok);
   EXPECT_EQ(sut.diagnostics.size(), 1U) << messages(sut);
-  EXPECT_THAT(messages(sut), HasSubstr("__TRY is not supported"));
+  EXPECT_THAT(messages(sut), HasSubstr("__TRY is not supported: a fault is a C++ exception, which takes memory"));
 }
 
 TEST(PlcRefused, What_others_have_is_one_error_in_each_line_that_has_it) {
