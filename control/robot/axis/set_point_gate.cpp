@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/robot/kinematics/bisect.h"
+
 namespace indurop::robot {
 
 namespace {
@@ -73,11 +75,10 @@ LineState SetPointGate::braked(LineState state, const LineLimits& limits) const 
   if (std::abs(end(back)) < 1e-13) {
     low = high = back;
   }
-  for (int i = 0; i < 60 && high - low > 1e-15 * most; ++i) {
-    const double middle = (low + high) / 2;
-    (end(middle) > 0 ? high : low) = middle;
-  }
-  state.acceleration = (low + high) / 2;
+  const auto apart = [most](const Bisected& now) { return now.fails - now.holds > 1e-15 * most; };
+  state.acceleration = bisect(
+                           {low, high}, 60, [&](double a) { return !(end(a) > 0); }, apart)
+                           .middle();
   state.velocity += state.acceleration * period_;
   state.position += state.velocity * period_;
   return state;
@@ -113,18 +114,18 @@ double SetPointGate::nearest(double wanted) const noexcept {
   const auto fastest = [&](double a) {
     return speed_unloaded(state_.velocity + a * period_, a, limits_.jerk * period_, period_) - a * period_;
   };
-  const auto bisect = [&](double good, double bad, double sign) {
-    for (int i = 0; i < 50 && sign * fastest(bad) > limits_.velocity * kMargin; ++i) {
-      const double middle = (good + bad) / 2;
-      (sign * fastest(middle) > limits_.velocity * kMargin ? bad : good) = middle;
-    }
-    return good;
+  const auto slowest = [&](double good, double bad, double sign) {
+    const auto too_fast = [&](double a) { return sign * fastest(a) > limits_.velocity * kMargin; };
+    return bisect(
+               {good, bad}, 50, [&](double a) { return !too_fast(a); },
+               [&](const Bisected& now) { return too_fast(now.fails); })
+        .holds;
   };
   if (fastest(high) > limits_.velocity * kMargin) {
-    high = bisect(low, high, 1);
+    high = slowest(low, high, 1);
   }
   if (-fastest(low) > limits_.velocity * kMargin) {
-    low = bisect(high, low, -1);
+    low = slowest(high, low, -1);
   }
   const double asked = after(wanted).acceleration;
   if (asked >= low && asked <= high) {

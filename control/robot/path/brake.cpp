@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/robot/kinematics/bisect.h"
+
 namespace indurop::robot {
 
 namespace {
@@ -209,16 +211,10 @@ double PathBrake::choose(const Span& span, const PathHistory& past, double perio
   if (in_time(span.low)) {
     return span.low;
   }
-  double late = span.low;
-  double early = span.high;
   // The last few periods are those needed for standing still at their end.
   const double change = (span.high - span.low) / (period * period);
-  const bool last = -after(early, past, period).acceleration < 2 * change;
-  for (int i = 0; i < (last ? 20 : 6); ++i) {
-    const double middle = (late + early) / 2;
-    (in_time(middle) ? early : late) = middle;
-  }
-  return early;
+  const bool last = -after(span.high, past, period).acceleration < 2 * change;
+  return bisect({span.high, span.low}, last ? 20 : 6, in_time).holds;
 }
 
 // The approximate distance to rest, as if the path continued as it did so far.

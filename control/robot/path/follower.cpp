@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/robot/kinematics/bisect.h"
+
 namespace indurop::robot {
 
 namespace {
@@ -166,11 +168,7 @@ void Follower::replan() noexcept {
 // Returns the time at which the end of the present piece is passed; it is between these two times.
 double Follower::crossing(double from, double to) const noexcept {
   const double end = piece_end();
-  for (int i = 0; i < 50; ++i) {
-    const double middle = (from + to) / 2;
-    (profile_.at(middle).position < end ? from : to) = middle;
-  }
-  return to;
+  return bisect({from, to}, 50, [&](double time) { return profile_.at(time).position < end; }).fails;
 }
 
 void Follower::next_piece() noexcept {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/robot/kinematics/bisect.h"
+
 namespace indurop::robot {
 
 namespace {
@@ -35,11 +37,12 @@ LineState after(const Ramp& ramp, const LineState& from, double time) noexcept {
 // argument that fits.
 template <class Way>
 double just_fitting(double fits, double beyond, double length, const Way& way) noexcept {
-  for (int i = 0; i < 60 && std::abs(beyond - fits) > 1e-15 * (beyond + fits); ++i) {
-    const double middle = (fits + beyond) / 2;
-    (way(middle) <= length ? fits : beyond) = middle;
-  }
-  return fits;
+  const auto apart = [](const Bisected& now) {
+    return std::abs(now.fails - now.holds) > 1e-15 * (now.fails + now.holds);
+  };
+  return bisect(
+             {fits, beyond}, 60, [&](double argument) { return way(argument) <= length; }, apart)
+      .holds;
 }
 
 // Finds the argument from 0 to `most` where `excess`, which falls and is infinite at 0, becomes 0: one where it is from

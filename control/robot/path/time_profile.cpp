@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/robot/kinematics/bisect.h"
+
 namespace indurop::robot {
 
 namespace {
@@ -38,11 +40,7 @@ struct ProfilePlaces {
 template <std::size_t N>
 double zero_between(const std::array<double, N>& p, double low, double high) noexcept {
   const bool rises = value(p, low) < 0;
-  for (int i = 0; i < 24; ++i) {
-    const double middle = (low + high) / 2;
-    ((value(p, middle) < 0) == rises ? low : high) = middle;
-  }
-  return (low + high) / 2;
+  return bisect({low, high}, 24, [&](double place) { return (value(p, place) < 0) == rises; }).middle();
 }
 
 // Returns 0, the roots inside, and the end; there is at most one root between two zeros of the derivative.
