@@ -248,11 +248,16 @@ Diagnostics check_loads(const JobBook& book, const Dynamics& dynamics) {
     return warnings;
   }
   for (const Tool& tool : book.tools) {
-    tool.body.mass > 0 ? warn(tool.file, tool.place, "MASS") : void();
+    if (tool.body.mass > 0) {
+      warn(tool.file, tool.place, "MASS");
+    }
   }
   for (const Job& job : book.jobs) {
     for (const Step& step : job.steps) {
-      step.op == Op::Load&& step.index > 0 ? warn(job.file, {static_cast<int>(step.line), 1}, "LOAD") : void();
+      const bool loads = step.op == Op::Load;
+      if (loads && step.index > 0) {
+        warn(job.file, {static_cast<int>(step.line), 1}, "LOAD");
+      }
     }
   }
   return warnings;

@@ -15,10 +15,18 @@ constexpr int kOffsets = 3;          // x, y, z
 }  // namespace
 
 std::span<const Formula> JobRunner::formulas_of(const Step& step) const noexcept {
-  const int count = step.formula < 0 ? 0 : step.op == Op::Call ? step.mid : step.op == Op::Move ? kOffsets : 1;
-  return count == 0 ? std::span<const Formula>()
-                    : std::span(book_.formulas)
-                          .subspan(static_cast<std::size_t>(step.formula), static_cast<std::size_t>(count));
+  if (step.formula < 0) {
+    return {};
+  }
+  const auto first = static_cast<std::size_t>(step.formula);
+  switch (step.op) {
+    case Op::Call:
+      return std::span(book_.formulas).subspan(first, static_cast<std::size_t>(step.mid));
+    case Op::Move:
+      return std::span(book_.formulas).subspan(first, kOffsets);
+    default:
+      return std::span(book_.formulas).subspan(first, 1);
+  }
 }
 
 bool JobRunner::touches_world(const Step& step) const noexcept {
@@ -54,8 +62,12 @@ void JobRunner::modal(const Step& step) noexcept {
     modal_.acceleration = step.value;
     return;
   }
-  (step.index == 1 ? modal_.tool_speed : modal_.speed) = step.value;
-  modal_.tool_speed = step.index == 1 ? modal_.tool_speed : 0;
+  if (step.index == 1) {
+    modal_.tool_speed = step.value;
+  } else {
+    modal_.speed = step.value;
+    modal_.tool_speed = 0;
+  }
 }
 
 void JobRunner::stop() noexcept {
