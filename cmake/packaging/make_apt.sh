@@ -1,14 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# make_apt.sh [FOLDER]: makes a signed apt repository of the packages in build/deb, in build/apt or FOLDER. The key is made by
-# the first run and stays in ~/.local/share/indurop/apt, or where $INDUROP_APT_KEYS says.
+# make_apt.sh [FOLDER [DEBS]]: makes a signed apt repository of the packages in build/deb or DEBS, in build/apt or FOLDER. The key is
+# made by the first run and stays in ~/.local/share/indurop/apt, or where $INDUROP_APT_KEYS says.
 set -eu
 cd "$(dirname "$0")/../.."
 out=${1:-build/apt}
-packages=build/deb
+packages=${2:-build/deb}
 keys=${INDUROP_APT_KEYS:-${XDG_DATA_HOME:-$HOME/.local/share}/indurop/apt}
 
-ls $packages/indurop_*.deb >/dev/null 2>&1 || { echo "make apt: there are no packages in $packages: make deb builds them" >&2; exit 1; }
+ls "$packages"/indurop_*.deb >/dev/null 2>&1 || { echo "make apt: there are no packages in $packages: make deb builds them" >&2; exit 1; }
 mkdir -p "$keys"
 chmod 700 "$keys"
 export GNUPGHOME="$keys"
@@ -19,7 +19,7 @@ fi
 
 rm -rf "$out"
 mkdir -p "$out"
-cp $packages/*.deb $packages/dbgsym/*.deb "$out"
+find "$packages" -maxdepth 2 -name '*.deb' -exec cp -t "$out" {} +
 cd "$out"
 apt-ftparchive packages . >Packages
 gzip -9nk Packages

@@ -98,6 +98,20 @@ check "a package removed while a node runs says so, and the node goes on" inside
   grep -q "go on without their files" /tmp/gone.log && for p in $node; do kill -0 $p && kill $p; done'
 check "installed again, then purged, nothing is left" inside sh -c 'dpkg -i /debs/indurop_*.deb /debs/indurop-examples_*.deb && dpkg -P indurop-examples indurop && ! getent passwd indurop && ! getent group indurop'
 files >"$work/after"
+network=
+if command -v apt-ftparchive >/dev/null && command -v gpg >/dev/null; then
+  INDUROP_APT_KEYS=$work/keys "$(dirname "$0")/../../../cmake/packaging/make_apt.sh" "$root/debs/apt" "$debs" >/dev/null 2>&1
+  use='install -D -m 644 /debs/apt/indurop.asc /etc/apt/keyrings/indurop.asc
+    sed "s,^URIs:.*,URIs: file:/debs/apt," /debs/apt/indurop.sources >/etc/apt/sources.list.d/indurop.sources
+    only="-o Dir::Etc::sourcelist=/dev/null -o APT::Get::List-Cleanup=0 -o APT::Update::Error-Mode=any"
+    apt-get -qq update $only'
+  check "apt installs from the signed repository" inside sh -c "set -e; $use; DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends indurop indurop-examples
+    apt-cache policy indurop | grep -q file:/debs/apt"
+  for deb in "$root"/debs/apt/indurop-examples_*.deb; do printf x >>"$deb"; done
+  check "apt refuses a package that was changed" inside sh -c "! apt-get -qq install -y --reinstall indurop-examples"
+  sed -i 's/^Label: .*/Label: another/' "$root/debs/apt/InRelease"
+  check "apt refuses a repository that was changed" inside sh -c "if $use; then exit 1; fi"
+fi
 check "no file is left by purge" diff "$work/before" "$work/after"
 echo "$failures wrong"
 exit $((failures > 0))

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop demo: runs a copy of a built example, with its script.
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "core/base/program_folder.h"
 #include "core/base/spawn.h"
@@ -75,7 +79,8 @@ void set_environment(const fs::path& programs, const fs::path& folder, bool temp
   }
 }
 
-// The exit code of `child`. Ctrl-C reaches the script as it reaches us, SIGTERM through us; it then ends what it has started.
+// The exit code of `child`. Ctrl-C reaches the script as it reaches us, SIGTERM through us; it then ends what it has
+// started.
 int wait_for(Context& context, pid_t child) {
   std::optional<std::int64_t> deadline;
   int status = 0;
