@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "control/robot/path/chain.h"
 #include "control/robot/path/follower.h"
 #include "robot_fixture.h"
 

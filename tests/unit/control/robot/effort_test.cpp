@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "control/robot/job/job.h"
 #include "group_cell.h"
 #include "heavy_arm.h"
 #include "heavy_jobs.h"

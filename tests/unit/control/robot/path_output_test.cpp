@@ -2,6 +2,7 @@
 // What jobs set on the way: where the tip is then, measured in the drives' set points.
 #include <gmock/gmock.h>
 
+#include "control/robot/job/job.h"
 #include "group_cell.h"
 
 namespace indurop::robot {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tools: where their tips are, how they are taught, and that motions and limits are those of the tip. The yardstick are
 // homogeneous transformations of the arm's end, whose kinematics other tests compare with orocos-kdl.
+#include "control/robot/job/job.h"
 #include "control/robot/kinematics/tool_set.h"
 
 #include <gmock/gmock.h>
