@@ -70,6 +70,12 @@ std::string scalar(const Reader::Native& value) {
   return value.dump(-1, ' ', false, Reader::Native::error_handler_t::replace);
 }
 
+bool contains_object(const Json& value) noexcept {
+  const auto values = value.values();
+  return std::any_of(values.begin(), values.end(),
+                     [](const Json& one) { return one.is_object() || contains_object(one); });
+}
+
 }  // namespace
 
 Json::Json() noexcept = default;
@@ -192,14 +198,9 @@ std::string Json::dump(int indent) const {
   return out;
 }
 
-bool Json::contains_object() const noexcept {
-  return std::any_of(values_.begin(), values_.end(),
-                     [](const Json& one) { return one.is_object() || one.contains_object(); });
-}
-
 void Json::write_rows(std::string& out, int depth) const {
   const bool is_scalar = type_ != Type::Array && type_ != Type::Object;
-  if (is_scalar || (depth > 0 && !contains_object())) {
+  if (is_scalar || (depth > 0 && !contains_object(*this))) {
     write(out, -1, 0);
     return;
   }

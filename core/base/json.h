@@ -83,7 +83,6 @@ class Json {
 
   void write(std::string& out, int indent, int depth) const;
   void write_rows(std::string& out, int depth) const;
-  [[nodiscard]] bool contains_object() const noexcept;
 
   Type type_ = Type::Null;
   std::uint64_t integer_ = 0;  // of Integer in two's complement, of Boolean 0 or 1

@@ -15,7 +15,7 @@ namespace indurop::deploy {
 using base::Problem;
 
 Result<BundleSignature, Problem> sign_package(const std::string& package_text, const std::filesystem::path& folder) {
-  auto keys = keys::keys_meant(folder, keys::Role::Deployer);
+  auto keys = keys::resolve_keys(folder, keys::Role::Deployer);
   if (!keys) {
     return std::move(keys).error();
   }
