@@ -5,7 +5,7 @@
 namespace indurop::schema {
 
 unsigned protocol() noexcept {
-  return 5;
+  return 6;
 }
 
 }  // namespace indurop::schema

@@ -28,12 +28,18 @@ struct NetworkSettings {
   std::string address;         // own IP address or host name, may be empty
   bool multicast = true;       // false: other participants are found at `peers`
   std::vector<std::string> peers;
-  bool one_host = false;     // all participants run on this host: loopback only
-  std::size_t others = 0;    // expected number of other participants, 0: few
+  bool one_host = false;   // all participants run on this host: loopback only
+  std::size_t others = 0;  // expected number of other participants, 0: few
+  // Topics that match are sent to their readers only, by topic name with wildcards. On one host all others go to all
+  // participants at once, so that discovery does not cost one message for each.
+  std::string unicast_topics;
   bool known_ports = false;  // reachable at its address as a peer of others, with or without multicast
   Security security;
   std::int64_t lease_ns = 500'000'000;  // a participant silent for this time is considered lost
-  int fifo_priority = 0;                // of the threads that transfer values, 0: normal scheduling
+  // One silent for this time, if it is longer, is forgotten with all it announced. A participant that discovers another
+  // one again reads all of that once more; on a busy machine that makes it late for the next one.
+  std::int64_t forget_ns = 0;
+  int fifo_priority = 0;  // of the threads that transfer values, 0: normal scheduling
 };
 
 }  // namespace indurop::dds

@@ -19,11 +19,21 @@ namespace indurop::dds {
 namespace {
 
 constexpr int kParticipantsPerHost = 64;  // boards and tools on one host, if ports are tried one after another
+constexpr int kPortsPerDomain = 119;      // participants of a domain on one host that can have ports of their own
+constexpr std::size_t kRoomForTools = 19;
 
 // Multicast discovery is also used on one host: one message reaches all participants, instead of one for each possible
 // port. But a third-party program that names a peer there cannot use multicast on loopback.
 bool found_by_multicast(const NetworkSettings& settings) {
   return settings.multicast && !(settings.one_host && settings.known_ports);
+}
+
+// On one host, what all participants read is sent once for all. Without multicast on every topic, a participant also
+// sends each announcement to all it knows, one by one. Topics that few read are excepted (partitioning()), for which a
+// participant needs a port of the domain: in larger plants all is sent one by one.
+bool sent_to_all(const NetworkSettings& settings) {
+  return settings.one_host && found_by_multicast(settings) && !settings.unicast_topics.empty() &&
+         settings.others + kRoomForTools < kPortsPerDomain;
 }
 
 std::string network(const NetworkSettings& settings, const std::string& interface_name) {
@@ -33,12 +43,25 @@ std::string network(const NetworkSettings& settings, const std::string& interfac
       fmt::format("<Interfaces><NetworkInterface name=\"{}\"{}/></Interfaces>", base::xml_text(interface_name),
                   multicast && interface_name == "lo" ? " multicast=\"true\"" : "");
   // Multicast finds the other boards; data is sent only to boards that read it.
-  text += fmt::format("<AllowMulticast>{}</AllowMulticast>", multicast ? "spdp" : "false");
+  text += fmt::format("<AllowMulticast>{}</AllowMulticast>", !multicast              ? "false"
+                                                             : sent_to_all(settings) ? "spdp,asm"
+                                                                                     : "spdp");
   return "<General>" + text + "</General>";
 }
 
+// A participant that was forgotten is discovered again after this time. None hears more than 32 of these in a second.
+std::chrono::milliseconds announced_every(std::size_t others) {
+  constexpr std::chrono::milliseconds kEvery{500};
+  constexpr std::size_t kPerSecond = 32;
+  return std::max(kEvery, std::chrono::milliseconds{1000 * others / kPerSecond});
+}
+
 std::string discovery(const NetworkSettings& settings) {
-  std::string text = fmt::format("<LeaseDuration>{} ns</LeaseDuration>", settings.lease_ns);
+  std::string text =
+      fmt::format("<LeaseDuration>{} ns</LeaseDuration>", std::max(settings.lease_ns, settings.forget_ns));
+  if (settings.forget_ns > settings.lease_ns) {
+    text += fmt::format("<SPDPInterval>{} ms</SPDPInterval>", announced_every(settings.others).count());
+  }
   std::string peers;
   if (settings.one_host) {
     peers = found_by_multicast(settings) ? "" : "<Peer address=\"127.0.0.1\"/>";
@@ -47,15 +70,27 @@ std::string discovery(const NetworkSettings& settings) {
       peers += fmt::format("<Peer address=\"{}\"/>", base::xml_text(peer));
     }
   }
-  if (!peers.empty() || settings.known_ports) {
+  if (!peers.empty() || settings.known_ports || sent_to_all(settings)) {
     text +=
         fmt::format("<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>",
-                    kParticipantsPerHost);
+                    sent_to_all(settings) ? kPortsPerDomain - 1 : kParticipantsPerHost);
   }
   if (!peers.empty()) {
     text += fmt::format("<Peers>{}</Peers>", peers);
   }
   return "<Discovery>" + text + "</Discovery>";
+}
+
+// Readers of these topics announce their own address only.
+std::string partitioning(const NetworkSettings& settings) {
+  if (!sent_to_all(settings)) {
+    return "";
+  }
+  return fmt::format(
+      "<Partitioning><NetworkPartitions><NetworkPartition Name=\"own\" Address=\"127.0.0.1\"/></NetworkPartitions>"
+      "<PartitionMappings><PartitionMapping NetworkPartition=\"own\" DCPSPartitionTopic=\"*.{}\"/></PartitionMappings>"
+      "</Partitioning>",
+      base::xml_text(settings.unicast_topics));
 }
 
 std::string threads(const NetworkSettings& settings) {
@@ -83,26 +118,31 @@ constexpr const char* kSizes =
 // these, Fast DDS is let in less often (docs/adr/0016).
 //
 // Until the last one has answered, a writer asks all of its readers again in this interval, and each answers: with many
-// of them that costs the time in which the last one would. So each is asked as often as if there were eight.
-std::string quick_repair(std::size_t others) {
+// of them that costs the time in which the last one would. So each is asked as often as if there were eight, and on one
+// host all boards together ask as often as those of eight would. Parts are sent again anyway (kKeepAliveNs in
+// packing.h).
+std::string quick_repair(const NetworkSettings& settings) {
   constexpr std::chrono::milliseconds kQuick{10};
   constexpr std::chrono::milliseconds kUsual{100};
+  constexpr std::chrono::milliseconds kLongest{1000};
   constexpr std::size_t kFew = 8;
-  const auto every = std::min(kUsual, kQuick * static_cast<std::int64_t>(std::max<std::size_t>(others, kFew)) /
-                                          static_cast<std::int64_t>(kFew));
+  const auto others = static_cast<std::int64_t>(std::max(settings.others, kFew));
+  const auto few = static_cast<std::int64_t>(kFew);
+  const auto every = settings.one_host ? std::min(kLongest, kQuick * others * others / (few * few))
+                                       : std::min(kUsual, kQuick * others / few);
   return fmt::format(
-      "<HeartbeatInterval min=\"2 ms\" minsched=\"5 ms\" max=\"100 ms\">{} ms</HeartbeatInterval>"
+      "<HeartbeatInterval min=\"2 ms\" minsched=\"5 ms\" max=\"{} ms\">{} ms</HeartbeatInterval>"
       "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>",
-      every.count());
+      std::max(kUsual, every).count(), every.count());
 }
 
 }  // namespace
 
 std::string domain_configuration(const NetworkSettings& settings, const std::string& interface_name) {
-  return network(settings, interface_name) + discovery(settings) + threads(settings) + kSizes +
+  return network(settings, interface_name) + discovery(settings) + partitioning(settings) + threads(settings) + kSizes +
          // One receive thread: with more, shutdown can hang, and none could get a priority.
          "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>" +
-         (settings.known_ports && settings.security.on() ? "" : quick_repair(settings.others)) +
+         (settings.known_ports && settings.security.on() ? "" : quick_repair(settings)) +
          // Files: sockets that hold what a receiver has asked for (deploy_link.h), and no limit for senders below that.
          (settings.known_ports
               ? "<SocketReceiveBufferSize max=\"4 MB\"/>"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "core/rt/machine.h"
 #include "network/mirror/frames/board_time.h"
@@ -26,29 +27,39 @@ Beacons::Beacons(const vars::Store& store, const Settings& settings, std::uint64
   }
 }
 
-Plane::Opened Beacons::open(Plane& plane) {
+Plane::Opened Beacons::open(Plane& plane, Life life) {
   plane_ = &plane;
+  life_ = std::move(life);
   return plane.exchange_beacons(*this);
+}
+
+std::vector<indurop_wire_Heard> Beacons::estimates() {
+  std::vector<indurop_wire_Heard> received;
+  const std::lock_guard<std::mutex> guard(mutex_);
+  for (Peer& peer : peers_) {
+    if (peer.clock.has_samples()) {
+      received.push_back({peer.name.data(), peer.clock.least_delay()});
+    }
+  }
+  return received;
 }
 
 rt::MonoTime Beacons::cycle(rt::MonoTime now, const Schedule& schedule) noexcept {
   if (now < due_) {
     return due_;
   }
-  due_ = now + interval(peers_.size());
+  const std::chrono::nanoseconds every = interval(peers_.size());
+  const std::chrono::nanoseconds beat = plane_->beat();
+  due_ = now + (beat.count() > 0 ? std::min(beat, every) : every);
+  std::vector<indurop_wire_Heard> received;
+  if (now >= estimates_due_) {
+    estimates_due_ = now + every;
+    received = estimates();
+  }
   const rt::ClockSync sync = rt::clock_sync();
   block_.epoch_wall_ns.store(rt::to_ns(schedule.epoch), std::memory_order_relaxed);
   block_.clock_synchronised.store(sync.synchronised ? 1 : 0, std::memory_order_relaxed);
   block_.clock_error_ns.store(sync.max_error_ns, std::memory_order_relaxed);
-  std::vector<indurop_wire_Heard> received;
-  {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    for (Peer& peer : peers_) {
-      if (peer.clock.has_samples()) {
-        received.push_back({peer.name.data(), peer.clock.least_delay()});
-      }
-    }
-  }
   indurop_wire_Beacon beacon{};
   beacon.board = board_.data();
   beacon.session = session_;
@@ -67,6 +78,11 @@ rt::MonoTime Beacons::cycle(rt::MonoTime now, const Schedule& schedule) noexcept
 
 void Beacons::beacon_came(const indurop_wire_Beacon& beacon) noexcept {
   receive_beacon(beacon, rt::wall_time(board_wall_ns(store_)));
+  life_(beacon.board, beacon.session);
+}
+
+void Beacons::beacons_ended(const std::string& board) noexcept {
+  life_(board, std::nullopt);
 }
 
 void Beacons::receive_beacon(const indurop_wire_Beacon& beacon, rt::WallTime arrival) noexcept {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twice a second, or less often in a plant of more than 17 boards, every board announces that it is alive, when its
-// schedule began, and its estimate of the other boards' clocks.
+// Every board announces that it is alive, several times in a lease, and when its schedule began; twice a second, or
+// less often in a plant of more than 17 boards, also its estimate of the other boards' clocks.
 
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,12 +30,14 @@ class Beacons final : public BeaconListener {
   Beacons(const Beacons&) = delete;
   Beacons& operator=(const Beacons&) = delete;
 
-  // Returns the time between two beacons such that a board receives and sends at most 32 a second, however many boards
-  // there are.
+  // Returns the time between two beacons with estimates such that a board receives and sends at most 32 of these a
+  // second, however many boards there are.
   static std::chrono::nanoseconds interval(std::size_t others) noexcept;
 
+  // Called by the plane's threads: a board that beacons of `session` came from is alive; without session, silent.
+  using Life = std::function<void(const std::string& board, std::optional<std::uint64_t> session)>;
   // `plane` is used until it is closed.
-  Plane::Opened open(Plane& plane);
+  Plane::Opened open(Plane& plane, Life life);
   // Sends a beacon if it is due. Returns when the next is due.
   rt::MonoTime cycle(rt::MonoTime now, const Schedule& schedule) noexcept;
 
@@ -44,6 +48,8 @@ class Beacons final : public BeaconListener {
     ClockCompare clock;
   };
   void beacon_came(const indurop_wire_Beacon& beacon) noexcept override;
+  void beacons_ended(const std::string& board) noexcept override;
+  std::vector<indurop_wire_Heard> estimates();
   void receive_beacon(const indurop_wire_Beacon& beacon, rt::WallTime arrival) noexcept;
 
   const vars::Store& store_;
@@ -53,7 +59,9 @@ class Beacons final : public BeaconListener {
   std::mutex mutex_;  // between the receive thread and the manager
   std::vector<Peer> peers_;
   Plane* plane_ = nullptr;
+  Life life_;
   rt::MonoTime due_{};
+  rt::MonoTime estimates_due_{};
 };
 
 }  // namespace indurop::mirror

@@ -50,22 +50,20 @@ Plane::Opened offered(const dds::Endpoint& end, const char* what) {
 Plane::Opened DdsPlane::offer_frames(Stream stream) {
   dds::Endpoint& writer = frames_[static_cast<std::size_t>(stream)];
   if (!writer.ok()) {
-    writer =
-        dds::make_writer(participant_, indurop_wire_Frame_desc,
-                         frames_topic(settings_.plant, settings_.network.board, stream), plane_qos(settings_, stream));
+    writer = dds::make_writer(participant_, indurop_wire_Frame_desc,
+                              frames_topic(settings_.plant, settings_.network.board, stream), plane_qos(stream));
   }
   return offered(writer, "cannot send values: ");
 }
 
 Plane::Opened DdsPlane::offer_catalogue() {
   catalogue_ = dds::make_writer(participant_, indurop_wire_Catalogue_desc, catalogue_topic(settings_.plant),
-                                plane_qos(settings_, Stream::Prompt));
+                                plane_qos(Stream::Prompt));
   return offered(catalogue_, "cannot send the catalogue: ");
 }
 
 Plane::Opened DdsPlane::exchange_beacons(BeaconListener& listener) {
-  // A beacon that is repeated late would only report a wrong time.
-  const dds::Qos qos = plane_qos(settings_, Stream::BestEffort);
+  const dds::Qos qos = beacon_qos(settings_);
   const std::string topic = beacon_topic(settings_.plant);
   beacons_ = dds::make_writer(participant_, indurop_wire_Beacon_desc, topic, qos);
   beacon_reader_ = dds::make_reader(participant_, indurop_wire_Beacon_desc, topic, qos,
@@ -76,16 +74,24 @@ Plane::Opened DdsPlane::exchange_beacons(BeaconListener& listener) {
 void DdsPlane::on_beacon(dds::Handle reader, void* listener) {
   rt::unblock_fault_signals();
   dds::take_all<indurop_wire_Beacon>(reader, [&](const indurop_wire_Beacon& beacon, const dds::SampleInfo& info) {
-    if (info.valid) {
-      static_cast<BeaconListener*>(listener)->beacon_came(beacon);
+    auto& into = *static_cast<BeaconListener*>(listener);
+    if (!info.alive) {
+      into.beacons_ended(beacon.board);
+    } else if (info.valid) {
+      into.beacon_came(beacon);
     }
   });
+}
+
+// Two in a row may be lost.
+std::chrono::nanoseconds DdsPlane::beat() const noexcept {
+  return std::chrono::nanoseconds{settings_.network.lease_ns} * 2 / 5;
 }
 
 Result<std::unique_ptr<Subscription>, base::Problem> DdsPlane::subscribe(const std::string& board, Stream stream,
                                                                          FrameListener& listener) {
   auto reader = std::make_unique<Reader>(listener, stream);
-  auto opened = reader->open(participant_, frames_topic(settings_.plant, board, stream), plane_qos(settings_, stream));
+  auto opened = reader->open(participant_, frames_topic(settings_.plant, board, stream), plane_qos(stream));
   if (!opened) {
     return std::move(opened).error();
   }

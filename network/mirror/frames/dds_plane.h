@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <string>
 
 #include "network/dds/endpoint.h"
@@ -23,6 +24,7 @@ class DdsPlane final : public Plane {
   Opened offer_frames(Stream stream) override;
   Opened offer_catalogue() override;
   Opened exchange_beacons(BeaconListener& listener) override;
+  [[nodiscard]] std::chrono::nanoseconds beat() const noexcept override;
   Result<std::unique_ptr<Subscription>, base::Problem> subscribe(const std::string& board, Stream stream,
                                                                  FrameListener& listener) override;
   void close() noexcept override;

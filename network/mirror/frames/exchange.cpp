@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "network/mirror/frames/board_time.h"
@@ -101,7 +102,17 @@ Plane::Opened Exchange::open(Plane& plane) {
   if (auto opened = sender_->open(plane); !opened) {
     return opened;
   }
-  return beacons_->open(plane);
+  return beacons_->open(plane, [this](const std::string& board, std::optional<std::uint64_t> session) {
+    Receiver* const receiver = receiver_of(board);
+    if (receiver == nullptr || plane_->beat().count() == 0) {
+      return;
+    }
+    if (session) {
+      receiver->alive(*session);
+    } else {
+      receiver->silent();
+    }
+  });
 }
 
 void Exchange::close() noexcept {

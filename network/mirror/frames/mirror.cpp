@@ -24,6 +24,16 @@ constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 constexpr std::int64_t kUntilUpNs = 10'000'000;  // between two checks whether the network is available
 constexpr std::int64_t kOthersNs = 500'000'000;
 
+constexpr std::int64_t kForgetNs = 10'000'000'000;
+
+// Beacons say which board is silent, so that DDS need not forget it then.
+dds::NetworkSettings network_of(const Settings& settings) {
+  dds::NetworkSettings network = settings.network;
+  network.forget_ns = std::max(kForgetNs, 2 * network.lease_ns);
+  network.unicast_topics = kFramesTopics;
+  return network;
+}
+
 // Waits for `wake`, spinning in the window. Returns false if the time passed without it.
 bool wait(rt::SignalWord& wake, std::int64_t deadline_ns, const Anticipation::Window& window) noexcept {
   if (!window.empty()) {
@@ -48,7 +58,7 @@ struct Mirror::Impl {
         block(exchange->block()),
         plane(settings),
         joining(
-            settings.network, [this](dds::Handle participant) { return open(participant); }, [this] { close(); }) {}
+            network_of(settings), [this](dds::Handle participant) { return open(participant); }, [this] { close(); }) {}
 
   Status run();
   void end() noexcept;
@@ -124,7 +134,7 @@ Result<void, base::Problem> Mirror::Impl::open(dds::Handle participant) {
     return opened;
   }
   catalogues = dds::make_reader(participant, indurop_wire_Catalogue_desc, catalogue_topic(settings.plant),
-                                plane_qos(settings, Stream::Prompt), dds::wake_listener(wake_manager));
+                                plane_qos(Stream::Prompt), dds::wake_listener(wake_manager));
   if (!catalogues.ok()) {
     return base::Problem{"cannot receive catalogues: " + catalogues.why()};
   }

@@ -6,6 +6,7 @@
 #include <indurop/idl/wire.h>
 #include <indurop/result.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -25,6 +26,8 @@ class BeaconListener {
  public:
   virtual ~BeaconListener() = default;
   virtual void beacon_came(const indurop_wire_Beacon& beacon) noexcept = 0;
+  // No beacon of the board came for the plant's lease, or it left.
+  virtual void beacons_ended(const std::string& board) noexcept = 0;
 };
 
 // Frames are delivered as long as this object lives; its destructor waits for a listener that is running.
@@ -50,6 +53,8 @@ class Plane {
   virtual Opened offer_catalogue() = 0;
   // The listener is borrowed until close().
   virtual Opened exchange_beacons(BeaconListener& listener) = 0;
+  // Returns the time between beacons by which the plane notices that a board is silent; zero: it needs none.
+  [[nodiscard]] virtual std::chrono::nanoseconds beat() const noexcept { return {}; }
   // A late joiner gets the last frame of each part. The listener is borrowed until the subscription ends.
   virtual Result<std::unique_ptr<Subscription>, base::Problem> subscribe(const std::string& board, Stream stream,
                                                                          FrameListener& listener) = 0;

@@ -24,8 +24,13 @@ std::string beacon_topic(const std::string& plant) {
   return schema::plant_topics(plant) + "beacon";
 }
 
-dds::Qos plane_qos(const Settings& settings, Stream stream) {
-  return dds::make_qos({.reliable = stream != Stream::BestEffort, .lease_ns = settings.network.lease_ns});
+dds::Qos plane_qos(Stream stream) {
+  return dds::make_qos({.reliable = stream != Stream::BestEffort});
+}
+
+dds::Qos beacon_qos(const Settings& settings) {
+  // A beacon that is repeated late would only report a wrong time.
+  return dds::make_qos({.reliable = false, .lease_ns = settings.network.lease_ns, .written = true});
 }
 
 }  // namespace indurop::mirror

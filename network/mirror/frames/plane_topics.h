@@ -15,7 +15,12 @@ std::string frames_topic(const std::string& plant, const std::string& board, Str
 std::string catalogue_topic(const std::string& plant);
 std::string beacon_topic(const std::string& plant);
 
-// Reliable or best effort, last value kept for late joiners, liveliness with the plant's lease.
-dds::Qos plane_qos(const Settings& settings, Stream stream);
+// Matches the topics of frames of all boards: no others of the plane have as many parts.
+inline constexpr const char* kFramesTopics = "indurop/*/*/*/*";
+
+// Reliable or best effort, last value kept for late joiners.
+dds::Qos plane_qos(Stream stream);
+// Beacons: best effort, and their board is silent when none came for the plant's lease.
+dds::Qos beacon_qos(const Settings& settings);
 
 }  // namespace indurop::mirror

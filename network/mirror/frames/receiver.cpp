@@ -67,11 +67,13 @@ Result<std::vector<Receiver::Inbox>, base::Problem> Receiver::match(const induro
       });
       continue;
     }
-    if (found->part >= kMaxParts || found->offset > std::numeric_limits<std::uint32_t>::max() - found->size) {
+    if (found->part >= kMaxParts || found->offset > std::numeric_limits<std::uint32_t>::max() - found->size ||
+        found->stream >= kStreams) {
       complain([&] { return fmt::format("the catalogue of board {} is damaged", board_); });
       continue;
     }
     Inbox& inbox = inboxes[found->part];
+    inbox.stream = static_cast<Stream>(found->stream);
     inbox.size = std::max(inbox.size, found->offset + found->size);
     inbox.content.push_back({i, found->offset});
   }
@@ -109,10 +111,19 @@ void Receiver::announced(const indurop_wire_Catalogue& catalogue, Plane& plane) 
   }
   record_.session.store(session_, std::memory_order_relaxed);
   record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
-  for (std::size_t i = 0; i < kStreams && matched_ && !items_.empty(); ++i) {
-    auto subscription = plane.subscribe(board_, static_cast<Stream>(i), *this);
+  subscribe(plane);
+}
+
+// Reads the streams that have what this board reads: each costs a reader that all boards discover.
+void Receiver::subscribe(Plane& plane) {
+  for (const Inbox& inbox : inboxes_) {
+    Port& port = ports_[static_cast<std::size_t>(inbox.stream)];
+    if (inbox.content.empty() || port.subscription != nullptr) {
+      continue;
+    }
+    auto subscription = plane.subscribe(board_, inbox.stream, *this);
     if (subscription) {
-      ports_[i].subscription = std::move(subscription).value();
+      port.subscription = std::move(subscription).value();
     } else {
       record_.problem.set(subscription.error().text);
     }
@@ -200,6 +211,14 @@ void Receiver::silent() noexcept {
     item.landing->silent(item.source, now, record_);
   }
   word_.end(word_.whole());
+}
+
+void Receiver::alive(std::uint64_t session) noexcept {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  PeerState silent = PeerState::Silent;
+  if (session == session_ && session_ != 0) {
+    record_.state.compare_exchange_strong(silent, matched_ ? PeerState::Alive : PeerState::Mismatched);
+  }
 }
 
 void Receiver::other_release(const std::string& problem) {

@@ -40,8 +40,11 @@ class Receiver final : public FrameListener {
   // The board announced itself (again). Compares its variables with this board's and, if they agree, reads its frames
   // from now on; last values arrive at once. Called by the mirror's manager only.
   void announced(const indurop_wire_Catalogue& catalogue, Plane& plane);
-  // The board fell silent: its values are no longer confirmed.
+  // The board fell silent: its values are no longer confirmed. This and alive(): any thread.
   void silent() noexcept;
+  // This run of the board is alive. It seemed silent if it was busy for longer than the lease, and does not announce
+  // itself again.
+  void alive(std::uint64_t session) noexcept;
   // The board is present, but runs a release with another protocol; an empty problem: no longer. Called by the mirror's
   // manager only.
   void other_release(const std::string& problem);
@@ -58,6 +61,7 @@ class Receiver final : public FrameListener {
     std::uint32_t offset = 0;
   };
   struct Inbox {
+    Stream stream = Stream::Prompt;
     std::uint32_t size = 0;    // minimum size of a frame in bytes
     std::uint64_t update = 0;  // newest update accepted, if the part is sent on its own
     std::vector<Arrival> content;
@@ -67,6 +71,7 @@ class Receiver final : public FrameListener {
     std::uint64_t newest_update = 0;
   };
 
+  void subscribe(Plane& plane);
   void frame_came(const indurop_wire_Frame& frame, Stream stream) noexcept override;
   void accept(const indurop_wire_Frame& frame, Port& port) noexcept;
   void apply_alone(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;

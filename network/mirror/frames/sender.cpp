@@ -89,7 +89,8 @@ void Sender::publish_catalogue() noexcept {
     for (std::size_t i = 0; i < out.content.size(); ++i) {
       const vars::DirectoryEntry& entry = *out.content[i];
       const std::string& name = store_.schema().variables[entry.schema_index].name;
-      entries.push_back({dds::lent(name), entry.type_hash, number, out.part.content[i].offset, entry.value_size});
+      entries.push_back({dds::lent(name), entry.type_hash, number, out.part.content[i].offset, entry.value_size,
+                         static_cast<std::uint8_t>(out.part.stream)});
     }
   }
   indurop_wire_Catalogue sample{};

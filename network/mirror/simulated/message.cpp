@@ -25,7 +25,7 @@ auto numbers_of_frame(Frame& frame) {
 }
 template <class Entry>
 auto numbers_of_entry(Entry& entry) {
-  return std::tie(entry.type_hash, entry.part, entry.offset, entry.size);
+  return std::tie(entry.type_hash, entry.part, entry.offset, entry.size, entry.stream);
 }
 template <class Beacon>
 auto numbers_of_beacon(Beacon& beacon) {

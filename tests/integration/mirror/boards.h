@@ -83,6 +83,10 @@ class Boards : public ::testing::Test {
     running_.erase(board);
   }
 
+  // The board stands still as on a machine that is overloaded.
+  void hold(const std::string& board) { running_.at(board)->signal(SIGSTOP); }
+  void let_run(const std::string& board) { running_.at(board)->signal(SIGCONT); }
+
   bool attach(const std::string& board) {
     auto store = vars::Store::attach(node(board), vars::Mode::ReadWrite);
     auto file = vars::ShmFile::open(vars::mirror_file(node(board)), vars::Mode::ReadOnly);

@@ -112,6 +112,19 @@ TEST_F(OneHost, A_killed_board_is_noticed_and_its_return_too) {
   EXPECT_EQ(peer("b", "a").losses.load(), 1U);
 }
 
+TEST_F(OneHost, A_board_that_stood_still_for_longer_than_a_lease_is_alive_again) {
+  start_both();
+  ASSERT_TRUE(wait_until([&] { return confirmed("b", "t::count") > 0; }));
+  for (int round = 1; round <= 3; ++round) {
+    hold("a");
+    ASSERT_TRUE(wait_until([&] { return sees("b", "a", PeerState::Silent); })) << round;
+    EXPECT_LT(confirmed("b", "t::count"), 0);
+    let_run("a");
+    ASSERT_TRUE(wait_until([&] { return sees("b", "a", PeerState::Alive) && confirmed("b", "t::count") > 0; }))
+        << round;
+  }
+}
+
 TEST_F(OneHost, A_board_that_ends_is_noticed_at_once) {
   start_both();
   stop("a");

@@ -41,6 +41,47 @@ TEST(Domain_configuration, Boards_of_one_host_are_found_by_one_message_to_all) {
   EXPECT_THAT(sut, Not(HasSubstr("ParticipantIndex"))) << "there may be more than ports to try";
 }
 
+NetworkSettings boards_of_one_host(std::size_t others) {
+  NetworkSettings settings = plain();
+  settings.one_host = true;
+  settings.others = others;
+  settings.unicast_topics = "indurop/*/*/*/*";
+  return settings;
+}
+
+TEST(Domain_configuration, On_one_host_all_is_sent_once_for_all_but_what_few_read) {
+  const std::string sut = domain_configuration(boards_of_one_host(63), "lo");
+  EXPECT_THAT(sut, HasSubstr("<AllowMulticast>spdp,asm</AllowMulticast>"));
+  EXPECT_THAT(sut, HasSubstr("<NetworkPartition Name=\"own\" Address=\"127.0.0.1\"/>"));
+  EXPECT_THAT(sut, HasSubstr("<PartitionMapping NetworkPartition=\"own\" DCPSPartitionTopic=\"*.indurop/*/*/*/*\"/>"));
+  EXPECT_THAT(sut, HasSubstr("<MaxAutoParticipantIndex>118</MaxAutoParticipantIndex>"))
+      << "without a port of the domain the address that readers announce has none";
+}
+
+TEST(Domain_configuration, More_boards_of_one_host_than_a_domain_has_ports_are_sent_all_one_by_one) {
+  const std::string sut = domain_configuration(boards_of_one_host(100), "lo");
+  EXPECT_THAT(sut, HasSubstr("<AllowMulticast>spdp</AllowMulticast>"));
+  EXPECT_THAT(sut, Not(HasSubstr("Partition")));
+  EXPECT_THAT(sut, Not(HasSubstr("ParticipantIndex")));
+}
+
+TEST(Domain_configuration, Between_hosts_values_are_sent_to_their_readers_only) {
+  NetworkSettings settings = boards_of_one_host(3);
+  settings.one_host = false;
+  EXPECT_THAT(domain_configuration(settings, "eth7"), HasSubstr("<AllowMulticast>spdp</AllowMulticast>"));
+}
+
+TEST(Domain_configuration, Who_is_silent_is_not_forgotten_at_once) {
+  NetworkSettings settings = plain();
+  EXPECT_THAT(domain_configuration(settings, "eth7"), HasSubstr("<LeaseDuration>500000000 ns</LeaseDuration>"));
+  EXPECT_THAT(domain_configuration(settings, "eth7"), Not(HasSubstr("SPDPInterval")));
+  settings.forget_ns = 10'000'000'000;
+  EXPECT_THAT(domain_configuration(settings, "eth7"), HasSubstr("<LeaseDuration>10000000000 ns</LeaseDuration>"));
+  EXPECT_THAT(domain_configuration(settings, "eth7"), HasSubstr("<SPDPInterval>500 ms</SPDPInterval>"));
+  settings.others = 64;
+  EXPECT_THAT(domain_configuration(settings, "eth7"), HasSubstr("<SPDPInterval>2000 ms</SPDPInterval>"));
+}
+
 TEST(Domain_configuration, One_host_without_multicast_is_found_at_loopback) {
   NetworkSettings settings = plain();
   settings.one_host = true;
@@ -59,9 +100,10 @@ TEST(Domain_configuration, One_host_is_found_by_peers_where_programs_of_others_n
 }
 
 TEST(Domain_configuration, The_more_others_there_are_the_more_rarely_all_are_asked_what_they_lack) {
-  const auto interval = [](std::size_t others) {
+  const auto interval = [](std::size_t others, bool one_host = false) {
     NetworkSettings settings = plain();
     settings.others = others;
+    settings.one_host = one_host;
     const std::string text = domain_configuration(settings, "eth7");
     const auto end = text.find(" ms</HeartbeatInterval>");
     return std::stoi(text.substr(text.rfind('>', end) + 1));
@@ -71,6 +113,10 @@ TEST(Domain_configuration, The_more_others_there_are_the_more_rarely_all_are_ask
   EXPECT_EQ(interval(16), 20);
   EXPECT_EQ(interval(63), 78);
   EXPECT_EQ(interval(1000), 100) << "as DDS does it by itself";
+  EXPECT_EQ(interval(8, true), 10);
+  EXPECT_EQ(interval(16, true), 40) << "on one host all share the processor";
+  EXPECT_EQ(interval(63, true), 620);
+  EXPECT_EQ(interval(1000, true), 1000);
 }
 
 TEST(Domain_configuration, No_priority_is_asked_for_without_the_right_to_it) {

@@ -15,7 +15,7 @@ TEST(Beacons, Come_twice_a_second_in_small_plants) {
   EXPECT_EQ(Beacons::interval(16), 500ms);
 }
 
-TEST(Beacons, Of_all_the_others_are_heard_32_times_a_second_at_most) {
+TEST(Beacons, With_estimates_of_all_the_others_are_heard_32_times_a_second_at_most) {
   for (std::size_t others = 1; others < 1000; ++others) {
     EXPECT_LE(static_cast<double>(others) / std::chrono::duration<double>(Beacons::interval(others)).count(), 32.0001);
   }

@@ -45,7 +45,7 @@ TEST(SimulatedMessage, Carries_a_catalogue_and_a_beacon_whole) {
   std::string release = "1";
   std::string schema = "{}";
   std::string name = "a::b";
-  indurop_wire_CatalogueEntry entry{text(name), 1, 2, 3, 4};
+  indurop_wire_CatalogueEntry entry{text(name), 1, 2, 3, 4, 2};
   indurop_wire_Catalogue catalogue{};
   catalogue.board = text(board);
   catalogue.release = text(release);
@@ -61,6 +61,7 @@ TEST(SimulatedMessage, Carries_a_catalogue_and_a_beacon_whole) {
     ASSERT_EQ(sut.entries._length, 1U);
     EXPECT_EQ(sut.entries._buffer[0].name, name);
     EXPECT_EQ(sut.entries._buffer[0].size, 4U);
+    EXPECT_EQ(sut.entries._buffer[0].stream, 2U);
   }));
   indurop_wire_Heard heard{text(name), -7};
   indurop_wire_Beacon beacon{};

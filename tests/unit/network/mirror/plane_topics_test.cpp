@@ -7,10 +7,10 @@ namespace indurop::mirror {
 namespace {
 
 TEST(Topics, Boards_and_streams_have_their_own) {
-  EXPECT_EQ(frames_topic("cell", "a", Stream::Prompt), "indurop/5/cell/a/prompt");
-  EXPECT_EQ(frames_topic("cell", "a", Stream::Bulk), "indurop/5/cell/a/bulk");
-  EXPECT_EQ(frames_topic("c_1", "a-b", Stream::Prompt), "indurop/5/c__1/a_mb/prompt");
-  EXPECT_EQ(catalogue_topic("cell"), "indurop/5/cell/catalogue");
+  EXPECT_EQ(frames_topic("cell", "a", Stream::Prompt), "indurop/6/cell/a/prompt");
+  EXPECT_EQ(frames_topic("cell", "a", Stream::Bulk), "indurop/6/cell/a/bulk");
+  EXPECT_EQ(frames_topic("c_1", "a-b", Stream::Prompt), "indurop/6/c__1/a_mb/prompt");
+  EXPECT_EQ(catalogue_topic("cell"), "indurop/6/cell/catalogue");
 }
 
 }  // namespace
