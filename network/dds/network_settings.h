@@ -37,7 +37,7 @@ struct NetworkSettings {
   Security security;
   std::int64_t lease_ns = 500'000'000;  // a participant silent for this time is considered lost
   // One silent for this time, if it is longer, is forgotten with all it announced. A participant that discovers another
-  // one again reads all of that once more; on a busy machine that makes it late for the next one.
+  // one again has to read all of it; on a busy machine that makes it late for the next one.
   std::int64_t forget_ns = 0;
   int fifo_priority = 0;  // of the threads that transfer values, 0: normal scheduling
 };
