@@ -178,7 +178,7 @@ TEST_F(Modbus, Outputs_get_their_stop_value_while_the_tick_stands_still) {
     EXPECT_TRUE(has(*server, "coil 5", 0)) << "what the program wants";
     EXPECT_TRUE(has(*server, "coil 5", 1)) << "the stop value";
   }
-  EXPECT_TRUE(node_->prints("I/O device cell: the tick stands still"));
+  EXPECT_TRUE(node_->prints("I/O device cell: the tick has stopped"));
 }
 
 }  // namespace

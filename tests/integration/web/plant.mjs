@@ -8,7 +8,7 @@ const missed = (screen, size) => async () => {
   const page = await browser.open("overview", size);
   await sees(page, "all 2 heard");
   await order("kill=right");
-  await sees(page, `Board ${boards}_right is not heard any more, last `);
+  await sees(page, `Board ${boards}_right no longer reports, last `);
   await sees(page, "1 of 2 silent");
   await browser.judge(page, `plant-${screen}`);
   await order("start=right");

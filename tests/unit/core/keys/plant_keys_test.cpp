@@ -268,7 +268,7 @@ TEST_F(Keys, Check_finds_boards_that_would_not_let_each_other_in) {
   fs::remove_all(sut.board("b"));
   fs::rename(other.board("b"), sut.board("b"));
   EXPECT_THAT(checked("<security>keys</security>"),
-              Contains(HasSubstr("error: the keys of board 'b' were made by another authority")));
+              Contains(HasSubstr("error: the keys of board 'b' were issued by another authority")));
 }
 
 TEST_F(Keys, Check_warns_before_they_end) {
