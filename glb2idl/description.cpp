@@ -4,6 +4,9 @@
 #include "glb2idl/description.h"
 
 #include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace indurop::glb2idl {
 namespace {
@@ -29,15 +32,19 @@ std::string Descriptions::above(Span first) const {
   const std::string& path = sources_.file(file_).path;
   const std::string_view file_name = std::string_view(path).substr(path.rfind('/') + 1);
   int line = sources_.line_of(first);
-  std::string text;
+  std::vector<std::string_view> lines;  // from below
   auto i = std::lower_bound(comments_.begin(), comments_.end(), first.offset, lies_before);
   while (i != comments_.begin()) {
     --i;
     if (!i->own_line || i->last_line + 1 != line || i->text == file_name) {
       break;
     }
-    text = text.empty() || i->text.empty() ? i->text + text : i->text + " " + text;
+    lines.emplace_back(i->text);
     line = i->first_line;
+  }
+  std::string text;
+  for (auto one = lines.rbegin(); one != lines.rend(); ++one) {
+    text += (text.empty() || one->empty() ? "" : " ") + std::string(*one);
   }
   return text;
 }
