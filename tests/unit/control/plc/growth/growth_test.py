@@ -12,8 +12,8 @@ import sys
 SKIPPED = 77
 SLACK = 3_000_000  # of a doubling: what starting and printing may differ by
 MOST = 2.6         # of n, n log n and what is refused the ratio is at most about 2.3; of n * n it is 4
-# Texts with several times as many instances for each N: the first N, and how many times.
-BY_INSTANCES = {"blocks_of_four": (6, 4), "blocks_of_four_placed": (5, 4), "starts_nested": (8, 3)}
+# Texts with several times as many instances, or copies of actions, for each N: the first N, and how many times.
+BY_INSTANCES = {"blocks_of_four": (7, 4), "blocks_of_four_placed": (5, 4), "starts_nested": (8, 3), "actions_doubled": (9, 2)}
 
 
 def instructions(program, name, n):
@@ -44,7 +44,8 @@ def main():
             most = 1.2 * times  # of the square of their number it would be times * times
         counts, outcomes = zip(*(instructions(program, name, n) for n in sizes))
         # What is refused is not generated: where only the larger one is, the first doubling says nothing.
-        same = outcomes[0].split(",")[0] == outcomes[1].split(",")[0]
+        kinds = [one.split(",")[0] for one in outcomes]
+        same = kinds[0] == kinds[1] == kinds[2]
         before, after = counts[1] - (counts[0] if same else 0), counts[2] - counts[1]
         bad = after > most * before + SLACK
         failed += bad
