@@ -113,5 +113,12 @@ if command -v apt-ftparchive >/dev/null && command -v gpg >/dev/null; then
   check "apt refuses a repository that was changed" inside sh -c "if $use; then exit 1; fi"
 fi
 check "no file is left by purge" diff "$work/before" "$work/after"
+PATH=$PATH:/usr/sbin
+if command -v piuparts >/dev/null; then
+  mmdebstrap --quiet --variant=minbase bookworm "$work/base.tar.gz"
+  # What systemd makes when it is installed is not ours.
+  check "piuparts finds nothing" piuparts -d bookworm -b "$work/base.tar.gz" --skip-logrotatefiles-test --warn-on-debsums-errors \
+    -I '^/(root/.ssh|var/(cache|lib|log)/private|var/lib/systemd/.*)' "$debs"/indurop_*.deb "$debs"/indurop-examples_*.deb
+fi
 echo "$failures wrong"
 exit $((failures > 0))
