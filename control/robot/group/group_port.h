@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of the group that its classes use of each other: whoever finds an error or ends a motion says so here
-// and need not know who else has to stop. Group passes each call on to the class that owns the state.
+// The functions of the group that its classes use of each other: a class that finds an error or ends a motion reports
+// it here, and need not know which other classes have to stop. Group passes each call on to the class that owns the
+// state.
 
 #pragma once
 

@@ -2,7 +2,6 @@
 // Splines of the tool: through their points, smooth, within all limits, and how long they take.
 // INDUROP_ROBOT_SPLINES says how many.
 #include "control/robot/path/spline.h"
-#include "control/robot/axis/set_point_gate.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include <random>
 #include <vector>
 
+#include "control/robot/axis/set_point_gate.h"
 #include "group_cell.h"
 #include "jerk_reference.h"
 

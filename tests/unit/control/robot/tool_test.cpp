@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tools: where their tips are, how they are taught, and that motions and limits are those of the tip. The yardstick are
 // homogeneous transformations of the arm's end, whose kinematics other tests compare with orocos-kdl.
-#include "control/robot/job/job.h"
 #include "control/robot/kinematics/tool_set.h"
 
 #include <gmock/gmock.h>
@@ -10,6 +9,7 @@
 #include <random>
 #include <sstream>
 
+#include "control/robot/job/job.h"
 #include "control/robot/kinematics/tip_fit.h"
 #include "group_cell.h"
 
