@@ -165,23 +165,22 @@ bool Server::is_remote(const Match& match) const {
 std::optional<Reply> Server::ask_remote(Match match, Ticket ticket) {
   const Remote remote = match.route->remote;
   const std::string board = match.call.part.find("board")->second;
-  if (!remote.possible) {
+  if (remote == Remote::No) {
     return refusal(status::kConflict,
                    fmt::format("board {} is on another host, where this is seen: indurop serve there", board));
   }
-  if (match.route->pace == Pace::Quick && remote.answer == nullptr) {
+  if (match.route->pace == Pace::Quick && remote == Remote::Reported) {
     match.call.boards = &boards_;
     return match.route->answer(api_, match.call);
   }
-  match.call.plant = &plant_->watch;
   match.call.boards = &plant_->boards;
   const auto request = std::make_shared<Request>(*match.call.request);
   match.call.request = request.get();
   const bool added = plant_->worker.add([this, request, remote, board, match = std::move(match), ticket] {
-    if (remote.answer == nullptr) {
+    if (remote == Remote::Reported) {
       remote_boards_.fetch(plant_->watch, board);
     }
-    door_->reply(ticket, (remote.answer != nullptr ? remote.answer : match.route->answer)(api_, match.call));
+    door_->reply(ticket, match.route->answer(api_, match.call));
   });
   return added ? std::nullopt
                : std::optional(refusal(status::kUnavailable, "too many requests wait already; try again later"));
@@ -288,7 +287,7 @@ int Server::run() {
   looking->set(kLookNs);
   constexpr std::int64_t kAlarmsNs = 100'000'000;
   Door::Alarm watching(*door_, [this, &watching] {
-    alarms_.look(boards_.here());
+    alarms_.look(boards_.local());
     for (const std::string& word : alarms_.news()) {
       hub_.tell_all(word);
     }

@@ -15,15 +15,15 @@
 #include "tools/serve/admission.h"
 #include "tools/serve/alarms/alarm_desk.h"
 #include "tools/serve/api/api.h"
-#include "tools/serve/api/audit.h"
 #include "tools/serve/api/router.h"
-#include "tools/serve/api/worker.h"
-#include "tools/serve/boards/board.h"
+#include "tools/serve/audit.h"
+#include "tools/serve/boards/boards.h"
 #include "tools/serve/door/door.h"
 #include "tools/serve/jog/jog_desk.h"
 #include "tools/serve/leases/lease_desk.h"
 #include "tools/serve/page.h"
 #include "tools/serve/stream/hub.h"
+#include "tools/serve/worker.h"
 
 namespace indurop::serve {
 
@@ -80,7 +80,7 @@ class Server final : public House {
   Helper holds_;
   struct Plant {
     Plant(const deploy::LinkSettings& settings, const std::string& node, const RemoteBoards& boards_of_it)
-        : watch(settings), boards(node, &boards_of_it, kReader) {}
+        : watch(settings), boards(node, &boards_of_it, kReader, &watch) {}
     static constexpr std::size_t kReader = 1;  // the door's thread is 0
     tools::PlantWatch watch;                   // used by the worker's thread
     Boards boards;                             // used by the worker's thread

@@ -143,7 +143,7 @@ def test_a_lease_ends_with_its_client(setting):
     wait_for(lambda: not forces(), "the end of a lease that nobody renews")
     assert server.post(renew).status == 404
     audit = wait_for(lambda: [one for one in server.get(API + "/audit").json()["audit"]
-                              if "not heard any more" in one["outcome"]], "a note about it")
+                              if "did not renew it in time" in one["outcome"]], "a note about it")
     assert audit[0]["who"] == "ana" and audit[0]["what"] == "gain=3", audit
     lease = take()
     assert server.post(f"{base}/leases/{lease['lease']}/end").status == 200

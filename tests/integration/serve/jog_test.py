@@ -63,7 +63,7 @@ def test_a_hand_that_is_not_heard_is_released(setting):
     hand = held(server, base, switch)
     wait_for(lambda: switch()["bEnable"] == 0, "the release of a hand that is not heard")
     assert server.post(f"{base}/jog/{hand}/keep").status == 404
-    wait_for(lambda: any("not heard any more" in outcome for outcome in ends_of(server)), "a note about it")
+    wait_for(lambda: any("did not renew it in time" in outcome for outcome in ends_of(server)), "a note about it")
 
 
 def test_a_server_that_ends_releases_and_one_that_is_killed_beats_no_more(setting):

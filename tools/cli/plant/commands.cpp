@@ -5,15 +5,40 @@
 
 #include <algorithm>
 
-#include "tools/cli/plant/board_roster.h"
+#include "core/base/user_name.h"
+#include "core/rt/clock.h"
+#include "tools/cli/command/audit.h"
+#include "tools/cli/values/forcing.h"
+#include "tools/cli/values/node_choice.h"
 
 namespace indurop::tools {
 
 using scheduler::ModuleCommand;
 
-const char* past_of(ModuleCommand command) {
-  return command == ModuleCommand::Stop ? "stopped" : command == ModuleCommand::Start ? "started" : "restarted";
+namespace {
+
+int command_local(Context& context, ModuleCommand command, const std::string& module, std::int64_t timeout_ns) {
+  const auto node = choose_node(context.node);
+  if (!node) {
+    return report(context.out, node.error());
+  }
+  const auto done = command_module(*node, command, module, timeout_ns, who_orders(context));
+  if (!done) {
+    return report(context.out, done.error());
+  }
+  if (done->result == scheduler::CommandResult::OldCode) {
+    context.out.message_line("indurop: warning: " + done->text);
+  } else {
+    context.out.note(done->text);
+  }
+  if (done->result != scheduler::CommandResult::Unchanged) {
+    (void)append_audit(usual_audit_file(),
+                       {rt::wall_ns(), base::user_name(), "", *node, verb_of(command), module, "done", context.reason});
+  }
+  return kOk;
 }
+
+}  // namespace
 
 void add_command_options(base::Options& app, Context& context, CommandOptions& options) {
   app.add("targets", "TARGET", options.targets, "MODULE of the node here; MODULE@BOARD or @BOARD of a plant, anywhere")
@@ -38,11 +63,11 @@ Action declare_command(base::Options& app, Context& context, ModuleCommand comma
 
 int carry_out(Context& context, ModuleCommand command, CommandOptions& options) {
   std::vector<CommandTarget> remote;
-  std::vector<std::string> here;
+  std::vector<std::string> local;
   for (const std::string& text : options.targets) {
     const auto at = text.find('@');
     if (at == std::string::npos) {
-      here.push_back(text);
+      local.push_back(text);
     } else if (at + 1 < text.size()) {
       remote.push_back({text.substr(0, at), text.substr(at + 1)});
     } else {
@@ -50,8 +75,8 @@ int carry_out(Context& context, ModuleCommand command, CommandOptions& options) 
       return kUsage;
     }
   }
-  for (const std::string& module : here) {
-    if (const int code = command_here(context, command, module, options.timeout_ns).code; code != kOk) {
+  for (const std::string& module : local) {
+    if (const int code = command_local(context, command, module, options.timeout_ns); code != kOk) {
       return code;
     }
   }

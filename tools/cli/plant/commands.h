@@ -12,6 +12,7 @@
 #include "deploy/link/deploy_link.h"
 #include "scheduler/module_command.h"
 #include "tools/cli/command/verb.h"
+#include "tools/cli/plant/module_command.h"
 
 namespace indurop::tools {
 
@@ -34,17 +35,7 @@ Action declare_command(base::Options& app, Context& context, scheduler::ModuleCo
 // Executes them in the given order and ends at the first failure. Returns the exit code.
 int carry_out(Context& context, scheduler::ModuleCommand command, CommandOptions& options);
 
-// The two implementations, local and remote (commands_here.cpp, commands_remote.cpp).
-struct Commanded {
-  int code = kFailed;
-  scheduler::CommandResult result = scheduler::CommandResult::None;
-  std::int64_t took_ns = 0;
-};
-Commanded command_here(Context& context, scheduler::ModuleCommand command, const std::string& module,
-                       std::int64_t timeout_ns);
 int command_remote(Context& context, scheduler::ModuleCommand what, const std::vector<CommandTarget>& targets,
                    CommandOptions& options);
-
-const char* past_of(scheduler::ModuleCommand command);  // "stopped"
 
 }  // namespace indurop::tools

@@ -4,18 +4,23 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <utility>
 
+#include "control/plc/st/value_literal.h"
+#include "store/operate/item.h"
 #include "store/operate/set.h"
 #include "store/vars/batch.h"
-#include "tools/cli/values/assignment.h"
-#include "tools/cli/values/forcing.h"
-#include "tools/cli/values/node_choice.h"
+#include "tools/cli/values/here_source.h"
 
 namespace indurop::tools {
 namespace {
 
 std::string text_of(const base::Json& value) {
   return value.is_text() ? *value.text() : value.dump();
+}
+
+base::Json json_of(const schema::Type& type, const std::vector<std::uint8_t>& bytes) {
+  return base::Json::parse(schema::value_to_json(type, bytes)).value_or(base::Json());
 }
 
 std::string what_failed(const Error& error) {
@@ -34,7 +39,8 @@ std::string what_failed(const Error& error) {
 
 }  // namespace
 
-int take_values(Context& context, const vars::Store& store, const std::vector<std::string>& names, Recipe& to) {
+Result<void, std::vector<std::string>> take_values(const vars::Store& store, const std::vector<std::string>& names,
+                                                   Recipe& to) {
   std::vector<std::string> wanted = names;
   for (const schema::Variable& variable : store.schema().variables) {
     if (names.empty() && variable.given) {
@@ -42,22 +48,21 @@ int take_values(Context& context, const vars::Store& store, const std::vector<st
     }
   }
   if (wanted.empty()) {
-    context.out.error("no variable of this node is a parameter (declared with a value): name what to save");
-    return kFailed;
+    return std::vector<std::string>{
+        "no variable of this node is a parameter (declared with a value): name what to save"};
   }
-  std::vector<Item> items;
-  if (const int code = select_items(context, store, wanted, items); code != kOk) {
-    return code;
+  const auto items = operate::select(store, wanted);
+  if (!items) {
+    return items.error();
   }
-  for (const Item& item : items) {
+  for (const operate::Item& item : *items) {
     const auto bytes = operate::read(store, item);
     if (!bytes) {
-      context.out.error(bytes.error().text);
-      return kFailed;
+      return std::vector<std::string>{bytes.error().text};
     }
-    to.values.emplace_back(item.name, raw_value(item.place.type, *bytes));
+    to.values.emplace_back(item.name, json_of(item.place.type, *bytes));
   }
-  return kOk;
+  return {};
 }
 
 std::vector<Difference> compare(const vars::Store& store, const Recipe& recipe) {
@@ -69,7 +74,7 @@ std::vector<Difference> compare(const vars::Store& store, const Recipe& recipe) 
     const auto* entry = place.ok() ? store.find(place.value().variable->name_hash()) : nullptr;
     if (entry != nullptr) {
       if (const auto bytes = operate::read(store, {name, place.value(), entry})) {
-        one.now = raw_value(place.value().type, *bytes);
+        one.now = json_of(place.value().type, *bytes);
         one.same = one.now.dump() == one.recipe.dump();
       }
     }
@@ -78,37 +83,43 @@ std::vector<Difference> compare(const vars::Store& store, const Recipe& recipe) 
   return all;
 }
 
-int load_values(Context& context, vars::Store& store, const Recipe& recipe, std::optional<std::uint64_t>& tick) {
-  std::vector<std::string> words;
+Result<std::optional<std::uint64_t>, operate::Refusal> load_values(const std::string& node, vars::Store& store,
+                                                                   const Recipe& recipe, const operate::Who& who) {
+  using operate::Why;
+  std::vector<std::string> lines;
   for (const auto& [name, value] : recipe.values) {
-    words.push_back(fmt::format("{}={}", name, text_of(value)));
+    lines.push_back(fmt::format("{}={}", name, text_of(value)));
   }
-  const auto assignments = read_assignments(context, store, "recipe", words);
+  auto assignments = operate::parse_all(store, lines, &plc::read_value_literal);
   if (!assignments) {
-    return assignments.error().code;
+    return operate::Refusal{Why::Wrong, std::move(assignments).error()};
   }
-  if (!may_set(context, *assignments) || any_forced(context, store, *assignments)) {
-    return kFailed;
+  if (auto locked = operate::refusal_to_set(node, *assignments)) {
+    return std::move(*locked);
   }
-  tick.reset();
-  if (!context.values->absence(&store).empty()) {
-    return set_values(context, store, *assignments);
+  if (auto forced = operate::forced(store, *assignments)) {
+    return std::move(*forced);
+  }
+  if (!HereSource(node, vars::Mode::ReadWrite).absence(&store).empty()) {
+    if (auto done = operate::set(node, store, *assignments, who); !done) {
+      return std::move(done).error();
+    }
+    return std::optional<std::uint64_t>();
   }
   std::vector<vars::Change> changes;
-  for (const Assignment& one : *assignments) {
+  for (const operate::Assignment& one : *assignments) {
     changes.push_back({one.item.entry, one.item.place.offset, one.bytes});
   }
   constexpr std::chrono::seconds kPatience{5};
-  const auto done = vars::change_in_one_tick(context.node, store, changes, kPatience);
+  const auto done = vars::change_in_one_tick(node, store, changes, kPatience);
   if (!done) {
-    context.out.error(fmt::format("nothing was changed: {}", what_failed(done.error())));
-    return done.error().code == Errc::InvalidArgument ? kFailed : kUnreachable;
+    return operate::Refusal{done.error().code == Errc::InvalidArgument ? Why::Wrong : Why::Busy,
+                            {fmt::format("nothing was changed: {}", what_failed(done.error()))}};
   }
-  tick = *done;
-  for (const Assignment& one : *assignments) {
-    operate::note_set(context.node, store, one, who_orders(context));
+  for (const operate::Assignment& one : *assignments) {
+    operate::note_set(node, store, one, who);
   }
-  return kOk;
+  return std::optional<std::uint64_t>(*done);
 }
 
 }  // namespace indurop::tools

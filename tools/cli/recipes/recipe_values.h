@@ -3,19 +3,25 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/json.h"
+#include "store/operate/refusal.h"
+#include "store/operate/who.h"
+#include "store/vars/store.h"
 #include "tools/cli/recipes/recipe.h"
-#include "tools/cli/values/variables.h"
 
 namespace indurop::tools {
 
 // Adds the values of variables, parts or globs; if there are no names, of all parameters: variables whose declaration
-// has a value. Returns the exit code, after an error message for each wrong name.
-int take_values(Context& context, const vars::Store& store, const std::vector<std::string>& names, Recipe& to);
+// has a value. Returns what is wrong with each wrong name.
+Result<void, std::vector<std::string>> take_values(const vars::Store& store, const std::vector<std::string>& names,
+                                                   Recipe& to);
 
 struct Difference {
   std::string name;
@@ -26,9 +32,9 @@ struct Difference {
 // In the order of the recipe.
 std::vector<Difference> compare(const vars::Store& store, const Recipe& recipe);
 
-// Sets all values in one tick of the node `context.node`, or none: types, ranges and forces are checked before, with an
-// error message for each wrong value. If the node does not run, the values wait for its next start and `tick` is empty.
-// `store` is open for writing. Returns the exit code.
-int load_values(Context& context, vars::Store& store, const Recipe& recipe, std::optional<std::uint64_t>& tick);
+// Sets all values in one tick of the node, or none: types, ranges and forces are checked before. Returns the tick;
+// nothing if the node does not run, then the values wait for its next start. `store` is open for writing.
+Result<std::optional<std::uint64_t>, operate::Refusal> load_values(const std::string& node, vars::Store& store,
+                                                                   const Recipe& recipe, const operate::Who& who);
 
 }  // namespace indurop::tools

@@ -7,7 +7,9 @@
 #include "tools/cli/command/audit.h"
 #include "tools/cli/command/units.h"
 #include "tools/cli/recipes/recipe_values.h"
+#include "tools/cli/values/forcing.h"
 #include "tools/cli/values/node_choice.h"
+#include "tools/cli/values/value_source.h"
 #include "tools/cli/verbs/verbs.h"
 
 namespace indurop::tools {
@@ -40,8 +42,11 @@ int show_list(Context& context) {
 
 int save(Context& context, const vars::Store& store, const Options& options) {
   Recipe recipe{options.name, options.comment, base::user_name(), rt::wall_ns(), {}};
-  if (const int code = take_values(context, store, options.names, recipe); code != kOk) {
-    return code;
+  if (const auto taken = take_values(store, options.names, recipe); !taken) {
+    for (const std::string& reason : taken.error()) {
+      context.out.error(reason);
+    }
+    return kFailed;
   }
   if (const auto saved = write_recipe(context.node, recipe); !saved) {
     context.out.error(saved.error().text);
@@ -73,18 +78,18 @@ int load(Context& context, vars::Store& store, const Recipe& recipe) {
   entry.board = context.node;
   entry.action = "load recipe";
   entry.what = recipe.name;
-  std::optional<std::uint64_t> tick;
-  const int code = load_values(context, store, recipe, tick);
+  const auto loaded = load_values(context.node, store, recipe, who_orders(context));
   entry.wall_ns = rt::wall_ns();
-  entry.outcome = code == kOk ? "done" : "nothing was changed";
+  entry.outcome = loaded ? "done" : "nothing was changed";
   if (const std::string problem = append_audit(usual_audit_file(), entry); !problem.empty()) {
     context.out.note(fmt::format("{} cannot be written: {}", usual_audit_file().string(), problem));
   }
-  if (code == kOk) {
-    context.out.note(tick ? fmt::format("loaded {} values in tick {}", recipe.values.size(), *tick)
-                          : fmt::format("{} values wait for the node's next start", recipe.values.size()));
+  if (!loaded) {
+    return report(context, loaded.error());
   }
-  return code;
+  context.out.note(*loaded ? fmt::format("loaded {} values in tick {}", recipe.values.size(), **loaded)
+                           : fmt::format("{} values wait for the node's next start", recipe.values.size()));
+  return kOk;
 }
 
 int with_recipe(Context& context, vars::Store& store, const Options& options) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "history/alarms/alarm_watch.h"
-#include "tools/serve/api/worker.h"
+#include "tools/serve/worker.h"
 
 namespace indurop::serve {
 

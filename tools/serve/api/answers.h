@@ -36,23 +36,6 @@ Reply plant_history(Api& api, const Call& call);
 Reply plant_difference(Api& api, const Call& call);
 Reply plant_rollback(Api& api, const Call& call);
 
-// The same answers for a board of another host.
-Reply remote_messages(Api& api, const Call& call);
-Reply remote_modules(Api& api, const Call& call);
-Reply remote_histograms(Api& api, const Call& call);
-Reply remote_schedule(Api& api, const Call& call);
-Reply remote_runs(Api& api, const Call& call);
-Reply remote_overruns(Api& api, const Call& call);
-Reply remote_alarms(Api& api, const Call& call);
-Reply remote_alarm_history(Api& api, const Call& call);
-Reply remote_set(Api& api, const Call& call);
-Reply remote_force(Api& api, const Call& call);
-Reply remote_release(Api& api, const Call& call);
-Reply remote_lock(Api& api, const Call& call);
-Reply remote_start(Api& api, const Call& call);
-Reply remote_stop(Api& api, const Call& call);
-Reply remote_restart(Api& api, const Call& call);
-
 Reply histograms(Api& api, const Call& call);
 Reply schedule(Api& api, const Call& call);
 Reply runs(Api& api, const Call& call);

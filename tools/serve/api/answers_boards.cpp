@@ -2,12 +2,11 @@
 // Answers about boards and their modules.
 #include "history/alarms/alarm_list.h"
 #include "tools/cli/values/external_view.h"
-#include "tools/cli/values/force_view.h"
 #include "tools/cli/values/mirror_view.h"
 #include "tools/cli/values/module_table.h"
 #include "tools/cli/values/run_report.h"
 #include "tools/serve/api/answers.h"
-#include "tools/serve/boards/board.h"
+#include "tools/serve/boards/boards.h"
 #include "tools/serve/boards/trouble.h"
 
 namespace indurop::serve::answers {
@@ -24,25 +23,19 @@ base::Json texts_of(const std::vector<Trouble>& troubles) {
 }
 
 alarms::AlarmCounts alarms_of(const Api& api, const Board& board) {
-  return board.remote() != nullptr ? board.remote_alarms() : api.facts().alarms(board.name());
+  const auto reported = board.reported_alarms();
+  return reported ? *reported : api.facts().alarms(board.name());
 }
 
-std::uint64_t number_of(const base::Json& row, const char* what) {
-  return row[what].natural().value_or(0);
-}
-
-// Adds, for a board of another host, the report of its agent, and its location.
-void add_far(base::Json& out, const Board& board) {
-  if (board.remote() == nullptr) {
-    return;
-  }
-  const auto said = board.remote()->said();
-  out["here"] = false;
-  out["host"] = said.row["host"].text().value_or("");
-  out["deployment"] = said.row["deployment"].text().value_or("");
-  out["overruns"] = number_of(said.row, "overruns");
-  out["faults"] = number_of(said.row, "faults");
-  out["lost_ticks"] = number_of(said.row, "lost_ticks");
+// What the list of boards and the answer about one have in common.
+void add_status(base::Json& out, const Api& api, const Board& board, const std::optional<tools::RunView>& run) {
+  const alarms::AlarmCounts alarms = alarms_of(api, board);
+  out["alive"] = board.alive();
+  out["state"] = board.state();
+  out["layout"] = board.layout();
+  out["alarms"] = json_of(alarms);
+  out["trouble"] = texts_of(troubles_of(board, run, alarms));
+  out.update(board.reported());
 }
 
 base::Json summary_of(const Api& api, const Board& board) {
@@ -50,32 +43,14 @@ base::Json summary_of(const Api& api, const Board& board) {
   const tools::NodeReport report = run ? tools::report_of(board.name(), *run) : tools::NodeReport{};
   base::Json out = about(board);
   out["here"] = true;
-  out["alive"] = board.alive();
-  out["state"] = board.state();
   out["deployment"] = report.deployment;
   out["config_file"] = report.config_file;
   out["modules"] = report.modules;
   out["overruns"] = report.overruns;
   out["faults"] = report.faults;
   out["forces"] = board.store() != nullptr ? board.store()->forces().size() : 0;
-  const alarms::AlarmCounts alarms = alarms_of(api, board);
-  out["alarms"] = json_of(alarms);
-  out["trouble"] = texts_of(troubles_of(board, run, alarms));
-  out["layout"] = board.layout();
-  add_far(out, board);
+  add_status(out, api, board, run);
   return out;
-}
-
-void add_forces(base::Json& out, const Board& board) {
-  if (board.remote() != nullptr) {
-    auto said = board.remote()->said();
-    out["forces"] = std::move(said.forces);
-    out["lock"] = std::move(said.lock);
-    return;
-  }
-  const auto* const store = board.store();
-  out["forces"] = store != nullptr ? tools::json_of(tools::view_forces(board.name(), *store)) : base::Json::array();
-  out["lock"] = tools::json_of(vars::lock_of(board.name()));
 }
 
 base::Json module_of(base::Json row, const scheduler::ModuleRecord& record) {
@@ -109,17 +84,12 @@ Reply board(Api& api, const Call& call) {
   const Board& one = **found;
   const auto run = one.run();
   base::Json body = run ? tools::json_of(tools::report_of(one.name(), *run)) : base::Json::object();
-  add_far(body, one);
   const auto mirror = tools::view_mirror(one.name());
   const auto external = tools::view_external(one.name());
   body["node"] = one.name();
-  body["alive"] = one.alive();
-  body["state"] = one.state();
-  body["layout"] = one.layout();
-  const alarms::AlarmCounts alarms = alarms_of(api, one);
-  body["alarms"] = json_of(alarms);
-  body["trouble"] = texts_of(troubles_of(one, run, alarms));
-  add_forces(body, one);
+  add_status(body, api, one, run);
+  body["forces"] = one.forces();
+  body["lock"] = one.lock();
   body["mirror"] = mirror ? tools::json_of(*mirror) : base::Json();
   body["external"] = external ? tools::json_of(*external) : base::Json();
   return json_reply(body);
@@ -130,9 +100,12 @@ Reply modules(Api& /*api*/, const Call& call) {
   if (!found) {
     return found.error();
   }
-  const auto run = (*found)->run();
+  const auto run = (*found)->current_run();
+  if (!run && (*found)->remote() != nullptr) {
+    return refusal(run.error().code, run.error().reasons.front());
+  }
   base::Json list = base::Json::array();
-  if (run) {
+  if (run) {  // a node that has not run has no modules
     const base::Json rows = tools::module_table(*run, run->node_alive()).json();
     std::uint32_t index = 0;
     for (const base::Json& row : rows.values()) {
@@ -173,7 +146,8 @@ Reply forces(Api& /*api*/, const Call& call) {
   }
   base::Json body = about(**found);
   (*found)->want();
-  add_forces(body, **found);
+  body["forces"] = (*found)->forces();
+  body["lock"] = (*found)->lock();
   return json_reply(body);
 }
 

@@ -53,8 +53,8 @@ Reply begin_jog(Api& api, const Call& call) {
   if (const auto locked = operate::refusal((*found)->name(), vars::Act::Command)) {
     return write.failed(*locked);
   }
-  if (auto refused = write.begin()) {
-    return *refused;
+  if (const auto unnoted = write.begin()) {
+    return write.failed(*unnoted);
   }
   auto begun = api.jogs().begin((*found)->name(), robot, call.who, call.request->from, wish);
   if (!begun) {

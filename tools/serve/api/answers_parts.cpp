@@ -6,7 +6,7 @@
 
 #include "core/base/text.h"
 #include "tools/serve/api/answers.h"
-#include "tools/serve/boards/board.h"
+#include "tools/serve/boards/boards.h"
 
 namespace indurop::serve {
 

@@ -84,15 +84,15 @@ Reply plant_rollback(Api& api, const Call& call) {
     return write.failed(status::kBadRequest, "that is no name of a plant");
   }
   write.about(id, reason);
-  if (auto refused = write.begin()) {
-    return *refused;
+  if (const auto unnoted = write.begin()) {
+    return write.failed(*unnoted);
   }
   const Said said = roll_back(*call.link, id, plant);
   if (said.code != kOk) {
     std::vector<std::string> why = said.lines;
     std::reverse(why.begin(), why.end());  // the result is printed last
     return why.empty() ? write.failed(status::kConflict, "it was not rolled back")
-                       : write.failed(said.code == kUnreachable ? status::kNoAnswer : status::kConflict, why);
+                       : write.failed(Refused{said.code == kUnreachable ? status::kNoAnswer : status::kConflict, why});
   }
   base::Json body = base::Json::object();
   body["deployment"] = id;

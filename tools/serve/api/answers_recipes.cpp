@@ -4,7 +4,7 @@
 #include "tools/cli/recipes/recipe_values.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/api/write.h"
-#include "tools/serve/boards/board.h"
+#include "tools/serve/boards/local_board.h"
 
 namespace indurop::serve::answers {
 namespace {
@@ -82,16 +82,16 @@ Reply save_recipe(Api& api, const Call& call) {
     return write.failed(status::kBadRequest, wanted ? wrong : "the body is no JSON object");
   }
   write.about(recipe_in(call), wanted->reason);
-  const auto store = write.open(false);
+  const auto store = open_to_write((*found)->name(), false);
   if (!store) {
-    return store.error();
+    return write.failed(store.error());
   }
   tools::Recipe recipe{recipe_in(call), wanted->comment, call.who, rt::wall_ns(), {}};
-  if (const int code = tools::take_values(write.context(), *store, wanted->names, recipe); code != kOk) {
-    return write.failed_with(code);
+  if (const auto taken = tools::take_values(*store, wanted->names, recipe); !taken) {
+    return write.failed(Refused{status::kWrongValue, taken.error()});
   }
-  if (auto refused = write.begin()) {
-    return *refused;
+  if (const auto unnoted = write.begin()) {
+    return write.failed(*unnoted);
   }
   if (const auto saved = tools::write_recipe((*found)->name(), recipe); !saved) {
     return write.failed(status::kFailed, saved.error().text);
@@ -117,20 +117,20 @@ Reply load_recipe(Api& api, const Call& call) {
   if (!one) {
     return write.failed(status::kNotFound, one.error().text);
   }
-  auto store = write.open(false);
+  auto store = open_to_write((*found)->name(), false);
   if (!store) {
-    return store.error();
+    return write.failed(store.error());
   }
-  if (auto refused = write.begin()) {
-    return *refused;
+  if (const auto unnoted = write.begin()) {
+    return write.failed(*unnoted);
   }
-  std::optional<std::uint64_t> tick;
-  if (const int code = tools::load_values(write.context(), *store, *one, tick); code != kOk) {
-    return write.failed_with(code);
+  const auto loaded = tools::load_values((*found)->name(), *store, *one, write.who());
+  if (!loaded) {
+    return write.failed(loaded.error());
   }
   base::Json body = about(**found);
   body["recipe"] = one->name;
-  body["tick"] = tick ? base::Json(*tick) : base::Json();
+  body["tick"] = *loaded ? base::Json(**loaded) : base::Json();
   body["values"] = one->values.size();
   return write.done(body);
 }
@@ -146,8 +146,8 @@ Reply remove_recipe(Api& api, const Call& call) {
   if (const auto one = tools::read_recipe((*found)->name(), recipe_in(call)); !one) {
     return write.failed(status::kNotFound, one.error().text);
   }
-  if (auto refused = write.begin()) {
-    return *refused;
+  if (const auto unnoted = write.begin()) {
+    return write.failed(*unnoted);
   }
   if (const auto removed = tools::remove_recipe((*found)->name(), recipe_in(call)); !removed) {
     return write.failed(status::kFailed, removed.error().text);

@@ -23,11 +23,11 @@ Result<Ran, Reply> ran_of(const Call& call) {
   if (!found) {
     return found.error();
   }
-  auto run = (*found)->run();
+  auto run = (*found)->current_run();
   if (!run) {
-    return refusal(status::kConflict, fmt::format("board {} has not run since its host was started", (*found)->name()));
+    return refusal(run.error().code, run.error().reasons.front());
   }
-  return Ran{*found, std::move(*run)};
+  return Ran{*found, std::move(run).value()};
 }
 Reply wrong_count() {
   return refusal(status::kBadRequest, fmt::format("count is a number of 1 to {}, after one of 0 on", kMostSamples));
@@ -76,14 +76,14 @@ base::Json histogram_of(const scheduler::Distribution& distribution) {
 }  // namespace
 
 Reply histograms(Api& /*api*/, const Call& call) {
-  const auto found = board_of(call);
+  const auto found = ran_of(call);
   if (!found) {
     return found.error();
   }
-  const auto run = (*found)->run();
+  const auto& [board, run] = *found;
   const std::string& name = call.part.find("module")->second;
-  for (std::uint32_t i = 0; run && i < run->module_count(); ++i) {
-    const auto& module = run->module(i);
+  for (std::uint32_t i = 0; i < run.module_count(); ++i) {
+    const auto& module = run.module(i);
     if (tools::fixed_text(module.name) != name) {
       continue;
     }
@@ -92,12 +92,12 @@ Reply histograms(Api& /*api*/, const Call& call) {
     all["latency"] = histogram_of(module.latency);
     all["exec"] = histogram_of(module.exec);
     all["response"] = histogram_of(module.response);
-    base::Json body = about(**found);
+    base::Json body = about(*board);
     body["module"] = name;
     body["histograms"] = std::move(all);
     return json_reply(body);
   }
-  return refusal(status::kNotFound, fmt::format("board {} has no module '{}'", (*found)->name(), name));
+  return refusal(status::kNotFound, fmt::format("board {} has no module '{}'", board->name(), name));
 }
 
 Reply schedule(Api& /*api*/, const Call& call) {
@@ -188,29 +188,20 @@ Reply overruns(Api& /*api*/, const Call& call) {
 
 Reply messages(Api& /*api*/, const Call& call) {
   constexpr std::uint64_t kUsual = 100;
-  const auto found = ran_of(call);
+  const auto found = board_of(call);
   if (!found) {
     return found.error();
   }
-  const auto& [board, run] = *found;
   const auto count = query_number(call, "count", kUsual, 1, kMostSamples);
   if (!count) {
     return wrong_count();
   }
-  const auto& block = run.block();
-  base::Json list = base::Json::array();
-  for (const tools::MessageSample& sample : run.messages(*count)) {
-    base::Json one = base::Json::object();
-    one["who"] = sample.who;
-    one["tick"] =
-        std::max<std::int64_t>(sample.time_ns - block.epoch_ns, 0) / std::max<std::int64_t>(block.basic_period_ns, 1);
-    one["time_ns"] = sample.time_ns;
-    one["text"] = sample.text;
-    list.push_back(std::move(one));
+  const auto printed = (*found)->messages(*count);
+  if (!printed) {
+    return refusal(printed.error().code, printed.error().reasons.front());
   }
-  base::Json body = about(*board);
-  body["epoch_ns"] = block.epoch_ns;
-  body["messages"] = std::move(list);
+  base::Json body = about(**found);
+  body.update(*printed);
   return json_reply(body);
 }
 

@@ -53,12 +53,7 @@ base::Json variable_json(const vars::Store& store, const tools::Item& item, cons
 }
 
 Reply no_store(const Board& board) {
-  if (board.remote() != nullptr) {
-    return refusal(status::kConflict,
-                   fmt::format("the variables of board {} have not come yet: it is {}", board.name(), board.state()));
-  }
-  return refusal(status::kConflict,
-                 fmt::format("the variables of board {} cannot be read; see indurop nodes", board.name()));
+  return refusal(status::kConflict, board.no_store());
 }
 
 }  // namespace

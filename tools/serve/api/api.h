@@ -13,7 +13,7 @@
 #include "core/base/json.h"
 #include "history/alarms/alarm_book.h"
 #include "tools/cli/values/known_uses.h"
-#include "tools/serve/api/audit.h"
+#include "tools/serve/audit.h"
 #include "tools/serve/door/gate.h"
 
 namespace indurop::serve {

@@ -43,17 +43,9 @@ enum class Pace { Quick, Files, Orders, Wait, Holds, Plant, PlantOrders, Plc, Pa
 
 using Answer = Reply (*)(Api& api, const Call& call);
 
-// Defines how a request about a board of another host is answered.
-struct Remote {
-  bool possible = false;    // false: answered only by a server on that host
-  Answer answer = nullptr;  // sends a request or command through the plant; null: the usual answer, from what its agent
-                            // reported
-};
-inline constexpr Remote kHereOnly{};
-inline constexpr Remote kAlike{true, nullptr};
-constexpr Remote through(Answer answer) noexcept {
-  return {true, answer};
-}
+// How a request about a board of another host is answered: only by a server on that host; from what the board's agent
+// reported; or by a request or command to that agent.
+enum class Remote { No, Reported, Asked };
 
 struct Route {
   Method method;

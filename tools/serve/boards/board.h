@@ -1,95 +1,123 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board as the server observes it: a node of this host with its store, which is attached read-only, and again when
-// the node returns with another one; or a board of another host, from the reports of its agent. Used by one thread.
+// A board as the server observes and commands it: a node of this host (LocalBoard), or a board of another host through
+// its agent (ReportedBoard). Each is used by one thread.
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "core/base/json.h"
 #include "history/alarms/alarm_book.h"
+#include "history/alarms/alarm_orders.h"
+#include "scheduler/module_command.h"
+#include "store/operate/who.h"
+#include "store/vars/custody.h"
 #include "store/vars/store.h"
-#include "tools/cli/values/here_source.h"
 #include "tools/cli/values/run_view.h"
-#include "tools/serve/boards/remote_boards.h"
+#include "tools/serve/boards/write_request.h"
+
+namespace indurop::tools {
+class ReportedBoard;
+}  // namespace indurop::tools
 
 namespace indurop::serve {
 
+class LeaseDesk;
+
+// Why something was not done.
+struct Refused {
+  int code = 0;                      // a status of HTTP
+  std::vector<std::string> reasons;  // at least one
+};
+
+// The note of a change in the audit log.
+class ChangeNote {
+ public:
+  ChangeNote() = default;
+  ChangeNote(const ChangeNote&) = delete;
+  ChangeNote& operator=(const ChangeNote&) = delete;
+  virtual ~ChangeNote() = default;
+  [[nodiscard]] virtual operate::Who who() const = 0;
+  // To be called before anything is changed: returns why it cannot be noted, and then nothing may be changed.
+  virtual std::optional<Refused> begin() = 0;
+};
+
 class Board {
  public:
-  explicit Board(std::string name) : name_(std::move(name)), source_(name_, vars::Mode::ReadOnly) {}
-
-  // A board of another host; `reader` is the number of this thread.
-  Board(std::shared_ptr<tools::RemoteBoard> remote, std::size_t reader)
-      : name_(remote->name()), source_(name_, vars::Mode::ReadOnly), remote_(std::move(remote)), reader_(reader) {}
+  explicit Board(std::string name) : name_(std::move(name)) {}
+  Board(const Board&) = delete;
+  Board& operator=(const Board&) = delete;
+  virtual ~Board() = default;
 
   // Checks whether the attached store is still the current one. Costs reading two small files.
-  void refresh();
+  virtual void refresh() = 0;
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] const vars::Store* store() const noexcept { return store_ ? &*store_ : nullptr; }
   [[nodiscard]] bool alive() const noexcept { return store_ && absence_.empty(); }
-  // Null if the board is on this host.
-  [[nodiscard]] const tools::RemoteBoard* remote() const noexcept { return remote_.get(); }
-  // The number of alarms of a board of another host, as its agent reports it.
-  [[nodiscard]] alarms::AlarmCounts remote_alarms() const;
-  // Requests its values: those of a board of another host are fetched while they are requested.
-  void want() const;
   // Changes each time another store is attached: pointers into the previous one are invalid then.
   [[nodiscard]] std::uint64_t attachment() const noexcept { return attachment_; }
   // Hash of names and types of the variables, 16 hexadecimal digits; empty: there is no store.
   [[nodiscard]] std::string layout() const;
+
+  // The reports about a board of another host; null: it is on this host.
+  [[nodiscard]] virtual const tools::ReportedBoard* remote() const noexcept { return nullptr; }
+  // Requests its values: those of a board of another host are fetched while they are requested.
+  virtual void want() const {}
   // "running", "starting", "not running, last seen 3.2 s ago".
-  [[nodiscard]] std::string state() const;
+  [[nodiscard]] virtual std::string state() const = 0;
+  // The same without the time since when: it changes only when the board does.
+  [[nodiscard]] virtual std::string steady_state() const = 0;
+  // Why store() is null.
+  [[nodiscard]] virtual std::string no_store() const = 0;
   // The run block; of a board of another host the one that was received last.
-  [[nodiscard]] std::optional<tools::RunView> run() const;
-  // Sets the run block of a board of another host, as its agent has just reported it.
-  void show(tools::RunView run, std::int64_t now_ns);
-  // Returns true if that was recent enough that it need not be requested again.
-  [[nodiscard]] bool shown(std::int64_t now_ns) const noexcept { return shown_ && now_ns < shown_until_ns_; }
+  [[nodiscard]] virtual std::optional<tools::RunView> run() const = 0;
+  // Its forces and its write lock, as the API reports them.
+  [[nodiscard]] virtual base::Json forces() const = 0;
+  [[nodiscard]] virtual base::Json lock() const = 0;
+  // The number of its alarms; nothing: this server evaluates them.
+  [[nodiscard]] virtual std::optional<alarms::AlarmCounts> reported_alarms() const { return std::nullopt; }
+  // What its agent reports of it, as fields of the answer; an empty object for a board of this host.
+  [[nodiscard]] virtual base::Json reported() const { return base::Json::object(); }
+
+  // What follows may wait for the board. Each returns the fields of the answer, or why it was not done.
+  using Done = Result<base::Json, Refused>;
+  // Returns the current run block.
+  virtual Result<tools::RunView, Refused> current_run() = 0;
+  // What its modules printed, the newest `count`.
+  virtual Done messages(std::uint64_t count) = 0;
+  // Its alarms, `all` of them or those that are not normal; their newest events.
+  virtual Done alarm_status(bool all) = 0;
+  virtual Done alarm_history(std::uint64_t count) = 0;
+
+  // Changes: all of it or nothing.
+  virtual Done set(const WriteRequest& request, ChangeNote& note) = 0;
+  virtual Done force(const WriteRequest& request, ChangeNote& note, LeaseDesk& leases) = 0;
+  virtual Done release(const WriteRequest& request, ChangeNote& note) = 0;
+  virtual Done set_lock(vars::WriteLock lock, ChangeNote& note) = 0;
+  virtual Done command(scheduler::ModuleCommand what, const std::string& module, ChangeNote& note) = 0;
+  // Returns the names of the alarms that were changed.
+  virtual Done carry_out(const alarms::AlarmOrder& order, ChangeNote& note) = 0;
+
+ protected:
+  void attach(vars::Store store, std::uint64_t generation);
+  void detach();
+  [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }
+  void set_absence(std::string absence) { absence_ = std::move(absence); }
+  [[nodiscard]] const std::string& absence() const noexcept { return absence_; }
 
  private:
-  void refresh_remote();
-
   std::string name_;
-  tools::HereSource source_;
   std::optional<vars::Store> store_;
   std::uint64_t generation_ = 0;
   std::uint64_t attachment_ = 0;
   std::string absence_ = "not running";
-  std::shared_ptr<tools::RemoteBoard> remote_;
-  std::size_t reader_ = 0;
-  std::optional<tools::RunView> shown_;
-  std::int64_t shown_until_ns_ = 0;
-};
-
-// All nodes of the host, or the selected one, and boards of other hosts. Used by one thread.
-class Boards {
- public:
-  // `remote`: boards of other hosts; `reader` identifies this thread among their readers.
-  explicit Boards(std::string only, const RemoteBoards* remote = nullptr, std::size_t reader = 0)
-      : only_(std::move(only)), remote_(remote), reader_(reader) {}
-
-  // Names of the nodes of this host.
-  [[nodiscard]] std::vector<std::string> here() const;
-  // Names of all boards that are present now.
-  [[nodiscard]] std::vector<std::string> names() const;
-  // Returns the board, refreshed; null if there is none of that name. `name` empty: the only one. A board lives as long
-  // as this object, so that its attachments are never confused with those of another one.
-  Board* find(const std::string& name);
-  [[nodiscard]] const std::string& only() const noexcept { return only_; }
-
- private:
-  [[nodiscard]] bool is_here(const std::string& name) const;
-
-  std::string only_;
-  const RemoteBoards* remote_;
-  std::size_t reader_;
-  std::unordered_multimap<std::string, std::unique_ptr<Board>> boards_;  // those requested so far, by name
 };
 
 }  // namespace indurop::serve

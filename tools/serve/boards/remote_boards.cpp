@@ -16,7 +16,7 @@ bool runs_here(const std::string& name) {
   return vars::running_node(name) > 0;
 }
 
-std::vector<std::string> names_of(const std::vector<std::shared_ptr<tools::RemoteBoard>>& boards) {
+std::vector<std::string> names_of(const std::vector<std::shared_ptr<tools::ReportedBoard>>& boards) {
   std::vector<std::string> names;
   names.reserve(boards.size());
   for (const auto& board : boards) {
@@ -42,7 +42,7 @@ std::vector<std::string> RemoteBoards::names() const {
   return names;
 }
 
-std::shared_ptr<tools::RemoteBoard> RemoteBoards::find(const std::string& name) const {
+std::shared_ptr<tools::ReportedBoard> RemoteBoards::find(const std::string& name) const {
   const std::lock_guard<std::mutex> guard(mutex_);
   const auto known = boards_.find(name);
   return known != boards_.end() && !runs_here(name) ? known->second : nullptr;
@@ -54,11 +54,11 @@ void RemoteBoards::hear(const tools::PlantWatch& watch) {
     if (name.empty() || runs_here(name)) {
       continue;
     }
-    std::shared_ptr<tools::RemoteBoard> board;
+    std::shared_ptr<tools::ReportedBoard> board;
     {
       const std::lock_guard<std::mutex> guard(mutex_);
       auto& known = boards_[name];
-      known = known != nullptr ? known : std::make_shared<tools::RemoteBoard>(name);
+      known = known != nullptr ? known : std::make_shared<tools::ReportedBoard>(name);
       board = known;
     }
     board->look_at(row);
@@ -87,10 +87,10 @@ void RemoteBoards::ask(tools::PlantWatch& watch, const Some& boards) {
     for (const auto& board : asked) {
       const auto text = texts.find(board->name());
       const auto taken =
-          text != texts.end() ? board->take_values(text->second, now) : tools::RemoteBoard::Taken::Nonsense;
-      if (taken == tools::RemoteBoard::Taken::OtherVariables) {
+          text != texts.end() ? board->take_values(text->second, now) : tools::ReportedBoard::Taken::Nonsense;
+      if (taken == tools::ReportedBoard::Taken::OtherVariables) {
         others.push_back(board);
-      } else if (taken == tools::RemoteBoard::Taken::Nonsense) {
+      } else if (taken == tools::ReportedBoard::Taken::Nonsense) {
         board->silent();
       }
     }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tools/cli/plant/plant_watch.h"
-#include "tools/cli/plant/remote_board.h"
+#include "tools/cli/plant/reported_board.h"
 
 namespace indurop::serve {
 
@@ -27,17 +27,17 @@ class RemoteBoards {
   // May be called by any thread: boards that were ever discovered and do not run on this host. Null: there is none of
   // that name.
   [[nodiscard]] std::vector<std::string> names() const;
-  [[nodiscard]] std::shared_ptr<tools::RemoteBoard> find(const std::string& name) const;
+  [[nodiscard]] std::shared_ptr<tools::ReportedBoard> find(const std::string& name) const;
 
  private:
-  using Some = std::vector<std::shared_ptr<tools::RemoteBoard>>;
+  using Some = std::vector<std::shared_ptr<tools::ReportedBoard>>;
   void hear(const tools::PlantWatch& watch);
   void ask(tools::PlantWatch& watch, const Some& boards);
   static void learn(tools::PlantWatch& watch, const Some& boards);
   [[nodiscard]] Some all() const;
 
   mutable std::mutex mutex_;  // protects the map, not the boards in it
-  std::map<std::string, std::shared_ptr<tools::RemoteBoard>> boards_;
+  std::map<std::string, std::shared_ptr<tools::ReportedBoard>> boards_;
   std::map<std::string, std::int64_t> learn_ns_;  // time before which their variables are not requested again
 };
 

@@ -10,14 +10,12 @@
 namespace indurop::serve {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kHeadNs = 10 * kSecond;  // for the whole head, including TLS
-constexpr std::int64_t kIdleNs = 60 * kSecond;  // between two requests
-constexpr std::int64_t kBodyNs = 8 * kSecond;
-constexpr std::int64_t kAnswerNs = 3600 * kSecond;  // commands to a plant may take long
-constexpr std::int64_t kSendNs = 30 * kSecond;      // without any progress
-constexpr std::int64_t kClosingNs = 2 * kSecond;
-constexpr std::size_t kMostPieces = 64;  // read at once; then other connections are served
+constexpr std::int64_t kHeadNs = 10 * kSecondNs;  // for the whole head, including TLS
+constexpr std::int64_t kIdleNs = 60 * kSecondNs;  // between two requests
+constexpr std::int64_t kBodyNs = 8 * kSecondNs;
+constexpr std::int64_t kAnswerNs = 3600 * kSecondNs;  // commands to a plant may take long
+constexpr std::int64_t kSendNs = 30 * kSecondNs;      // without any progress
+constexpr std::size_t kMostPieces = 64;               // read at once; then other connections are served
 
 }  // namespace
 

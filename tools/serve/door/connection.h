@@ -19,6 +19,9 @@
 
 namespace indurop::serve {
 
+inline constexpr std::int64_t kSecondNs = 1'000'000'000;
+inline constexpr std::int64_t kClosingNs = 2 * kSecondNs;  // to end a connection properly
+
 // Data that all connections share.
 struct Common {
   DoorSettings settings;

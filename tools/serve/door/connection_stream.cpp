@@ -10,11 +10,9 @@
 namespace indurop::serve {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
 // A client that is silent for the first time gets a ping, for the second time it is closed.
-constexpr std::int64_t kPingNs = 15 * kSecond;
-constexpr std::int64_t kSilentNs = 30 * kSecond;
-constexpr std::int64_t kClosingNs = 2 * kSecond;
+constexpr std::int64_t kPingNs = 15 * kSecondNs;
+constexpr std::int64_t kSilentNs = 30 * kSecondNs;
 constexpr std::size_t kMostOutput = 64U << 10;  // waiting control frames
 // One of this many streams is reserved for clients with a token or certificate.
 constexpr std::size_t kReserve = 8;

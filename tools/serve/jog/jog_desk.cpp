@@ -8,21 +8,22 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
-#include "core/rt/clock.h"
+#include "core/schema/write_field.h"
 #include "store/operate/set.h"
 #include "store/vars/custody.h"
-#include "tools/cli/values/here_source.h"
-#include "tools/serve/random_word.h"
 
 namespace indurop::serve {
 namespace {
 
 using base::Problem;
 
-constexpr double kMost = 100;  // %
-constexpr int kWorkFrame = 3;  // ROBOT_JOG.eFrame
+constexpr double kMaxSpeed = 100;  // %
+constexpr int kWorkFrame = 3;      // ROBOT_JOG.eFrame
 
 // Converts to ROBOT_JOG.eFrame. Any word other than the first three is a work frame, which the robot accepts or
 // rejects.
@@ -41,20 +42,15 @@ std::optional<Problem> wrong_with(const JogWish& wish, std::size_t axes) {
   if (wish.speed.size() > axes || std::count_if(wish.speed.begin(), wish.speed.end(), moves) != 1) {
     return Problem{fmt::format("speed has at most {} numbers, of which one is not 0", axes)};
   }
-  if (!std::all_of(wish.speed.begin(), wish.speed.end(), [](double speed) { return std::abs(speed) <= kMost; })) {
+  if (!std::all_of(wish.speed.begin(), wish.speed.end(), [](double speed) { return std::abs(speed) <= kMaxSpeed; })) {
     return Problem{"speed is -100 to 100 %"};
   }
   return std::nullopt;
 }
 
-// The enabling switch of one robot.
-struct Switch {
-  const vars::DirectoryEntry* entry = nullptr;
-  schema::Type type;
-  std::uint32_t beat_offset = 0;
-  std::size_t axes = 0;
-};
-Result<Switch, Problem> switch_of(const vars::Store& store, const std::string& robot) {
+}  // namespace
+
+Result<JogDesk::Switch, Problem> JogDesk::switch_of(const vars::Store& store, const std::string& robot) {
   const std::string name = robot.empty() ? "ROBOT_JOG" : robot + "::ROBOT_JOG";
   const schema::Variable* variable = schema::find_variable(store.schema(), name);
   const auto* entry = variable != nullptr ? store.find(variable->name_hash()) : nullptr;
@@ -71,34 +67,23 @@ Result<Switch, Problem> switch_of(const vars::Store& store, const std::string& r
   return Switch{entry, variable->type, beat->offset, speed->type.dims[0]};
 }
 
-}  // namespace
+template <class Change>
+bool JogDesk::Hand::write(Change change) {
+  std::vector<std::uint8_t> bytes(place.type.size());
+  return store.read(*place.entry, 0, bytes).ok() && change(std::span<std::uint8_t>(bytes)) &&
+         store.write(*place.entry, 0, bytes).ok();
+}
 
-struct JogDesk::Hand {
-  std::string board;
-  std::string robot;
-  std::string who;
-  std::string from;
-  std::string what;  // for the audit log
-  vars::Store store;
-  Switch place;
-  std::uint32_t beat = 0;
-  std::int64_t until_ns = 0;  // CLOCK_MONOTONIC
+void JogDesk::Hand::count_beat() {
+  beat = std::max(beat + 1, 1U);  // 0 has another meaning
+}
 
-  // Returns false if it cannot be written.
-  bool write(const std::string& text) {
-    std::vector<std::uint8_t> bytes(place.type.size());
-    std::string message;
-    return store.read(*place.entry, 0, bytes).ok() && schema::parse_value(place.type, text, bytes, message).ok() &&
-           store.write(*place.entry, 0, bytes).ok();
-  }
-};
-
-JogDesk::JogDesk(const Audit& audit) : audit_(&audit) {}
+void JogDesk::Hand::release() {
+  (void)write([this](std::span<std::uint8_t> bytes) { return schema::write_field(place.type, "bEnable", 0.0, bytes); });
+}
 
 JogDesk::~JogDesk() {
-  for (const auto& [name, hand] : all_) {
-    release(*hand, "ended: the server ends");
-  }
+  desk_.expire([](Hand& hand) { hand.release(); }, "ended: the server ends", true);
 }
 
 Result<std::string, Problem> JogDesk::begin(const std::string& board, const std::string& robot, const std::string& who,
@@ -123,86 +108,59 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
       return Problem{operate::is_forced(robot.empty() ? "ROBOT_JOG" : robot + "::ROBOT_JOG")};
     }
   }
-  const std::lock_guard guard(mutex_);
-  for (const auto& [name, hand] : all_) {
-    if (hand->board == board && hand->robot == robot) {
-      return Problem{fmt::format("{} is moving it already", hand->who)};
-    }
-  }
-  auto hand = std::make_unique<Hand>(
-      Hand{board, robot, who, from, {}, std::move(store).value(), std::move(place).value(), 0, rt::now_ns() + kKeepNs});
   std::vector<double> speed = wish.speed;
-  speed.resize(hand->place.axes);
-  hand->what = fmt::format("{} {} [{}]", robot, wish.frame, fmt::join(speed, ", "));
-  (void)hand->store.read(*hand->place.entry, hand->place.beat_offset,
-                         {reinterpret_cast<std::uint8_t*>(&hand->beat), sizeof hand->beat});
-  hand->beat = std::max(hand->beat + 1, 1U);
-  const std::string named = *frame == kWorkFrame ? fmt::format(", frame: \"{}\"", wish.frame) : "";
-  if (!hand->write(fmt::format("{{bEnable: 1, eFrame: {}, dSpeed: [{}], nBeat: {}{}}}", *frame, fmt::join(speed, ", "),
-                               hand->beat, named))) {
-    (void)hand->write("{bEnable: 0}");
-    return Problem{"ROBOT_JOG cannot be written"};
-  }
-  hands_ = all_.size() + 1;
-  return all_.emplace(random_word(), std::move(hand)).first->first;
+  speed.resize(place->axes);
+  Hand hand(std::move(store).value(), std::move(place).value());
+  hand.board = board;
+  hand.robot = robot;
+  hand.who = {who, from, {}};
+  hand.what = fmt::format("{} {} [{}]", robot, wish.frame, fmt::join(speed, ", "));
+  return desk_.add(std::move(hand), [&](Hand& pressed, const auto& others) -> std::optional<Problem> {
+    for (const auto& [name, other] : others) {
+      if (other.board == board && other.robot == robot) {
+        return Problem{fmt::format("{} is moving it already", other.who.name)};
+      }
+    }
+    (void)pressed.store.read(*pressed.place.entry, pressed.place.beat_offset,
+                             {reinterpret_cast<std::uint8_t*>(&pressed.beat), sizeof pressed.beat});
+    pressed.count_beat();
+    const schema::Type& type = pressed.place.type;
+    const bool written = pressed.write([&](std::span<std::uint8_t> bytes) {
+      return schema::write_field(type, "bEnable", 1.0, bytes) && schema::write_field(type, "eFrame", *frame, bytes) &&
+             schema::write_field(type, "dSpeed", speed, bytes) &&
+             schema::write_field(type, "nBeat", pressed.beat, bytes) &&
+             (*frame != kWorkFrame || schema::write_field(type, "frame", std::string_view(wish.frame), bytes));
+    });
+    if (!written) {
+      pressed.release();
+      return Problem{"ROBOT_JOG cannot be written"};
+    }
+    return std::nullopt;
+  });
 }
 
 bool JogDesk::keep(const std::string& board, const std::string& name, const std::string& who) {
   look();
-  const std::lock_guard guard(mutex_);
-  const auto found = all_.find(name);
-  if (found == all_.end() || found->second->board != board || found->second->who != who) {
-    return false;
-  }
-  Hand& hand = *found->second;
-  hand.beat = std::max(hand.beat + 1, 1U);
-  const bool sound = !hand.store.retired() && vars::lock_of(board).lock == vars::WriteLock::None &&
-                     hand.write(fmt::format("{{nBeat: {}}}", hand.beat));
-  if (!sound) {
-    release(hand, "ended: it can no longer be written");
-    all_.erase(found);
-    hands_ = all_.size();
-    return false;
-  }
-  hand.until_ns = rt::now_ns() + kKeepNs;
-  return true;
+  return desk_.keep(board, name, who, [&board](Hand& hand) -> const char* {
+    hand.count_beat();
+    const bool written = !hand.store.retired() && vars::lock_of(board).lock == vars::WriteLock::None &&
+                         hand.write([&hand](std::span<std::uint8_t> bytes) {
+                           return schema::write_field(hand.place.type, "nBeat", hand.beat, bytes);
+                         });
+    if (written) {
+      return nullptr;
+    }
+    hand.release();
+    return "ended: it can no longer be written";
+  });
 }
 
 bool JogDesk::end(const std::string& board, const std::string& name, const std::string& who) {
-  const std::lock_guard guard(mutex_);
-  const auto found = all_.find(name);
-  if (found == all_.end() || found->second->board != board || found->second->who != who) {
-    return false;
-  }
-  release(*found->second, "done");
-  all_.erase(found);
-  hands_ = all_.size();
-  return true;
+  return desk_.end(board, name, who, [](Hand& hand) { hand.release(); });
 }
 
 void JogDesk::look() {
-  const std::int64_t now = rt::now_ns();
-  const std::lock_guard guard(mutex_);
-  std::erase_if(all_, [&](const auto& one) {
-    if (one.second->until_ns > now) {
-      return false;
-    }
-    release(*one.second, "ended: its client was not heard any more");
-    return true;
-  });
-  hands_ = all_.size();
-}
-
-void JogDesk::release(Hand& hand, const char* outcome) {
-  (void)hand.write("{bEnable: 0}");
-  AuditEntry entry;
-  entry.who = hand.who;
-  entry.from = hand.from;
-  entry.board = hand.board;
-  entry.action = "end of jog";
-  entry.what = hand.what;
-  entry.outcome = outcome;
-  (void)audit_->note(entry);
+  desk_.expire([](Hand& hand) { hand.release(); }, "ended: its client did not renew it in time");
 }
 
 }  // namespace indurop::serve

@@ -5,18 +5,15 @@
 
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/problem.h"
 #include "store/vars/store.h"
-#include "tools/serve/api/audit.h"
+#include "tools/serve/audit.h"
+#include "tools/serve/desk.h"
 
 namespace indurop::serve {
 
@@ -31,7 +28,7 @@ class JogDesk {
   // A client has to renew within this time.
   static constexpr std::int64_t kKeepNs = 250'000'000;
 
-  explicit JogDesk(const Audit& audit);
+  explicit JogDesk(const Audit& audit) : desk_(audit, "end of jog", kKeepNs) {}
   ~JogDesk();
   JogDesk(const JogDesk&) = delete;
   JogDesk& operator=(const JogDesk&) = delete;
@@ -45,16 +42,33 @@ class JogDesk {
   bool end(const std::string& board, const std::string& name, const std::string& who);
   // Releases switches whose client did not renew in time.
   void look();
-  [[nodiscard]] bool busy() const noexcept { return hands_.load() > 0; }
+  [[nodiscard]] bool busy() const noexcept { return !desk_.is_empty(); }
 
  private:
-  struct Hand;
-  void release(Hand& hand, const char* outcome);
+  // The enabling switch of one robot.
+  struct Switch {
+    const vars::DirectoryEntry* entry = nullptr;
+    schema::Type type;
+    std::uint32_t beat_offset = 0;
+    std::size_t axes = 0;
+  };
+  // A client that presses it.
+  struct Hand : HeldBase {
+    std::string robot;
+    vars::Store store;
+    Switch place;
+    std::uint32_t beat = 0;
 
-  const Audit* audit_;
-  std::mutex mutex_;
-  std::map<std::string, std::unique_ptr<Hand>> all_;
-  std::atomic<std::size_t> hands_ = 0;
+    Hand(vars::Store opened, Switch pressed) : store(std::move(opened)), place(std::move(pressed)) {}
+    void count_beat();
+    // `change` writes fields into the value of the switch. Returns false if it cannot be written.
+    template <class Change>
+    bool write(Change change);
+    void release();
+  };
+  static Result<Switch, base::Problem> switch_of(const vars::Store& store, const std::string& robot);
+
+  Desk<Hand> desk_;
 };
 
 }  // namespace indurop::serve

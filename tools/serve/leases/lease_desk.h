@@ -5,15 +5,14 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "store/operate/hold.h"
 #include "store/operate/who.h"
 #include "store/vars/store.h"
-#include "tools/serve/api/audit.h"
+#include "tools/serve/audit.h"
+#include "tools/serve/desk.h"
 
 namespace indurop::serve {
 
@@ -22,7 +21,7 @@ class LeaseDesk {
   // Time after the last renewal: browsers let pages in the background send once a second only.
   static constexpr std::int64_t kLeaseNs = 5'000'000'000;
 
-  explicit LeaseDesk(const Audit& audit) : audit_(&audit) {}
+  explicit LeaseDesk(const Audit& audit) : desk_(audit, "release", kLeaseNs) {}
 
   // Starts a lease; may be called by any thread. Returns the name to renew it by, which cannot be guessed. `store`: the
   // current one of the board.
@@ -35,21 +34,15 @@ class LeaseDesk {
   void look();
 
  private:
-  struct Held {
-    std::string board;
-    operate::Who who;
-    std::string what;                  // for the audit log
+  struct Held : HeldBase {
     std::vector<std::uint64_t> names;  // hashes of the variables, in the order of lease.values
     std::uint64_t layout_hash = 0;
     std::uint64_t generation = 0;  // identifies the node's run
     operate::Lease lease;
-    std::int64_t until_ns = 0;  // CLOCK_MONOTONIC
+    bool bind(const vars::Store& store);
   };
-  void note(const Held& held, const char* outcome) const;
 
-  const Audit* audit_;
-  std::mutex mutex_;
-  std::map<std::string, Held> all_;
+  Desk<Held> desk_;
 };
 
 }  // namespace indurop::serve

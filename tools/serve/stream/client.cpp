@@ -4,19 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/rt/clock.h"
+#include <utility>
 
 namespace indurop::serve {
-namespace {
-
-// Maximum answers that wait for a client: one with more only sends and does not read.
-constexpr std::size_t kMostAnswers = 256;
-constexpr int kTooManyAnswers = 1008;
-
-}  // namespace
-
 StreamClient::StreamClient(Hub& hub, Line& line, std::uint64_t id, std::string address)
-    : hub_(&hub), line_(&line), id_(id), address_(std::move(address)), since_ns_(rt::now_ns()) {
+    : hub_(&hub), outbox_(line, id, std::move(address)) {
   tell(hub.hello());
   tell(hub.boards_word());
 }
@@ -26,13 +18,12 @@ StreamClient::~StreamClient() {
 }
 
 void StreamClient::tell(std::string_view word) {
-  control_.push_back(std::make_shared<Message>(word));
-  line_->ask();
+  outbox_.add(word);
 }
 
 int StreamClient::heard(std::string_view text) {
-  if (control_.size() > kMostAnswers) {
-    return kTooManyAnswers;
+  if (outbox_.is_full()) {
+    return Outbox::kTooManyAnswers;
   }
   const auto word = read_word(text);
   if (!word) {
@@ -86,10 +77,10 @@ void StreamClient::sampled(const Feed& feed) {
     if (subscription.waiting && subscription.sent_seq != 0) {
       ++subscription.untold;
       ++subscription.dropped;
-      ++dropped_;
+      outbox_.count_dropped();
     }
     subscription.waiting = true;
-    line_->ask();
+    outbox_.wake();
   }
 }
 
@@ -120,30 +111,17 @@ SharedMessage StreamClient::frame_of(Subscription& subscription) {
   const bool next = subscription.sent_seq != 0 && subscription.sent_seq + 1 == feed.seq();
   subscription.waiting = false;
   subscription.sent_seq = feed.seq();
-  ++sent_;
+  outbox_.count_sent();
   return subscription.binary ? feed.binary() : next ? feed.changes() : feed.everything();
 }
 
 SharedMessage StreamClient::next() {
-  SharedMessage message;
-  if (!control_.empty()) {
-    message = std::move(control_.front());
-    control_.pop_front();
-  } else {
-    auto turn = subscriptions_.upper_bound(last_served_);
-    for (std::size_t i = 0; i < subscriptions_.size() && !message; ++i) {
-      turn = turn == subscriptions_.end() ? subscriptions_.begin() : turn;
-      last_served_ = turn->first;
-      message = turn->second.waiting ? frame_of(turn->second) : nullptr;
-      ++turn;
-    }
-  }
-  sent_bytes_ += message ? message->size() : 0;
-  return message;
+  return outbox_.next(subscriptions_,
+                      [this](auto& entry) { return entry.second.waiting ? frame_of(entry.second) : nullptr; });
 }
 
 ClientFigures StreamClient::figures() const {
-  return {id_, address_, since_ns_, subscriptions_.size(), sent_, dropped_, sent_bytes_};
+  return outbox_.figures(subscriptions_.size());
 }
 
 }  // namespace indurop::serve

@@ -5,13 +5,13 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "tools/serve/stream/follower.h"
 #include "tools/serve/stream/hub.h"
+#include "tools/serve/stream/outbox.h"
 
 namespace indurop::serve {
 
@@ -45,16 +45,8 @@ class StreamClient final : public Follower {
   SharedMessage frame_of(Subscription& subscription);
 
   Hub* hub_;
-  Line* line_;
-  std::uint64_t id_;
-  std::string address_;
-  std::int64_t since_ns_;
-  std::deque<SharedMessage> control_;
+  Outbox outbox_;
   std::map<std::uint32_t, Subscription> subscriptions_;
-  std::uint32_t last_served_ = 0;  // subscriptions are served one after another
-  std::uint64_t sent_ = 0;
-  std::uint64_t dropped_ = 0;
-  std::uint64_t sent_bytes_ = 0;
 };
 
 }  // namespace indurop::serve

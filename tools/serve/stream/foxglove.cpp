@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/rt/clock.h"
 #include "history/recording/cdr.h"
@@ -13,9 +14,6 @@ namespace indurop::serve {
 namespace {
 
 constexpr std::size_t kMostSubscriptions = 5000;
-// Maximum messages that wait for a client: one with more only sends and does not read.
-constexpr std::size_t kMostWords = 256;
-constexpr int kTooManyWords = 1008;
 constexpr std::int64_t kTellEveryNs = 1'000'000'000;
 
 // Returns the requested items of a board, or all it has; no item twice.
@@ -37,8 +35,8 @@ std::vector<tools::Item> items_of(const Board& board, const std::vector<std::str
 
 FoxgloveClient::FoxgloveClient(Hub& hub, Line& line, std::uint64_t id, std::string address,
                                const FoxgloveSettings& settings)
-    : hub_(&hub), line_(&line), id_(id), address_(std::move(address)), settings_(&settings), since_ns_(rt::now_ns()) {
-  say(foxglove::server_info(hub.version(), since_ns_));
+    : hub_(&hub), settings_(&settings), outbox_(line, id, std::move(address)) {
+  say(foxglove::server_info(hub.version(), rt::now_ns()));
   looked_around();
 }
 
@@ -47,8 +45,7 @@ FoxgloveClient::~FoxgloveClient() {
 }
 
 void FoxgloveClient::say(const std::string& text) {
-  control_.push_back(std::make_shared<Message>(text));
-  line_->ask();
+  outbox_.add(text);
 }
 
 void FoxgloveClient::looked_around() {
@@ -108,8 +105,8 @@ void FoxgloveClient::withdraw(const Offered& offered) {
 }
 
 int FoxgloveClient::heard(std::string_view text) {
-  if (control_.size() > kMostWords) {
-    return kTooManyWords;
+  if (outbox_.is_full()) {
+    return Outbox::kTooManyAnswers;
   }
   const auto word = read_foxglove_word(text);
   if (!word) {
@@ -153,7 +150,7 @@ void FoxgloveClient::subscribe(std::uint32_t id, std::uint32_t channel) {
     return;
   }
   subscriptions_[id] = {channel, *feed, (*feed)->readable(0)};
-  line_->ask();
+  outbox_.wake();
 }
 
 void FoxgloveClient::unsubscribe(std::uint32_t id) {
@@ -170,11 +167,11 @@ void FoxgloveClient::sampled(const Feed& feed) {
   }
   Subscription& subscription = subscriptions_.at(found->second);
   if (subscription.waiting) {
-    ++dropped_;
+    outbox_.count_dropped();
     ++untold_;
   }
   subscription.waiting = true;
-  line_->ask();
+  outbox_.wake();
 }
 
 void FoxgloveClient::ended(const Feed& feed, const Board* /*board*/) {
@@ -190,7 +187,7 @@ SharedMessage FoxgloveClient::message_of(std::uint32_t id, Subscription& subscri
   if (!recording::to_cdr(feed.item(0).place.type, feed.value(0), cdr_).ok()) {
     return nullptr;
   }
-  ++sent_;
+  outbox_.count_sent();
   return std::make_shared<Message>(foxglove::message(id, feed.wall_ns(), cdr_), true);
 }
 
@@ -200,25 +197,13 @@ SharedMessage FoxgloveClient::next() {
     untold_ = 0;
     told_ns_ = now;
   }
-  SharedMessage message;
-  if (!control_.empty()) {
-    message = std::move(control_.front());
-    control_.pop_front();
-  } else {
-    auto turn = subscriptions_.upper_bound(last_served_);
-    for (std::size_t i = 0; i < subscriptions_.size() && !message; ++i) {
-      turn = turn == subscriptions_.end() ? subscriptions_.begin() : turn;
-      last_served_ = turn->first;
-      message = turn->second.waiting ? message_of(turn->first, turn->second) : nullptr;
-      ++turn;
-    }
-  }
-  sent_bytes_ += message ? message->size() : 0;
-  return message;
+  return outbox_.next(subscriptions_, [this](auto& entry) {
+    return entry.second.waiting ? message_of(entry.first, entry.second) : nullptr;
+  });
 }
 
 ClientFigures FoxgloveClient::figures() const {
-  return {id_, address_, since_ns_, subscriptions_.size(), sent_, dropped_, sent_bytes_};
+  return outbox_.figures(subscriptions_.size());
 }
 
 }  // namespace indurop::serve

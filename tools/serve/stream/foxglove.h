@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,6 +12,7 @@
 
 #include "tools/serve/stream/follower.h"
 #include "tools/serve/stream/hub.h"
+#include "tools/serve/stream/outbox.h"
 
 namespace indurop::serve {
 
@@ -57,24 +57,16 @@ class FoxgloveClient final : public Follower {
   SharedMessage message_of(std::uint32_t id, Subscription& subscription);
 
   Hub* hub_;
-  Line* line_;
-  std::uint64_t id_;
-  std::string address_;
   const FoxgloveSettings* settings_;
-  std::int64_t since_ns_;
-  std::deque<SharedMessage> control_;
+  Outbox outbox_;
   std::uint32_t last_channel_ = 0;
   std::map<std::uint32_t, Channel> channels_;
   std::map<std::string, Offered, std::less<>> offered_;  // by board
   std::map<std::uint32_t, Subscription> subscriptions_;
   std::map<const Feed*, std::uint32_t> of_feed_;  // ids of their subscriptions
-  std::uint32_t last_served_ = 0;                 // subscriptions are served one after another
   std::vector<std::uint8_t> cdr_;
-  std::uint64_t sent_ = 0;
-  std::uint64_t dropped_ = 0;
   std::uint64_t untold_ = 0;  // dropped messages that were not reported yet
   std::int64_t told_ns_ = 0;  // time of the last such report
-  std::uint64_t sent_bytes_ = 0;
 };
 
 }  // namespace indurop::serve

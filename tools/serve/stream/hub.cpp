@@ -12,15 +12,6 @@
 #include "tools/serve/stream/foxglove.h"
 
 namespace indurop::serve {
-namespace {
-
-// Returns true for a board of another host that is being received; its node may not run.
-bool is_heard(const Board& board) {
-  return board.remote() != nullptr && board.remote()->said().heard;
-}
-
-}  // namespace
-
 std::unique_ptr<Visitor> Hub::receive(const Request& request, Line& line) {
   if (boards_word_.empty()) {
     look_around();
@@ -128,9 +119,7 @@ void Hub::look_around() {
     base::Json one = base::Json::object();
     one["board"] = name;
     one["alive"] = board->alive();
-    one["state"] = board->alive() || is_heard(*board) ? board->state()
-                   : board->remote() != nullptr       ? "not heard"
-                                                      : "not running";
+    one["state"] = board->steady_state();
     one["layout"] = board->layout();
     list.push_back(std::move(one));
   }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tools/serve/api/api.h"
-#include "tools/serve/boards/board.h"
+#include "tools/serve/boards/boards.h"
 #include "tools/serve/door/house.h"
 #include "tools/serve/stream/feed.h"
 #include "tools/serve/stream/words.h"

@@ -142,7 +142,7 @@ TEST(WhoMay, What_is_not_in_the_table_asks_for_no_less) {
   const GateSettings settings = settings_of(false, true);
   for (const char* path : {"/api/", "/api/v1", "/api/v1/nothing", "/api/v2/boards", "/api/v1/stream"}) {
     for (const Method method : {Method::Get, Method::Post}) {
-      Request request = request_for({method, path, Right::Open, Pace::Quick, nullptr, kHereOnly}, kAskers[0], true);
+      Request request = request_for({method, path, Right::Open, Pace::Quick, nullptr, Remote::No}, kAskers[0], true);
       EXPECT_EQ(answer_of(settings, request), status::kUnauthorized) << path;
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/plant/remote_board.h"
+#include "tools/cli/plant/reported_board.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -77,12 +77,12 @@ std::string remote_store_prefix() {
   return fmt::format("remote-{}-b", ::getpid());
 }
 
-bool RemoteBoard::knows_variables() const {
+bool ReportedBoard::knows_variables() const {
   const std::lock_guard<std::mutex> guard(mutex_);
   return store_.has_value();
 }
 
-bool RemoteBoard::take_variables(std::string_view text) {
+bool ReportedBoard::take_variables(std::string_view text) {
   const auto parts = parts_of(text);
   std::string layout;
   if (!parts || !base::read(parts->first, "layout", layout)) {
@@ -121,7 +121,7 @@ bool RemoteBoard::take_variables(std::string_view text) {
   return true;
 }
 
-RemoteBoard::Taken RemoteBoard::take_values(std::string_view text, std::int64_t now_ns) {
+ReportedBoard::Taken ReportedBoard::take_values(std::string_view text, std::int64_t now_ns) {
   const auto parts = parts_of(text);
   std::string layout;
   if (!parts || !base::read(parts->first, "layout", layout)) {
@@ -162,7 +162,7 @@ RemoteBoard::Taken RemoteBoard::take_values(std::string_view text, std::int64_t 
 }
 
 // Forces the same parts in the local store, so that readers see the forces of the board.
-void RemoteBoard::hold(const base::Json& forces) {
+void ReportedBoard::hold(const base::Json& forces) {
   for (const base::Json& one : forces.values()) {
     std::string name;
     const auto offset = one["offset"].natural();
@@ -182,7 +182,7 @@ void RemoteBoard::hold(const base::Json& forces) {
   }
 }
 
-void RemoteBoard::write(std::string_view bytes, std::int64_t now_ns) {
+void ReportedBoard::write(std::string_view bytes, std::int64_t now_ns) {
   for (const schema::Variable& variable : store_->schema().variables) {
     std::int64_t freshness = 0;
     std::memcpy(&freshness, bytes.data(), sizeof freshness);
@@ -198,7 +198,7 @@ void RemoteBoard::write(std::string_view bytes, std::int64_t now_ns) {
   }
 }
 
-void RemoteBoard::look_at(const base::Json& row) {
+void ReportedBoard::look_at(const base::Json& row) {
   const std::lock_guard<std::mutex> guard(mutex_);
   said_.row = row;
   said_.heard = row["heard"].boolean().value_or(false);
@@ -210,7 +210,7 @@ void RemoteBoard::look_at(const base::Json& row) {
                                 : state;
 }
 
-void RemoteBoard::silent() {
+void ReportedBoard::silent() {
   const std::lock_guard<std::mutex> guard(mutex_);
   said_.values = false;
   next_ns_ = rt::now_ns() + kSecondNs;
@@ -222,13 +222,13 @@ void RemoteBoard::silent() {
   }
 }
 
-bool RemoteBoard::due(std::int64_t now_ns) const {
+bool ReportedBoard::due(std::int64_t now_ns) const {
   const std::lock_guard<std::mutex> guard(mutex_);
   const bool wanted = now_ns - wanted_ns_.load(std::memory_order_relaxed) < kWantedNs;
   return now_ns >= next_ns_ + (wanted ? 0 : kUnwantedNs);
 }
 
-Result<vars::Store> RemoteBoard::attach(std::size_t reader) {
+Result<vars::Store> ReportedBoard::attach(std::size_t reader) {
   const std::lock_guard<std::mutex> guard(mutex_);
   if (!store_) {
     return Error{Errc::NotFound, 0, "variables of the board"};
@@ -241,7 +241,7 @@ Result<vars::Store> RemoteBoard::attach(std::size_t reader) {
   return view;
 }
 
-RemoteBoard::Said RemoteBoard::said() const {
+ReportedBoard::Said ReportedBoard::said() const {
   const std::lock_guard<std::mutex> guard(mutex_);
   return said_;
 }

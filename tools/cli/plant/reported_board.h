@@ -20,13 +20,13 @@ namespace indurop::tools {
 // Prefix of the names of this process's stores, as long as they have one: they are not nodes.
 std::string remote_store_prefix();
 
-class RemoteBoard {
+class ReportedBoard {
  public:
   static constexpr std::size_t kReaders = 2;
 
-  explicit RemoteBoard(std::string name) : name_(std::move(name)) {}
-  RemoteBoard(const RemoteBoard&) = delete;
-  RemoteBoard& operator=(const RemoteBoard&) = delete;
+  explicit ReportedBoard(std::string name) : name_(std::move(name)) {}
+  ReportedBoard(const ReportedBoard&) = delete;
+  ReportedBoard& operator=(const ReportedBoard&) = delete;
 
   // For the thread that receives from the board. Invalid input changes nothing and returns false.
   [[nodiscard]] bool knows_variables() const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A board elsewhere, from what its agent says: the store of a node here and the one that is made of its agent's words
 // hold the same, whatever its variables are; words that make no sense change nothing.
-#include "tools/cli/plant/remote_board.h"
+#include "tools/cli/plant/reported_board.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@
 namespace indurop::tools {
 namespace {
 
-using Taken = RemoteBoard::Taken;
+using Taken = ReportedBoard::Taken;
 
 schema::Variable variable(const std::string& name, schema::Base base, std::vector<std::uint32_t> dims) {
   schema::Variable out;
@@ -60,7 +60,7 @@ std::vector<std::uint8_t> bytes_of(const vars::Store& store, const vars::Directo
 
 TEST_F(RemoteBoardTest, Holds_what_the_store_over_there_holds) {
   std::mt19937 rng(16);
-  RemoteBoard sut("there");
+  ReportedBoard sut("there");
   for (int round = 0; round < 60; ++round) {
     vars::Store there = random_store(rng);
     for (const vars::DirectoryEntry& entry : there.directory()) {
@@ -107,7 +107,7 @@ TEST_F(RemoteBoardTest, Tells_ages_silence_and_forces) {
   const double five = 5;
   ASSERT_TRUE(there.force(forced, 0, {reinterpret_cast<const std::uint8_t*>(&five), sizeof five}, vars::kForever).ok());
   deploy::BoardValues said(node_);
-  RemoteBoard sut("there");
+  ReportedBoard sut("there");
   ASSERT_TRUE(sut.take_variables(said.variables()));
   const std::string text = said.values(rt::mono_time(begun));
   const std::int64_t later = rt::now_ns() + 1'000'000'000;  // the clock over there is another one
@@ -137,7 +137,7 @@ TEST_F(RemoteBoardTest, Words_that_make_no_sense_change_nothing) {
   std::mt19937 rng(17);
   vars::Store there = random_store(rng);
   deploy::BoardValues said(node_);
-  RemoteBoard sut("there");
+  ReportedBoard sut("there");
   for (const char* text : {"", "\n", "{}\n{}", "[]\n", "{\"layout\": 1}\n", "{\"layout\": \"x\"}\nnothing"}) {
     EXPECT_FALSE(sut.take_variables(text)) << text;
   }

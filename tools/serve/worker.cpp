@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/serve/api/worker.h"
+#include "tools/serve/worker.h"
 
 #include <csignal>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/serve/api/wish.h"
+#include "tools/serve/boards/write_request.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,20 +8,20 @@
 
 namespace indurop::serve {
 
-Result<Wish, std::string> read_wish(const std::string& body) {
+Result<WriteRequest, std::string> read_write_request(const std::string& body) {
   const auto json = base::Json::parse(body);
   if (!json || !json->is_object()) {
     return std::string("the body is no JSON object");
   }
-  Wish wish;
-  base::read(*json, "reason", wish.reason);
-  base::read(*json, "names", wish.names);
-  base::read(*json, "all", wish.all);
-  base::read(*json, "lease", wish.lease);
-  if (wish.lease && json->find("for_ns") != nullptr) {
+  WriteRequest request;
+  base::read(*json, "reason", request.reason);
+  base::read(*json, "names", request.names);
+  base::read(*json, "all", request.all);
+  base::read(*json, "lease", request.lease);
+  if (request.lease && json->find("for_ns") != nullptr) {
     return std::string("lease and for_ns are two ways of ending: choose one");
   }
-  if (json->find("for_ns") != nullptr && (!base::read(*json, "for_ns", wish.for_ns) || wish.for_ns <= 0)) {
+  if (json->find("for_ns") != nullptr && (!base::read(*json, "for_ns", request.for_ns) || request.for_ns <= 0)) {
     return std::string("for_ns is a number of nanoseconds greater than 0");
   }
   if (const base::Json* const values = json->find("values")) {
@@ -31,18 +31,18 @@ Result<Wish, std::string> read_wish(const std::string& body) {
     std::size_t i = 0;
     for (const std::string& name : values->keys()) {
       const base::Json& value = values->values()[i++];
-      wish.values.emplace_back(name, value.is_text() ? *value.text() : value.dump());
+      request.values.emplace_back(name, value.is_text() ? *value.text() : value.dump());
     }
   }
-  return wish;
+  return request;
 }
 
-std::string text_of(const Wish& wish) {
+std::string text_of(const WriteRequest& request) {
   std::string text;
-  for (const auto& [name, value] : wish.values) {
+  for (const auto& [name, value] : request.values) {
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
   }
-  return text.empty() ? fmt::format("{}", fmt::join(wish.names, " ")) : text;
+  return text.empty() ? fmt::format("{}", fmt::join(request.names, " ")) : text;
 }
 
 }  // namespace indurop::serve

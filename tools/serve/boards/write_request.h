@@ -13,7 +13,7 @@
 namespace indurop::serve {
 
 // A parsed request body.
-struct Wish {
+struct WriteRequest {
   std::vector<std::pair<std::string, std::string>> values;  // name, and value in the syntax of `indurop set`
   std::vector<std::string> names;
   std::string reason;
@@ -23,8 +23,8 @@ struct Wish {
 };
 
 // Parses a body, or returns what is wrong with it.
-Result<Wish, std::string> read_wish(const std::string& body);
+Result<WriteRequest, std::string> read_write_request(const std::string& body);
 // The request as text for the audit log.
-std::string text_of(const Wish& wish);
+std::string text_of(const WriteRequest& request);
 
 }  // namespace indurop::serve

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/serve/api/audit.h"
+#include "tools/serve/audit.h"
 
 #include "core/rt/clock.h"
 
