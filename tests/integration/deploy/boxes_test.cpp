@@ -75,13 +75,13 @@ TEST_F(Boxes, Those_of_all_boards_come_into_one_file) {
       << indurop_here({"blackbox"}).out;
   Json messages;
   for (const char* name : {"a", "b"}) {
-    const Json far = indurop({"blackbox", "--board", board(name), "-o", "json"}).json()["boxes"];
+    const Json remote = indurop({"blackbox", "--board", board(name), "-o", "json"}).json()["boxes"];
     const Json near = indurop_here({"blackbox", "--node", board(name), "-o", "json"}).json()["boxes"];
-    ASSERT_EQ(far.size(), near.size());
+    ASSERT_EQ(remote.size(), near.size());
     for (std::size_t i = 0; i < near.size(); ++i) {
-      EXPECT_EQ(far[i]["reason"], near[i]["reason"]);
-      EXPECT_EQ(far[i]["bytes"], near[i]["bytes"]);
-      EXPECT_EQ(far[i]["file"], std::filesystem::path(near[i]["file"].get<std::string>()).filename().string());
+      EXPECT_EQ(remote[i]["reason"], near[i]["reason"]);
+      EXPECT_EQ(remote[i]["bytes"], near[i]["bytes"]);
+      EXPECT_EQ(remote[i]["file"], std::filesystem::path(near[i]["file"].get<std::string>()).filename().string());
     }
     const Json info = indurop_here({"recording", "info", near[0]["file"], "-o", "json"}).json();
     for (const Json& channel : info["channels"]) {

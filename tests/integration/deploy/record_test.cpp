@@ -58,27 +58,27 @@ TEST_F(Record, Boards_elsewhere_come_into_one_file_with_what_they_did) {
   start_boards();
   Program& beside = start({INDUROP_PROGRAM, "record", "--node", board("a"), "--past", "-o", path("near.mcap")});
   ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(path("near.mcap")); }));
-  const Outcome done = indurop(words("far.mcap", {"--duration", "1s"}));
+  const Outcome done = indurop(words("remote.mcap", {"--duration", "1s"}));
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_THAT(done.err, HasSubstr("messages of " + board("a") + ", " + board("b")));
   beside.signal(SIGINT);
   ASSERT_EQ(beside.wait(), 130);
 
-  const Json far = info(path("far.mcap"));
+  const Json remote = info(path("remote.mcap"));
   std::map<std::string, std::uint64_t> runs;
-  for (const Json& module : far["modules"]) {
+  for (const Json& module : remote["modules"]) {
     EXPECT_EQ(module["lost_runs"], 0) << module;
     runs[module["board"]] = module["runs"];
   }
-  EXPECT_GE(runs[board("a")], 400U) << far["modules"];
-  EXPECT_GE(runs[board("b")], 400U) << far["modules"];
+  EXPECT_GE(runs[board("a")], 400U) << remote["modules"];
+  EXPECT_GE(runs[board("b")], 400U) << remote["modules"];
   const auto here = values(path("near.mcap"), "cell::encoder");
-  const auto there = values(path("far.mcap"), board("a") + "/cell::encoder");
+  const auto there = values(path("remote.mcap"), board("a") + "/cell::encoder");
   ASSERT_GE(there.size(), 100U);
   EXPECT_NE(std::search(here.begin(), here.end(), there.begin(), there.end()), here.end());
-  EXPECT_FALSE(std::filesystem::exists(path("far.mcap.parts")));
+  EXPECT_FALSE(std::filesystem::exists(path("remote.mcap.parts")));
   EXPECT_TRUE(recording("a").empty()) << "it was fetched";
-  EXPECT_EQ(indurop(words("far.mcap", {"--duration", "1s"})).code, 1) << "it is there already";
+  EXPECT_EQ(indurop(words("remote.mcap", {"--duration", "1s"})).code, 1) << "it is there already";
 }
 
 TEST_F(Record, What_somebody_wants_may_be_on_one_board_only) {

@@ -34,14 +34,14 @@ class RemoteLook : public AgentsTest {
 TEST_F(RemoteLook, Runs_and_figures_are_those_of_the_node) {
   start_boards();
   ASSERT_TRUE(wait_until([&] { return here({"status"})["modules"][0]["runs"] >= 200; }));
-  const Json far = at_a({"log", "-n", "500", "-o", "json"}).json();
+  const Json remote = at_a({"log", "-n", "500", "-o", "json"}).json();
   const Json near = here({"log", "-n", "8192"});
-  ASSERT_GE(far["runs"].size(), 100U);
+  ASSERT_GE(remote["runs"].size(), 100U);
   std::map<std::uint64_t, Json> known;
   for (const Json& run : near["runs"]) {
     known[run["tick"]] = run;
   }
-  for (const Json& run : far["runs"]) {
+  for (const Json& run : remote["runs"]) {
     EXPECT_EQ(run, known[run["tick"]]);
   }
   const Json before = here({"jitter"})["modules"][0];
@@ -74,9 +74,9 @@ TEST_F(RemoteLook, Values_are_forced_all_or_none) {
   ASSERT_EQ(at_a({"force", "echo=7", "encoder={speed: 0.5}", "--for", "60s", "--reason", "a trial"}).code, 0);
   EXPECT_EQ(here({"get", "echo", "encoder.speed"})["values"][0]["value"], 7);
   Json near = here({"forces"})["forces"];
-  Json far = at_a({"forces", "-o", "json"}).json()["forces"];
+  Json remote = at_a({"forces", "-o", "json"}).json()["forces"];
   ASSERT_EQ(near.size(), 2U);
-  for (Json* list : {&near, &far}) {
+  for (Json* list : {&near, &remote}) {
     for (Json& force : *list) {
       EXPECT_GT(force["left_ns"].get<std::int64_t>(), 0);
       force["left_ns"] = 0;
@@ -84,7 +84,7 @@ TEST_F(RemoteLook, Values_are_forced_all_or_none) {
       EXPECT_NE(force["from"], "");
     }
   }
-  EXPECT_EQ(far, near);
+  EXPECT_EQ(remote, near);
   EXPECT_THAT(at_a({"status"}).out, HasSubstr("forced    cell::echo = 7"));
   EXPECT_EQ(at_a({"unforce", "nothing"}).code, 1);
   ASSERT_EQ(at_a({"unforce", "encoder"}).code, 0);
@@ -243,7 +243,7 @@ TEST_F(RemoteLook, A_refusal_is_worded_as_on_the_board) {
   }
 }
 
-TEST_F(RemoteLook, A_lease_ends_with_whoever_holds_it_from_afar) {
+TEST_F(RemoteLook, A_lease_ends_with_whoever_holds_it_remotely) {
   start_boards();
   Program& holder = start_indurop({"force", "echo=7", "--lease", "--board", board("a")});
   ASSERT_TRUE(wait_until([&] { return here({"forces"})["forces"].size() == 1; })) << holder.out();
@@ -260,7 +260,7 @@ TEST_F(RemoteLook, A_lease_ends_with_whoever_holds_it_from_afar) {
   EXPECT_EQ(here({"forces"})["forces"], Json::array()) << "at once";
 }
 
-TEST_F(RemoteLook, A_locked_board_refuses_orders_from_afar) {
+TEST_F(RemoteLook, A_locked_board_refuses_remote_orders) {
   start_boards();
   ASSERT_EQ(at_a({"lock", "tune", "--reason", "production"}).code, 0);
   EXPECT_THAT(at_a({"lock"}).out, HasSubstr("tune"));

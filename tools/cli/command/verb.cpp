@@ -34,19 +34,19 @@ void add_reason_option(base::Options& app, Context& context) {
   app.add("--reason", "TEXT", context.reason, "Why; it is kept with your name (indurop log --audit)");
 }
 
-void add_far_options(base::Options& app, Context& context) {
-  FarOptions& far = context.far;
-  app.flag("--remote", far.wanted, "Boards in the network, not a node of this machine; NAME@BOARD chooses one");
-  dds::add_network_options(app, far.network, "the variables that boards show", &far.wanted, "--remote");
-  deploy::add_keys_option(app, far.network.security, keys::Role::Viewer,
+void add_remote_options(base::Options& app, Context& context) {
+  RemoteOptions& remote = context.remote;
+  app.flag("--remote", remote.wanted, "Boards in the network, not a node of this machine; NAME@BOARD chooses one");
+  dds::add_network_options(app, remote.network, "the variables that boards show", &remote.wanted, "--remote");
+  deploy::add_keys_option(app, remote.network.security, keys::Role::Viewer,
                           "Keys of a tool or of a plant, for boards with <external secure=\"on\">; implies --remote",
-                          &far.keys)
-      .implies(far.wanted);
-  app.add("--peer", "ADDRESS", far.network.peers,
+                          &remote.keys)
+      .implies(remote.wanted);
+  app.add("--peer", "ADDRESS", remote.network.peers,
           "Address of a board, for networks without multicast; implies --remote")
       .one_at_a_time()
-      .implies(far.wanted);
-  add_time_option(app, "--wait", far.wait_ns, "With --remote: how long to wait for boards and values (default 3 s)");
+      .implies(remote.wanted);
+  add_time_option(app, "--wait", remote.wait_ns, "With --remote: how long to wait for boards and values (default 3 s)");
 }
 
 void add_format_option(base::Options& app, Context& context, std::initializer_list<Format> formats) {

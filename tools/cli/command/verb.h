@@ -24,7 +24,7 @@ namespace indurop::tools {
 enum class Format { Table, Json, Csv, Svg };
 
 // Use variables of boards in the network instead of a local node.
-struct FarOptions {
+struct RemoteOptions {
   bool wanted = false;
   dds::NetworkSettings network;
   std::filesystem::path keys;            // folder from which network.security was read; empty: none
@@ -37,7 +37,7 @@ struct Context {
   Output out;
   Format format = Format::Table;
   std::string node;  // as given by --node, else empty
-  FarOptions far;
+  RemoteOptions remote;
   std::shared_ptr<ValueSource> values;  // once open_store() has opened them
   std::string who;                      // who gives the command; empty: the user of this process
   std::string from;                     // from where it was given: an address; empty likewise
@@ -62,7 +62,7 @@ void add_node_option(base::Options& app, Context& context);
 // Adds --reason, for verbs that change something.
 void add_reason_option(base::Options& app, Context& context);
 // Adds --remote and related options.
-void add_far_options(base::Options& app, Context& context);
+void add_remote_options(base::Options& app, Context& context);
 void add_format_option(base::Options& app, Context& context, std::initializer_list<Format> formats);
 
 // Adds an option for a time in seconds or with a unit, converted to nanoseconds; wrong text is a usage error.

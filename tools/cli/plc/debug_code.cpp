@@ -118,12 +118,12 @@ std::optional<DebugCode::Breakpoint> DebugCode::find(const std::string& what, co
   for (const plc::ModuleText& module : compiled_.modules) {
     const auto& lines = module.debug.lines;
     for (std::uint32_t i = 0; i < lines.size(); ++i) {
-      const auto far = distance(lines[i], what, file);
-      if (!far || (nearest && *far > *nearest)) {
+      const auto away = distance(lines[i], what, file);
+      if (!away || (nearest && *away > *nearest)) {
         continue;
       }
-      if (!nearest || *far < *nearest) {
-        nearest = far;
+      if (!nearest || *away < *nearest) {
+        nearest = away;
         out = Breakpoint{what, line(module.debug, i), {}};
       }
       // Only the first statement of the line in each body.

@@ -63,14 +63,14 @@ Result<vars::Store, Failure> open_remote(Context& context, const std::vector<std
   if (!context.node.empty()) {
     return Failure{kUsage, "--node names a node of this machine; boards in the network are chosen by NAME@BOARD"};
   }
-  dds::NetworkSettings network = context.far.network;
-  auto peers = peer_addresses(network.peers, rt::MonoClock::now() + std::chrono::nanoseconds(context.far.wait_ns));
+  dds::NetworkSettings network = context.remote.network;
+  auto peers = peer_addresses(network.peers, rt::MonoClock::now() + std::chrono::nanoseconds(context.remote.wait_ns));
   if (!peers) {
     return std::move(peers).error();
   }
   network.peers = std::move(peers).value();
   std::vector<std::string> notes;
-  auto source = RemoteSource::open(network, context.far.wait_ns, names, notes);
+  auto source = RemoteSource::open(network, context.remote.wait_ns, names, notes);
   for (const std::string& note : notes) {
     context.out.note(note);
   }
@@ -184,7 +184,7 @@ int exit_code_of(const Error& error) {
 }
 
 Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode, const std::vector<std::string>& names) {
-  if (context.far.wanted) {
+  if (context.remote.wanted) {
     return open_remote(context, names);
   }
   auto node = choose_node(context.node);

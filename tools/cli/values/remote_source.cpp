@@ -237,7 +237,7 @@ Status RemoteSource::renew_store() {
   for (const auto& [name, known] : variables_) {
     schema.variables.push_back(known.declared);
   }
-  const std::string name = fmt::format("far-{}-{}", ::getpid(), ++stores_);
+  const std::string name = fmt::format("remote-{}-{}", ::getpid(), ++stores_);
   auto fresh = vars::Store::create(name, schema);
   if (!fresh) {
     return fresh.error();

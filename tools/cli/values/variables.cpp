@@ -120,7 +120,7 @@ int select_items(Context& context, const vars::Store& store, const std::vector<s
     }
     if (const auto missing = context.values->follow(variables); !missing.empty()) {
       context.out.note(
-          fmt::format("no value heard of {} within {}", fmt::join(missing, ", "), human_age(context.far.wait_ns)));
+          fmt::format("no value heard of {} within {}", fmt::join(missing, ", "), human_age(context.remote.wait_ns)));
     }
     code = drop_forbidden(context, items) ? kOk : kFailed;
   }
@@ -145,7 +145,7 @@ std::shared_ptr<const std::vector<std::string>> add_items_to_show(base::Options&
       .required()
       .completes(base::Completion::Variable);
   add_node_option(app, context);
-  add_far_options(app, context);
+  add_remote_options(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return names;
 }

@@ -43,7 +43,7 @@ struct Options {
   bool remote = false;
   std::string board;  // empty: all
   deploy::LinkSettings link;
-  [[nodiscard]] bool far() const noexcept { return remote || !board.empty(); }
+  [[nodiscard]] bool is_remote() const noexcept { return remote || !board.empty(); }
 };
 
 Result<HeardBoards, Failure> hear(Context& context, Options& options) {
@@ -68,7 +68,7 @@ std::filesystem::path file_here(const BoardBox& box) {
 
 int list(Context& context, Options& options) {
   std::vector<BoardBox> boxes;
-  if (options.far()) {
+  if (options.is_remote()) {
     const auto boards = hear(context, options);
     if (!boards) {
       return report(context.out, boards.error());
@@ -77,7 +77,7 @@ int list(Context& context, Options& options) {
   } else {
     boxes = boxes_here(context.node);
   }
-  Table table({{options.far() ? "BOARD" : "NODE", "node"},
+  Table table({{options.is_remote() ? "BOARD" : "NODE", "node"},
                {"WHY", "reason"},
                {"SIZE", "bytes", Align::Right},
                {"FILE", "file"}});
@@ -85,7 +85,7 @@ int list(Context& context, Options& options) {
     table.add({Cell(printable(box.board), Style::Bold),
                Cell(printable(box.reason)),
                {human_bytes(box.bytes), box.bytes},
-               Cell(options.far() ? printable(box.name) : file_here(box).string())});
+               Cell(options.is_remote() ? printable(box.name) : file_here(box).string())});
   }
   print_table(context, table, {}, "boxes");
   if (boxes.empty() && context.format == Format::Table) {
@@ -116,7 +116,7 @@ int join_to(Context& context, const std::vector<std::filesystem::path>& files, c
   return kOk;
 }
 
-int fetch_here(Context& context, const Options& options) {
+int fetch_local(Context& context, const Options& options) {
   const auto boxes = boxes_here(context.node);
   const BoardBox* const first = choose(context, options, boxes);
   if (first == nullptr) {
@@ -141,7 +141,7 @@ std::vector<std::string> missing(const HeardBoards& boards, const BoardBox& firs
   return names;
 }
 
-int fetch_far(Context& context, Options& options) {
+int fetch_remote(Context& context, Options& options) {
   const auto boards = hear(context, options);
   if (!boards) {
     return report(context.out, boards.error());
@@ -187,16 +187,16 @@ int fetch(Context& context, Options& options) {
     context.out.error("say into which file: indurop blackbox fetch moment.mcap");
     return kUsage;
   }
-  return options.far() ? fetch_far(context, options) : fetch_here(context, options);
+  return options.is_remote() ? fetch_remote(context, options) : fetch_local(context, options);
 }
 
 // Processes one box, or the boxes of several boards from one moment, like any recording.
 int use(Context& context, Options& options) {
   const TemporaryFolder folder;
   std::filesystem::path file = folder.path() / "moment.mcap";
-  if (options.far()) {
+  if (options.is_remote()) {
     options.what = file.string();
-    if (const int code = folder.path().empty() ? kFailed : fetch_far(context, options); code != kOk) {
+    if (const int code = folder.path().empty() ? kFailed : fetch_remote(context, options); code != kOk) {
       return code;
     }
   } else {
@@ -275,7 +275,7 @@ int keep(Context& context, const std::string& why) {
 
 // Saves a box on all discovered boards, at about the same time. They are discovered first, so that a box still contains
 // what preceded it.
-int keep_far(Context& context, Options& options) {
+int keep_remote(Context& context, Options& options) {
   constexpr std::int64_t kTimeoutNs = 5'000'000'000;
   auto commander = BoardCommander::make(context, options.link.keys);
   if (!commander) {
@@ -323,8 +323,8 @@ int act(Context& context, Options& options) {
     return kUsage;
   }
   options.what = options.what.empty() ? options.when : options.what;
-  if (options.far()) {
-    return keep_far(context, options);
+  if (options.is_remote()) {
+    return keep_remote(context, options);
   }
   if (const int code = options.when.empty() ? kOk : await(context, options.when); code != kOk) {
     return code;

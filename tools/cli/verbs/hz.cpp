@@ -176,7 +176,7 @@ Action declare(base::Options& app, Context& context) {
   app.flag("--once", options->once, "One line, after a second");
   add_time_option(app, "--timeout", options->timeout_ns, "Stop after this time");
   add_node_option(app, context);
-  add_far_options(app, context);
+  add_remote_options(app, context);
   add_format_option(app, context, {Format::Table, Format::Json});
   return [options](Context& c) { return hz(c, *options); };
 }

@@ -36,8 +36,8 @@ int set_here(Context& context, const std::string& node, vars::WriteLock lock) {
 }
 
 int lock(Context& context, Options& options) {
-  const bool far = options.board.board.wanted();
-  if (options.word.empty() && far) {
+  const bool remote = options.board.board.wanted();
+  if (options.word.empty() && remote) {
     const auto run = open_run(context, options.board.board);
     return run ? show(context, run->node, run->lock) : report(context.out, run.error());
   }
@@ -46,7 +46,7 @@ int lock(Context& context, Options& options) {
     context.out.error(fmt::format("'{}' is no lock: none, tune or all", options.word));
     return kUsage;
   }
-  if (far) {
+  if (remote) {
     return lock_board(context, options.board, options.word);
   }
   const auto node = choose_node(context.node);

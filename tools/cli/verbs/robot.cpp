@@ -70,7 +70,7 @@ void declare_jog(base::Options& app, Context& context, Options& options) {
   command.add("--speed", "PERCENT", hand.percent, "Of the fastest by hand, 250 mm/s (default: 10)").range(0.1, 100);
   add_time_option(command, "--for", hand.for_ns, "Let go after this time (default: Ctrl-C)");
   add_choice(command, context, options);
-  add_far_options(command, context);
+  add_remote_options(command, context);
 }
 
 Action declare(base::Options& app, Context& context) {

@@ -21,11 +21,11 @@ struct Options {
 // The options for variables that boards show are also those for agents.
 int set_by_agent(Context& context, Options& options) {
   deploy::LinkSettings& link = options.board.board.link;
-  const dds::NetworkSettings& far = context.far.network;
-  link.network.domain = far.domain != 0 ? far.domain : deploy::LinkSettings::kDefaultDomain;
-  link.network.interface_name = far.interface_name;
-  link.network.one_host = far.one_host;
-  link.keys = context.far.keys;
+  const dds::NetworkSettings& remote = context.remote.network;
+  link.network.domain = remote.domain != 0 ? remote.domain : deploy::LinkSettings::kDefaultDomain;
+  link.network.interface_name = remote.interface_name;
+  link.network.one_host = remote.one_host;
+  link.keys = context.remote.keys;
   if (!link.keys.empty()) {
     if (const auto done = deploy::use_keys(link); !done) {
       context.out.error(done.error().text);
@@ -89,7 +89,7 @@ Action declare(base::Options& app, Context& context) {
       .completes(base::Completion::Variable);
   add_reason_option(app, context);
   add_node_option(app, context);
-  add_far_options(app, context);
+  add_remote_options(app, context);
   app.add("--board", "NAME", options->board.board.board,
           "By the agent of this board, whatever it shows; --domain is that of the agents then (default: 76)");
   return [options](Context& c) { return set(c, *options); };

@@ -142,7 +142,7 @@ class Stream {
 constexpr const char* kOrigins[] = {"https://app.foxglove.dev", "https://studio.foxglove.dev", "file://"};
 
 int stream_to_foxglove(Context& context, const Options& options) {
-  if (context.far.wanted) {
+  if (context.remote.wanted) {
     context.out.error("Foxglove gets the variables of this host only; run this on the board, or use --plotjuggler");
     return kUsage;
   }
@@ -214,7 +214,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("-n,--count", "COUNT", options->count, "To PlotJuggler: stop after COUNT rounds");
   add_time_option(app, "--timeout", options->timeout_ns, "To PlotJuggler: stop after this time");
   add_node_option(app, context);
-  add_far_options(app, context);
+  add_remote_options(app, context);
   return [options](Context& c) { return stream(c, *options); };
 }
 

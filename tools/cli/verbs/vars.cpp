@@ -120,7 +120,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("-t,--type", "TYPE", options->type, "Only variables of this type (glob)");
   app.flag("--names", options->names, "Print nothing but the names");
   add_node_option(app, context);
-  add_far_options(app, context);
+  add_remote_options(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return list(c, *options); };
 }

@@ -115,8 +115,8 @@ void tell(Context& context, const std::string& board, const JsonValue& finding) 
 
 int verify(Context& context, Options& options) {
   std::vector<std::string> silent;
-  const bool far = options.plant || !options.board.empty();
-  const auto found = far ? look_there(context, options, silent) : look_here();
+  const bool remote = options.plant || !options.board.empty();
+  const auto found = remote ? look_there(context, options, silent) : look_here();
   if (!found) {
     return report(context.out, found.error());
   }
@@ -144,7 +144,8 @@ int verify(Context& context, Options& options) {
   }
   print_table(context, table, {{"silent", silent}}, "boards");
   if (!sound) {
-    context.out.error(far ? "what is damaged is not run; a deployment that runs is fetched again from the other boards "
+    context.out.error(remote
+                          ? "what is damaged is not run; a deployment that runs is fetched again from the other boards "
                             "of its plant, else by indurop deploy"
                           : "what is damaged is not run; an agent repairs it when it starts, and with indurop verify "
                             "--board NAME");

@@ -288,7 +288,7 @@ Action declare(base::Options& app, Context& context) {
   app.flag("--units", options->units, "With -o csv: headings as \"NAME [unit]\", for chart");
   add_time_option(app, "--timeout", options->timeout_ns, "Stop after this time");
   add_node_option(app, context);
-  add_far_options(app, context);
+  add_remote_options(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return watch(c, *options); };
 }

@@ -109,7 +109,7 @@ export interface RecordedValues {
   lines: { name: string; values: (number | null)[] }[];
 }
 
-export interface FarBoard {
+export interface RemoteBoard {
   board: string;
   host: string;
   state: string;
@@ -129,7 +129,7 @@ export interface PlantNow {
   domain: number;
   problem: string;
   trouble: string[];
-  boards: FarBoard[];
+  boards: RemoteBoard[];
   not_heard: string[];
 }
 

@@ -152,7 +152,7 @@ function BoardCard({ summary }: { summary: BoardSummary }) {
 }
 
 // Of another host: asked only while somebody wants to see it.
-function FarCard({ summary }: { summary: BoardSummary }) {
+function RemoteCard({ summary }: { summary: BoardSummary }) {
   const [open, toggle] = useState(false);
   return (
     <details class="panel" onToggle={(event) => toggle(event.currentTarget.open)}>
@@ -170,26 +170,26 @@ const seen = new Set<string>();
 plant.listen(() => plant.get().boards?.forEach(({ board, alive }) => alive && seen.add(board)));
 
 // One sentence for the whole plant.
-function Headline({ running, gone, far }: { running: BoardSummary[]; gone: BoardSummary[]; far: string[] }) {
+function Headline({ running, gone, remote }: { running: BoardSummary[]; gone: BoardSummary[]; remote: string[] }) {
   const wrong = running.filter(({ trouble, faults, overruns }) => trouble.length > 0 || faults > 0 || overruns > 0);
   const forced = running.reduce((sum, { forces }) => sum + forces, 0);
-  const parts = far.map((text) => `${text[0].toUpperCase()}${text.slice(1)}.`);
+  const parts = remote.map((text) => `${text[0].toUpperCase()}${text.slice(1)}.`);
   if (wrong.length > 0) parts.push(...wrong.map(({ board, trouble }) => `${board}: ${first_of(trouble)}`));
   else if (running.length > 0) parts.push(running.length === 1 ? "The board runs, nothing is wrong." : `All ${running.length} boards that run are well.`);
-  else if (far.length === 0) parts.push("No board runs.");
+  else if (remote.length === 0) parts.push("No board runs.");
   if (gone.length > 0 && running.length > 0) parts.push(`${gone.map(({ board }) => board).join(", ")} ${gone.length === 1 ? "does" : "do"} not run any more.`);
   if (forced > 0) parts.push(`${plural(forced, "value is", "values are")} forced.`);
-  return <p class={`headline ${far.length + wrong.length + gone.length > 0 || running.length === 0 ? "is-bad" : forced > 0 ? "is-warn" : "is-good"}`}>{parts.join(" ")}</p>;
+  return <p class={`headline ${remote.length + wrong.length + gone.length > 0 || running.length === 0 ? "is-bad" : forced > 0 ? "is-warn" : "is-good"}`}>{parts.join(" ")}</p>;
 }
 
 export function Overview() {
   const { boards: all, status } = useStore(plant);
   const chosen = useStore(place).query.get("board");
-  const far = usePlant();
+  const live = usePlant();
   if (!all) return <Waiting />;
   const boards = all.filter(({ here }) => here);  // the others are the plant's
   // Boards of this host say themselves what is wrong with them.
-  const silent = far.value?.trouble.filter((text) => !boards.some(({ board, alive }) => alive && text.startsWith(`board ${board}:`))) ?? [];
+  const silent = live.value?.trouble.filter((text) => !boards.some(({ board, alive }) => alive && text.startsWith(`board ${board}:`))) ?? [];
   const elsewhere = [...silent, ...all.filter(({ here, alive, trouble }) => !here && alive && trouble.length > 0).map(({ board, trouble }) => `${board}: ${trouble[0]}`)];
   const rank = ({ faults, trouble }: BoardSummary) => (faults > 0 ? 0 : trouble.length > 0 ? 1 : 2);
   const sorted = [...boards].sort((a, b) => rank(a) - rank(b) || a.board.localeCompare(b.board));
@@ -199,10 +199,10 @@ export function Overview() {
   const ended = sorted.filter((one) => !shown.includes(one));
   return (
     <>
-      {(boards.length > 0 || elsewhere.length > 0) && <Headline running={running} gone={gone} far={elsewhere} />}
-      {status?.plant && <PlantPanel value={far.value} error={far.error} />}
+      {(boards.length > 0 || elsewhere.length > 0) && <Headline running={running} gone={gone} remote={elsewhere} />}
+      {status?.plant && <PlantPanel value={live.value} error={live.error} />}
       <div class="cards">{shown.map((summary) => <BoardCard key={summary.board} summary={summary} />)}</div>
-      {all.filter(({ here, alive }) => !here && alive).map((summary) => <FarCard key={summary.board} summary={summary} />)}
+      {all.filter(({ here, alive }) => !here && alive).map((summary) => <RemoteCard key={summary.board} summary={summary} />)}
       {ended.length > 0 && (
         <details class="panel">
           <summary>{plural(ended.length, "board")} that ended and left {ended.length === 1 ? "its" : "their"} last values</summary>

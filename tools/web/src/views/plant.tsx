@@ -2,7 +2,7 @@
 // The boards of the network by what their agents say, dead ones included.
 
 import { get, words } from "../api/http";
-import type { FarBoard, PlantNow } from "../api/types";
+import type { RemoteBoard, PlantNow } from "../api/types";
 import { plant as here } from "../shell/plant";
 import { address } from "../ui/address";
 import { count, span } from "../ui/format";
@@ -12,7 +12,7 @@ import { type Asked, useAsked, useStore } from "../ui/store";
 const EVERY_MS = 1000;
 export const SHOWN_ID = 12;  // letters of a deployment's id
 
-function Row({ row }: { row: FarBoard }) {
+function Row({ row }: { row: RemoteBoard }) {
   const { boards } = useStore(here);
   const local = boards?.some(({ board }) => board === row.board);
   return (
