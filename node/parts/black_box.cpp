@@ -172,16 +172,16 @@ void BlackBox::check(rt::MonoTime now) {
   if (!prepared_.tape) {
     return;
   }
-  if (due_ == rt::MonoTime{} && faults() != kept_ && now >= next_) {
+  if (!due_ && faults() != kept_ && now >= next_) {
     due_ = now + kAfterwards;
   }
-  if (std::string why = many_overruns(now); due_ == rt::MonoTime{} && !why.empty() && now >= next_overruns_) {
+  if (std::string why = many_overruns(now); !due_ && !why.empty() && now >= next_overruns_) {
     request_ = std::move(why);
     due_ = now + kAfterwards;
     next_overruns_ = now + kBetween;
   }
   poll_requests(now);
-  if (due_ != rt::MonoTime{} && now >= due_) {
+  if (due_ && now >= *due_) {
     next_ = faults() != kept_ ? now + kBetween : next_;
     keep();
   }
@@ -193,7 +193,7 @@ void BlackBox::keep_at_end(std::string why) {
 }
 
 void BlackBox::end() {
-  if (prepared_.tape && (due_ != rt::MonoTime{} || (faults() != kept_ && rt::MonoClock::now() >= next_))) {
+  if (prepared_.tape && (due_ || (faults() != kept_ && rt::MonoClock::now() >= next_))) {
     keep();
   }
   if (writer_.joinable()) {
@@ -209,12 +209,12 @@ void BlackBox::poll_requests(rt::MonoTime now) {
   }
   requests_polled_ = now;
   auto new_request = vars::take_box_request(options_.node);
-  if (new_request && due_ == rt::MonoTime{} && now >= next_request_) {
+  if (new_request && !due_ && now >= next_request_) {
     request_ = *std::move(new_request);
     due_ = now + kAfterwards;
     next_request_ = now + vars::kBetweenBoxes;
     vars::refuse_boxes_until(options_.node, rt::to_ns(next_request_));
-  } else if (new_request && due_ != rt::MonoTime{} && !request_.empty()) {
+  } else if (new_request && due_ && !request_.empty()) {
     request_ += "; " + *new_request;
   }
 }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -53,9 +54,9 @@ class BlackBox {
   const Prepared& prepared_;
   const BoardMirror& mirror_;
   Console& console_;
-  std::uint64_t kept_ = 0;  // faults already handled
-  rt::MonoTime due_{};      // when the box of a new fault is written; 0: there is none
-  rt::MonoTime next_{};     // earliest time of the next box for a fault; below: for other reasons
+  std::uint64_t kept_ = 0;           // faults already handled
+  std::optional<rt::MonoTime> due_;  // when the next box is written, if one is due
+  rt::MonoTime next_{};              // earliest time of the next box for a fault; below: for other reasons
   rt::MonoTime next_overruns_{};
   rt::MonoTime next_request_{};
   std::string request_;  // why a box is requested, if not for a fault of this node

@@ -2,15 +2,36 @@
 #include "node/parts/board_mirror.h"
 
 #include <chrono>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "core/rt/clock.h"
 #include "core/rt/thread.h"
+#include "network/mirror/frames/mirror.h"
 #include "node/run/rights.h"
+#include "node/simulate/simulated_mirror.h"
 #include "scheduler/bands.h"
 
 namespace indurop::node {
+
+namespace {
+
+class NetworkMirror final : public RunningMirror {
+ public:
+  explicit NetworkMirror(mirror::Mirror mirror) noexcept : mirror_(std::move(mirror)) {}
+
+  void announce(rt::MonoTime epoch, std::chrono::nanoseconds basic, std::chrono::nanoseconds macro) noexcept override {
+    mirror_.announce({rt::WallClock::now() + (epoch - rt::MonoClock::now()), basic, macro});
+  }
+  void notify() noexcept override { mirror_.notify(); }
+  [[nodiscard]] const mirror::MirrorBlock& block() const noexcept override { return mirror_.block(); }
+
+ private:
+  mirror::Mirror mirror_;
+};
+
+}  // namespace
 
 Result<void, Ending> BoardMirror::start(Simulation* simulation) {
   if (!checked_.mirror || (simulation != nullptr && simulation->place() == nullptr)) {
@@ -33,7 +54,7 @@ Result<void, Ending> BoardMirror::start_in_network() {
     console_.error("cannot start the mirror to other boards: {}", describe(started.error()));
     return Ending{kFailed};
   }
-  mirror_ = std::move(started).value();
+  running_ = std::make_unique<NetworkMirror>(std::move(started).value());
   return {};
 }
 
@@ -44,38 +65,33 @@ Result<void, Ending> BoardMirror::start_simulated(Simulation& simulation) {
     console_.error("cannot start the mirror to other boards: {}", describe(started.error()));
     return Ending{kFailed};
   }
-  simulated_ = std::move(started).value();
-  simulation.connect({[this](const mirror::Message& message) { simulated_->arrived(message); },
-                      [this] { return simulated_->take_sent(); }});
+  SimulatedMirror* const simulated = started->get();
+  running_ = std::move(started).value();
+  simulation.connect({[simulated](const mirror::Message& message) { simulated->arrived(message); },
+                      [simulated] { return simulated->take_sent(); }});
   return {};
 }
 
 void BoardMirror::announce() noexcept {
-  const std::chrono::nanoseconds basic{prepared_.setup.basic_period_ns};
-  const std::chrono::nanoseconds macro{prepared_.setup.macro_period_ns};
-  const rt::MonoTime epoch = rt::mono_time(prepared_.run().epoch_ns);
-  if (mirror_) {
-    mirror_->announce({rt::WallClock::now() + (epoch - rt::MonoClock::now()), basic, macro});
-  } else if (simulated_) {
-    simulated_->announce({rt::wall_time(rt::to_ns(epoch)), basic, macro});  // one clock for all boards
+  if (running_) {
+    running_->announce(rt::mono_time(prepared_.run().epoch_ns),
+                       std::chrono::nanoseconds{prepared_.setup.basic_period_ns},
+                       std::chrono::nanoseconds{prepared_.setup.macro_period_ns});
   }
 }
 
 void BoardMirror::notify() noexcept {
-  if (mirror_) {
-    mirror_->notify();
-  } else if (simulated_) {
-    simulated_->notify();
+  if (running_) {
+    running_->notify();
   }
 }
 
 const mirror::MirrorBlock* BoardMirror::block() const noexcept {
-  return mirror_ ? &mirror_->block() : simulated_ ? &simulated_->block() : nullptr;
+  return running_ ? &running_->block() : nullptr;
 }
 
 void BoardMirror::stop() noexcept {
-  mirror_.reset();
-  simulated_.reset();
+  running_.reset();
 }
 
 }  // namespace indurop::node

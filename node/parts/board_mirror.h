@@ -4,13 +4,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
-#include "network/mirror/frames/mirror.h"
 #include "node/run/checked.h"
 #include "node/run/options.h"
 #include "node/run/prepared.h"
-#include "node/simulate/simulated_mirror.h"
+#include "node/simulate/running_mirror.h"
 #include "node/simulate/simulation.h"
 
 namespace indurop::node {
@@ -39,8 +37,7 @@ class BoardMirror {
   Checked& checked_;
   Prepared& prepared_;
   const Console& console_;
-  std::optional<mirror::Mirror> mirror_;
-  std::unique_ptr<SimulatedMirror> simulated_;
+  std::unique_ptr<RunningMirror> running_;  // null: none
 };
 
 }  // namespace indurop::node

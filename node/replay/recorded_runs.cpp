@@ -27,6 +27,17 @@ Result<RecordedRuns, Unfit> RecordedRuns::open(const std::filesystem::path& path
   return runs;
 }
 
+std::uint16_t& RecordedRuns::channel_of(recorder::ChannelKind kind) noexcept {
+  switch (kind) {
+    case recorder::ChannelKind::Run:
+      return runs_channel_;
+    case recorder::ChannelKind::Clock:
+      return clock_channel_;
+    default:
+      return answer_channel_;
+  }
+}
+
 Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::string& board, const std::string& name) {
   const recording::Contents& contents = reader_.contents();
   const recorder::Sources sources = recorder::find_sources(reader_);
@@ -44,9 +55,7 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
       continue;
     }
     if (place.kind != recorder::ChannelKind::Value) {
-      (place.kind == recorder::ChannelKind::Run     ? runs_channel_
-       : place.kind == recorder::ChannelKind::Clock ? clock_channel_
-                                                    : answer_channel_) = id;
+      channel_of(place.kind) = id;
       continue;
     }
     const auto* entry = store.find(abi::fnv1a64(place.name.data(), place.name.size()));

@@ -18,6 +18,7 @@
 #include "core/base/problem.h"
 #include "history/explain/facts.h"
 #include "history/recorder/run_words.h"
+#include "history/recorder/sources.h"
 #include "history/recording/mcap_reader.h"
 #include "store/vars/store.h"
 
@@ -73,6 +74,8 @@ class RecordedRuns {
 
  private:
   explicit RecordedRuns(recording::McapReader reader) : reader_(std::move(reader)) {}
+  // Of those that hold no values.
+  std::uint16_t& channel_of(recorder::ChannelKind kind) noexcept;
   Result<void, Unfit> match(const vars::Store& store, const std::string& board, const std::string& name);
 
   recording::McapReader reader_;

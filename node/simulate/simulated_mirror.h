@@ -7,6 +7,7 @@
 #include <indurop/result.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -17,12 +18,13 @@
 #include "network/mirror/frames/schedule.h"
 #include "network/mirror/simulated/simulated_plane.h"
 #include "node/simulate/board_channel.h"
+#include "node/simulate/running_mirror.h"
 #include "scheduler/simulated_kernel.h"
 #include "store/vars/store.h"
 
 namespace indurop::node {
 
-class SimulatedMirror {
+class SimulatedMirror final : public RunningMirror {
  public:
   // All references are borrowed. Errors: as of mirror::Exchange::make() and of the kernel's threads.
   static Result<std::unique_ptr<SimulatedMirror>> start(mirror::Settings settings, const std::string& node,
@@ -31,14 +33,14 @@ class SimulatedMirror {
                                                         scheduler::SimulatedKernel& kernel);
   SimulatedMirror(const BoardPlace& place, const vars::Store& store, scheduler::SimulatedKernel& kernel,
                   std::unique_ptr<mirror::Exchange> exchange);
-  SimulatedMirror(const SimulatedMirror&) = delete;
-  SimulatedMirror& operator=(const SimulatedMirror&) = delete;
-  ~SimulatedMirror();
+  ~SimulatedMirror() override;
 
-  // Called when the store may have changed.
-  void notify() noexcept { wake_sender_.wake(); }
-  void announce(const mirror::Schedule& schedule) noexcept { schedule_ = schedule; }
-  [[nodiscard]] const mirror::MirrorBlock& block() const noexcept { return exchange_->block(); }
+  void notify() noexcept override { wake_sender_.wake(); }
+  // One clock for all boards.
+  void announce(rt::MonoTime epoch, std::chrono::nanoseconds basic, std::chrono::nanoseconds macro) noexcept override {
+    schedule_ = {rt::wall_time(rt::to_ns(epoch)), basic, macro};
+  }
+  [[nodiscard]] const mirror::MirrorBlock& block() const noexcept override { return exchange_->block(); }
 
   void arrived(const mirror::Message& message);
   std::vector<mirror::Message> take_sent() { return plane_.take_sent(); }

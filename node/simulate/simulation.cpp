@@ -119,9 +119,9 @@ int Simulation::keep_pace() {
 
 // The node is paused after a tick: all work of it is done, the next has not begun.
 int Simulation::step() {
-  if (stands_at_ == rt::MonoTime{}) {
+  if (!stands_at_) {
     stands_at_ = rt::mono_time(run_.epoch_ns) + std::chrono::nanoseconds(-1);
-    kernel_.sleep_until(stands_at_);
+    kernel_.sleep_until(*stands_at_);
     print_position(run_.tick.load(), run_.basic_period_ns);
   }
   const StepInput::Order order = input_.next(signals_, run_.basic_period_ns);
@@ -129,8 +129,8 @@ int Simulation::step() {
   if (order.end || order.signal != 0) {
     return order.signal;
   }
-  stands_at_ += std::chrono::nanoseconds(order.ticks * run_.basic_period_ns);
-  go_to(stands_at_);
+  *stands_at_ += std::chrono::nanoseconds(order.ticks * run_.basic_period_ns);
+  go_to(*stands_at_);
   print_position(run_.tick.load(), run_.basic_period_ns);
   return signals_.wait(std::chrono::nanoseconds{0});
 }

@@ -64,7 +64,7 @@ class Simulation {
   scheduler::SimulatedKernel kernel_;
   rt::MonoTime began_;  // in real time, when virtual time began to pass
   StepInput input_;
-  rt::MonoTime stands_at_{};
+  std::optional<rt::MonoTime> stands_at_;
   bool left_ = false;
   Link link_;
   std::function<bool()> ended_;

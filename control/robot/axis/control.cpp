@@ -109,10 +109,11 @@ void AxisControl::order(int ticket, const Command& command) noexcept {
     set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.take_stop(t, c); }, {Stop});
     set([](AxisControl& a, int t, const Command& c) noexcept { a.set_position(t, c); }, {SetPosition});
     set([](AxisControl& a, int t, const Command& c) noexcept { a.write_parameter(t, c); }, {WriteParameter});
-    set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.shift_master(t, c); }, {ShiftMaster});
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.superimposed().shift_master(t, c); },
+        {ShiftMaster});
     set([](AxisControl& a, int t, const Command&) noexcept { a.motions_.decouple(t); }, {Decouple});
     set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.superimpose(t, c); }, {MoveSuperimposed});
-    set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.halt_superimposed(t, c); },
+    set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.superimposed().halt(t, c); },
         {HaltSuperimposed});
     set([](AxisControl& a, int t, const Command& c) noexcept { a.probing_.begin(t, c); }, {TouchProbe});
     set([](AxisControl& a, int t, const Command&) noexcept { a.probing_.abort(t); }, {AbortTrigger});

@@ -63,9 +63,8 @@ void AxisMotions::step_coupled(double seconds) noexcept {
 }
 
 void AxisMotions::step_own(double seconds) noexcept {
-  guard_table();
-  if (parts_.state == AxisState::ContinuousMotion) {
-    guard_limits(seconds);
+  if (const ErrorCode code = guard(seconds); code != ErrorCode::Ok) {
+    stop_own(code);
   }
   parts_.motion.step(seconds);
   // A motion that passes its end continues with the next one in the same period, several times if they are short.
@@ -97,24 +96,22 @@ void AxisMotions::step_torque(double seconds) noexcept {
   }
 }
 
-// A motion without a target must not run into the end of the axis: from its next position the axis must still be able
-// to come to rest before the end.
-void AxisMotions::guard_limits(double seconds) noexcept {
+// Checks whether the axis' own motion may go on. A table is locked to time: an override or a hold ends it. A motion
+// without a target must not run into the end of the axis: from its next position the axis must still be able to come to
+// rest before the end.
+ErrorCode AxisMotions::guard(double seconds) const noexcept {
+  if (parts_.motion.along() && !parts_.motion.full_speed()) {
+    return ErrorCode::State;
+  }
   const AxisBounds& bounds = parts_.bounds;
+  if (parts_.state != AxisState::ContinuousMotion || bounds.endless()) {
+    return ErrorCode::Ok;
+  }
   const LineState next = parts_.motion.after(seconds);
   const double rest = next.position + ramp(next, 0, bounds.limits(1)).distance;
-  const bool ends = !bounds.endless() && ((next.velocity > 0 && bounds.beyond_upper(rest)) ||
-                                          (next.velocity < 0 && bounds.beyond_lower(rest)));
-  if (ends) {
-    stop_own(ErrorCode::JointLimit);
-  }
-}
-
-// A table is locked to time: an override or a hold ends it.
-void AxisMotions::guard_table() noexcept {
-  if (parts_.motion.along() && !parts_.motion.full_speed()) {
-    stop_own(ErrorCode::State);
-  }
+  const bool ends =
+      (next.velocity > 0 && bounds.beyond_upper(rest)) || (next.velocity < 0 && bounds.beyond_lower(rest));
+  return ends ? ErrorCode::JointLimit : ErrorCode::Ok;
 }
 
 // Ends the axis' own motion; a superimposed one continues.

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/robot/axis/service.h"
-
 namespace indurop::robot {
 
 namespace {
@@ -27,10 +25,6 @@ double velocity_of(BufferMode mode, double own, double next) noexcept {
 }
 
 }  // namespace
-
-bool AxisMotions::is_to_position() const noexcept {
-  return is_move(owner_.service);
-}
 
 void AxisMotions::take_stop(int ticket, const Command& command) noexcept {
   AxisOrder how;

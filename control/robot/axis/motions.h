@@ -10,6 +10,7 @@
 #include "control/robot/axis/body.h"
 #include "control/robot/axis/queue.h"
 #include "control/robot/axis/resolver.h"
+#include "control/robot/axis/service.h"
 #include "control/robot/axis/superimposed.h"
 
 namespace indurop::robot {
@@ -28,8 +29,7 @@ class AxisMotions {
   void superimpose(int ticket, const Command& command) noexcept {
     superimposed_.begin(ticket, command, {!queue_.empty(), is_to_position()});
   }
-  void halt_superimposed(int ticket, const Command& command) noexcept { superimposed_.halt(ticket, command); }
-  void shift_master(int ticket, const Command& command) noexcept { superimposed_.shift_master(ticket, command); }
+  [[nodiscard]] SuperimposedMotion& superimposed() noexcept { return superimposed_; }
   // Ends what the last request waits for.
   void end_request() noexcept;
 
@@ -48,7 +48,7 @@ class AxisMotions {
   void note_ends() noexcept;
 
  private:
-  [[nodiscard]] bool is_to_position() const noexcept;
+  [[nodiscard]] bool is_to_position() const noexcept { return is_move(owner_.service); }
   [[nodiscard]] ErrorCode check(const Command& command) const noexcept;
   void begin(int ticket, const Command& command) noexcept;
   void begin_motion(const Command& command, const AxisOrder& order) noexcept;
@@ -67,8 +67,7 @@ class AxisMotions {
   void step_own(double seconds) noexcept;
   void step_over(double seconds) noexcept;
   void step_torque(double seconds) noexcept;
-  void guard_limits(double seconds) noexcept;
-  void guard_table() noexcept;
+  [[nodiscard]] ErrorCode guard(double seconds) const noexcept;
   void stop_own(ErrorCode code) noexcept;
   void note_velocity() noexcept;
   void note_superimposed() noexcept;
