@@ -33,6 +33,8 @@ class TimingSearch {
   // Real-time safe.
   int work() noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
+  // Returns whether the next part of the work asks for places on the path.
+  [[nodiscard]] bool looks() const noexcept { return stage_ == Stage::Look; }
   // The result when done; not known() if none was found. It keeps the limits at its knots, after refine() also half way
   // between. If refining finds none, it is the earlier one.
   [[nodiscard]] const PathTiming& timing() const noexcept { return timing_; }

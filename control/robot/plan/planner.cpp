@@ -99,6 +99,9 @@ void Planner::begin(const Joints& from, double acceleration) noexcept {
   count_ = 0;
   next_ = 1;
   windows_ = noted_ = rehearsals_ = 0;
+  narrow_.fill({0, from});
+  slowest_ = HUGE_VAL;
+  stretches_ = 0;
   unseen_ = false;
   constexpr int kStepByStep = 4;
   work_ = 0;
@@ -192,16 +195,18 @@ Fault Planner::check_next() noexcept {
     bound_tool(next_);
   }
   volumes_[static_cast<std::size_t>(next_)] = volume(here);
-  least_volume_ = std::min(least_volume_, std::abs(volume(here)));
+  note_volume(volume(here), spacing * next_, here);
   return {};
 }
 
 // Goes from one place to another in as many steps as it takes to stay in the same posture: next to a singular position
-// joints turn far over a short distance, and beyond it the nearest solution is often another posture.
+// joints turn far over a short distance, and beyond it the nearest solution is often another posture. So is that behind
+// a joint's limit, which may be near: what looks like it is divided further.
 Fault Planner::walk(double from, const Joints& start, double to, Joints& q) noexcept {
   constexpr double kSure = radians(30);
   constexpr double kAtLimit = radians(1);
   const double finest = 1e-6 * segment_.length;
+  const double finest_turn = 1e-9 * segment_.length;
   Joints before = start;
   double side = volume(start);
   for (double width = to - from; from < to;) {
@@ -216,11 +221,12 @@ Fault Planner::walk(double from, const Joints& start, double to, Joints& q) noex
     Eigen::Index axis = 0;
     const double jump = (q - before).cwiseAbs().maxCoeff(&axis);
     const double other = volume(q);
-    if ((jump > kSure || side * other < 0) && width > finest) {
+    const bool turns = jump > kSure && (width > finest || jump < kJump);
+    if (width > (turns ? finest_turn : finest) && (turns || side * other < 0)) {
       width /= 2;
       continue;
     }
-    if (jump > kJump) {
+    if (jump > kSure) {
       // The continuation in this posture may be beyond a limit.
       const int ended = places_.arm().beyond_limits(before, -kAtLimit);
       return ended >= 0 ? Fault{ErrorCode::JointLimit, ended + 1}
@@ -249,7 +255,7 @@ Fault Planner::look(int& places) noexcept {
       for (int i = 0; i < count_; ++i) {
         const Rates rates = rates_at(samples_.data(), count_, i, spacing);
         note(rates);
-        bound(rates, spacing * i, spacing);
+        bound(rates, spacing * i, spacing, samples_[static_cast<std::size_t>(i)]);
       }
       choose_windows(samples_.data(), volumes_.data(), count_, 0, spacing, 0);
     }
@@ -328,7 +334,7 @@ Fault Planner::check(int places) noexcept {
         break;
     }
     const bool looked = stage_ == Stage::Done || stage_ == Stage::Effort;
-    if (looking && looked && segment_.move != Move::Joint && crawls()) {
+    if (looking && looked && segment_.move != Move::Joint && (unseen_ || (may_refuse() && crawls()))) {
       stage_ = Stage::Done;
       return {ErrorCode::Singular};
     }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "control/robot/collision/clear_way.h"
 #include "control/robot/kinematics/errors.h"
@@ -18,7 +19,8 @@ namespace indurop::robot {
 
 class Planner {
  public:
-  // Places that are checked until a motion is rejected: 50 ms on an ordinary processor.
+  // Places that are checked until a motion is rejected: 50 ms on an ordinary processor. What is not rejected until then
+  // is planned to its end, however slow it becomes.
   static constexpr int kMostWork = 16000;
 
   Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool);
@@ -66,12 +68,19 @@ class Planner {
   void rehearse_timing() noexcept;
   void rehearse_profile() noexcept;
   void begin_rehearsal(double duration) noexcept;
+  // The narrowest places first (planner_narrow.cpp).
+  [[nodiscard]] double place_at(double time) const noexcept;
+  [[nodiscard]] int instant_of(double place) const noexcept;
+  bool begin_stretch(double place, const Joints& there) noexcept;
+  void next_stretch(double duration) noexcept;
   void end_rehearsal() noexcept;
   void end_look() noexcept;
   // Minimum duration as limited by the tool, and the planned duration.
   [[nodiscard]] double least() const noexcept;
   [[nodiscard]] double taken() const noexcept;
   [[nodiscard]] bool crawls() const noexcept;
+  [[nodiscard]] bool may_refuse() const noexcept { return work_ <= kMostWork; }
+  void note_volume(double volume, double place, const Joints& q) noexcept;
   [[nodiscard]] double rehearsal_step() const noexcept;
   Fault resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) noexcept;
   Inverse::Result search(const Target& target, const Joints& near) noexcept;
@@ -82,8 +91,9 @@ class Planner {
   [[nodiscard]] double volume(const Joints& q) const noexcept;
   void choose_windows(const Joints* places, const double* volumes, int count, double from, double spacing,
                       int depth) noexcept;
+  [[nodiscard]] bool may_leave_range(const Joints* places, int count, int i) const noexcept;
   void note(const Rates& rates) noexcept;
-  void bound(const Rates& rates, double from, double length) noexcept;
+  void bound(const Rates& rates, double from, double length, const Joints& q) noexcept;
   void begin(const Joints& from, double acceleration) noexcept;
   void begin_look(double spacing, int most) noexcept;
   void bound_tool(int place) noexcept;
@@ -136,6 +146,15 @@ class Planner {
   Profile profile_;
   double usual_volume_ = 0;  // maximum volume of this arm
   double least_volume_ = 0;  // on the path
+  // Where the path is narrow: at its least volume, and where a joint's limit makes it slowest.
+  struct Narrow {
+    double place = 0;
+    Joints joints = Joints::Zero();
+  };
+  static constexpr std::size_t kNarrow = 2;
+  std::array<Narrow, kNarrow> narrow_;
+  double slowest_ = HUGE_VAL;
+  std::size_t stretches_ = 0;  // that are still to be rehearsed
 };
 
 }  // namespace indurop::robot

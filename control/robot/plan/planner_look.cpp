@@ -8,8 +8,20 @@
 
 namespace indurop::robot {
 
-// Selects the parts to be checked more closely: where joints are near a limit, and where their speed rises so fast that
-// it may have a peak between two places.
+// Returns whether a joint may be beyond its limits between places i and i + 1, with twice the bend of a parabola
+// through them and their neighbours.
+bool Planner::may_leave_range(const Joints* places, int count, int i) const noexcept {
+  const auto bend = [&](int k) {
+    const int m = std::clamp(k, 1, count - 1);
+    return (places[m + 1] - 2 * places[m] + places[m - 1]).cwiseAbs();
+  };
+  const Joints more = bend(i).cwiseMax(bend(i + 1)) / 4;
+  return places_.arm().beyond_limits(places[i].cwiseMax(places[i + 1]) + more) >= 0 ||
+         places_.arm().beyond_limits(places[i].cwiseMin(places[i + 1]) - more) >= 0;
+}
+
+// Selects the parts to be checked more closely: where joints are near a limit, where one may be beyond its range, and
+// where their speed rises so fast that it may have a peak between two places.
 void Planner::choose_windows(const Joints* places, const double* volumes, int count, double from, double spacing,
                              int depth) noexcept {
   constexpr double kNear = 0.4;  // of a limit
@@ -22,7 +34,8 @@ void Planner::choose_windows(const Joints* places, const double* volumes, int co
     const double growth = most / std::max(std::min({before, now, next}), 1e-9);
     const double v = segment_.limits.velocity;
     const bool near = velocity_for(rates, joints_, HUGE_VAL) * kNear < v;
-    if (may_be_singular(volumes, count, i) || (growth > (near ? 1.15 : 1.5) && most * v > 0.1)) {
+    if (may_be_singular(volumes, count, i) || may_leave_range(places, count, i) ||
+        (growth > (near ? 1.15 : 1.5) && most * v > 0.1)) {
       window_[static_cast<std::size_t>(windows_++)] = {from + spacing * i, spacing, places[i], places[i + 1], depth};
     }
     before = now;
@@ -44,7 +57,7 @@ Fault Planner::look_closer() noexcept {
       return fault;
     }
     volumes[k] = volume(places[k]);
-    least_volume_ = std::min(least_volume_, std::abs(volumes[k]));
+    note_volume(volumes[k], from + spacing, places[k]);
   }
   Eigen::Index axis = 0;
   if ((places[kParts] - window.end).cwiseAbs().maxCoeff(&axis) > 1e-6) {
@@ -54,7 +67,7 @@ Fault Planner::look_closer() noexcept {
   for (int i = 0; i < kParts; ++i) {
     const Rates rates = rates_at(places.data(), kParts, i, spacing);
     most = {most.first.cwiseMax(rates.first), most.second.cwiseMax(rates.second), most.third.cwiseMax(rates.third)};
-    bound(rates, window.from + spacing * i, spacing);
+    bound(rates, window.from + spacing * i, spacing, places[static_cast<std::size_t>(i)]);
   }
   note(most);
   if (window.depth < kDeepest) {
@@ -63,14 +76,25 @@ Fault Planner::look_closer() noexcept {
   return {};
 }
 
-// Bounds of the speed in a part of the path, and of its changes there.
-void Planner::bound(const Rates& rates, double from, double length) noexcept {
+void Planner::note_volume(double volume, double place, const Joints& q) noexcept {
+  if (std::abs(volume) < least_volume_) {
+    least_volume_ = std::abs(volume);
+    narrow_[0] = {place, q};
+  }
+}
+
+// Bounds of the speed in a part of the path that begins at `q`, and of its changes there.
+void Planner::bound(const Rates& rates, double from, double length, const Joints& q) noexcept {
   constexpr double kChanging = 0.7;  // of a joint's acceleration
   const double part = segment_.length / PathBounds::kParts;
   const int first = std::clamp(static_cast<int>(from / part + 0.001), 0, PathBounds::kParts - 1);
   const int last = std::clamp(static_cast<int>((from + length) / part - 0.001), first, PathBounds::kParts - 1);
   const double speed = velocity_for(rates, joints_, HUGE_VAL);
   const double acceleration = kChanging / rates.first.cwiseQuotient(joints_.acceleration).maxCoeff();
+  if (speed < slowest_) {
+    slowest_ = speed;
+    narrow_[1] = {from, q};
+  }
   for (int i = first; i <= last; ++i) {
     const auto k = static_cast<std::size_t>(i);
     bounds_.speed[k] = std::min(bounds_.speed[k], speed);

@@ -14,18 +14,17 @@ constexpr double kFineStep = 0.001;  // for chains, whose corners may be narrow,
 constexpr double kNearlyOne = 1.02;
 constexpr int kMostSearches = 3;  // another search is worthwhile, since slowing down everywhere costs time
 constexpr int kMostRehearsals = 3;
+constexpr int kLastRehearsal = 16;  // of what may no longer be rejected for being slow
 // Factor by which the motion is too fast in one place above which another search does not help.
 constexpr double kHopeless = 35;
-// The same after this much work, and after it has already been slowed down for that reason.
-constexpr int kLate = 2 * Planner::kMostWork;
-constexpr double kDoubtful = 6, kDoubtfulAgain = 1.3;
 constexpr double kNotFound = 1.1;  // after all rehearsals: the critical place is too narrow to be resolved
 
 }  // namespace
 
 int Planner::search() noexcept {
+  const int weight = search_.looks() ? weight_ : 1;
   const int places = search_.work();
-  work_ += places * weight_;
+  work_ += places * weight;
   if (!search_.done()) {
     return places;
   }
@@ -40,6 +39,11 @@ int Planner::search() noexcept {
 }
 
 void Planner::rehearse_timing() noexcept {
+  if (may_refuse() && segment_.timing.duration() * kSlowestPace > least()) {
+    segment_.timing = {};
+    rehearse_profile();
+    return;
+  }
   stage_ = Stage::RehearseTiming;
   begin_rehearsal(segment_.timing.duration());
 }
@@ -56,9 +60,16 @@ void Planner::rehearse_profile() noexcept {
   }
 }
 
+// What is too slow already is rejected before it is rehearsed: it only becomes slower.
 void Planner::begin_rehearsal(double duration) noexcept {
-  rehearsal_.begin(segment_.from, duration, rehearsal_step(), stage_ == Stage::RehearseTiming);
+  if (may_refuse() && duration * kSlowestPace > least()) {
+    unseen_ = true;
+    stage_ = Stage::Done;
+    return;
+  }
   most_factor_ = std::max(kNearlyOne, least() / (kSlowestPace * duration));
+  stretches_ = searches_ == 1 && rehearsals_ == 0 ? kNarrow + 1 : 1;
+  next_stretch(duration);
 }
 
 double Planner::rehearsal_step() const noexcept {
@@ -68,7 +79,6 @@ double Planner::rehearsal_step() const noexcept {
 
 void Planner::rehearse() noexcept {
   const bool timing = stage_ == Stage::RehearseTiming;
-  const auto place_at = [&](double t) { return timing ? segment_.timing.at(t).place : profile_.at(t).position; };
   if (const double far = rehearsal_.far_time(); far >= 0) {
     work_ += weight_;
     rehearsal_.skip(segment_, place_at(far));
@@ -78,34 +88,30 @@ void Planner::rehearse() noexcept {
   if (timing && seen && searches_ < kMostSearches) {
     search_.note(time, rehearsal_.last_factor());
   }
-  if (seen && rehearsal_.factor() > (timing && searches_ < kMostSearches ? kHopeless : most_factor_)) {
+  const bool hopeless =
+      rehearsal_.factor() > (timing && searches_ < kMostSearches ? kHopeless : most_factor_) && may_refuse();
+  if (seen ? hopeless || rehearsal_.jumped() : !timing) {
     unseen_ = true;  // whatever the rest of it would show
     stage_ = Stage::Done;
-    return;
-  }
-  if (timing && !seen) {
+  } else if (!seen) {
     segment_.timing = {};
     rehearse_profile();
-  } else if (!seen || rehearsal_.done()) {
-    end_rehearsal();
+  } else if (rehearsal_.done()) {
+    stretches_ > 0 ? next_stretch(rehearsal_.step() * rehearsal_.count()) : end_rehearsal();
   }
 }
 
 // A motion that was too fast is rehearsed again, since effects between two instants show when it is slower.
 void Planner::end_rehearsal() noexcept {
   const double slower = rehearsal_.factor();
-  if (work_ > kLate && slower > (rehearsals_ > 0 ? kDoubtfulAgain : kDoubtful)) {
-    unseen_ = true;
-    stage_ = Stage::Done;
-    return;
-  }
-  if (stage_ == Stage::RehearseTiming && slower > kNearlyOne && searches_ < kMostSearches) {
+  if (stage_ == Stage::RehearseTiming && slower > kNearlyOne && slower <= kHopeless && searches_ < kMostSearches) {
     ++searches_;
     search_.refine();
     stage_ = Stage::Search;
     return;
   }
-  const bool sure = slower < kNearlyOne || ++rehearsals_ == kMostRehearsals;
+  const int most = may_refuse() || slower <= kNotFound ? kMostRehearsals : kLastRehearsal;
+  const bool sure = slower < kNearlyOne || ++rehearsals_ >= most;
   unseen_ = sure && slower > kNotFound;
   if (stage_ == Stage::RehearseProfile) {
     LineLimits& limits = segment_.limits;
@@ -125,7 +131,7 @@ void Planner::end_rehearsal() noexcept {
   }
   segment_.timing.slow_down(slower);
   segment_.timing_tip_speed = rehearsal_.tip_speed() / slower;
-  if (crawls()) {
+  if (unseen_ || (may_refuse() && crawls())) {
     end_look();  // the result is rejected; another rehearsal could take long
     return;
   }
@@ -159,7 +165,7 @@ double Planner::taken() const noexcept {
 // that is nearly met affects only a few places, so it shows in the rehearsal, or not at all, however slow the motion
 // is.
 bool Planner::crawls() const noexcept {
-  return unseen_ || taken() * kSlowestPace > least();
+  return taken() * kSlowestPace > least();
 }
 
 }  // namespace indurop::robot

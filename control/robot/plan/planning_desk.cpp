@@ -14,8 +14,8 @@ namespace {
 constexpr int kPortion = 64;  // places, between two checks whether the plan is still needed
 constexpr std::chrono::milliseconds kSoon{1}, kLater{10};
 constexpr std::size_t kStack = std::size_t{256} * 1024;
-constexpr double kPerSecond = 1;  // additional planning time per second of a path, as part of the time for all of it
-constexpr double kLongest = 60;   // s
+constexpr double kPerSecond = 1;     // additional planning time per second of a path, as part of the time for all of it
+constexpr double kMostSeconds = 60;  // s
 
 }  // namespace
 
@@ -100,7 +100,7 @@ void PlanningDesk::work() noexcept {
 double PlanningDesk::seconds_of(const PlanRequest& request) const noexcept {
   const MoveCommand& command = request.command;
   if (request.chain != nullptr) {
-    return std::min(request.chain->at_speed(), kLongest);
+    return std::min(request.chain->at_speed(), kMostSeconds);
   }
   if (command.move == Move::Joint || !(command.speed > 0)) {
     return 0;
@@ -117,7 +117,7 @@ double PlanningDesk::seconds_of(const PlanRequest& request) const noexcept {
   const double turn = rotation_between(start.orientation, end.orientation).norm();
   const double speed = command.tool_speed > 0 ? command.tool_speed : command.speed * tool_.velocity;
   const double seconds = std::max(way / speed, turn / (command.speed * tool_.turn_velocity));
-  return seconds < kLongest ? seconds : kLongest;  // also if it is not a number
+  return seconds < kMostSeconds ? seconds : kMostSeconds;  // also if it is not a number
 }
 
 void PlanningDesk::ask(const PlanRequest& request) noexcept {

@@ -12,9 +12,13 @@ namespace {
 
 constexpr double kSure = 0.99;        // of the limits, margin for the motion between two instants
 constexpr int kFewestInstants = 300;  // instants: jerk of short motions peaks between the knots of their timing
-constexpr int kMaxInstants = 1 << 20;
-constexpr int kLong = kMaxInstants;                   // instants; longer motions have calm stretches
-constexpr int kFewSkipped = 16, kManySkipped = 1024;  // instants
+constexpr int kMaxInstants = 1 << 26;
+constexpr int kLong = 20000;        // instants; longer motions have calm stretches
+constexpr int kVeryLong = 1 << 20;  // instants
+constexpr int kFewSkipped = 16;     // instants
+constexpr int kMoreSkipped = 64;    // instants of long motions
+constexpr int kManySkipped = 1024;  // instants of very long ones
+constexpr double kQuiet = 0.5;      // factor of the last instant below which some may be skipped
 
 }  // namespace
 
@@ -22,6 +26,7 @@ void Rehearsal::begin(const Joints& from, double duration, double step, bool tim
   count_ = static_cast<int>(std::clamp(std::ceil(duration / step), double{kFewestInstants}, double{kMaxInstants}));
   step_ = duration / count_;
   next_ = 1;
+  end_ = count_ + 3;
   worst_ = 0;
   acceleration_share_ = timed ? TimingShares::kAcceleration : Shares::kBending;
   jerk_share_ = timed ? TimingShares::kJerk : Shares::kBendingJerk;
@@ -32,6 +37,13 @@ void Rehearsal::begin(const Joints& from, double duration, double step, bool tim
   tip_far_ = 0;
   tip_ = TipSpeed(places_.arm());
   tip_.begin(from);
+}
+
+void Rehearsal::begin_stretch(const Joints& from, int first, int instants) noexcept {
+  next_ = first + 1;
+  end_ = first + instants;
+  seen_.fill(from);
+  unknown_ = 2;
 }
 
 double Rehearsal::time() const noexcept {
@@ -72,7 +84,8 @@ void Rehearsal::note(const Joints& first, const Joints& second) noexcept {
 }
 
 double Rehearsal::far_time() const noexcept {
-  const bool may = count_ >= kLong && wait_ == 0 && unknown_ == 0 && next_ + skip_ < count_;
+  const bool may =
+      count_ >= kLong && end_ > count_ && wait_ == 0 && unknown_ == 0 && last_ < kQuiet && next_ + skip_ < count_;
   return may ? step_ * (next_ - 1 + skip_) : -1;
 }
 
@@ -96,17 +109,19 @@ void Rehearsal::skip(const Segment& segment, double far_place) noexcept {
   seen_.fill(far);
   unknown_ = 2;
   next_ += skip_;
-  skip_ = std::min(2 * skip_, kManySkipped);
+  skip_ = std::min(2 * skip_, count_ < kVeryLong ? kMoreSkipped : kManySkipped);
+  wait_ = unknown_ + 1;  // the next instant whose differences are known has to be quiet too
 }
 
 // Speeds that are so small that they may change at once are ignored. A joint that reverses in between has a different
-// mean speed.
+// mean speed; near its limit it could leave its range and come back, which would be another posture.
 bool Rehearsal::calm(const Joints& far) const noexcept {
   constexpr double kMoved = 0.05;  // rad or m
   constexpr double kFast = 0.3, kSudden = 0.25, kChange = 0.25;
   const double span = skip_ * step_;
   const Joints speed = (far - seen_[0]) / span;
   const Joints before = (seen_[0] - seen_[1]) / step_;
+  Joints beyond = far - seen_[0];
   for (int i = 0; i < kAxes; ++i) {
     const double change = std::abs(speed[i] - before[i]);
     const double most = std::max(std::abs(speed[i]), std::abs(before[i]));
@@ -117,10 +132,19 @@ bool Rehearsal::calm(const Joints& far) const noexcept {
         change > kChange * jerk_share_ * joints_.jerk[i] * span * span) {
       return false;
     }
+    beyond[i] += std::copysign(sudden * span, beyond[i]);
+  }
+  if (places_.arm().beyond_limits(far + beyond) >= 0 || places_.arm().beyond_limits(seen_[0] - beyond) >= 0) {
+    return false;
   }
   const double here = places_.arm().volume(seen_[0]);
   const double there = places_.arm().volume(far);
   return std::min(std::abs(here), std::abs(there)) > 3 * std::abs(there - here);
+}
+
+bool Rehearsal::jumped() const noexcept {
+  constexpr double kJump = radians(30);
+  return (seen_[0] - seen_[1]).cwiseAbs().maxCoeff() > kJump;
 }
 
 double Rehearsal::last_factor() const noexcept {

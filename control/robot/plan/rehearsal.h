@@ -20,7 +20,11 @@ class Rehearsal {
   // Begins a motion from rest to rest, with or without a timing. `step`: maximum time from one instant to the next.
   // Real-time safe, like all functions of this class.
   void begin(const Joints& from, double duration, double step, bool timed) noexcept;
-  [[nodiscard]] bool done() const noexcept { return next_ > count_ + 3; }
+  // Looks at a stretch of it only: `instants` from `first` on, where the joints are at `from`.
+  void begin_stretch(const Joints& from, int first, int instants) noexcept;
+  [[nodiscard]] bool done() const noexcept { return next_ > end_; }
+  [[nodiscard]] int count() const noexcept { return count_; }
+  [[nodiscard]] double step() const noexcept { return step_; }
   // The instant that is checked next; look() gets the place of the motion at that time.
   [[nodiscard]] double time() const noexcept;
   [[nodiscard]] bool look(const Segment& segment, double place) noexcept;
@@ -33,6 +37,8 @@ class Rehearsal {
   // Factor by which the duration has to grow, at least 1: for the last instant, and, when done, for the whole motion.
   [[nodiscard]] double last_factor() const noexcept;
   [[nodiscard]] double factor() const noexcept;
+  // Returns whether the last instant is in another posture than the one before it: no slower motion mends that.
+  [[nodiscard]] bool jumped() const noexcept;
   // m/s, of the tool's tip or the arm's end, whichever is faster.
   [[nodiscard]] double tip_speed() const noexcept { return std::max(tip_.farthest(), tip_far_) / step_; }
   // Limits for changes of the pace at which the motion is followed.
@@ -46,6 +52,7 @@ class Rehearsal {
   const JointLimits& joints_;
   int count_ = 0;
   int next_ = 0;
+  int end_ = 0;
   double step_ = 0;
   double last_ = 0, worst_ = 0;
   double acceleration_share_ = 1, jerk_share_ = 1;
