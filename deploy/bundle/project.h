@@ -33,8 +33,8 @@ struct OpenedProject {
   base::Json about;
   std::vector<std::string> paths;  // of the files that were unpacked
 };
-// Unpacks a project into `folder`, which must exist and be empty. Nothing outside of it is written, whoever made the
-// archive. Errors: damaged, paths that lead outside, files that cannot be written.
+// Unpacks a project into `folder`, which must exist and be empty. Nothing outside of it is written, regardless of who
+// made the archive. Errors: damaged, paths that lead outside, files that cannot be written.
 Result<OpenedProject, base::Problem> open_project(const std::filesystem::path& archive,
                                                   const std::filesystem::path& folder);
 

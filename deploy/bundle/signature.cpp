@@ -39,7 +39,7 @@ std::string bundle_refusal(const BundleSignature& signature, const std::string& 
   }
   const auto facts = keys::read_certificate(signature.certificate);
   if (!facts || !keys::signature_holds(package_text, signature.signature, keys::public_key_in(signature.certificate))) {
-    return "the signature of the bundle does not fit its content; somebody has changed it";
+    return "the signature of the bundle does not fit its content: it was changed after it was packed";
   }
   if (!keys::issued_by(signature.certificate, authority)) {
     return fmt::format("the bundle was signed by {} of plant {}, with keys of another authority", facts->common_name,

@@ -244,10 +244,14 @@ std::string unit_hint(const Type& type) {
   if (type.kind != Type::Kind::Elementary || !is_time(type.elementary)) {
     return {};
   }
-  const char* example = type.is(Elementary::Time)        ? "T#500ms"
-                        : type.is(Elementary::Date)      ? "D#2026-01-31"
-                        : type.is(Elementary::TimeOfDay) ? "TOD#12:30:00"
-                                                         : "DT#2026-01-31-12:30:00";
+  const char* example = "DT#2026-01-31-12:30:00";
+  if (type.is(Elementary::Time)) {
+    example = "T#500ms";
+  } else if (type.is(Elementary::Date)) {
+    example = "D#2026-01-31";
+  } else if (type.is(Elementary::TimeOfDay)) {
+    example = "TOD#12:30:00";
+  }
   return fmt::format("; a number has no unit, write {}", example);
 }
 

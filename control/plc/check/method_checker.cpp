@@ -99,10 +99,12 @@ bool MethodChecker::can_see(Variable& variable, const Place& at) {
     variable.in_methods = true;
     return true;
   }
-  const char* what = variable.section == ast::Section::Temp       ? "VAR_TEMP"
-                     : variable.declared->edge != ast::Edge::None ? "an input with an edge"
-                     : in_method                                  ? "VAR_IN_OUT"
-                                                                  : nullptr;
+  const char* what = in_method ? "VAR_IN_OUT" : nullptr;
+  if (variable.section == ast::Section::Temp) {
+    what = "VAR_TEMP";
+  } else if (variable.declared->edge != ast::Edge::None) {
+    what = "an input with an edge";
+  }
   if (what != nullptr) {
     context_.error(
         at, fmt::format("'{}' is {} of {}, which only its body sees; {}", variable.name, what, variable.owner->name,

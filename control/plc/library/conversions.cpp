@@ -64,6 +64,16 @@ bool is_useful_for_character(Elementary other) {
   return is_int(other) || is_text(other) || is_character(other) || (is_bit(other) && other != Elementary::Bool);
 }
 
+bool is_useful(Elementary from, Elementary to) {
+  if (is_time(from) && is_time(to)) {
+    return is_useful_between_times(from, to);
+  }
+  if (is_character(from)) {
+    return is_useful_for_character(to) && from != to;
+  }
+  return is_character(to) ? is_useful_for_character(from) : from != to;
+}
+
 string conversion_to(Elementary to) {
   return to == Elementary::Wstring  ? "to_wstring"
          : to == Elementary::String ? "to_string"
@@ -78,11 +88,7 @@ void append(std::vector<LibraryFunction>& all, const string& name, std::string_v
 void append_conversions_from(std::vector<LibraryFunction>& all, Elementary from) {
   for (std::size_t i = 0; i < kElementaryCount; ++i) {
     const Elementary to = type_at(i);
-    const bool useful = is_time(from) && is_time(to) ? is_useful_between_times(from, to)
-                        : is_character(from)         ? is_useful_for_character(to) && from != to
-                        : is_character(to)           ? is_useful_for_character(from)
-                                                     : from != to;
-    if (useful) {
+    if (is_useful(from, to)) {
       const bool literal = is_bit(from) && from != Elementary::Bool && is_text(to);
       append(all, string(name_of(from)) + "_TO_" + string(name_of(to)), name_of(from), name_of(to),
              !literal                   ? conversion_to(to)

@@ -64,12 +64,22 @@ std::string data_type_text(const Json& type) {
 }
 
 const char* section_of(const std::string& kind) {
-  return kind == "input"      ? "VAR_INPUT"
-         : kind == "output"   ? "VAR_OUTPUT"
-         : kind == "inOut"    ? "VAR_IN_OUT"
-         : kind == "external" ? "VAR_EXTERNAL"
-         : kind == "temp"     ? "VAR_TEMP"
-                              : "VAR";
+  if (kind == "input") {
+    return "VAR_INPUT";
+  }
+  if (kind == "output") {
+    return "VAR_OUTPUT";
+  }
+  if (kind == "inOut") {
+    return "VAR_IN_OUT";
+  }
+  if (kind == "external") {
+    return "VAR_EXTERNAL";
+  }
+  if (kind == "temp") {
+    return "VAR_TEMP";
+  }
+  return "VAR";
 }
 
 std::string word_of(const std::string& kind) {

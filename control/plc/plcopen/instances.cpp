@@ -15,6 +15,20 @@
 namespace indurop::plc::plcopen {
 namespace {
 
+// Returns the seconds of a unit of an XML duration, before or after its T; 0 if there is no such unit.
+double seconds_of(char unit, bool of_day) {
+  if (!of_day) {
+    return unit == 'D' ? 86400 : 0;
+  }
+  if (unit == 'H') {
+    return 3600;
+  }
+  if (unit == 'M') {
+    return 60;
+  }
+  return unit == 'S' ? 1 : 0;
+}
+
 std::optional<std::int64_t> iso_ns(std::string_view text) {
   constexpr double kSecond = 1e9;
   constexpr double kMost = 9e18;
@@ -38,11 +52,7 @@ std::optional<std::int64_t> iso_ns(std::string_view text) {
     }
     const char unit = text.front();
     text.remove_prefix(1);
-    const double seconds = of_day && unit == 'H'    ? 3600
-                           : of_day && unit == 'M'  ? 60
-                           : of_day && unit == 'S'  ? 1
-                           : !of_day && unit == 'D' ? 86400
-                                                    : 0;
+    const double seconds = seconds_of(unit, of_day);
     if (seconds == 0 || number < 0) {
       return std::nullopt;
     }

@@ -37,10 +37,13 @@ void inheritance(const Node& node, ast::Pou& pou) {
 
 void modifiers(const Node& node, ast::Pou& pou) {
   const auto has = [&](std::string_view word) { return node.attribute(word) == "true"; };
-  pou.access = has("Private")     ? ast::Access::Private
-               : has("Protected") ? ast::Access::Protected
-               : has("Internal")  ? ast::Access::Internal
-                                  : ast::Access::Public;
+  if (has("Private")) {
+    pou.access = ast::Access::Private;
+  } else if (has("Protected")) {
+    pou.access = ast::Access::Protected;
+  } else {
+    pou.access = has("Internal") ? ast::Access::Internal : ast::Access::Public;
+  }
   pou.is_abstract = pou.is_abstract || has("Abstract");
   pou.is_final = pou.is_final || has("Final");
 }

@@ -138,7 +138,13 @@ std::optional<bool> LivePower::of_logic(const network::Element& element) {
       return std::nullopt;  // with EN off it keeps its previous output
     }
     const bool on = *value != pin.negated;
-    all = !all ? on : type == "AND" ? *all && on : type == "OR" ? *all || on : *all != on;
+    if (!all) {
+      all = on;
+    } else if (type == "AND") {
+      all = *all && on;
+    } else {
+      all = type == "OR" ? *all || on : *all != on;
+    }
   }
   return type == "NOT" ? !*all : *all;
 }

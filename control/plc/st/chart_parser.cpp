@@ -83,10 +83,16 @@ WrittenBody ChartParser::chart(std::string_view end) {
   out_.code.body.language = Body::Language::Sfc;
   out_.code.body.at = in_.here();
   while (!in_.at_end() && !in_.peek().is(end)) {
-    const bool fine = in_.accept("INITIAL_STEP") ? step(true)
-                      : in_.accept("STEP")       ? step(false)
-                      : in_.accept("TRANSITION") ? transition()
-                                                 : in_.expect("ACTION", "or STEP or TRANSITION") && action();
+    bool fine = false;
+    if (in_.accept("INITIAL_STEP")) {
+      fine = step(true);
+    } else if (in_.accept("STEP")) {
+      fine = step(false);
+    } else if (in_.accept("TRANSITION")) {
+      fine = transition();
+    } else {
+      fine = in_.expect("ACTION", "or STEP or TRANSITION") && action();
+    }
     if (!fine) {
       while (!in_.at_end() && !in_.next_is({"END_STEP", "END_TRANSITION", "END_ACTION", end})) {
         in_.take();

@@ -25,11 +25,19 @@ constexpr std::array<SectionWord, 9> kSections{{{"VAR", ast::Section::Local},
 }  // namespace
 
 std::optional<ast::Access> access_word(const Token& word) noexcept {
-  return word.is("PUBLIC")      ? std::optional(ast::Access::Public)
-         : word.is("PRIVATE")   ? std::optional(ast::Access::Private)
-         : word.is("PROTECTED") ? std::optional(ast::Access::Protected)
-         : word.is("INTERNAL")  ? std::optional(ast::Access::Internal)
-                                : std::nullopt;
+  if (word.is("PUBLIC")) {
+    return std::optional(ast::Access::Public);
+  }
+  if (word.is("PRIVATE")) {
+    return std::optional(ast::Access::Private);
+  }
+  if (word.is("PROTECTED")) {
+    return std::optional(ast::Access::Protected);
+  }
+  if (word.is("INTERNAL")) {
+    return std::optional(ast::Access::Internal);
+  }
+  return std::nullopt;
 }
 
 bool DeclarationParser::at_variables() const {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/plc/st/expression_parser.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <string_view>
+#include <utility>
 
 #include "control/plc/model/make.h"
 #include "control/plc/model/walk.h"
@@ -87,10 +90,12 @@ std::optional<Expression> ExpressionParser::binary(int level) {
 
 std::optional<Expression> ExpressionParser::unary() {
   const Token& token = in_.peek();
-  const Operator op = token.is("NOT") ? Operator::Not
-                      : token.is("-") ? Operator::Negate
-                      : token.is("+") ? Operator::Plus
-                                      : Operator::None;
+  Operator op = Operator::None;
+  if (token.is("NOT")) {
+    op = Operator::Not;
+  } else if (token.is("-") || token.is("+")) {
+    op = token.is("-") ? Operator::Negate : Operator::Plus;
+  }
   if (op == Operator::None) {
     return primary();
   }
@@ -244,7 +249,10 @@ bool ExpressionParser::member(Expression& base) {
   unsigned width = 1;
   if (token.kind == TokenKind::Address && digits.size() > 2) {
     const std::string size = upper(digits.substr(1, 1));
-    width = size == "X" ? 1U : size == "B" ? 8U : size == "W" ? 16U : size == "D" ? 32U : 0U;
+    constexpr std::array<std::pair<std::string_view, unsigned>, 4> kWidths{
+        {{"X", 1U}, {"B", 8U}, {"W", 16U}, {"D", 32U}}};
+    const auto known = std::find_if(kWidths.begin(), kWidths.end(), [&](const auto& one) { return one.first == size; });
+    width = known == kWidths.end() ? 0U : known->second;
     digits.remove_prefix(width > 0 ? 2 : 0);
   }
   unsigned bit = 0;

@@ -173,7 +173,11 @@ void MotionQueue::note_progress() noexcept {
   }
   end_first(done, ErrorCode::Ok);
   if (fed_ > 0 && !waiting) {
-    interrupted_ ? robot_.table.waits(motions_[0]) : robot_.table.active(motions_[0]);
+    if (interrupted_) {
+      robot_.table.waits(motions_[0]);
+    } else {
+      robot_.table.active(motions_[0]);
+    }
   }
 }
 

@@ -32,7 +32,8 @@ double enough(const Share& share, double part, double effort) noexcept {
   double low = 0;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (low + part) / 2;
-    (share.most(middle) <= effort ? low : part) = middle;
+    double& bound = share.most(middle) <= effort ? low : part;
+    bound = middle;
   }
   return low;
 }

@@ -17,7 +17,11 @@ constexpr double kParts = 8;  // of a joint path: the longest step
 void Planner::begin_clear() noexcept {
   const bool joints = segment_.move == Move::Joint;
   if (!places_.clearance().known() || segment_.length <= 0) {
-    joints ? end_look() : time_it();
+    if (joints) {
+      end_look();
+    } else {
+      time_it();
+    }
     return;
   }
   stage_ = Stage::Clear;

@@ -26,7 +26,8 @@ int Planner::instant_of(double place) const noexcept {
   int low = 0;
   for (int high = rehearsal_.count(); high - low > 1;) {
     const int middle = low + (high - low) / 2;
-    (place_at(rehearsal_.step() * middle) <= place ? low : high) = middle;
+    int& bound = place_at(rehearsal_.step() * middle) <= place ? low : high;
+    bound = middle;
   }
   return low;
 }

@@ -97,7 +97,11 @@ void Planner::rehearse() noexcept {
     segment_.timing = {};
     rehearse_profile();
   } else if (rehearsal_.done()) {
-    stretches_ > 0 ? next_stretch(rehearsal_.step() * rehearsal_.count()) : end_rehearsal();
+    if (stretches_ > 0) {
+      next_stretch(rehearsal_.step() * rehearsal_.count());
+    } else {
+      end_rehearsal();
+    }
   }
 }
 

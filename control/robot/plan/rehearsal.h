@@ -20,7 +20,7 @@ class Rehearsal {
   // Begins a motion from rest to rest, with or without a timing. `step`: maximum time from one instant to the next.
   // Real-time safe, like all functions of this class.
   void begin(const Joints& from, double duration, double step, bool timed) noexcept;
-  // Looks at a stretch of it only: `instants` from `first` on, where the joints are at `from`.
+  // Checks a stretch of it only: `instants` from `first` on, where the joints are at `from`.
   void begin_stretch(const Joints& from, int first, int instants) noexcept;
   [[nodiscard]] bool done() const noexcept { return next_ > end_; }
   [[nodiscard]] int count() const noexcept { return count_; }

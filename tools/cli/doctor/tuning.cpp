@@ -273,7 +273,11 @@ Result<Undone, base::Problem> undo_tuning(const fs::path& record, const fs::path
   Undone undone;
   for (auto one = kept.rbegin(); one != kept.rend(); ++one) {
     std::string problem = write_setting(root, one->file, one->value);
-    problem.empty() ? static_cast<void>(++undone.settings) : undone.refused.push_back(std::move(problem));
+    if (problem.empty()) {
+      ++undone.settings;
+    } else {
+      undone.refused.push_back(std::move(problem));
+    }
   }
   std::error_code error;
   fs::remove(record, error);

@@ -99,6 +99,16 @@ void markers(const scheduler::Summary& summary, const LogScale& x, double top, b
   }
 }
 
+std::string name_of_decade(double ns) {
+  if (ns >= 1e9) {
+    return fmt::format("{:g} s", ns / 1e9);
+  }
+  if (ns >= 1e6) {
+    return fmt::format("{:g} ms", ns / 1e6);
+  }
+  return ns >= 1e3 ? fmt::format("{:g} us", ns / 1e3) : fmt::format("{:g} ns", ns);
+}
+
 void panel_svg(const HistogramPanel& panel, double y0, base::SvgPart& out) {
   svg_text(out, kHistogramLeft, y0 + 18, "start", "title", panel.title);
   svg_text(out, kHistogramWidth - kHistogramRight, y0 + 18, "end", "label",
@@ -125,11 +135,7 @@ void panel_svg(const HistogramPanel& panel, double y0, base::SvgPart& out) {
   }
   for (const double ns : tick_values(from, to, x.decades() < 2.5)) {
     svg_line(out, x.at(ns), top, x.at(ns), base + 4, "grid");
-    const std::string name = ns >= 1e9   ? fmt::format("{:g} s", ns / 1e9)
-                             : ns >= 1e6 ? fmt::format("{:g} ms", ns / 1e6)
-                             : ns >= 1e3 ? fmt::format("{:g} us", ns / 1e3)
-                                         : fmt::format("{:g} ns", ns);
-    svg_text(out, x.at(ns), base + 18, "middle", "label", name);
+    svg_text(out, x.at(ns), base + 18, "middle", "label", name_of_decade(ns));
   }
   for (const Bin& bin : bins) {
     if (bin.count > 0) {

@@ -142,8 +142,9 @@ class FormulaParser {
   Term product(Names names) {
     Term left = single(names);
     while (!problem_) {
-      const Op op = take("*") ? Op::Times : take("/") ? Op::Over : take("%") ? Op::Rest : Op::Number;
-      if (op == Op::Number) {
+      const Op divides = take("/") ? Op::Over : Op::Rest;
+      const Op op = divides == Op::Rest && take("*") ? Op::Times : divides;
+      if (op == Op::Rest && !take("%")) {
         break;
       }
       const Term right = single(nullptr);
@@ -280,7 +281,9 @@ class FormulaParser {
       term.unit = common_unit(term, either(nullptr));
     }
     close();
-    put(function == "abs" ? Op::Abs : function == "sqrt" ? Op::Sqrt : function == "min" ? Op::Min : Op::Max);
+    const Op of_one = function == "abs" ? Op::Abs : Op::Sqrt;
+    const Op of_two = function == "min" ? Op::Min : Op::Max;
+    put(one ? of_one : of_two);
     return {function == "sqrt" ? "" : term.unit, false, nullptr};
   }
 

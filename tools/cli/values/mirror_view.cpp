@@ -57,9 +57,13 @@ std::string lead_of(const MirrorView& view, const std::string& board) {
       led += one.leads ? 1 : 0;
     }
   }
-  return shared == 0 ? ""
-         : led == 0  ? fmt::format("  standby of {} variable{}", shared, shared == 1 ? "" : "s")
-                     : fmt::format("  leads {} variable{} with a standby", led, led == 1 ? "" : "s");
+  if (shared == 0) {
+    return "";
+  }
+  if (led == 0) {
+    return fmt::format("  standby of {} variable{}", shared, shared == 1 ? "" : "s");
+  }
+  return fmt::format("  leads {} variable{} with a standby", led, led == 1 ? "" : "s");
 }
 
 }  // namespace

@@ -72,7 +72,11 @@ bool drop_forbidden(Context& context, std::vector<Item>& items) {
   const std::string text =
       fmt::format("the keys given by --keys do not let {} be read (indurop keys list -o json shows their lists)",
                   fmt::join(forbidden, ", "));
-  items.empty() ? context.out.error(text) : context.out.note(text);
+  if (items.empty()) {
+    context.out.error(text);
+  } else {
+    context.out.note(text);
+  }
   return !items.empty();
 }
 

@@ -111,7 +111,11 @@ Result<Runs, Failure> follow_nodes(const Asked& asked, const std::set<std::strin
   be_gentle(asked.node);
   const std::int64_t begin = rt::now_ns();
   for (FollowedBoard& one : followed) {
-    duration_ns > 0 ? one.skip() : one.take();
+    if (duration_ns > 0) {
+      one.skip();
+    } else {
+      one.take();
+    }
   }
   while (duration_ns > 0 && rt::now_ns() - begin < duration_ns && !interrupted()) {
     wait_until(rt::now_ns() + kPauseNs);

@@ -73,10 +73,14 @@ Refused refused_by(const std::string& node, const operate::Refusal& refusal) {
   if (refusal.why == Why::Locked) {
     reasons.front() = fmt::format("node '{}': {}", node, reasons.front());
   }
-  const int code = refusal.why == Why::Locked   ? status::kLocked
-                   : refusal.why == Why::Busy   ? status::kNoAnswer
-                   : refusal.why == Why::Absent ? status::kConflict
-                                                : status::kWrongValue;
+  int code = status::kWrongValue;
+  if (refusal.why == Why::Locked) {
+    code = status::kLocked;
+  } else if (refusal.why == Why::Busy) {
+    code = status::kNoAnswer;
+  } else if (refusal.why == Why::Absent) {
+    code = status::kConflict;
+  }
   return {code, std::move(reasons)};
 }
 

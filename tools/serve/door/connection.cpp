@@ -214,7 +214,8 @@ bool Connection::flush(std::int64_t now_ns) {
     if (state == Wire::State::Later) {
       return true;
     }
-    (frame ? message_sent_ : sent_) += taken;
+    std::size_t& progress = frame ? message_sent_ : sent_;
+    progress += taken;
     if (phase_ == Phase::Sending && taken > 0) {
       deadline_ns_ = now_ns + kSendNs;
     }

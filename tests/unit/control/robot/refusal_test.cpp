@@ -138,10 +138,11 @@ TEST_P(Refusal, Takes_no_more_than_its_work) {
     }
     const Fault fault = plan(command, from);
     ++seen[fault.code];
-    (fault.ok() ? most_done : most) = std::max(fault.ok() ? most_done : most, planner->work());
     if (fault.ok()) {
+      most_done = std::max(most_done, planner->work());
       ASSERT_LE(used(), 1.001);
     } else {
+      most = std::max(most, planner->work());
       ASSERT_LE(planner->work(), Planner::kMostWork) << to_string(fault.code);
     }
   }
