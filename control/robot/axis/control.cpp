@@ -76,7 +76,7 @@ void AxisControl::serve(const AxisRequest& request, ErrorCode permit) noexcept {
 
 void AxisControl::take(int ticket, ErrorCode permit) noexcept {
   const Command& command = answers_.table().command(ticket);
-  const AxisService service = service_of(command);
+  const AxisService service = axis_service_of(command);
   const bool always = service == AxisService::Reset || service == AxisService::PowerOn ||
                       service == AxisService::SetPosition || service == AxisService::TouchProbe ||
                       service == AxisService::AbortTrigger || service == AxisService::WriteParameter;

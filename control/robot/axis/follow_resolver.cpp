@@ -36,7 +36,7 @@ bool CommandResolver::follows_itself(const AxisFollow& way) const noexcept {
 }
 
 ErrorCode CommandResolver::follow(const Command& command, const AxisOrder& order, AxisFollow& way) const noexcept {
-  const AxisService service = service_of(command);
+  const AxisService service = axis_service_of(command);
   way.leading = service == AxisService::Combine ? 2 : 1;
   way.leaders = {AxisLeader{command.option - 1}, AxisLeader{command.job - 1}};
   for (std::size_t i = 0; i < way.leading; ++i) {

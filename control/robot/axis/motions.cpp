@@ -74,7 +74,7 @@ void AxisMotions::fail(ErrorCode code, double hardness) noexcept {
 
 // Checks what can be checked before the command begins.
 ErrorCode AxisMotions::check(const Command& command) const noexcept {
-  const AxisService service = service_of(command);
+  const AxisService service = axis_service_of(command);
   if (!parts_.drive.enabled() || parts_.state == AxisState::ErrorStop || parts_.state == AxisState::Stopping) {
     return ErrorCode::State;
   }
@@ -97,7 +97,7 @@ ErrorCode AxisMotions::check(const Command& command) const noexcept {
 
 void AxisMotions::take(int ticket, const Command& command) noexcept {
   if (const ErrorCode code = check(command); code != ErrorCode::Ok) {
-    answers_.answer(ticket, service_of(command), code);
+    answers_.answer(ticket, axis_service_of(command), code);
     return;
   }
   if (ticket == AxisOwner::kRequest || command.buffer == BufferMode::Aborting) {
@@ -116,7 +116,7 @@ void AxisMotions::take(int ticket, const Command& command) noexcept {
 }
 
 void AxisMotions::begin(int ticket, const Command& command) noexcept {
-  const AxisService service = service_of(command);
+  const AxisService service = axis_service_of(command);
   AxisOrder order;
   if (parts_.following.over()) {
     give_back();
@@ -142,7 +142,7 @@ void AxisMotions::begin(int ticket, const Command& command) noexcept {
 }
 
 void AxisMotions::begin_motion(const Command& command, const AxisOrder& order) noexcept {
-  const AxisService service = service_of(command);
+  const AxisService service = axis_service_of(command);
   if (service == AxisService::TorqueControl) {
     begin_torque(order);
   } else if (follows(service)) {
@@ -155,7 +155,7 @@ void AxisMotions::begin_motion(const Command& command, const AxisOrder& order) n
 }
 
 void AxisMotions::begin_own(const Command& command, const AxisOrder& order) noexcept {
-  switch (service_of(command)) {
+  switch (axis_service_of(command)) {
     case AxisService::Home:
       home();
       break;
@@ -197,7 +197,7 @@ void AxisMotions::begin_torque(const AxisOrder& order) noexcept {
 void AxisMotions::begin_profile(const Command& command) noexcept {
   TimeProfile table;
   static_cast<void>(resolver_.read_table(command, table));  // checked before
-  const bool to_rest = service_of(command) == AxisService::PositionProfile;
+  const bool to_rest = axis_service_of(command) == AxisService::PositionProfile;
   const AxisBounds::Own& own = parts_.bounds.own();
   parts_.motion.move_along(table, {own.velocity, own.acceleration, own.jerk}, to_rest);
   parts_.state = to_rest ? AxisState::DiscreteMotion : AxisState::ContinuousMotion;
@@ -312,7 +312,7 @@ void AxisMotions::choose_passing() noexcept {
 double AxisMotions::passing_into_next() const noexcept {
   constexpr double kLeast = 1e-6;
   const Command& next = answers_.table().command(queue_.front());
-  const AxisService service = service_of(next);
+  const AxisService service = axis_service_of(next);
   AxisOrder order;
   const double end = parts_.motion.target();
   const bool works = resolver_.resolve(next, end, order) == ErrorCode::Ok;

@@ -14,7 +14,7 @@ constexpr double kLetGoTime = 0.5;  // s to wait for switching off; a drive that
 }  // namespace
 
 bool AxisPower::take(int ticket, const Command& command) noexcept {
-  const AxisService service = service_of(command);
+  const AxisService service = axis_service_of(command);
   const bool failed = parts_.state == AxisState::ErrorStop || parts_.drive.faulty();
   if (service == AxisService::Reset && owner_.service == AxisService::PowerOff) {
     // A reset does not cancel switching off.

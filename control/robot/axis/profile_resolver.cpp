@@ -18,9 +18,9 @@ ErrorCode CommandResolver::read_table(const Command& command, TimeProfile& table
   const LineState& now = parts_.motion.state();
   TimeProfile::Scale scale{command.to[0], command.to[1] * parts_.units.unit(), command.to[2] * parts_.units.unit()};
   auto of = TimeProfile::Of::Acceleration;
-  if (service_of(command) == AxisService::VelocityProfile) {
+  if (axis_service_of(command) == AxisService::VelocityProfile) {
     of = TimeProfile::Of::Velocity;
-  } else if (service_of(command) == AxisService::PositionProfile) {
+  } else if (axis_service_of(command) == AxisService::PositionProfile) {
     of = TimeProfile::Of::Position;
     scale.offset += command.option == 1 ? now.position : parts_.units.origin();
     if (command.option != 1 && !parts_.homed) {
@@ -59,7 +59,7 @@ ErrorCode CommandResolver::check_profile(const Command& command) const noexcept 
     return ErrorCode::JointLimit;
   }
   const double rest = end.position + ramp(end, 0, bounds.limits(1)).distance;
-  const bool clear = bounds.endless() || service_of(command) == AxisService::PositionProfile || bounds.clear(rest);
+  const bool clear = bounds.endless() || axis_service_of(command) == AxisService::PositionProfile || bounds.clear(rest);
   return clear ? ErrorCode::Ok : ErrorCode::JointLimit;
 }
 

@@ -35,7 +35,7 @@ ErrorCode CommandResolver::resolve(const Command& command, double from, AxisOrde
   if (const ErrorCode code = limit(command, order); code != ErrorCode::Ok) {
     return code;
   }
-  switch (const AxisService service = service_of(command)) {
+  switch (const AxisService service = axis_service_of(command)) {
     case AxisService::TorqueControl:
       return parts_.pushing.resolve(command, parts_.motion.state().velocity, order);
     default:
@@ -54,7 +54,7 @@ ErrorCode CommandResolver::resolve_whole(const Command& command, double from, Ax
 
 // Sets the limits of the motion, and the velocity of one that has no other target.
 ErrorCode CommandResolver::limit(const Command& command, AxisOrder& order) const noexcept {
-  const AxisService service = service_of(command);
+  const AxisService service = axis_service_of(command);
   const bool to_velocity = service == AxisService::MoveVelocity;
   const double speed = to_velocity ? std::abs(command.velocity) : command.velocity;
   const double slowing = command.deceleration == 0 ? command.acceleration : command.deceleration;
@@ -87,7 +87,7 @@ ErrorCode CommandResolver::limit(const Command& command, AxisOrder& order) const
 }
 
 ErrorCode CommandResolver::target(const Command& command, double from, AxisOrder& order) const noexcept {
-  const AxisService service = service_of(command);
+  const AxisService service = axis_service_of(command);
   const double end = goes_on_from(service) ? command.to[1] : 0;
   if (!std::isfinite(end) || nothing(end)) {
     return ErrorCode::Value;
@@ -105,10 +105,10 @@ ErrorCode CommandResolver::target(const Command& command, double from, AxisOrder
 // A motion that continues after a position has to be able to rest after it before the end of the axis, and also where
 // it takes its run-up.
 ErrorCode CommandResolver::check_way(const Command& command, const AxisOrder& order) const noexcept {
-  if (is_profile(service_of(command))) {
+  if (is_profile(axis_service_of(command))) {
     return check_profile(command);
   }
-  if (!goes_on_from(service_of(command)) || parts_.bounds.endless()) {
+  if (!goes_on_from(axis_service_of(command)) || parts_.bounds.endless()) {
     return ErrorCode::Ok;
   }
   const AxisBounds& bounds = parts_.bounds;

@@ -8,7 +8,7 @@
 
 namespace indurop::robot {
 
-inline AxisService service_of(const Command& command) noexcept {
+inline AxisService axis_service_of(const Command& command) noexcept {
   return static_cast<AxisService>(command.code);
 }
 

@@ -23,7 +23,7 @@ void CommandDesk::serve(const Inputs& in, const ModeGuard& mode) noexcept {
 void CommandDesk::take(int ticket, const CamTables& cams) noexcept {
   CommandTable& table = robot_.table;
   const Command& command = table.command(ticket);
-  const Service service = service_of(command);
+  const Service service = group_service_of(command);
   services_.abort_waiting();
   if (is_motion(service)) {
     queue_.take(ticket);

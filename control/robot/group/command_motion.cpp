@@ -75,7 +75,7 @@ bool is_sane(const Command& c) noexcept {
          c.velocity >= 0 && c.transition >= 0 && finite(c.velocity) && finite(c.transition) &&
          c.buffer >= BufferMode::Aborting && c.buffer <= BufferMode::BlendingHigh && c.coords >= CoordSystem::Axes &&
          c.coords <= CoordSystem::Product && c.acceleration == 0 && c.deceleration == 0 && c.jerk == 0 &&
-         (!is_direct(service_of(c)) || c.velocity <= 100);
+         (!is_direct(group_service_of(c)) || c.velocity <= 100);
 }
 
 // Converts to the machine's coordinates.
@@ -84,7 +84,7 @@ Pose CommandMotion::machine_pose(const std::array<double, 8>& numbers, const Com
   const bool product = command.coords == CoordSystem::Product;
   const Pose given = pose_of(numbers);
   const Pose frame = riding_.product_ahead();
-  if (is_relative(service_of(command))) {
+  if (is_relative(group_service_of(command))) {
     const Quat turn = product ? frame.orientation : Quat::Identity();
     return {start.position + turn * given.position, turn * given.orientation * turn.conjugate() * start.orientation};
   }
@@ -93,7 +93,7 @@ Pose CommandMotion::machine_pose(const std::array<double, 8>& numbers, const Com
 }
 
 ErrorCode CommandMotion::make_target(const Command& command, const Pose& start, Target& target) const noexcept {
-  const Service service = service_of(command);
+  const Service service = group_service_of(command);
   if (command.coords != CoordSystem::Axes) {
     target.is_pose = true;
     target.pose = machine_pose(command.to, command, start);
@@ -144,7 +144,7 @@ ErrorCode CommandMotion::make_circle(const Command& command, const Pose& from, M
 }
 
 ErrorCode CommandMotion::make(const Command& command, const Pose& start, MoveCommand& move) const noexcept {
-  const Service service = service_of(command);
+  const Service service = group_service_of(command);
   move.acceleration = riding_.rides() ? kOnProduct : 1;
   move.move = is_direct(service) ? Move::Joint : is_circle(service) ? Move::Circle : Move::Line;
   if (is_direct(service)) {

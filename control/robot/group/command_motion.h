@@ -26,7 +26,7 @@ class CommandMotion {
 };
 
 // The services of motions by command.
-inline Service service_of(const Command& command) noexcept {
+inline Service group_service_of(const Command& command) noexcept {
   return static_cast<Service>(command.code);
 }
 [[nodiscard]] bool is_motion(Service service) noexcept;

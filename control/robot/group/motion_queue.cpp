@@ -50,7 +50,8 @@ void MotionQueue::begin_moving() noexcept {
 void MotionQueue::replace_all(int ticket) noexcept {
   const Command& command = robot_.table.command(ticket);
   const Follower& follower = robot_.follower;
-  const bool joints = is_direct(service_of(command)) && command.coords == CoordSystem::Axes && !follower.stopping();
+  const bool joints =
+      is_direct(group_service_of(command)) && command.coords == CoordSystem::Axes && !follower.stopping();
   int fed = 0;
   if (joints && !follower.idle() && !riding_.on()) {
     if (const ErrorCode code = redirect(ticket); code != ErrorCode::Ok) {
@@ -73,7 +74,7 @@ ErrorCode MotionQueue::redirect(int ticket) noexcept {
   const Command& command = robot_.table.command(ticket);
   start_ = {};
   const Joints given = robot_.axes.from_users(command.to.data());
-  const Joints to = service_of(command) == Service::DirectRelative ? Joints(robot_.commanded() + given) : given;
+  const Joints to = group_service_of(command) == Service::DirectRelative ? Joints(robot_.commanded() + given) : given;
   if (robot_.parts.arm.beyond_limits(to) >= 0) {
     return ErrorCode::JointLimit;
   }
@@ -92,7 +93,7 @@ double MotionQueue::zone_of(int i) const noexcept {
   if (riding_.product_moves() && on_product(next) != on_product(command(i))) {
     return 0;  // in between, the tool synchronizes with the product or leaves it
   }
-  return next.buffer >= BufferMode::BlendingLow && service_of(next) != Service::Halt ? next.transition / 1000 : 0;
+  return next.buffer >= BufferMode::BlendingLow && group_service_of(next) != Service::Halt ? next.transition / 1000 : 0;
 }
 
 // Plans the motion that is followed, and the next one.
@@ -103,7 +104,7 @@ void MotionQueue::feed() noexcept {
   while (fed_ < count_ && (goes_on ? ahead.has_room() : fed_ < kAhead && ahead.empty() && plans_.can_plan())) {
     const int ticket = motions_[at(fed_)];
     const Command& next = robot_.table.command(ticket);
-    if (service_of(next) == Service::Halt) {
+    if (group_service_of(next) == Service::Halt) {
       halt(ticket);
       return;
     }
