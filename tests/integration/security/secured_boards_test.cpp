@@ -121,7 +121,7 @@ TEST_F(Secured, A_viewer_reads_and_cannot_publish) {
   const auto viewer = dds::join_network(settings.network);
   ASSERT_TRUE(viewer.ok()) << viewer.error().text;
   const auto topic = mirror::catalogue_topic("testplant");
-  const auto qos = mirror::plane_qos(settings, mirror::Stream::Prompt);
+  const auto qos = mirror::plane_qos(mirror::Stream::Prompt);
   const auto reader = dds::make_reader(viewer->participant.get(), indurop_wire_Catalogue_desc, topic, qos);
   ASSERT_TRUE(reader.ok()) << reader.why();
   EXPECT_TRUE(wait_until([&] {
@@ -141,7 +141,7 @@ TEST_F(Secured, A_board_cannot_speak_for_another_one) {
   const auto writer = [&](const char* board) {
     return dds::make_writer(b->participant.get(), indurop_wire_Frame_desc,
                             mirror::frames_topic("testplant", board, mirror::Stream::Prompt),
-                            mirror::plane_qos(settings, mirror::Stream::Prompt));
+                            mirror::plane_qos(mirror::Stream::Prompt));
   };
   EXPECT_TRUE(writer("b").ok());
   EXPECT_FALSE(writer("a").ok());
