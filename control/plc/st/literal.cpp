@@ -180,8 +180,9 @@ Literal number_literal(std::string_view text) {
     if (base != "2" && base != "8" && base != "10" && base != "16") {
       return wrong(fmt::format("there are no numbers of base {}, use 2#, 8#, 10# or 16#", base));
     }
-    const int number = base == "2" || base == "8" ? base[0] - '0' : 16;
-    return integer(text.substr(hash + 1), base == "10" ? 10 : number, text);
+    const unsigned binary_or_octal = base == "2" ? 2 : 8;
+    const unsigned decimal_or_more = base == "10" ? 10 : 16;
+    return integer(text.substr(hash + 1), base == "2" || base == "8" ? binary_or_octal : decimal_or_more, text);
   }
   const bool has_exponent = text.find_first_of("eE") != std::string_view::npos;
   return text.find('.') != std::string_view::npos || has_exponent ? real(text) : integer(text, 10, text);
