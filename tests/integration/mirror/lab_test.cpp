@@ -94,8 +94,7 @@ TEST_F(Lab, Two_boards_of_one_name_say_so) {
   start({"a", "t::count", "-", "plain"}, {"c"}, lab());
   start_as("b", {"a", "t::count", "-", "plain"}, {"c"}, lab());  // board a once more, on another machine
   for (const char* place : {"a", "b"}) {
-    EXPECT_TRUE(
-        wait_until([&] { return block(place).problem.get().find("runs as board a") != std::string::npos; }));
+    EXPECT_TRUE(wait_until([&] { return block(place).problem.get().find("runs as board a") != std::string::npos; }));
   }
   stop("b");
   EXPECT_TRUE(wait_until([&] { return block("a").problem.get().empty(); }));

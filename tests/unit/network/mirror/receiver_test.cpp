@@ -23,7 +23,7 @@ class NotingPlane final : public Plane {
   Opened offer_catalogue() override { return {}; }
   Opened exchange_beacons(BeaconListener& /*listener*/) override { return {}; }
   Result<std::unique_ptr<Subscription>, base::Problem> subscribe(const std::string& /*board*/, Stream stream,
-                                                            FrameListener& /*listener*/) override {
+                                                                 FrameListener& /*listener*/) override {
     heard.push_back(stream);
     return std::make_unique<Subscription>();
   }
