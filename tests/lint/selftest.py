@@ -292,7 +292,7 @@ class Functions(Sample):
 
     def test_retired_word_on_a_page(self):
         self.put("docs/a.md", "What nobody reads.\n")
-        self.put("docs/serve.md", "What nobody reads.\n")  # a page that is not finished
+        self.put("docs/words.md", "What nobody reads.\n")  # the page that lists these words
         self.found(check_text.words(self.root), "docs/a.md:1", "nobody", "no user")
 
     def test_long_function(self):
