@@ -158,7 +158,7 @@ TEST(PeriodicProcess, Left_over_from_a_dead_node_gives_way_to_the_next_nodes_own
   Program child = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
   ASSERT_TRUE(enrolled(node, child)) << child.out();
   node.run().node_pid = indurop::test::dead_pid();
-  ASSERT_TRUE(child.prints("is gone"));
+  ASSERT_TRUE(child.prints("has ended; waiting"));
   Program fresh = hosted_program("/bin/sleep", node.name(), "1", {"1000"});
   node.restart(sample_schema(), one_process());
   launched(node, fresh);

@@ -97,7 +97,7 @@ TEST_F(CheckFiles, Thread_module_needs_something_to_run) {
   write("c.so", {.abi = 0, .exports = {"run"}});
   write("cpp.so", {.abi = 0, .exports = {"_Z3runv"}});
   EXPECT_THAT(check_lines(periodic("none.so", "1ms", 1) + periodic("c.so", "1ms", 2) + periodic("cpp.so", "1ms", 3)),
-              ElementsAre(HasSubstr("'none.so' has nothing to run")));
+              ElementsAre(HasSubstr("'none.so' has no run function")));
 }
 
 TEST_F(CheckFiles, Sporadic_thread_needs_a_condition) {

@@ -55,8 +55,8 @@ TEST(Times, Too_much_for_a_core_is_an_error_with_the_share) {
       root("<spin>off</spin>" + periodic("a.so", "1ms", 1, wcet("600us")) + periodic("b.so", "1ms", 2, wcet("500us"))),
       kTimesOnly);
   EXPECT_EQ(sut.result.timings[1].worst, base::Nanos(-1));
-  EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("b does not end before its next release: it and what runs before it "
-                                                 "need 110 % of a core")));
+  EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("b does not end before its next release: with the modules that run "
+                                                 "before it, it needs 110 % of a core")));
 }
 
 TEST(Times, Of_several_cores_count_what_waits_for_another_one) {
@@ -87,7 +87,7 @@ TEST(Times, Behind_a_module_that_does_not_say_nothing_is_known) {
 
 TEST(Times, What_takes_longer_than_its_period_is_refused_behind_any_module) {
   const Checked sut = check(root(periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2, wcet("2ms"))), kTimesOnly);
-  EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("error: b executes for 2 ms, and has 1 ms for it; make it shorter")));
+  EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("error: b executes for 2 ms and has only 1 ms; shorten it")));
 }
 
 TEST(Times, That_were_measured_stand_in_for_those_not_declared) {

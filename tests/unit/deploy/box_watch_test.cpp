@@ -43,7 +43,7 @@ TEST(BoxWatch, A_board_that_left_while_its_node_ran_is_told_once) {
   BoxWatch sut;
   EXPECT_EQ(sut.gone(report(5)), std::nullopt) << "it was never there";
   EXPECT_EQ(sut.note_report(report(1000)), std::nullopt);
-  EXPECT_THAT(sut.gone(report(1000)).value_or(""), HasSubstr("not heard any more"));
+  EXPECT_THAT(sut.gone(report(1000)).value_or(""), HasSubstr("no longer reports"));
   EXPECT_EQ(sut.gone(report(1000)), std::nullopt);
 }
 

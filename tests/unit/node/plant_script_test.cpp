@@ -41,7 +41,7 @@ TEST(PlantScript, Says_all_that_is_wrong_with_its_lines) {
   const std::string said = errors("1s kil sensor\n2s cut control now\nsoon kill sensor\n3s kill sensr\n");
   EXPECT_NE(said.find("s.txt:1:1: error: 'kil' cannot happen to a board; did you mean 'kill'?"), std::string::npos)
       << said;
-  EXPECT_NE(said.find("s.txt:2:1: error: this is no line of a script"), std::string::npos) << said;
+  EXPECT_NE(said.find("s.txt:2:1: error: this is not a line of a script"), std::string::npos) << said;
   EXPECT_NE(said.find("s.txt:3:1: error: "), std::string::npos) << said;
   EXPECT_NE(said.find("s.txt:4:1: error: the plant has no board 'sensr'; did you mean 'sensor'?"), std::string::npos)
       << said;

@@ -61,7 +61,7 @@ Result<PlantSource, Failure> read_bundle(Context& context, const std::string& fi
   }
   CheckedPlant checked = load_plant(opened->manifest.string(), {});
   if (!print_check(context, checked)) {
-    return Failure{kCheckFailed, fmt::format("{}: the check of the bundle found errors", file)};
+    return Failure{kCheckFailed, {}};
   }
   source.plant = std::move(checked.plant);
   source.packed = std::move(opened->packed);
@@ -84,7 +84,7 @@ Result<PlantSource, Failure> read_plant_source(Context& context, const std::stri
   }
   CheckedPlant checked = load_plant(file, {});
   if (!print_check(context, checked)) {
-    return Failure{kCheckFailed, "the check found errors; nothing was sent or written"};
+    return Failure{kCheckFailed, {}};
   }
   PlantSource source;
   source.temporary = std::make_unique<TemporaryFolder>();
@@ -99,6 +99,12 @@ Result<PlantSource, Failure> read_plant_source(Context& context, const std::stri
   source.plant = std::move(checked.plant);
   source.packed = std::move(packed).value();
   return source;
+}
+
+Failure not_done(const Failure& failure, const char* act) {
+  return failure.code == kCheckFailed && failure.text.empty()
+             ? Failure{failure.code, fmt::format("nothing was {}", act)}
+             : failure;
 }
 
 std::string bundle_refusal(const PlantSource& source, const std::filesystem::path& keys) {

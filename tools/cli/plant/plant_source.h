@@ -26,9 +26,12 @@ struct PlantSource {
 
 // Reads and checks a manifest, or a bundle, and packs its files and sources. Prints the diagnostics. `also` and
 // `comment`: see deploy::pack_plant(); a bundle has its own. Errors: no such file, not a manifest (kUsage); the check
-// found errors (kCheckFailed); files cannot be read, a damaged bundle (kFailed).
+// found errors (kCheckFailed, without a text); files cannot be read, a damaged bundle (kFailed).
 Result<PlantSource, Failure> read_plant_source(Context& context, const std::string& file,
                                                const std::vector<std::string>& also, const std::string& comment);
+
+// Returns the failure of read_plant_source() with what was not done: "nothing was deployed".
+Failure not_done(const Failure& failure, const char* act);
 
 // Returns why the bundle must not be deployed with the keys in `keys` (the folder of a deployer; empty: none); empty
 // if it may.

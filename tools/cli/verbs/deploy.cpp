@@ -114,7 +114,7 @@ Result<std::string, base::Problem> deploy_key(Context& context, const config::Pl
 int deploy_plant(Context& context, Options& options) {
   auto read = read_plant_source(context, options.file, options.also, options.comment);
   if (!read) {
-    return report(context.out, read.error());
+    return report(context.out, not_done(read.error(), "deployed"));
   }
   const PlantSource source = std::move(read).value();
   const deploy::PackedPlant* const packed = &source.packed;

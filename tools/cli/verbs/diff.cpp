@@ -101,7 +101,7 @@ Result<std::size_t, Failure> compare_sources(HeardBoards& boards, std::uint64_t 
 int diff(Context& context, Options& options) {
   auto source = read_plant_source(context, options.file, options.also, {});
   if (!source) {
-    return report(context.out, source.error());
+    return report(context.out, not_done(source.error(), "compared"));
   }
   options.link.network.multicast = source->plant.multicast;
   auto boards = hear_boards(context, options.link, {});

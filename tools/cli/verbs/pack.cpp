@@ -32,7 +32,7 @@ int pack(Context& context, const Options& options) {
   }
   auto source = read_plant_source(context, options.file, options.also, options.comment);
   if (!source) {
-    return report(context.out, source.error());
+    return report(context.out, not_done(source.error(), "packed"));
   }
   const std::string keys = options.keys.empty() ? source->plant.security.string() : options.keys;
   deploy::BundleSignature signature;
@@ -62,7 +62,7 @@ int pack(Context& context, const Options& options) {
 Action declare(base::Options& app, Context& /*context*/) {
   auto options = std::make_shared<Options>();
   app.add("file", "FILE", options->file, "Manifest of the plant (default: plant.xml)");
-  app.add("-o,--output", "FILE", options->out, "Bundle to write (default: PLANT.bundle)");
+  app.add("-o,--file", "FILE", options->out, "Bundle to write (default: PLANT.bundle)");
   app.add("--keys", "DIR", options->keys, "Sign with the deployer's keys in DIR (default: <security> of the manifest)")
       .completes(base::Completion::Folder);
   add_comment_option(app, options->comment);

@@ -106,9 +106,9 @@ TEST_F(Keys, Documents_that_were_changed_are_found_out) {
   make();
   const ParticipantKeys keys(sut.board("a"));
   std::string text = text_of(keys.permissions);
-  const auto at = text.find("indurop/5/cell/a/");
+  const auto at = text.find("indurop/6/cell/a/");
   ASSERT_NE(at, std::string::npos) << "the text is readable in the document";
-  text.replace(at, 17, "indurop/5/cell/b/");
+  text.replace(at, 17, "indurop/6/cell/b/");
   std::ofstream(keys.permissions) << text;
   EXPECT_THAT(check(keys.folder).problem, AllOf(HasSubstr("permissions.p7s is not signed by"), HasSubstr("ca.pem")));
 }
@@ -157,8 +157,8 @@ TEST(Permissions, A_board_publishes_its_own_variables_only) {
   const Validity validity{valid_from(), valid_from() + days(1)};
   const std::string board = permissions_document({Role::Board, "cell", "a"}, "CN=a,O=cell", validity);
   EXPECT_THAT(board, HasSubstr("<subject_name>CN=a,O=cell</subject_name>"));
-  EXPECT_THAT(board, HasSubstr("<topic>indurop/5/cell/a/*</topic>"));
-  EXPECT_LT(board.find("<subscribe>"), board.find("<topic>indurop/5/cell/*</topic>"));
+  EXPECT_THAT(board, HasSubstr("<topic>indurop/6/cell/a/*</topic>"));
+  EXPECT_LT(board.find("<subscribe>"), board.find("<topic>indurop/6/cell/*</topic>"));
   EXPECT_THAT(board, HasSubstr("<default>DENY</default>"));
   const std::string viewer = permissions_document({Role::Viewer, "cell", "viewer"}, "x", validity);
   EXPECT_THAT(viewer.substr(viewer.find("<deny_rule>")), Not(HasSubstr("<publish><topics>\n          <topic>*")));

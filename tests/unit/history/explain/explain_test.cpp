@@ -176,7 +176,7 @@ TEST(Explain, What_is_not_known_is_said_with_its_reason) {
   EXPECT_EQ(why_late(facts, "nobody", 3).cause, Cause::NotKnown);
   facts.first_tick = 50;
   std::erase_if(facts.runs, [](const RunFact& run) { return run.tick < 50; });
-  EXPECT_THAT(why_late(facts, "writer", 3).text, HasSubstr("begins with tick 50"));
+  EXPECT_THAT(why_late(facts, "writer", 3).text, HasSubstr("available from tick 50 on"));
 }
 
 TEST(Explain, A_stop_is_noted_when_it_has_been_obeyed) {

@@ -237,9 +237,9 @@ TEST_F(Reader, What_is_no_recording_is_refused) {
   EXPECT_THAT(McapReader::open(folder / "no.mcap").error().text, HasSubstr("No such file or directory"));
   EXPECT_THAT(McapReader::open(folder).error().text, HasSubstr("it is a directory"));
   put_content("");
-  EXPECT_THAT(McapReader::open(path).error().text, HasSubstr("byte 0: this is no recording"));
+  EXPECT_THAT(McapReader::open(path).error().text, HasSubstr("byte 0: this is not a recording"));
   put_content("#include <something that is long enough>");
-  EXPECT_THAT(McapReader::open(path).error().text, HasSubstr("byte 0: this is no recording"));
+  EXPECT_THAT(McapReader::open(path).error().text, HasSubstr("byte 0: this is not a recording"));
 }
 
 }  // namespace
