@@ -271,15 +271,15 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
     band->runner().attach_thread();
   }
   const std::int64_t basic = settings_.basic_period_ns;
-  Spinner spinner(kernel_, settings_.spin, basic);
+  TickWait wait(kernel_, settings_.spin, basic);
   for (std::int64_t t = epoch_ns_ - warm_up_ns(basic); t < epoch_ns_; t += basic) {
-    spinner.wait_until(rt::mono_time(t));
+    wait.wait_until(rt::mono_time(t));
   }
   std::uint64_t missed = 0;  // ticks since the last one that was run
   WorkTime work;
   for (std::uint64_t tick = 0; !stop_.load(std::memory_order_acquire); ++tick) {
     const std::int64_t planned = epoch_ns_ + static_cast<std::int64_t>(tick) * basic;
-    const std::int64_t begin = rt::to_ns(spinner.wait_until(rt::mono_time(planned)));
+    const std::int64_t begin = rt::to_ns(wait.wait_until(rt::mono_time(planned)));
     const std::int64_t late = begin - planned;
     const std::uint64_t first = tick;
     tick += static_cast<std::uint64_t>(late / basic);
@@ -295,7 +295,7 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
       if (lost > 0) {
         block_.lost_ticks.fetch_add(lost, std::memory_order_relaxed);
       }
-      block_.spin_margin_ns.store(spinner.margin_ns(), std::memory_order_relaxed);
+      block_.spin_margin_ns.store(wait.margin_ns(), std::memory_order_relaxed);
     }
     if (!in_vain) {
       do_tick(core, tick, std::exchange(missed, 0));

@@ -15,7 +15,7 @@
 #include "core/rt/thread.h"
 #include "scheduler/band.h"
 #include "scheduler/core_order.h"
-#include "scheduler/spinner.h"
+#include "scheduler/tick_wait.h"
 
 namespace indurop::scheduler {
 

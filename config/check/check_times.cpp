@@ -10,7 +10,7 @@
 #include "config/check/check_parts.h"
 #include "scheduler/bands.h"
 #include "scheduler/response_time.h"
-#include "scheduler/spinner.h"
+#include "scheduler/tick_wait.h"
 
 namespace indurop::config {
 namespace {
@@ -243,8 +243,8 @@ class Times {
 
 scheduler::DispatchCost dispatch_cost(const Config& config, base::Nanos basic) {
   const SpinSetting spin = config.spin.value_or(SpinSetting{});
-  const base::Nanos spun = spin.mode == SpinSetting::Mode::Auto ? std::min(basic / scheduler::Spinner::kMaxMeanShare,
-                                                                           base::Nanos{scheduler::Spinner::kMaxMeanNs})
+  const base::Nanos spun = spin.mode == SpinSetting::Mode::Auto ? std::min(basic / scheduler::TickWait::kMaxMeanShare,
+                                                                           base::Nanos{scheduler::TickWait::kMaxMeanNs})
                                                                 : spin.fixed;
   return {kTickCost + spun, kWakeCost};
 }

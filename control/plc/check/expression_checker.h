@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "control/plc/check/call_checker.h"
-#include "control/plc/check/cast_checker.h"
 #include "control/plc/check/context.h"
+#include "control/plc/check/enumeration_casts.h"
 #include "control/plc/check/initial_checker.h"
 #include "control/plc/check/method_checker.h"
 #include "control/plc/check/name_checker.h"
@@ -67,7 +67,7 @@ class ExpressionChecker {
   PointerChecker& pointers() noexcept { return pointers_; }
   OperationChecker& operations() noexcept { return operations_; }
   WriteChecker& writes() noexcept { return writes_; }
-  CastChecker& casts() noexcept { return casts_; }
+  EnumerationCasts& casts() noexcept { return casts_; }
   InitialChecker& initials() noexcept { return initials_; }
   CallChecker& calls() noexcept { return calls_; }
 
@@ -85,7 +85,7 @@ class ExpressionChecker {
   PointerChecker pointers_;
   OperationChecker operations_;
   WriteChecker writes_;
-  CastChecker casts_;
+  EnumerationCasts casts_;
   InitialChecker initials_;
   CallChecker calls_;
 };

@@ -8,8 +8,8 @@
 
 #include "control/plc/check/expression_checker.h"
 #include "control/plc/check/foreign_types.h"
+#include "control/plc/check/instance_contents.h"
 #include "control/plc/check/object_checker.h"
-#include "control/plc/check/places.h"
 #include "control/plc/check/shared_names.h"
 #include "control/plc/check/type_builder.h"
 #include "control/plc/st/literal.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "control/plc/check/in_order.h"
-#include "control/plc/check/places.h"
+#include "control/plc/check/instance_contents.h"
 #include "control/plc/check/saturating.h"
 #include "control/plc/check/value_tree.h"
 #include "control/plc/library/standard.h"

@@ -8,9 +8,9 @@
 
 #include "control/plc/check/generic_functions.h"
 #include "control/plc/check/global_table.h"
+#include "control/plc/check/instance_contents.h"
 #include "control/plc/check/late_value.h"
 #include "control/plc/check/object_checker.h"
-#include "control/plc/check/places.h"
 #include "control/plc/check/statement_checker.h"
 #include "control/plc/check/type_builder.h"
 #include "control/plc/check/usage_checker.h"

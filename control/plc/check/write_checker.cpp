@@ -8,7 +8,7 @@
 
 #include "control/plc/check/designator.h"
 #include "control/plc/check/expression_checker.h"
-#include "control/plc/check/places.h"
+#include "control/plc/check/instance_contents.h"
 
 namespace indurop::plc {
 namespace {

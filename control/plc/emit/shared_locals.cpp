@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "control/plc/check/places.h"
+#include "control/plc/check/instance_contents.h"
 #include "control/plc/check/shared_names.h"
 #include "control/plc/check/value_tree.h"
 #include "control/plc/emit/cpp_text.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "control/robot/collision/clear_way.h"
+#include "control/robot/collision/collision_check.h"
 #include "control/robot/files/files.h"
 #include "control/robot/kinematics/tool_set.h"
 
@@ -25,7 +25,7 @@ struct Program {
   ToolSet tools;
   // Collision checks of the same bodies: for planning, for the follower, for motions that were not planned, and for
   // their way to rest.
-  ClearWay planned, followed, unplanned, to_rest;
+  CollisionCheck planned, followed, unplanned, to_rest;
 };
 
 // Reads the job files again. Returns null, and the reason in `error` (one line, with the number of further errors), if

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "control/robot/collision/clear_way.h"
+#include "control/robot/collision/collision_check.h"
 #include "control/robot/kinematics/tool_set.h"
 
 namespace indurop::robot {
@@ -93,7 +93,7 @@ void tell(const ArmModel& model, const JobBook& book, const std::string& urdf, c
 }
 
 // The pair that would touch there; empty if it is clear.
-std::string touched(const Clearance& clearance, ClearWay& way, const Joints& q, int tool) {
+std::string touched(const Clearance& clearance, CollisionCheck& way, const Joints& q, int tool) {
   way.begin(q, tool);
   if (way.pair() < 0) {
     return "";
@@ -163,7 +163,7 @@ Diagnostics check_clear(const JobBook& book, const Arm& arm, const Clearance& cl
     return warnings;
   }
   const ToolSet tools(arm, book.tips());
-  ClearWay way(clearance, true);
+  CollisionCheck way(clearance, true);
   for (const Point& point : book.points) {
     const Target& target = point.target;
     std::string what;

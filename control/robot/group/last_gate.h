@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include "control/robot/group/clear_ahead.h"
+#include "control/robot/group/collisions_ahead.h"
 #include "control/robot/group/group_port.h"
 #include "control/robot/group/mode_guard.h"
 #include "control/robot/group/riding.h"
@@ -27,7 +27,7 @@ class LastGate {
   // Factor on the joints' accelerations in the stop in progress.
   [[nodiscard]] double hardness() const noexcept { return hardness_; }
   void set_hardness(double hardness) noexcept { hardness_ = hardness; }
-  [[nodiscard]] ClearAhead& clear() noexcept { return clear_; }
+  [[nodiscard]] CollisionsAhead& clear() noexcept { return clear_; }
 
  private:
   void check_axes() noexcept;
@@ -41,7 +41,7 @@ class LastGate {
   GroupPort& group_;
   const ModeGuard& mode_;
   const Riding& riding_;
-  ClearAhead clear_;
+  CollisionsAhead clear_;
   bool braking_ = false;
   bool in_step_ = false;  // all axes together, by `brake_`
   JointBrake brake_;

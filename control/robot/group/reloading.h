@@ -5,7 +5,7 @@
 #pragma once
 
 #include "control/robot/files/program_loader.h"
-#include "control/robot/group/clear_ahead.h"
+#include "control/robot/group/collisions_ahead.h"
 #include "control/robot/group/group_port.h"
 #include "control/robot/group/plans.h"
 #include "control/robot/group/robot.h"
@@ -15,7 +15,7 @@ namespace indurop::robot {
 
 class Reloading {
  public:
-  Reloading(Robot& robot, GroupPort& group, Plans& plans, ClearAhead& clear, TorqueWatch& torques)
+  Reloading(Robot& robot, GroupPort& group, Plans& plans, CollisionsAhead& clear, TorqueWatch& torques)
       : robot_(robot),
         group_(group),
         plans_(plans),
@@ -36,7 +36,7 @@ class Reloading {
   Robot& robot_;
   GroupPort& group_;
   Plans& plans_;
-  ClearAhead& clear_;
+  CollisionsAhead& clear_;
   TorqueWatch& torques_;
   ProgramLoader loader_;
   bool reading_ = false;

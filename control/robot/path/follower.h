@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "control/robot/collision/clear_way.h"
+#include "control/robot/collision/collision_check.h"
 #include "control/robot/kinematics/errors.h"
 #include "control/robot/path/brake.h"
 #include "control/robot/path/segment.h"
@@ -41,7 +41,7 @@ class Follower final : private PathAhead {
   void add(const Segment& segment, const Blend& blend = {}) noexcept;
 
   // Gives access to the collision check to exchange its bodies. The follower must be idle.
-  [[nodiscard]] ClearWay& clear_way() noexcept { return clear_; }
+  [[nodiscard]] CollisionCheck& clear_way() noexcept { return clear_; }
   // Replaces all remaining motion by a joint motion, from any motion of the joints; not while it is stopping. Errors:
   // JointLimit, Singular, Workspace, Speed, Collision; then nothing has changed.
   Fault redirect(const Segment& target) noexcept;
@@ -137,7 +137,7 @@ class Follower final : private PathAhead {
 
   const Places& places_;
   JointLimits most_;
-  ClearWay clear_;  // for paths that are chosen in the tick
+  CollisionCheck clear_;  // for paths that are chosen in the tick
   Aside aside_;
   bool keep_ = false;
   std::array<Segment, kMost> segments_;

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "control/robot/collision/clear_way.h"
+#include "control/robot/collision/collision_check.h"
 #include "control/robot/kinematics/errors.h"
 #include "control/robot/path/rates.h"
 #include "control/robot/path/segment.h"
@@ -41,7 +41,7 @@ class Planner {
   [[nodiscard]] int work() const noexcept { return work_; }
 
   // The collision check, for replacing its bodies while nothing is being planned.
-  [[nodiscard]] ClearWay& clear_way() noexcept { return clear_; }
+  [[nodiscard]] CollisionCheck& clear_way() noexcept { return clear_; }
 
   // The blend of `first` into `second` within first.zone; the zone of the result is 0 if it cannot, or if stopping at
   // the corner is faster.
@@ -58,7 +58,7 @@ class Planner {
 
   Fault look(int& places) noexcept;
   void time_it() noexcept;
-  // Collision check (planner_clear.cpp).
+  // Collision check (planner_collisions.cpp).
   void begin_clear() noexcept;
   Fault clear(int& places) noexcept;
   bool joints_on_way(double place, const Joints& near, Joints& q) const noexcept;
@@ -111,7 +111,7 @@ class Planner {
   Samples samples_{};
   std::array<double, kMost + 1> volumes_{};
   WayInside way_;
-  ClearWay clear_;
+  CollisionCheck clear_;
   ClearWalk walk_;
   Segment clear_way_;  // joint path that is being checked
   int count_ = 0;      // places after the first

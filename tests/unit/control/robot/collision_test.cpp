@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "control/robot/collision/clear_way.h"
+#include "control/robot/collision/collision_check.h"
 #include "control/robot/plan/planner.h"
 #include "group_cell.h"
 #include "solid_reference.h"

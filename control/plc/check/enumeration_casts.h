@@ -9,9 +9,9 @@ namespace indurop::plc {
 
 class ExpressionChecker;
 
-class CastChecker {
+class EnumerationCasts {
  public:
-  CastChecker(ExpressionChecker& expressions, Context& context) : expressions_(expressions), context_(context) {}
+  EnumerationCasts(ExpressionChecker& expressions, Context& context) : expressions_(expressions), context_(context) {}
 
   // Turns the expression into its conversion: an enumeration is a number, and a number one of an enumeration.
   void cast(ast::Expression& expression, const Type& to);

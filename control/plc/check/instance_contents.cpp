@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/plc/check/places.h"
+#include "control/plc/check/instance_contents.h"
 
 namespace indurop::plc {
 

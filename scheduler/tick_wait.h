@@ -18,7 +18,7 @@ struct SpinSettings {
   std::int64_t fixed_ns = 0;  // SpinMode::Fixed
 };
 
-class Spinner {
+class TickWait {
  public:
   // Auto never spins longer than half the period, because the kernel stops real-time threads that use all of a core,
   // nor longer than kMaxSpinNs: a machine with later wake-ups does not become exact at any cost. The average spin is
@@ -26,7 +26,7 @@ class Spinner {
   static constexpr std::int64_t kMaxSpinNs = 150'000;
   static constexpr std::int64_t kMaxMeanNs = 20'000;
   static constexpr std::int64_t kMaxMeanShare = 10;  // one part in this many of the period
-  Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept;
+  TickWait(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept;
 
   // Returns the time at which the wait ended, at or after the deadline. Real-time safe.
   rt::MonoTime wait_until(rt::MonoTime deadline) noexcept;

@@ -56,11 +56,11 @@ bool Planner::joints_on_way(double place, const Joints& near, Joints& q) const n
 Fault Planner::clear(int& places) noexcept {
   const auto at = [this](double place, const Joints& near, Joints& q) { return joints_on_way(place, near, q); };
   for (; places > 0 && !walk_.done(); --places) {
-    const ClearWay::Step step = walk_.step(clear_, at);
-    if (step == ClearWay::Step::Lost) {
+    const CollisionCheck::Step step = walk_.step(clear_, at);
+    if (step == CollisionCheck::Step::Lost) {
       return {ErrorCode::Singular};
     }
-    if (step == ClearWay::Step::Touches) {
+    if (step == CollisionCheck::Step::Touches) {
       const double length = segment_.move == Move::Joint ? clear_way_.length : segment_.length;
       if (segment_.chain != nullptr) {
         segment_.source = segment_.chain->source_at(walk_.place());
@@ -93,8 +93,8 @@ bool Planner::clear(const Segment& first, const Blend& blend, const Segment& sec
   clear_.begin(start, places_.tool());
   ClearWalk walk;
   for (walk.begin(blend.length(), blend.length() / kParts); !walk.done();) {
-    const ClearWay::Step step = walk.step(clear_, at);
-    if (step == ClearWay::Step::Touches || step == ClearWay::Step::Lost) {
+    const CollisionCheck::Step step = walk.step(clear_, at);
+    if (step == CollisionCheck::Step::Touches || step == CollisionCheck::Step::Lost) {
       return false;
     }
   }

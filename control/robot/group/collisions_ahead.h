@@ -4,14 +4,14 @@
 
 #pragma once
 
-#include "control/robot/collision/clear_way.h"
+#include "control/robot/collision/collision_check.h"
 #include "control/robot/group/robot.h"
 
 namespace indurop::robot {
 
-class ClearAhead {
+class CollisionsAhead {
  public:
-  explicit ClearAhead(const Robot& robot)
+  explicit CollisionsAhead(const Robot& robot)
       : robot_(robot),
         clear_(robot.tool.places().clearance(), false),
         to_rest_(robot.tool.places().clearance(), false) {}
@@ -30,7 +30,7 @@ class ClearAhead {
   [[nodiscard]] Fault check() noexcept;
 
   const Robot& robot_;
-  ClearWay clear_, to_rest_;  // up to the last set point, and for a way to rest
+  CollisionCheck clear_, to_rest_;  // up to the last set point, and for a way to rest
   bool begun_ = false;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/robot/group/clear_ahead.h"
+#include "control/robot/group/collisions_ahead.h"
 
 #include <array>
 
 namespace indurop::robot {
 
-Fault ClearAhead::step(bool carried) noexcept {
+Fault CollisionsAhead::step(bool carried) noexcept {
   const bool alone = carried || robot_.axes.any_busy();
   if (!alone || robot_.axes.any_placed_anew() || !robot_.tool.places().clearance().known() ||
       robot_.states.is(GroupState::Homing)) {
@@ -19,7 +19,7 @@ Fault ClearAhead::step(bool carried) noexcept {
 
 // Checks the way from the last set point to this one, and on to rest if all axes brake at once. The one before was
 // checked in the same way, so the gates can still brake there.
-Fault ClearAhead::check() noexcept {
+Fault CollisionsAhead::check() noexcept {
   constexpr int kLooks = 24;
   constexpr double kParts = 4;  // of the way to rest: the longest step
   const Joints last = robot_.axes.passed();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scheduler/spinner.h"
+#include "scheduler/tick_wait.h"
 
 #include <algorithm>
 
@@ -17,7 +17,7 @@ constexpr std::int64_t kSettle = 64;
 
 }  // namespace
 
-Spinner::Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept
+TickWait::TickWait(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept
     : clock_(clock),
       mode_(settings.mode),
       limit_(std::min(period_ns / 2, kMaxSpinNs)),
@@ -31,7 +31,7 @@ Spinner::Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period
   }
 }
 
-void Spinner::learn(std::int64_t wake_cost, std::int64_t spin) noexcept {
+void TickWait::learn(std::int64_t wake_cost, std::int64_t spin) noexcept {
   quantile_ += wake_cost > quantile_ ? kStepUp : -kStepDown;
   const std::int64_t wanted = std::min(quantile_ + quantile_ * 15 / 100 + 1000, limit_);
   // Limits the credit to what will be needed soon: a machine that becomes slow must not use it all at once.
@@ -39,7 +39,7 @@ void Spinner::learn(std::int64_t wake_cost, std::int64_t spin) noexcept {
   margin_ = std::min(wanted, credit_ / kSettle);
 }
 
-rt::MonoTime Spinner::wait_until(rt::MonoTime deadline) noexcept {
+rt::MonoTime TickWait::wait_until(rt::MonoTime deadline) noexcept {
   rt::MonoTime now = clock_.now();
   const rt::MonoTime wake_at = deadline - std::chrono::nanoseconds(margin_);
   if (now < wake_at) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scheduler/spinner.h"
+#include "scheduler/tick_wait.h"
 
 #include <gtest/gtest.h>
 
@@ -29,10 +29,10 @@ class LateClock final : public Kernel {
   std::int64_t now_ = 0;
 };
 
-TEST(Spinner, Learns_to_wake_early_enough) {
+TEST(TickWait, Learns_to_wake_early_enough) {
   LateClock clock;
   clock.late = 30'000;
-  Spinner sut(clock, {}, 1'000'000);
+  TickWait sut(clock, {}, 1'000'000);
   std::int64_t last = 0;
   for (std::int64_t n = 1; n <= 200; ++n) {
     last = rt::to_ns(sut.wait_until(rt::mono_time(n * 1'000'000))) - n * 1'000'000;
@@ -42,24 +42,24 @@ TEST(Spinner, Learns_to_wake_early_enough) {
   EXPECT_LT(sut.margin_ns(), 50'000);
 }
 
-TEST(Spinner, Never_spins_more_than_half_the_period) {
+TEST(TickWait, Never_spins_more_than_half_the_period) {
   LateClock clock;
   clock.late = 90'000;
-  Spinner sut(clock, {}, 100'000);
+  TickWait sut(clock, {}, 100'000);
   for (std::int64_t n = 1; n <= 2000; ++n) {
     sut.wait_until(rt::mono_time(n * 200'000));
   }
   EXPECT_LE(sut.margin_ns(), 50'000);
 }
 
-TEST(Spinner, A_machine_that_is_late_by_milliseconds_is_not_waited_for) {
+TEST(TickWait, A_machine_that_is_late_by_milliseconds_is_not_waited_for) {
   LateClock clock;
   clock.late = 3'000'000;
-  Spinner sut(clock, {}, 10'000'000);
+  TickWait sut(clock, {}, 10'000'000);
   for (std::int64_t n = 1; n <= 20'000; ++n) {
     sut.wait_until(rt::mono_time(n * 10'000'000));
   }
-  EXPECT_EQ(sut.margin_ns(), Spinner::kMaxSpinNs);
+  EXPECT_EQ(sut.margin_ns(), TickWait::kMaxSpinNs);
 }
 
 // A machine that is sometimes quick and sometimes slow, each in its own way, for a second.
@@ -69,7 +69,7 @@ double share_spun(std::int64_t period, std::mt19937& random) {
   };
   LateClock clock;
   clock.step = 200;
-  Spinner sut(clock, {}, period);
+  TickWait sut(clock, {}, period);
   const std::int64_t quick = up_to(period / 4);
   const std::int64_t slow = quick + up_to(2 * period);
   const std::int64_t seldom = up_to(100);
@@ -84,7 +84,7 @@ double share_spun(std::int64_t period, std::mt19937& random) {
   return static_cast<double>(spun) / static_cast<double>(ticks * period);
 }
 
-TEST(Spinner, Costs_at_most_a_tenth_of_100_us_and_a_fiftieth_of_1_ms_on_any_machine) {
+TEST(TickWait, Costs_at_most_a_tenth_of_100_us_and_a_fiftieth_of_1_ms_on_any_machine) {
   std::mt19937 random(20261121);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same machines each time
   for (int machine = 0; machine < 40; ++machine) {
     EXPECT_LE(share_spun(100'000, random), 0.101) << machine;
@@ -93,17 +93,17 @@ TEST(Spinner, Costs_at_most_a_tenth_of_100_us_and_a_fiftieth_of_1_ms_on_any_mach
   }
 }
 
-TEST(Spinner, Off_only_sleeps) {
+TEST(TickWait, Off_only_sleeps) {
   LateClock clock;
   clock.late = 7'000;
-  Spinner sut(clock, {SpinMode::Off, 0}, 1'000'000);
+  TickWait sut(clock, {SpinMode::Off, 0}, 1'000'000);
   EXPECT_GE(rt::to_ns(sut.wait_until(rt::mono_time(1'000'000))), 1'007'000);
   EXPECT_EQ(sut.margin_ns(), 0);
 }
 
-TEST(Spinner, A_time_in_the_past_returns_at_once) {
+TEST(TickWait, A_time_in_the_past_returns_at_once) {
   LateClock clock;
-  Spinner sut(clock, {}, 1'000'000);
+  TickWait sut(clock, {}, 1'000'000);
   sut.wait_until(rt::mono_time(-5));
   EXPECT_EQ(clock.sleeps, 0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/robot/collision/clear_way.h"
+#include "control/robot/collision/collision_check.h"
 
 #include <algorithm>
 #include <iterator>
@@ -17,7 +17,7 @@ constexpr double kComeApartSoon = 2e-2;
 
 }  // namespace
 
-ClearWay::ClearWay(const Clearance& clearance, bool exact)
+CollisionCheck::CollisionCheck(const Clearance& clearance, bool exact)
     : clearance_(clearance),
       rooms_(clearance.pairs().size()),
       next_(clearance.pairs().size()),
@@ -32,7 +32,7 @@ ClearWay::ClearWay(const Clearance& clearance, bool exact)
   }
 }
 
-double ClearWay::measure(std::size_t pair, const Clearance::Places& places) noexcept {
+double CollisionCheck::measure(std::size_t pair, const Clearance::Places& places) noexcept {
   const Clearance::Pair& one = clearance_.pairs()[pair];
   if (nearest_ == nullptr) {
     return clearance_.least(one, places);
@@ -42,7 +42,7 @@ double ClearWay::measure(std::size_t pair, const Clearance::Places& places) noex
   return nearest_->distance(one.a, one.b, places[a], places[b]) - clearance_.margin();
 }
 
-void ClearWay::swap(ClearWay& other) noexcept {
+void CollisionCheck::swap(CollisionCheck& other) noexcept {
   std::swap(nearest_, other.nearest_);
   std::swap(rooms_, other.rooms_);
   std::swap(next_, other.next_);
@@ -52,14 +52,14 @@ void ClearWay::swap(ClearWay& other) noexcept {
   pair_ = -1;
 }
 
-void ClearWay::take(const ClearWay& other) noexcept {
+void CollisionCheck::take(const CollisionCheck& other) noexcept {
   rooms_ = other.rooms_;
   here_ = other.here_;
   here_placed_ = other.here_placed_;
   at_ = other.at_;
 }
 
-void ClearWay::begin(const Joints& from, int tool) noexcept {
+void CollisionCheck::begin(const Joints& from, int tool) noexcept {
   at_ = from;
   pair_ = -1;
   here_placed_ = true;
@@ -80,7 +80,7 @@ void ClearWay::begin(const Joints& from, int tool) noexcept {
   }
 }
 
-ClearWay::Step ClearWay::next(const Joints& to, const Joints& moved) noexcept {
+CollisionCheck::Step CollisionCheck::next(const Joints& to, const Joints& moved) noexcept {
   bool placed = false;
   for (std::size_t i = 0; i < rooms_.size(); ++i) {
     next_[i] = rooms_[i];
@@ -105,7 +105,7 @@ ClearWay::Step ClearWay::next(const Joints& to, const Joints& moved) noexcept {
 }
 
 // Checks a pair whose known distance does not suffice for this step.
-ClearWay::Step ClearWay::look(std::size_t pair, double most, bool& placed, const Joints& to) noexcept {
+CollisionCheck::Step CollisionCheck::look(std::size_t pair, double most, bool& placed, const Joints& to) noexcept {
   if (!placed) {
     clearance_.place(to, there_);
     placed = true;
@@ -136,7 +136,7 @@ ClearWay::Step ClearWay::look(std::size_t pair, double most, bool& placed, const
   return most < kFinest ? Step::Touches : Step::Shorter;
 }
 
-ClearWay::Step ClearWay::come_apart(std::size_t pair, double most) noexcept {
+CollisionCheck::Step CollisionCheck::come_apart(std::size_t pair, double most) noexcept {
   if (most > apart_) {
     return Step::Shorter;
   }

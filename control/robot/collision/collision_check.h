@@ -12,11 +12,11 @@
 
 namespace indurop::robot {
 
-class ClearWay {
+class CollisionCheck {
  public:
   // `exact`: as exact as FCL can compute, not for the tick; otherwise two bodies may count as touching that only nearly
   // do.
-  ClearWay(const Clearance& clearance, bool exact);
+  CollisionCheck(const Clearance& clearance, bool exact);
 
   enum class Step {
     Clear,
@@ -27,9 +27,9 @@ class ClearWay {
   // Sets the start of a path. Real-time safe like all functions below, unless it is exact.
   void begin(const Joints& from, int tool) noexcept;
   // Exchanges the bodies with those of another one. clearance() has to follow.
-  void swap(ClearWay& other) noexcept;
+  void swap(CollisionCheck& other) noexcept;
   // Continues from the present place of `other`, which checks the same bodies.
-  void take(const ClearWay& other) noexcept;
+  void take(const CollisionCheck& other) noexcept;
   // Checks the step to `to`; `moved` is the distance that the axes travel in it, back and forth. Bodies that are
   // already too near may not come nearer.
   Step next(const Joints& to, const Joints& moved) noexcept;
@@ -79,21 +79,21 @@ class ClearWalk {
   // Takes one step, or none if it has to be shorter. `at(place, near, q)`: the axes at a place; false if there are
   // none.
   template <class At>
-  ClearWay::Step step(ClearWay& way, const At& at) noexcept {
+  CollisionCheck::Step step(CollisionCheck& way, const At& at) noexcept {
     if (width_ < 1e-9 * length_) {
-      return ClearWay::Step::Lost;
+      return CollisionCheck::Step::Lost;
     }
     const double to = place_ + 1.001 * width_ >= length_ ? length_ : place_ + width_;
     Joints middle = way.at();
     if (!at((place_ + to) / 2, way.at(), middle)) {
-      return ClearWay::Step::Lost;
+      return CollisionCheck::Step::Lost;
     }
     Joints end = middle;
     if (!at(to, middle, end)) {
-      return ClearWay::Step::Lost;
+      return CollisionCheck::Step::Lost;
     }
-    const ClearWay::Step step = way.next(end, moved_by(way.at(), middle, end));
-    if (step == ClearWay::Step::Clear) {
+    const CollisionCheck::Step step = way.next(end, moved_by(way.at(), middle, end));
+    if (step == CollisionCheck::Step::Clear) {
       place_ = to;
       width_ = 2 * width_ < widest_ ? 2 * width_ : widest_;
     } else {
@@ -104,10 +104,10 @@ class ClearWalk {
 
   // Takes the whole path, if `steps` steps are enough for it. Otherwise pair() returns what is in the way.
   template <class At>
-  bool all(ClearWay& way, int steps, const At& at) noexcept {
+  bool all(CollisionCheck& way, int steps, const At& at) noexcept {
     for (; steps > 0 && !done(); --steps) {
-      const ClearWay::Step one = step(way, at);
-      if (one == ClearWay::Step::Touches || one == ClearWay::Step::Lost) {
+      const CollisionCheck::Step one = step(way, at);
+      if (one == CollisionCheck::Step::Touches || one == CollisionCheck::Step::Lost) {
         return false;
       }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/plc/check/cast_checker.h"
+#include "control/plc/check/enumeration_casts.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ bool is_number(const Type& type) noexcept {
 
 }  // namespace
 
-void CastChecker::cast(Expression& expression, const Type& to) {
+void EnumerationCasts::cast(Expression& expression, const Type& to) {
   const Type* from = expression.type;
   const Place at = expression.at;
   const auto known = expression.resolved->constant;
@@ -38,7 +38,7 @@ void CastChecker::cast(Expression& expression, const Type& to) {
 }
 
 // Returns whether the rules of CODESYS converted the expression to `to`: from an enumeration to a number or back.
-bool CastChecker::convert_enumeration(Expression& expression, const Type& to) {
+bool EnumerationCasts::convert_enumeration(Expression& expression, const Type& to) {
   if (!context_.codesys() || expression.type == nullptr) {
     return false;
   }
@@ -59,7 +59,7 @@ bool CastChecker::convert_enumeration(Expression& expression, const Type& to) {
 
 // Checks COLOR_TO_INT(c), INT_TO_COLOR(i), TO_COLOR(i). Returns false if it is none of these. Otherwise sets `type` to
 // that of the result, null after an error; COLOR_TO_INT(c) becomes TO_INT() of a number, for the library.
-bool CastChecker::enumeration_call(Expression& call, const Type*& type) {
+bool EnumerationCasts::enumeration_call(Expression& call, const Type*& type) {
   const std::string name = upper(call.operands[0].name);
   const std::size_t at = name.starts_with("TO_") ? 0 : name.find("_TO_");
   if (at == std::string::npos || call.arguments.size() != 1 || !call.arguments[0].value) {
