@@ -67,9 +67,9 @@ class Demo:
         return self.until(self.nodes, "its node runs")[0]
 
     def nodes(self):
-        listed = subprocess.run([program, "nodes", "-o", "csv"], env=self.environment, text=True, capture_output=True,
+        listed = subprocess.run([program, "nodes", "--all", "-o", "csv"], env=self.environment, text=True, capture_output=True,
                                 check=False).stdout
-        return re.findall(r"^(demo\d+),", listed, re.MULTILINE)
+        return re.findall(r"^(demo\d+),running,", listed, re.MULTILINE)
 
     def get(self, node, variable):
         return subprocess.run([program, "get", "--node", node, variable], env=self.environment, text=True,
