@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "deploy/transaction/board_transaction.h"
 
@@ -134,7 +135,6 @@ bool PlantTransaction::all_have_ended() {
 }
 
 bool PlantTransaction::time(rt::MonoTime now, rt::WallTime wall) {
-  const Step before = order_.step;
   order_.said_at_ns = rt::to_ns(wall);
   miss_lost(now);
   if (order_.step == Step::Prepare) {
@@ -181,7 +181,7 @@ bool PlantTransaction::time(rt::MonoTime now, rt::WallTime wall) {
   } else {
     finished_ = all_have_ended() || now - ending_ > kWindUp;
   }
-  return before != order_.step;
+  return std::exchange(published_, order_.step) != order_.step;
 }
 
 }  // namespace indurop::deploy

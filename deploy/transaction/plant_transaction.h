@@ -43,7 +43,7 @@ class PlantTransaction {
   // Another deployer sends orders to some of the same boards: the one with the smaller number continues.
   void rival(const Order& order, rt::MonoTime now);
   void give_up(rt::MonoTime now);
-  // To be called often; returns true if the order to publish has changed.
+  // To be called often; returns true if the order to publish has changed since the last call, in whatever function.
   bool time(rt::MonoTime now, rt::WallTime wall);
 
   // The order to publish now.
@@ -71,6 +71,7 @@ class PlantTransaction {
   rt::MonoTime ending_;  // when Commit or Abort was published
   bool switched_ = false;
   bool finished_ = false;
+  Step published_ = Step::Prepare;  // of the order when time() returned last
   Verdict verdict_ = Verdict::Open;
   std::map<std::string, BoardReport> reports_;  // of the addressed boards, newest
   std::map<std::string, Silence> lost_;         // addressed boards that are lost, with the time of silence

@@ -248,6 +248,17 @@ TEST_F(Deployer, Of_two_at_once_the_earlier_goes_on) {
   EXPECT_EQ(sut_.verdict(), Verdict::Busy);
 }
 
+// No board is known to follow the order yet, so it ends at once; boards that do follow it must receive its end.
+TEST_F(Deployer, What_ends_before_any_board_answered_is_published_all_the_same) {
+  EXPECT_FALSE(sut_.time(now_, wall_));
+  Order rival = make_order();
+  rival.deployer = 6;
+  sut_.rival(rival, now_);
+  EXPECT_TRUE(sut_.time(now_, wall_));
+  EXPECT_EQ(sut_.order().step, Step::Abort);
+  EXPECT_FALSE(sut_.time(now_, wall_)) << "it is published once";
+}
+
 TEST_F(Deployer, Nothing_happening_ends_it) {
   say(report("a", Phase::Prepared));
   now_ += 5 * kPlantSecond + kPlantOneNs;
