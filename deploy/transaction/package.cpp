@@ -99,16 +99,6 @@ std::map<std::filesystem::path, Use> files_of(const config::Plant& plant, const 
   return files;
 }
 
-bool is_program(const std::filesystem::path& file) {
-  constexpr std::string_view kElf =
-      "\x7f"
-      "ELF";
-  const auto opened = base::open_file(file);
-  std::array<char, kElf.size()> begin{};
-  return opened && ::pread(opened->file.get(), begin.data(), begin.size(), 0) == static_cast<ssize_t>(begin.size()) &&
-         std::string_view(begin.data(), begin.size()) == kElf;
-}
-
 bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::error_code error;
   const std::filesystem::path inside = file.lexically_relative(std::filesystem::weakly_canonical(folder, error));
@@ -174,6 +164,16 @@ bool is_package_path(const std::string& text) {
     return false;
   }
   return std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".." || part == "."; });
+}
+
+bool is_program(const std::filesystem::path& file) {
+  constexpr std::string_view kElf =
+      "\x7f"
+      "ELF";
+  const auto opened = base::open_file(file);
+  std::array<char, kElf.size()> begin{};
+  return opened && ::pread(opened->file.get(), begin.data(), begin.size(), 0) == static_cast<ssize_t>(begin.size()) &&
+         std::string_view(begin.data(), begin.size()) == kElf;
 }
 
 std::string to_text(const Package& package) {

@@ -40,6 +40,9 @@ Result<Package, base::Problem> read_package(std::string_view text);
 // Returns true for a path that a package may contain: relative, normal, without "..".
 bool is_package_path(const std::string& path);
 
+// Returns true for a file that begins as an ELF file does.
+bool is_program(const std::filesystem::path& file);
+
 struct PackedPlant {
   Package package;
   std::string text;

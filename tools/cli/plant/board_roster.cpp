@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/plant/board_roster.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <set>
 
 #include "core/rt/clock.h"
 #include "network/dds/log.h"
@@ -108,6 +112,27 @@ std::string BoardRoster::twins(const std::string& board, std::int64_t now_ns) co
     }
   }
   return count > 1 ? hosts : std::string{};
+}
+
+Result<std::string, Failure> choose_plant(const BoardRoster& roster, const std::string& wanted) {
+  std::set<std::string> plants;
+  for (const auto& [key, entry] : roster.all()) {
+    if (!entry.report.current.empty()) {
+      plants.insert(entry.report.plant);
+    }
+  }
+  if (!wanted.empty() && plants.contains(wanted)) {
+    return wanted;
+  }
+  if (plants.empty() || !wanted.empty()) {
+    return Failure{kUnreachable, wanted.empty() ? "no board with a deployment was heard"
+                                                : fmt::format("no board of plant {} was heard", wanted)};
+  }
+  if (plants.size() > 1) {
+    return Failure{kUsage,
+                   fmt::format("there are several plants: {}; say which with --plant", fmt::join(plants, ", "))};
+  }
+  return *plants.begin();
 }
 
 }  // namespace indurop::tools

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "deploy/link/deploy_link.h"
+#include "tools/cli/command/failure.h"
 #include "tools/cli/command/verb.h"
 
 namespace indurop::tools {
@@ -65,5 +66,9 @@ class BoardRoster {
   std::vector<deploy::Impostor> impostors_;
   std::int64_t newest_ns_ = 0;  // when a board was first discovered most recently
 };
+
+// Returns the plant that a verb is about: `wanted`, or the only one of which a board runs a deployment. Errors: no
+// board of it was heard (kUnreachable); several plants and none wanted (kUsage).
+Result<std::string, Failure> choose_plant(const BoardRoster& roster, const std::string& wanted);
 
 }  // namespace indurop::tools

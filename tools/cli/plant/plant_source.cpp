@@ -11,7 +11,6 @@
 #include "core/base/read_file.h"
 #include "core/keys/participant_keys.h"
 #include "deploy/bundle/project.h"
-#include "tools/cli/plant/project_files.h"
 
 namespace indurop::tools {
 namespace {
@@ -24,29 +23,18 @@ bool print_check(Context& context, const CheckedPlant& checked) {
   return checked.ok();
 }
 
-// Writes the archive of the sources. Returns it by its path in the package; nothing if no sources travel.
-Result<std::map<std::string, std::filesystem::path>, base::Problem> archived_sources(Context& context,
-                                                                                     const config::Plant& plant,
-                                                                                     const std::filesystem::path& to) {
-  auto project = find_project(plant);
-  if (!project) {
-    return std::move(project).error();
-  }
-  std::map<std::string, std::filesystem::path> more;
-  if (!*project) {
-    return more;
-  }
-  const Project& found = **project;
-  for (const JsonValue& path : found.about["left_out"].values()) {
+// Writes the archive of the sources. Returns it by its path in the package.
+Result<std::map<std::string, std::filesystem::path>, base::Problem> archived(Context& context, const Project& project,
+                                                                             const std::filesystem::path& to) {
+  for (const JsonValue& path : project.about["left_out"].values()) {
     context.out.note(fmt::format("{} holds a private key and does not travel with the sources",
-                                 (found.folder / path.text().value_or("")).string()));
+                                 (project.folder / path.text().value_or("")).string()));
   }
   const std::filesystem::path archive = to / "project.tar.zst";
-  if (auto written = deploy::write_project(found.about, found.files, archive); !written) {
+  if (auto written = deploy::write_project(project.about, project.files, archive); !written) {
     return std::move(written).error();
   }
-  more.emplace(deploy::kProjectPath, archive);
-  return more;
+  return std::map<std::string, std::filesystem::path>{{deploy::kProjectPath, archive}};
 }
 
 Result<PlantSource, Failure> read_bundle(Context& context, const std::string& file) {
@@ -88,11 +76,20 @@ Result<PlantSource, Failure> read_plant_source(Context& context, const std::stri
   }
   PlantSource source;
   source.temporary = std::make_unique<TemporaryFolder>();
-  const auto sources = archived_sources(context, checked.plant, source.temporary->path());
-  if (!sources) {
-    return Failure{kFailed, sources.error().text};
+  auto project = find_project(checked.plant);
+  if (!project) {
+    return Failure{kFailed, std::move(project).error().text};
   }
-  auto packed = deploy::pack_plant(checked.plant, {also.begin(), also.end()}, comment, *sources);
+  source.project = std::move(project).value();
+  std::map<std::string, std::filesystem::path> sources;
+  if (source.project) {
+    auto made = archived(context, *source.project, source.temporary->path());
+    if (!made) {
+      return Failure{kFailed, std::move(made).error().text};
+    }
+    sources = std::move(made).value();
+  }
+  auto packed = deploy::pack_plant(checked.plant, {also.begin(), also.end()}, comment, sources);
   if (!packed) {
     return Failure{kFailed, std::move(packed).error().text};
   }

@@ -14,12 +14,14 @@
 #include "tools/cli/command/config_file.h"
 #include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/command/verb.h"
+#include "tools/cli/plant/project_files.h"
 
 namespace indurop::tools {
 
 struct PlantSource {
   config::Plant plant;
   deploy::PackedPlant packed;
+  std::optional<Project> project;                    // whose sources travel; a bundle has packed its own
   std::optional<deploy::BundleSignature> signature;  // of a bundle
   std::unique_ptr<TemporaryFolder> temporary;        // the files of a bundle, or the archive of the sources
 };

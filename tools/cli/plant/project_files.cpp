@@ -12,6 +12,7 @@
 #include "core/base/file_problem.h"
 #include "core/base/read_file.h"
 #include "core/base/text.h"
+#include "deploy/transaction/package.h"
 #include "tools/cli/command/child.h"
 #include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/command/units.h"
@@ -86,12 +87,6 @@ bool holds_private_key(const std::string& text) {
   return text.find("PRIVATE KEY-----") != std::string::npos;
 }
 
-bool is_program(const std::string& text) {
-  return text.starts_with(
-      "\x7f"
-      "ELF");
-}
-
 // Returns the folder of the sources; empty if there are none.
 Result<fs::path, Problem> folder_of(const config::Plant& plant) {
   std::error_code error;
@@ -141,7 +136,7 @@ Result<std::optional<Project>, Problem> find_project(const config::Plant& plant)
       left_out.push_back(path);
       continue;
     }
-    if (text && !tracked && is_program(*text)) {
+    if (text && !tracked && deploy::is_program(source)) {
       continue;
     }
     bytes += text ? text->size() : kMaxBytes + 1;

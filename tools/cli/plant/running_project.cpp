@@ -2,10 +2,8 @@
 #include "tools/cli/plant/running_project.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "core/keys/digest.h"
@@ -15,37 +13,13 @@
 #include "tools/cli/plant/board_texts.h"
 
 namespace indurop::tools {
-namespace {
-
-Result<std::string, Failure> choose_plant(const std::vector<deploy::BoardReport>& reports, const std::string& wanted) {
-  std::set<std::string> plants;
-  for (const deploy::BoardReport& report : reports) {
-    if (!report.current.empty()) {
-      plants.insert(printable(report.plant));
-    }
-  }
-  if (!wanted.empty() && plants.contains(wanted)) {
-    return wanted;
-  }
-  if (plants.size() == 1 && wanted.empty()) {
-    return *plants.begin();
-  }
-  if (plants.empty()) {
-    return Failure{kUnreachable, "no board that is heard runs a deployment"};
-  }
-  return Failure{wanted.empty() ? kUsage : kUnreachable,
-                 fmt::format("boards of {} are heard; choose one with --plant", fmt::join(plants, ", "))};
-}
-
-}  // namespace
-
 Result<RunningPlant, Failure> running_plant(HeardBoards& boards, std::uint64_t self, const std::string& plant) {
-  auto name = choose_plant(boards.reports, plant);
+  auto name = choose_plant(boards.roster, plant);
   if (!name) {
     return std::move(name).error();
   }
   RunningPlant running;
-  running.plant = *name;
+  running.plant = printable(*name);
   std::vector<std::uint64_t> agents;
   for (const deploy::BoardReport& report : boards.reports) {
     if (report.plant != *name || report.current.empty()) {
@@ -68,7 +42,8 @@ Result<RunningPlant, Failure> running_plant(HeardBoards& boards, std::uint64_t s
       return running;
     }
   }
-  return Failure{kUnreachable, fmt::format("no board of plant {} answers with a valid list of its files", *name)};
+  return Failure{kUnreachable,
+                 fmt::format("no board of plant {} answers with a valid list of its files", running.plant)};
 }
 
 Result<deploy::OpenedProject, Failure> fetch_project(HeardBoards& boards, std::uint64_t self,

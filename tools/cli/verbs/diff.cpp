@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -13,7 +14,6 @@
 #include "tools/cli/command/table.h"
 #include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/plant/plant_source.h"
-#include "tools/cli/plant/project_files.h"
 #include "tools/cli/plant/running_project.h"
 #include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
@@ -72,14 +72,10 @@ std::size_t compare(const char* kind, const Digests& here, const Digests& there,
 
 // Compares the sources, if both sides have them.
 Result<std::size_t, Failure> compare_sources(HeardBoards& boards, std::uint64_t self, const RunningPlant& running,
-                                             const config::Plant& plant, Table& table) {
-  const auto project = find_project(plant);
-  if (!project) {
-    return Failure{kFailed, project.error().text};
-  }
+                                             const std::optional<Project>& project, Table& table) {
   const bool deployed = std::any_of(running.package.files.begin(), running.package.files.end(),
                                     [](const auto& file) { return file.path == deploy::kProjectPath; });
-  if (!*project || !deployed) {
+  if (!project || !deployed) {
     return std::size_t{0};
   }
   const TemporaryFolder folder;
@@ -89,7 +85,7 @@ Result<std::size_t, Failure> compare_sources(HeardBoards& boards, std::uint64_t 
   }
   Digests here;
   Digests there;
-  for (const deploy::ProjectFile& file : (**project).files) {
+  for (const deploy::ProjectFile& file : project->files) {
     here.emplace(file.path, digest_at(file.source));
   }
   for (const std::string& path : fetched->paths) {
@@ -114,7 +110,7 @@ int diff(Context& context, Options& options) {
   }
   Table table({{"KIND", "kind"}, {"FILE", "file"}, {"DIFFERENCE", "difference"}});
   std::size_t different = compare("deployed", digests_of(source->packed.package), digests_of(running->package), table);
-  const auto sources = compare_sources(*boards, options.link.self, *running, source->plant, table);
+  const auto sources = compare_sources(*boards, options.link.self, *running, source->project, table);
   if (!sources) {
     return report(context.out, sources.error());
   }

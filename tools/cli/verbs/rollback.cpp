@@ -30,28 +30,6 @@ struct Options {
 constexpr std::int64_t kHearNs = 3'000'000'000;  // less if all are discovered
 constexpr std::size_t kShortestId = 4;
 
-// Returns the plant to roll back.
-Result<std::string, Failure> choose_plant(const BoardRoster& roster, const Options& options) {
-  std::set<std::string> plants;
-  for (const auto& [key, entry] : roster.all()) {
-    if (!entry.report.current.empty()) {
-      plants.insert(entry.report.plant);
-    }
-  }
-  if (!options.plant.empty() && plants.contains(options.plant)) {
-    return options.plant;
-  }
-  if (plants.empty() || !options.plant.empty()) {
-    return Failure{kUnreachable, options.plant.empty() ? "no board with a deployment was heard"
-                                                       : fmt::format("no board of plant {} was heard", options.plant)};
-  }
-  if (plants.size() > 1) {
-    return Failure{kUsage,
-                   fmt::format("there are several plants: {}; say which with --plant", fmt::join(plants, ", "))};
-  }
-  return *plants.begin();
-}
-
 // Returns the ids that were committed on the board and begin with `begin`.
 std::set<std::string> ids_like(const std::vector<PastDeployment>& history, const std::string& begin) {
   std::set<std::string> ids;
@@ -108,7 +86,7 @@ int roll_back(Context& context, Options& options) {
   }
   BoardRoster roster;
   roster.gather(*link, kHearNs, [&] { return roster.complete(); });
-  const auto meant = choose_plant(roster, options);
+  const auto meant = choose_plant(roster, options.plant);
   if (!meant) {
     return report(context.out, with_keys_hint(meant.error(), options.link));
   }
