@@ -38,7 +38,7 @@ Result<RunningPlant, Failure> running_plant(HeardBoards& boards, std::uint64_t s
     if (package && keys::digest_of(text) == running.id) {
       running.package = std::move(package).value();
       running.source = *std::find_if(boards.reports.begin(), boards.reports.end(),
-                                     [&](const auto& report) { return report.agent == agent; });
+                                     [sender = agent](const auto& report) { return report.agent == sender; });
       return running;
     }
   }
