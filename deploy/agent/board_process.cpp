@@ -9,7 +9,6 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -28,7 +27,6 @@ namespace {
 
 constexpr std::chrono::seconds kNodeGrace{10};  // a node gives its own modules and processes a few seconds
 constexpr std::chrono::milliseconds kNodePoll{10};
-constexpr std::size_t kLongestLine = 500;
 constexpr int kPipeBytes = 1 << 20;
 
 const scheduler::RunBlock* block_of(const vars::RunFile& file) {
@@ -65,10 +63,7 @@ BoardProcess::~BoardProcess() {
 }
 
 void BoardProcess::leave() noexcept {
-  if (output_ >= 0) {
-    ::close(output_);
-  }
-  output_ = -1;
+  output_.close();
   pid_ = -1;
 }
 
@@ -80,7 +75,7 @@ void BoardProcess::want(const std::filesystem::path& manifest, const std::string
   start_at_ = {};
   held_.clear();
   reason_.clear();
-  last_error_.clear();
+  output_.forget_error();
   remember_faults();
   if (pid_ <= 0) {
     condition_ = NodeCondition::None;
@@ -152,7 +147,7 @@ void BoardProcess::launch(rt::MonoTime now) {
     start_at_ = now + kRestart;
     return;
   }
-  output_ = ends[0];
+  output_.open(ends[0]);
   pid_ = *pid;
   adopted_ = false;
   asked_to_stop_ = false;
@@ -161,33 +156,9 @@ void BoardProcess::launch(rt::MonoTime now) {
   condition_ = NodeCondition::Starting;
 }
 
-// The node's output goes to the agent's output; its last error is the reason if it dies.
-void BoardProcess::read_output() {
-  if (output_ < 0) {
-    return;
-  }
-  std::array<char, 4096> block{};
-  ssize_t got = 0;
-  while ((got = ::read(output_, block.data(), block.size())) > 0) {
-    const std::string_view text(block.data(), static_cast<std::size_t>(got));
-    std::fwrite(text.data(), 1, text.size(), stderr);
-    for (const char c : text) {
-      if (c != '\n') {
-        if (line_.size() < kLongestLine) {
-          line_ += c;
-        }
-        continue;
-      }
-      if (line_.find("error: ") != std::string::npos && (pid_ < 0 || last_error_.empty() || !asked_to_stop_)) {
-        last_error_ = line_;
-      }
-      line_.clear();
-    }
-  }
-  if (got == 0) {
-    ::close(output_);
-    output_ = -1;
-  }
+// While the node is being stopped, its first error message counts.
+void BoardProcess::copy_output() {
+  output_.copy(pid_ < 0 || !asked_to_stop_);
 }
 
 bool BoardProcess::ended(int& status) {
@@ -212,8 +183,8 @@ void BoardProcess::note_end(int status, rt::MonoTime now) {
   const bool died = adopted_ || WIFSIGNALED(status);
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   reason_ = adopted_ ? std::string("the node ended") : "the node " + describe(status);
-  if (!last_error_.empty()) {
-    reason_ += ": " + last_error_;
+  if (!output_.last_error().empty()) {
+    reason_ += ": " + output_.last_error();
   }
   if (!hung_.empty()) {
     reason_ = std::exchange(hung_, {});
@@ -257,9 +228,9 @@ void BoardProcess::signal_stop(rt::MonoTime now) {
 }
 
 void BoardProcess::step(rt::MonoTime now) {
-  read_output();
+  copy_output();
   if (int status = 0; pid_ > 0 && ended(status)) {
-    read_output();
+    copy_output();
     note_end(status, now);
   }
   if (pid_ > 0) {

@@ -18,6 +18,7 @@
 #include "core/base/log.h"
 #include "core/rt/clock.h"
 #include "deploy/agent/black_box.h"
+#include "deploy/agent/node_output.h"
 #include "deploy/agent/tick_watch.h"
 #include "deploy/words/deployment_words.h"
 #include "store/vars/run_file.h"
@@ -73,7 +74,7 @@ class BoardProcess {
  private:
   void launch(rt::MonoTime now);
   bool adopt();
-  void read_output();
+  void copy_output();
   void end_if_it_hangs(rt::MonoTime now);
   bool ended(int& status);
   void note_end(int status, rt::MonoTime now);
@@ -95,9 +96,7 @@ class BoardProcess {
   std::string held_;
   pid_t pid_ = -1;
   bool adopted_ = false;
-  int output_ = -1;
-  std::string line_;
-  std::string last_error_;
+  NodeOutput output_;
   bool asked_to_stop_ = false;
   rt::MonoTime kill_at_;
   rt::MonoTime start_at_;  // earliest time of the next start
