@@ -33,12 +33,12 @@ ExternalTopic::ExternalTopic(vars::Store& store, const vars::DirectoryEntry& ent
       type_(dds::renamed(exported.type, ros_type_)),
       custody_(custody),
       block_(block),
-      wake_(wake),
       topic_name_(ros2 ? schema::ros_topic(exported.variable) : external_topic(exported.variable)),
       writable_(exported.writable),
       lead_(plant, exported.rivals),
       texts_(holds_text(variable().type)),
       every_ns_(exported.every_ns > 0 ? std::max(exported.every_ns, kExternalFastestNs) : kExternalEveryNs),
+      events_(wake),
       sent_(entry.value_size),
       scratch_(entry.value_size) {
   if (entry.kind == abi::Kind::Ring) {
@@ -50,23 +50,13 @@ const schema::Variable& ExternalTopic::variable() const {
   return store_.schema().variables[entry_.schema_index];
 }
 
-dds::Listener ExternalTopic::listener() {
-  return dds::endpoint_listener<&ExternalTopic::data_came, &ExternalTopic::readers_changed, &ExternalTopic::disagreed>(
-      *this);
-}
-
-void ExternalTopic::data_came() noexcept {
-  if (!arrived_.exchange(true, std::memory_order_acq_rel)) {
-    wake_.wake();
-  }
-}
-
 Result<void, base::Problem> ExternalTopic::open_reader(dds::Handle participant) {
   if (!writable_ || reader_.ok()) {
     return {};
   }
   // Writers that send only new values match too; values that were set before this node ran do not count.
-  reader_ = dds::make_reader(participant, type_, topic_name_, dds::make_qos({.for_late_ones = false}), listener());
+  reader_ =
+      dds::make_reader(participant, type_, topic_name_, dds::make_qos({.for_late_ones = false}), events_.listener());
   if (!reader_.ok()) {
     return base::Problem{fmt::format("cannot receive {}: {}", topic_name_, reader_.why())};
   }
@@ -78,7 +68,7 @@ Result<void, base::Problem> ExternalTopic::open(dds::Handle participant) {
     return opened;
   }
   if (!writer_.ok()) {
-    writer_ = dds::make_writer(participant, type_, topic_name_, dds::make_qos({}), listener());
+    writer_ = dds::make_writer(participant, type_, topic_name_, dds::make_qos({}), events_.listener());
     if (!writer_.ok()) {
       return base::Problem{fmt::format("cannot publish {}: {}", topic_name_, writer_.why())};
     }
@@ -149,7 +139,7 @@ std::int64_t ExternalTopic::publish(std::int64_t now_ns) noexcept {
   if (!leads()) {
     return std::numeric_limits<std::int64_t>::max();
   }
-  const int readers = readers_.load(std::memory_order_acquire);
+  const int readers = events_.readers();
   if (readers > known_readers_) {
     again_ = true;
     repeat_ns_ = now_ns + kRepeatNs;
@@ -170,7 +160,7 @@ std::int64_t ExternalTopic::publish(std::int64_t now_ns) noexcept {
 }
 
 void ExternalTopic::receive() noexcept {
-  if (!reader_.ok() || !arrived_.exchange(false, std::memory_order_acq_rel)) {
+  if (!reader_.ok() || !events_.take_arrival()) {
     return;
   }
   dds::take_one<std::uint8_t>(reader_.get(), [this](const std::uint8_t& sample, const dds::SampleInfo& info) {
@@ -210,10 +200,8 @@ void ExternalTopic::take_over(const std::uint8_t* sample, bool by_tool) noexcept
 }
 
 std::string ExternalTopic::complaint() {
-  const std::uint32_t disagreements = disagreements_.load(kRelaxed);
-  if (disagreements != reported_) {
-    block_.mismatched.fetch_add(disagreements - reported_, kRelaxed);
-    reported_ = disagreements;
+  if (const std::uint32_t disagreements = events_.take_disagreements(); disagreements != 0) {
+    block_.mismatched.fetch_add(disagreements, kRelaxed);
     return fmt::format(
         "a participant that uses the topic {} has another type for it or requests a QoS that is not offered: generate "
         "its code from the same .idl, and request at most reliable, transient-local",

@@ -6,7 +6,6 @@
 
 #include <indurop/result.h>
 
-#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,12 +17,13 @@
 #include "network/mirror/external/external_block.h"
 #include "network/mirror/external/external_settings.h"
 #include "network/mirror/external/lead.h"
+#include "network/mirror/external/topic_events.h"
 #include "store/vars/custody.h"
 #include "store/vars/store.h"
 
 namespace indurop::mirror {
 
-// All methods except the listeners run in one thread.
+// All methods run in one thread.
 class ExternalTopic {
  public:
   // The variable must be in the store. `ros2`: names of ROS 2. `custody`: the lock that applies to tools, may be null.
@@ -53,15 +53,10 @@ class ExternalTopic {
   [[nodiscard]] const schema::Variable& variable() const;
   [[nodiscard]] bool is_writable() const noexcept { return writable_; }
   [[nodiscard]] const std::string& topic_name() const noexcept { return topic_name_; }
-  [[nodiscard]] bool is_read() const noexcept { return readers_.load(std::memory_order_acquire) > 0; }
+  [[nodiscard]] bool is_read() const noexcept { return events_.readers() > 0; }
   [[nodiscard]] std::int64_t every_ns() const noexcept { return every_ns_; }
 
  private:
-  [[nodiscard]] dds::Listener listener();
-  // Called by DDS threads.
-  void data_came() noexcept;
-  void readers_changed(int now) noexcept { readers_.store(now, std::memory_order_release); }
-  void disagreed() noexcept { disagreements_.fetch_add(1, std::memory_order_relaxed); }
   bool refresh() noexcept;
   bool write(std::int64_t now_ns) noexcept;
   void take_over(const std::uint8_t* sample, bool by_tool) noexcept;
@@ -74,13 +69,13 @@ class ExternalTopic {
   const dds::TypeDescriptor type_;
   const vars::Custody* custody_;  // null: nothing is ever locked
   ExternalBlock& block_;
-  rt::SignalWord& wake_;
   std::string topic_name_;
   bool writable_;
   Lead lead_;
   bool texts_;
   std::int64_t every_ns_;
 
+  TopicEvents events_;  // of both endpoints, which are closed first
   dds::Endpoint writer_;
   dds::Endpoint reader_;
   std::vector<std::uint8_t> sent_;     // the value published last
@@ -91,11 +86,6 @@ class ExternalTopic {
   std::int64_t repeat_ns_ = 0;  // 0: no repetition
   bool again_ = true;           // publish although nothing changed
   std::string refusal_;
-
-  std::atomic<int> readers_{0};
-  std::atomic<bool> arrived_{false};
-  std::atomic<std::uint32_t> disagreements_{0};
-  std::uint32_t reported_ = 0;
 };
 
 }  // namespace indurop::mirror
