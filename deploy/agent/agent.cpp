@@ -17,6 +17,7 @@
 #include "deploy/agent/fetcher.h"
 #include "deploy/agent/offer.h"
 #include "deploy/agent/other_boards.h"
+#include "deploy/agent/report_schedule.h"
 #include "deploy/agent/service_manager.h"
 #include "deploy/link/blob_server.h"
 #include "deploy/transaction/board_transaction.h"
@@ -28,8 +29,6 @@ namespace {
 using Do = BoardTransaction::Do;
 
 constexpr std::chrono::milliseconds kAgentPoll{20};
-constexpr std::chrono::milliseconds kReportInterval{500};  // maximum interval between reports
-constexpr std::chrono::milliseconds kReportIntervalInTransaction{50};
 
 // Returns the result as the transaction expects it: empty is success.
 std::string text_of(const Result<void, base::Problem>& result) {
@@ -73,7 +72,7 @@ class Agent {
       recorder_.step(now);
       alarms_.step(now);
       connect(now);
-      if (link_ != nullptr) {
+      if (net_.link() != nullptr) {
         listen(now);
         work(now);
         send_report(now);
@@ -125,19 +124,17 @@ class Agent {
     const bool idle = transaction_.phase() == Phase::Steady && !fetcher_.active() && !busy_;
     if (net_.keep(now, state_.committed().plant, idle)) {
       others_.clear();
-      report_now_ = true;
+      report_schedule_.request();
     }
-    link_ = net_.link();
-    commands_ = net_.commands();
   }
 
   void listen(rt::MonoTime now) {
-    for (const auto& news : link_->take_orders()) {
+    for (const auto& news : net_.link()->take_orders()) {
       if (!news.gone && may_order(news.order)) {  // a deployer that is gone sends nothing
         perform(transaction_.receive(news.order, now, rt::WallClock::now()), now);
       }
     }
-    for (const std::string& why : others_.listen(*link_, state_.committed().plant)) {
+    for (const std::string& why : others_.listen(*net_.link(), state_.committed().plant)) {
       keep_box(why);
     }
     for (const auto& [key, other] : others_.all()) {
@@ -172,31 +169,30 @@ class Agent {
         order.deployer != transaction_.order().deployer) {
       why = "this board has a newer deployment than that; deploy again";
     }
-    if (!why.empty() && order.step == Step::Prepare && refused_ != order.deployer) {
+    if (!why.empty() && order.step == Step::Prepare && refusal_.deployer != order.deployer) {
       log_.warning("an order from {} was rejected: {}", order.host, why);
-      refused_ = order.deployer;
-      refusal_ = why;
-      report_now_ = true;
+      refusal_ = {order.deployer, why};
+      report_schedule_.request();
     }
     return why.empty();
   }
 
   void work(rt::MonoTime now) {
-    if (board_commands_.step(*commands_, state_.committed().plant,
+    if (board_commands_.step(*net_.commands(), state_.committed().plant,
                              transaction_.phase() == Phase::Steady ? "" : "a deployment is under way", now)) {
       values_.forget();  // the user who has set something sees it at once
     }
     if (fetcher_.active()) {
-      const Fetcher::State state = fetcher_.step(*link_, now);
+      const Fetcher::State state = fetcher_.step(*net_.link(), now);
       if (state == Fetcher::State::Done) {
         perform(transaction_.fetched({}), now);
       } else if (state == Fetcher::State::Failed) {
         perform(transaction_.fetched(fetcher_.problem()), now);
       }
     } else {
-      (void)link_->take_chunks();
+      (void)net_.link()->take_chunks();
     }
-    busy_ = server_.serve(*link_, now);
+    busy_ = server_.serve(*net_.link(), now);
     if (const auto problem = verify_.step()) {
       note_damage(*problem);
     }
@@ -222,7 +218,7 @@ class Agent {
         fetcher_.begin(others_.with_files_of(order.plant, transaction_.source()), order.deployment, order.size);
         break;
       case Do::Check:
-        report_now_ = true;
+        report_schedule_.request();
         send_report(now);  // it may take a while
         perform(transaction_.checked(text_of(deployment_.check(order)), rt::MonoClock::now()), rt::MonoClock::now());
         break;
@@ -244,7 +240,7 @@ class Agent {
         state_.collect_garbage(order.deployment);
         break;
     }
-    report_now_ = true;
+    report_schedule_.request();
   }
 
   void commit(const Order& order) {
@@ -284,8 +280,8 @@ class Agent {
     out.proposed = order.deployment;
     out.phase = transaction_.phase();
     out.stage = transaction_.stage();
-    out.refused = refused_;
-    out.refusal = refusal_;
+    out.refused = refusal_.deployer;
+    out.refusal = refusal_.reason;
     out.message = transaction_.message();
     if (!out.message.empty() && out.phase == Phase::Steady && order.deployment != committed.current) {
       out.message = fmt::format("deployment {} was rolled back: {}", shown_id(order.deployment), out.message);
@@ -302,26 +298,25 @@ class Agent {
   }
 
   void send_report(rt::MonoTime now) {
-    const bool moving = transaction_.phase() != Phase::Steady || process_.condition() != reported_condition_ ||
-                        (link_ != nullptr && process_.figures().faults != reported_faults_);
-    if (link_ == nullptr ||
-        (!report_now_ && now - reported_ < (moving ? kReportIntervalInTransaction : kReportInterval))) {
-      return;
+    if (net_.link() != nullptr &&
+        report_schedule_.take_due(transaction_.phase(), process_.condition(), process_.figures().faults, now)) {
+      net_.link()->publish(report());
     }
-    reported_ = now;
-    report_now_ = false;
-    reported_condition_ = process_.condition();
-    reported_faults_ = process_.figures().faults;
-    link_->publish(report());
   }
 
   void pause(base::StopSignal& signals) {
-    if (link_ == nullptr) {
+    if (net_.link() == nullptr) {
       signals.wait(kAgentPoll);
     } else if (!busy_) {
-      link_->wait(rt::MonoClock::now() + kAgentPoll);
+      net_.link()->wait(rt::MonoClock::now() + kAgentPoll);
     }
   }
+
+  // The order that was rejected last.
+  struct Refusal {
+    std::uint64_t deployer = 0;
+    std::string reason;
+  };
 
   const AgentOptions& options_;
   const base::Log& log_;
@@ -342,17 +337,11 @@ class Agent {
   BlobServer server_;
   ServiceManager service_manager_;
   BoardLink net_;
-  DeployLink* link_ = nullptr;  // both belong to net_
-  CommandLink* commands_ = nullptr;
   OtherBoards others_;
-  std::uint64_t refused_ = 0;
-  std::string refusal_;
+  Refusal refusal_;
   bool damaged_ = false;  // the committed deployment is damaged, and this board cannot restore it on its own
   bool busy_ = false;
-  bool report_now_ = true;
-  rt::MonoTime reported_;
-  NodeCondition reported_condition_ = NodeCondition::None;
-  std::uint64_t reported_faults_ = 0;
+  ReportSchedule report_schedule_;
 };
 
 }  // namespace
