@@ -13,6 +13,7 @@
 #include "tools/cli/plant/board_texts.h"
 
 namespace indurop::tools {
+
 Result<RunningPlant, Failure> running_plant(HeardBoards& boards, std::uint64_t self, const std::string& plant) {
   auto name = choose_plant(boards.roster, plant);
   if (!name) {

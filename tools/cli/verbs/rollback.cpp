@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop rollback: returns the boards of a plant to an earlier deployment, as one deployment.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
