@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(indurop_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/InduRoP)
 set(indurop_share_dir ${CMAKE_INSTALL_DATADIR}/indurop)
 
-install(TARGETS indurop_headers indurop indurop_testing glb2idl indurop_cli EXPORT InduRoPTargets
+install(TARGETS indurop_headers indurop indurop_c_shared indurop_testing glb2idl indurop_cli EXPORT InduRoPTargets
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

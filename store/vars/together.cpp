@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/rt/relax.h"
 #include "store/vars/ring.h"
@@ -35,10 +36,26 @@ bool is_sent_with_others(const abi::Piece& piece) noexcept {
   return piece.update_offset != 0 && piece.update_offset != abi::kAlone;
 }
 
+// The memory that update words may be in.
+struct Bounds {
+  std::uintptr_t begin = 0;
+  std::uintptr_t end = UINTPTR_MAX;
+
+  [[nodiscard]] bool contain_word_of(const abi::Piece& piece) const noexcept {
+    const std::uintptr_t at =
+        reinterpret_cast<std::uintptr_t>(piece.entry) + static_cast<std::uintptr_t>(piece.update_offset);
+    return at % alignof(std::atomic<std::uint64_t>) == 0 && at >= begin && at < end &&
+           end - at >= sizeof(std::atomic<std::uint64_t>);
+  }
+};
+
 // Returns false if an update is just being applied.
-bool note_versions(std::span<abi::Piece> pieces) noexcept {
+bool note_versions(std::span<abi::Piece> pieces, const Bounds& bounds) noexcept {
   for (abi::Piece& piece : pieces) {
     piece.update_offset = abi::update_offset_of(piece.entry, piece.kind).load(std::memory_order_acquire);
+    if (is_sent_with_others(piece) && !bounds.contain_word_of(piece)) {
+      piece.update_offset = abi::kAlone;
+    }
     piece.update = is_sent_with_others(piece) ? word_of(piece).load(std::memory_order_acquire) : 0;
     if ((piece.update & abi::kUpdating) != 0) {
       return false;
@@ -99,24 +116,35 @@ void copy_each(std::span<abi::Piece> pieces) noexcept {
   }
 }
 
-}  // namespace
-
-bool read_together(std::span<abi::Piece> pieces) noexcept {
+Together try_together(std::span<abi::Piece> pieces, const Bounds& bounds) noexcept {
   int pauses = 0;
   for (int i = 0; i < kTries; ++i) {
-    while (!note_versions(pieces)) {
+    while (!note_versions(pieces, bounds)) {
       if (++pauses > kPauses) {
-        copy_each(pieces);
-        return false;
+        return Together::Overtaken;
       }
       rt::relax();
     }
     if (copy_all(pieces)) {
-      return belong_together(pieces);
+      return belong_together(pieces) ? Together::Yes : Together::No;
     }
   }
-  copy_each(pieces);
-  return false;
+  return Together::Overtaken;
+}
+
+}  // namespace
+
+bool read_together(std::span<abi::Piece> pieces) noexcept {
+  const Together together = try_together(pieces, {});
+  if (together == Together::Overtaken) {
+    copy_each(pieces);
+  }
+  return together == Together::Yes;
+}
+
+Together read_together_in(std::span<const std::byte> block, std::span<abi::Piece> pieces) noexcept {
+  const auto begin = reinterpret_cast<std::uintptr_t>(block.data());
+  return try_together(pieces, {begin, begin + block.size()});
 }
 
 }  // namespace indurop::vars

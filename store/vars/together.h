@@ -5,6 +5,7 @@
 
 #include <indurop/detail/abi.h>
 
+#include <cstddef>
 #include <span>
 
 namespace indurop::vars {
@@ -13,5 +14,14 @@ namespace indurop::vars {
 // other boards: after one update of their board, if it sends them together. Returns false if this failed within some
 // tens of tries; then each value is consistent in itself only. Needs writable memory, as ring.h's read_slow().
 bool read_together(std::span<abi::Piece> pieces) noexcept;
+
+enum class Together {
+  Yes,
+  No,         // each value is consistent in itself only
+  Overtaken,  // writers were faster than some tens of tries; nothing in `to` is reliable
+};
+// The same for memory that is mapped read-only and that others may have damaged: reads nothing outside of `block`,
+// which contains the entries of all pieces.
+Together read_together_in(std::span<const std::byte> block, std::span<abi::Piece> pieces) noexcept;
 
 }  // namespace indurop::vars

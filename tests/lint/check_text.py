@@ -8,6 +8,7 @@ import sys
 import common
 
 SPDX = "// SPDX-License-Identifier: Apache-2.0"
+SPDX_OF_C = "/* SPDX-License-Identifier: Apache-2.0 */"  # headers for programs in C
 MAX_LINES = {".h": 400, ".cpp": 400, ".py": 600, ".cmake": 600, ".sh": 600}
 CODE = (".h", ".cpp", ".py", ".cmake", ".sh", ".glb", ".xml", ".xsd", ".txt", ".md", ".json", ".yml")
 # Printed in the specification; kept as they are.
@@ -28,9 +29,9 @@ def spdx(root):
         if name.startswith(VERBATIM):
             continue
         lines = common.read(root, name).split("\n")
-        if lines[0] != SPDX:
+        if lines[0] not in (SPDX, SPDX_OF_C):
             yield f"{name}:1: first line must be '{SPDX}'"
-        elif (len(lines) < 2 or not re.match(r"// \S", lines[1])) and not (
+        elif (len(lines) < 2 or not re.match(r"(//|/\*) \S", lines[1])) and not (
                 name.endswith("_test.cpp")
                 or name.endswith(".cpp") and (pathlib.Path(root) / name).with_suffix(".h").exists()):
             yield f"{name}:2: say in one to four lines of comment what this file is for"

@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The Python package on a node that runs: values of every kind, changes, forces, snapshots, watching, and a node that
+comes back with other variables. What it reads is compared with what the command line says."""
+
+import argparse
+import asyncio
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+OPTIONS = argparse.Namespace()
+PATIENCE = 60
+XML = """<root><module><filename>{file}</filename><moduletype>thread</moduletype>
+<operationtype>periodic</operationtype><period>1ms</period><priority>1</priority></module></root>
+"""
+
+
+def wait_until(what, condition):
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"waited in vain until {what}")
+        time.sleep(0.01)
+
+
+class Python(unittest.TestCase):
+    def setUp(self):
+        self.work = pathlib.Path(tempfile.mkdtemp(prefix="python_test_"))
+        os.environ["INDUROP_STATE_DIR"] = str(self.work / "state")
+        shutil.copy(OPTIONS.module, self.work)
+        (self.work / "module.xml").write_text(XML.format(file=pathlib.Path(OPTIONS.module).name))
+        self.name = f"python{os.getpid()}"
+        self.process = None
+        self.start()
+        self.node = indurop.node(self.name, write=True)
+
+    def tearDown(self):
+        self.node.close()
+        self.stop()
+        subprocess.run([OPTIONS.indurop, "clean", "--node", self.name], capture_output=True, check=False)
+        shutil.rmtree(self.work)
+
+    def start(self):
+        self.process = subprocess.Popen([OPTIONS.indurop, "run", "module.xml", "--node", self.name, "-q"], cwd=self.work,
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        wait_until("the node counts", self.counts)
+
+    def counts(self):
+        try:
+            with indurop.node(self.name) as node:
+                return node.running and node["count"] > 0
+        except indurop.Error:
+            return False
+
+    def stop(self):
+        if self.process is not None:
+            self.process.terminate()
+            self.process.wait(PATIENCE)
+
+    def told(self, name):
+        """The value as the command line has it."""
+        done = subprocess.run([OPTIONS.indurop, "get", "--node", self.name, "-o", "json", name], capture_output=True,
+                              text=True, check=True)
+        return json.loads(done.stdout)["values"][0]["value"]
+
+    def test_values_of_every_kind(self):
+        node = self.node
+        self.assertEqual(node["text"], "home")
+        self.assertEqual(node["mode"].name, "MANUAL")
+        self.assertEqual(node["mode"], 2)
+        self.assertAlmostEqual(node["gain"], 1.5)
+        self.assertEqual(node["grid"], [[0, 0, 0], [0, 0, 0]])
+        self.assertEqual(node["places[1]"], indurop.Record(x=0, y=0, valid=False, name=""))
+        node["places[1]"] = {"x": 2.5, "name": "tool"}
+        node["places[1].valid"] = True
+        node["grid"] = [[1, 2, 3], [-4, 5, -128]]
+        node["mode"] = "AUTO"
+        node["text"] = "away"
+        self.assertEqual(self.told("places[1]"), {"x": 2.5, "y": 0, "valid": True, "name": "tool"})
+        self.assertEqual(self.told("grid"), [[1, 2, 3], [-4, 5, -128]])
+        self.assertEqual(self.told("mode"), "AUTO")
+        self.assertEqual(self.told("text"), "away")
+        self.assertEqual(node["doors::places[1]"].name, "tool")
+        self.assertIn("places", node)
+        self.assertNotIn("place", node)
+        self.assertEqual(sorted(node), ["doors::count", "doors::gain", "doors::grid", "doors::mode", "doors::places",
+                                        "doors::text", "doors::twice"])
+
+    def test_what_is_declared(self):
+        x = self.node.variable("places[2].x")
+        self.assertEqual((x.name, x.type, x.unit, x.range), ("doors::places[2].x", "double", "mm", (-10, 10)))
+        self.assertTrue(self.node.variable("text").retain)
+        self.assertTrue(self.node.variable("gain").parameter)
+        self.assertTrue(self.node.variable("gain").source.startswith("doors.glb:"))
+
+    def test_refuses_and_changes_nothing(self):
+        node = self.node
+        for name, value, error in (("gain", 11, indurop.OutOfRange), ("gain", "much", indurop.OutOfRange),
+                                   ("grid", [[1, 2, 3], [4, 5, 128]], indurop.OutOfRange),
+                                   ("grid", [[1, 2, 3]], indurop.OutOfRange), ("mode", 3, indurop.OutOfRange),
+                                   ("text", "x" * 16, indurop.OutOfRange), ("places[0].x", 11, indurop.OutOfRange),
+                                   ("places[0]", {"z": 1}, indurop.OutOfRange), ("gian", 1, indurop.NotFound)):
+            with self.assertRaises(error, msg=f"{name} = {value}"):
+                node[name] = value
+        with self.assertRaisesRegex(indurop.NotFound, "did you mean 'doors::gain'"):
+            node.variable("gian")
+        self.assertEqual(self.told("grid"), [[0, 0, 0], [0, 0, 0]])
+        with indurop.node(self.name) as reader, self.assertRaises(indurop.Denied):
+            reader["gain"] = 1
+
+    def test_forces(self):
+        gain = self.node.variable("gain")
+        gain.force(3, reason="test stand")
+        self.assertTrue(gain.quality.forced)
+        self.assertFalse(gain.quality.good)
+        with self.assertRaises(indurop.Forced):
+            gain.write(1)
+        self.assertEqual(self.node["gain"], 3)
+        gain.release()
+        gain.write(1)
+        self.assertTrue(gain.quality.good)
+        with self.assertRaises(indurop.NotFound):
+            gain.release()
+        gain.force(3, seconds=0.05)
+        wait_until("the force ends by itself", lambda: not gain.quality.forced)
+
+    def test_values_of_one_moment(self):
+        together = 0
+        for _ in range(2000):
+            both = self.node.snapshot("count", "twice")
+            self.assertIn(both["twice"] - 2 * both["count"], (0, -2))  # between the two writes of a run
+            together += 1
+        self.assertEqual(together, 2000)
+
+    def test_numpy(self):
+        places = self.node.variable("places")
+        array = places.numpy()
+        self.assertEqual(array.shape, (3,))
+        self.node["places[2]"] = {"y": 4.25, "name": "arm"}
+        self.assertEqual(array["y"][2], 0)
+        self.assertIs(places.numpy(), array)
+        self.assertEqual(array["y"][2], 4.25, "the array shares the bytes of the last read")
+        self.assertEqual(array["name"][2], b"arm")
+        self.assertEqual(self.node.variable("grid").numpy().dtype.name, "int8")
+        self.assertEqual(self.node.variable("places[2]").numpy()["y"], 4.25)
+
+    def test_watching(self):
+        seen = []
+        for value in self.node.variable("count").watch(timeout=PATIENCE):
+            seen.append(value)
+            if len(seen) == 20:
+                break
+        self.assertEqual(seen, sorted(set(seen)))
+        with self.assertRaises(indurop.Timeout):
+            list(self.node.variable("gain").watch(timeout=0.05))
+
+        async def some():
+            found = []
+            async for value in self.node.variable("count").watch_async():
+                found.append(value)
+                if len(found) == 5:
+                    return found
+            return found
+
+        self.assertEqual(len(asyncio.run(some())), 5)
+
+    def test_the_end_of_a_node(self):
+        watched = self.node.variable("count").watch()
+        next(watched)
+        self.stop()
+        rest = list(watched)  # ends by itself
+        self.assertFalse(self.node.running)
+        last = self.node["count"]
+        self.assertEqual(last, rest[-1] if rest else last)
+
+    # The handle of a node that comes back reads the new one; a variable of another type is not read by the old handle.
+    def test_a_node_that_comes_back(self):
+        count = self.node.variable("count")
+        before = count.value
+        self.stop()
+        self.start()
+        wait_until("it counts from the beginning", lambda: 0 < count.value)
+        self.assertTrue(self.node.running)
+        self.assertGreater(before, 0)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    for option in ("indurop", "module", "package"):
+        parser.add_argument("--" + option, required=True)
+    parser.parse_known_args(namespace=OPTIONS)
+    sys.path.insert(0, OPTIONS.package)
+    unittest.main(argv=[sys.argv[0]], verbosity=2)
+
+
+if __name__ == "__main__":
+    if "--package" in sys.argv:
+        sys.path.insert(0, sys.argv[sys.argv.index("--package") + 1])
+    import indurop
+
+    main()
