@@ -10,9 +10,9 @@
 #include <cstring>
 
 #include "core/rt/clock.h"
-#include "tools/cli/command/gentle.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/values/watch_source.h"
+#include "tools/client/process/gentle.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/values/watch_source.h"
 #include "tools/iceoryx/publisher.h"
 #include "tools/iceoryx/supervisor.h"
 

@@ -13,7 +13,7 @@
 #include <iceoryx_posh/runtime/posh_runtime.hpp>
 
 #include "core/rt/clock.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::iceoryx {
 namespace {

@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include "tools/cli/values/watch_source.h"
+#include "tools/client/values/watch_source.h"
 
 namespace indurop::iceoryx {
 

@@ -13,7 +13,7 @@
 #include <cstring>
 
 #include "core/rt/clock.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/interrupt.h"
 #include "tools/iceoryx/publisher.h"
 #include "tools/iceoryx/roudi.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "tools/cli/command/audit.h"
+#include "tools/client/audit.h"
 
 namespace indurop::serve {
 

@@ -7,7 +7,7 @@
 
 #include "core/base/exit_code.h"
 #include "core/keys/participant_keys.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/interrupt.h"
 #include "tools/serve/admission.h"
 #include "tools/serve/server.h"
 

@@ -7,8 +7,8 @@
 
 #include "core/base/exit_code.h"
 #include "core/rt/clock.h"
-#include "tools/cli/command/gentle.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/gentle.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::serve {
 namespace {

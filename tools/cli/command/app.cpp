@@ -7,9 +7,9 @@
 #include <cstring>
 
 #include "core/base/option_pages.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/suggest.h"
 #include "tools/cli/command/verb.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/suggest.h"
 
 namespace indurop::tools {
 namespace {

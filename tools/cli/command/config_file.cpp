@@ -8,7 +8,7 @@
 
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
-#include "tools/cli/command/robot_files.h"
+#include "tools/client/robot/robot_files.h"
 
 namespace indurop::tools {
 namespace {

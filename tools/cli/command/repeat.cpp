@@ -6,7 +6,7 @@
 
 #include "core/base/duration.h"
 #include "core/rt/clock.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "core/rt/clock.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 

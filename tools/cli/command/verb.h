@@ -15,9 +15,9 @@
 #include "core/base/exit_code.h"
 #include "core/base/options.h"
 #include "network/dds/network_settings.h"
-#include "tools/cli/command/failure.h"
 #include "tools/cli/command/output.h"
-#include "tools/cli/command/table.h"
+#include "tools/client/failure.h"
+#include "tools/client/text/table.h"
 
 namespace indurop::tools {
 

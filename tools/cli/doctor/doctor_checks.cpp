@@ -17,8 +17,8 @@
 #include "core/rt/thread.h"
 #include "store/vars/retain.h"
 #include "store/vars/shm_file.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/doctor/first_line.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/rt/machine.h"
 #include "core/rt/thread.h"
 #include "scheduler/statistics.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 

@@ -18,7 +18,7 @@
 #include "history/explain/facts.h"
 #include "store/tape/follower.h"
 #include "store/vars/store.h"
-#include "tools/cli/values/node_choice.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 

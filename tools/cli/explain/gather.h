@@ -10,7 +10,7 @@
 #include "core/base/problem.h"
 #include "history/explain/facts.h"
 #include "tools/cli/command/verb.h"
-#include "tools/cli/values/node_choice.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tools/cli/command/units.h"
 #include "tools/cli/pictures/svg_parts.h"
 #include "tools/cli/pictures/way_svg.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

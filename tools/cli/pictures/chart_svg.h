@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "tools/cli/values/recording.h"
+#include "tools/client/recordings/recording.h"
 
 namespace indurop::tools {
 

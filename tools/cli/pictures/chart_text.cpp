@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tools/cli/command/table.h"
-#include "tools/cli/command/units.h"
+#include "tools/client/text/table.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/values/recording.h"
+#include "tools/client/recordings/recording.h"
 
 namespace indurop::tools {
 

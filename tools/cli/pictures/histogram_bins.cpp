@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "tools/cli/command/units.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

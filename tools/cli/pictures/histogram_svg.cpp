@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/cli/command/units.h"
 #include "tools/cli/pictures/histogram_bins.h"
 #include "tools/cli/pictures/svg_parts.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

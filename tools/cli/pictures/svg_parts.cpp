@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/cli/command/units.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 

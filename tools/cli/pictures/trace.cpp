@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/cli/command/table.h"
+#include "tools/client/text/table.h"
 
 namespace indurop::tools {
 

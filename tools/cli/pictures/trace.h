@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "tools/cli/values/run_view.h"
+#include "tools/client/node/run_view.h"
 
 namespace indurop::tools {
 

@@ -22,7 +22,7 @@ constexpr double kWayBottom = 34;  // for the numbers of the other axis
 constexpr double kApart = 30;      // between the views
 constexpr double kEndRadius = 4;
 
-struct Extent {
+struct DrawnArea {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
@@ -49,7 +49,7 @@ struct View {
 // directions.
 struct Frame {
   double left, top, width, height, per_unit;
-  Extent across, up;
+  DrawnArea across, up;
 
   [[nodiscard]] double x(double value) const { return left + width / 2 + (value - across.middle()) * per_unit; }
   [[nodiscard]] double y(double value) const { return top + height / 2 - (value - up.middle()) * per_unit; }

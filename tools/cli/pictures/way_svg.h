@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/base/svg.h"
-#include "tools/cli/values/recording.h"
+#include "tools/client/recordings/recording.h"
 
 namespace indurop::tools {
 

@@ -5,7 +5,7 @@
 
 #include "core/base/json.h"
 #include "deploy/words/deployment_words.h"
-#include "tools/cli/plant/board_texts.h"
+#include "tools/client/board/board_texts.h"
 
 namespace indurop::tools {
 namespace {

@@ -7,13 +7,13 @@
 
 #include "core/rt/clock.h"
 #include "deploy/transaction/blob_fetch.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {
 
 constexpr std::int64_t kPatienceNs = 5'000'000'000;
-constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kFilePollNs = 20'000'000;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Result<void, Failure> fetch_file(deploy::DeployLink& link, std::uint64_t self, c
     if (const auto range = fetch.ask(rt::MonoClock::now())) {
       link.request({self, file.agent, file.blob, range->offset, range->length, range->restart});
     }
-    link.wait(rt::mono_time(rt::now_ns() + kLookNs));
+    link.wait(rt::mono_time(rt::now_ns() + kFilePollNs));
     for (const deploy::BlobChunk& chunk : link.take_chunks()) {
       if (chunk.source != file.agent || chunk.blob != file.blob) {
         continue;

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "deploy/link/deploy_link.h"
-#include "tools/cli/command/failure.h"
+#include "tools/client/failure.h"
 
 namespace indurop::tools {
 

@@ -8,9 +8,9 @@
 #include "core/base/user_name.h"
 #include "core/rt/clock.h"
 #include "deploy/transaction/write_words.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/plant/board_commander.h"
+#include "tools/client/board/board_commander.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -11,9 +11,9 @@
 #include "core/base/text.h"
 #include "core/rt/clock.h"
 #include "deploy/words/deployment_words.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/plant/board_file.h"
-#include "tools/cli/plant/board_texts.h"
+#include "tools/client/board/board_texts.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

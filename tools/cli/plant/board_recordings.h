@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "deploy/link/deploy_link.h"
-#include "tools/cli/plant/board_commander.h"
-#include "tools/cli/plant/board_roster.h"
+#include "tools/client/board/board_commander.h"
+#include "tools/client/board/board_roster.h"
 
 namespace indurop::tools {
 

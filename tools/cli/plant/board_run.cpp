@@ -9,10 +9,10 @@
 
 #include "core/base/read_file.h"
 #include "core/rt/clock.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/suggest.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/plant/board_texts.h"
+#include "tools/client/board/board_texts.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/suggest.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

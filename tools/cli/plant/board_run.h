@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "deploy/link/deploy_link.h"
-#include "tools/cli/plant/board_roster.h"
-#include "tools/cli/values/force_view.h"
-#include "tools/cli/values/node_choice.h"
+#include "tools/client/board/board_roster.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/values/force_view.h"
 
 namespace indurop::tools {
 

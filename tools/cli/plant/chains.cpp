@@ -7,8 +7,8 @@
 
 #include "config/check/access_map.h"
 #include "config/xml/plant_reader.h"
-#include "tools/cli/command/suggest.h"
-#include "tools/cli/command/units.h"
+#include "tools/client/text/suggest.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 

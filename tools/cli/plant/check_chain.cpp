@@ -8,7 +8,7 @@
 
 #include "tools/cli/command/config_file.h"
 #include "tools/cli/plant/chains.h"
-#include "tools/cli/values/mirror_view.h"
+#include "tools/client/node/mirror_view.h"
 
 namespace indurop::tools {
 

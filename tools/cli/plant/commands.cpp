@@ -7,9 +7,9 @@
 
 #include "core/base/user_name.h"
 #include "core/rt/clock.h"
-#include "tools/cli/command/audit.h"
 #include "tools/cli/values/forcing.h"
-#include "tools/cli/values/node_choice.h"
+#include "tools/client/audit.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 

@@ -12,7 +12,7 @@
 #include "deploy/link/deploy_link.h"
 #include "scheduler/module_command.h"
 #include "tools/cli/command/verb.h"
-#include "tools/cli/plant/module_command.h"
+#include "tools/client/node/module_command.h"
 
 namespace indurop::tools {
 

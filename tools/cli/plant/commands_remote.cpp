@@ -9,12 +9,12 @@
 #include "core/rt/clock.h"
 #include "deploy/transaction/write_words.h"
 #include "deploy/words/command_words.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/suggest.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/plant/board_commander.h"
-#include "tools/cli/plant/board_roster.h"
 #include "tools/cli/plant/commands.h"
+#include "tools/client/board/board_commander.h"
+#include "tools/client/board/board_roster.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/suggest.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

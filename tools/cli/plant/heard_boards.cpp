@@ -2,7 +2,7 @@
 #include "tools/cli/plant/heard_boards.h"
 
 #include "core/rt/clock.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 

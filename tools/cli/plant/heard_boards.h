@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/command/failure.h"
 #include "tools/cli/command/verb.h"
-#include "tools/cli/plant/board_roster.h"
+#include "tools/client/board/board_roster.h"
+#include "tools/client/failure.h"
 
 namespace indurop::tools {
 

@@ -8,9 +8,9 @@
 
 #include "core/rt/clock.h"
 #include "history/alarms/alarm_state.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/plant/board_table.h"
-#include "tools/cli/plant/board_texts.h"
+#include "tools/client/board/board_table.h"
+#include "tools/client/board/board_texts.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "tools/cli/command/verb.h"
-#include "tools/cli/plant/board_roster.h"
+#include "tools/client/board/board_roster.h"
 
 namespace indurop::tools {
 

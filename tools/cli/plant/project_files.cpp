@@ -13,9 +13,9 @@
 #include "core/base/read_file.h"
 #include "core/base/text.h"
 #include "deploy/transaction/package.h"
-#include "tools/cli/command/child.h"
 #include "tools/cli/command/temporary_folder.h"
-#include "tools/cli/command/units.h"
+#include "tools/client/process/child.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "core/rt/clock.h"
 #include "history/recorder/join.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/plant/board_commander.h"
 #include "tools/cli/plant/board_recordings.h"
-#include "tools/cli/plant/board_roster.h"
+#include "tools/client/board/board_commander.h"
+#include "tools/client/board/board_roster.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {
@@ -58,10 +58,10 @@ int tell(Context& context, const std::vector<std::string>& problems) {
 }
 
 void wait(std::int64_t duration_ns) {
-  constexpr std::int64_t kLookNs = 1'000'000'000;
+  constexpr std::int64_t kRecordPollNs = 1'000'000'000;
   const std::int64_t end = rt::now_ns() + duration_ns;
   while (!interrupted() && (duration_ns == 0 || rt::now_ns() < end)) {
-    wait_until(duration_ns == 0 ? rt::now_ns() + kLookNs : end);
+    wait_until(duration_ns == 0 ? rt::now_ns() + kRecordPollNs : end);
   }
 }
 

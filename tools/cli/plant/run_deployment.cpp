@@ -11,9 +11,9 @@
 #include "core/keys/plant_keys.h"
 #include "core/rt/clock.h"
 #include "deploy/transaction/plant_transaction.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/plant/board_table.h"
+#include "tools/client/board/board_table.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {
@@ -22,7 +22,7 @@ using deploy::PlantTransaction;
 using Verdict = PlantTransaction::Verdict;
 
 constexpr std::chrono::milliseconds kSay{500};  // the boards consider a deployer that is silent for long as dead
-constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kDeployPollNs = 20'000'000;
 constexpr std::chrono::seconds kProgress{1};
 
 const char* word_of(Verdict verdict) {
@@ -64,7 +64,7 @@ class Run {
     say(true);
     while (!transaction_.finished()) {
       if (!busy_) {
-        link_.wait(rt::mono_time(rt::now_ns() + kLookNs));
+        link_.wait(rt::mono_time(rt::now_ns() + kDeployPollNs));
       }
       const rt::MonoTime now = rt::MonoClock::now();
       if (interrupted()) {

@@ -13,9 +13,9 @@
 #include "deploy/link/blob_server.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/words/deployment_words.h"
-#include "tools/cli/command/table.h"
 #include "tools/cli/command/verb.h"
-#include "tools/cli/plant/board_roster.h"
+#include "tools/client/board/board_roster.h"
+#include "tools/client/text/table.h"
 
 namespace indurop::tools {
 

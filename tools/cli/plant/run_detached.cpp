@@ -22,8 +22,8 @@
 #include "core/rt/clock.h"
 #include "store/vars/node_lock.h"
 #include "store/vars/retain.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/values/run_view.h"
+#include "tools/client/node/run_view.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

@@ -16,7 +16,7 @@
 #include "core/rt/clock.h"
 #include "core/rt/thread.h"
 #include "tools/cli/command/config_file.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

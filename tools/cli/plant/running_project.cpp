@@ -8,9 +8,9 @@
 
 #include "core/keys/digest.h"
 #include "tools/cli/command/temporary_folder.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/plant/board_file.h"
-#include "tools/cli/plant/board_texts.h"
+#include "tools/client/board/board_texts.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 

@@ -10,8 +10,8 @@
 
 #include "deploy/bundle/project.h"
 #include "deploy/transaction/package.h"
-#include "tools/cli/command/failure.h"
 #include "tools/cli/plant/heard_boards.h"
+#include "tools/client/failure.h"
 
 namespace indurop::tools {
 

@@ -12,8 +12,8 @@
 #include "control/plc/model/identifier.h"
 #include "control/plc/print/value_text.h"
 #include "core/base/read_file.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/plc/plc_path.h"
+#include "tools/client/plc/plc_path.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -13,8 +13,8 @@
 #include "control/plc/print/expression_text.h"
 #include "core/base/program_folder.h"
 #include "core/base/spawn.h"
-#include "tools/cli/command/child.h"
-#include "tools/cli/command/interrupt.h"
+#include "tools/client/process/child.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

@@ -10,11 +10,11 @@
 #include "control/plc/front/library_file.h"
 #include "core/base/program_folder.h"
 #include "core/base/replace_file.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/plc/plc_compiler.h"
 #include "tools/cli/plc/plc_file.h"
 #include "tools/cli/plc/plc_retained.h"
 #include "tools/cli/plc/plc_sources.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

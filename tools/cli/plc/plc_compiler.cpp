@@ -8,7 +8,7 @@
 
 #include "core/base/descriptor.h"
 #include "core/base/read_file.h"
-#include "tools/cli/command/child.h"
+#include "tools/client/process/child.h"
 
 namespace indurop::tools {
 namespace {

@@ -15,14 +15,14 @@
 #include "core/base/program_folder.h"
 #include "core/base/replace_file.h"
 #include "core/base/spawn.h"
-#include "tools/cli/command/child.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/plc/debug_link.h"
 #include "tools/cli/plc/debug_session.h"
 #include "tools/cli/plc/plc_build.h"
 #include "tools/cli/plc/plc_file.h"
 #include "tools/cli/plc/plc_sources.h"
+#include "tools/client/process/child.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

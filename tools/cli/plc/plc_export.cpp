@@ -13,9 +13,9 @@
 #include "control/plc/front/reader.h"
 #include "control/plc/plcopen/project_writer.h"
 #include "core/base/replace_file.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/plc/plc_file.h"
 #include "tools/cli/plc/plc_sources.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

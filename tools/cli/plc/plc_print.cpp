@@ -8,9 +8,9 @@
 #include "control/plc/front/reader.h"
 #include "control/plc/print/print.h"
 #include "core/base/replace_file.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/plc/plc_file.h"
 #include "tools/cli/plc/plc_sources.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

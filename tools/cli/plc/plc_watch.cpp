@@ -8,14 +8,14 @@
 
 #include "control/plc/front/watch_plan.h"
 #include "control/plc/print/live.h"
-#include "tools/cli/command/gentle.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/command/rounds.h"
 #include "tools/cli/command/screen.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/plc/plc_file.h"
 #include "tools/cli/plc/plc_sources.h"
-#include "tools/cli/plc/plc_view.h"
+#include "tools/client/plc/plc_view.h"
+#include "tools/client/process/gentle.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -10,7 +10,7 @@
 #include "history/recorder/run_words.h"
 #include "history/recorder/sources.h"
 #include "history/recording/mcap_reader.h"
-#include "tools/cli/command/table.h"
+#include "tools/client/text/table.h"
 
 namespace indurop::tools {
 namespace {

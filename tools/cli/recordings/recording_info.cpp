@@ -9,8 +9,8 @@
 
 #include "core/rt/clock.h"
 #include "history/recorder/survey.h"
-#include "tools/cli/command/table.h"
-#include "tools/cli/command/units.h"
+#include "tools/client/text/table.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

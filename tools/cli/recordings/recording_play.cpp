@@ -20,10 +20,10 @@
 #include "history/recording/mcap_reader.h"
 #include "history/recording/omg_idl.h"
 #include "store/operate/set.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/values/forcing.h"
-#include "tools/cli/values/known_uses.h"
-#include "tools/cli/values/node_choice.h"
+#include "tools/client/node/known_uses.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/base/problem.h"
-#include "tools/cli/values/recording.h"
+#include "tools/client/recordings/recording.h"
 
 namespace indurop::tools {
 

@@ -7,9 +7,9 @@
 #include <cstring>
 
 #include "core/rt/clock.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/values/forcing.h"
-#include "tools/cli/values/node_choice.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "config/xml/plant_reader.h"
 #include "tools/cli/command/config_file.h"
-#include "tools/cli/values/node_choice.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 namespace {

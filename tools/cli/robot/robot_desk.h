@@ -6,9 +6,9 @@
 #include <string>
 
 #include "control/robot/files/teach.h"
-#include "tools/cli/command/failure.h"
-#include "tools/cli/command/robot_files.h"
 #include "tools/cli/values/variables.h"
+#include "tools/client/failure.h"
+#include "tools/client/robot/robot_files.h"
 
 namespace indurop::tools {
 

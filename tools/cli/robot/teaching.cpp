@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "tools/cli/command/config_file.h"
-#include "tools/cli/values/node_choice.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 

@@ -12,7 +12,7 @@
 #include "store/operate/journal.h"
 #include "store/vars/store.h"
 #include "tools/cli/command/screen.h"
-#include "tools/cli/command/units.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "history/alarms/alarm_book.h"
 #include "tools/cli/command/output.h"
-#include "tools/cli/values/force_view.h"
-#include "tools/cli/values/mirror_view.h"
-#include "tools/cli/values/run_report.h"
-#include "tools/cli/values/run_view.h"
+#include "tools/client/node/mirror_view.h"
+#include "tools/client/node/run_report.h"
+#include "tools/client/node/run_view.h"
+#include "tools/client/values/force_view.h"
 
 namespace indurop::tools {
 

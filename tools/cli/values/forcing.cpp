@@ -8,8 +8,8 @@
 #include "core/base/user_name.h"
 #include "core/rt/clock.h"
 #include "store/operate/set.h"
-#include "tools/cli/command/audit.h"
-#include "tools/cli/values/value_source.h"
+#include "tools/client/audit.h"
+#include "tools/client/values/value_source.h"
 
 namespace indurop::tools {
 namespace {

@@ -10,9 +10,9 @@
 #include <set>
 #include <utility>
 
-#include "tools/cli/command/units.h"
-#include "tools/cli/values/node_choice.h"
-#include "tools/cli/values/value_source.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/text/units.h"
+#include "tools/client/values/value_source.h"
 
 namespace indurop::tools {
 namespace {

@@ -11,13 +11,13 @@
 
 #include "core/rt/clock.h"
 #include "store/vars/node_lock.h"
-#include "tools/cli/command/gentle.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/explain/board_runs.h"
 #include "tools/cli/explain/gather.h"
 #include "tools/cli/plant/check_chain.h"
-#include "tools/cli/values/mirror_view.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/mirror_view.h"
+#include "tools/client/process/gentle.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

@@ -7,12 +7,12 @@
 #include "history/alarms/alarm_list.h"
 #include "history/alarms/alarm_orders.h"
 #include "history/alarms/alarm_watch.h"
-#include "tools/cli/command/gentle.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/values/node_choice.h"
-#include "tools/cli/values/node_trouble.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/node/node_trouble.h"
+#include "tools/client/process/gentle.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

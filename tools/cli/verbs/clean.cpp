@@ -10,8 +10,8 @@
 
 #include "store/vars/node_lock.h"
 #include "store/vars/shm_file.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 namespace {

@@ -9,11 +9,11 @@
 #include "deploy/link/link_keys.h"
 #include "deploy/transaction/package.h"
 #include "tools/cli/command/config_file.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/plant/plant_source.h"
 #include "tools/cli/plant/run_deployment.h"
 #include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

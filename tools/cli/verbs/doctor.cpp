@@ -10,14 +10,14 @@
 #include "core/rt/thread.h"
 #include "scheduler/quantile.h"
 #include "store/vars/retain.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/doctor/doctor_checks.h"
 #include "tools/cli/doctor/doctor_latency.h"
 #include "tools/cli/doctor/interrupts.h"
 #include "tools/cli/doctor/tuning.h"
-#include "tools/cli/values/run_report.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/run_report.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "history/explain/facts_json.h"
 #include "history/explain/questions.h"
-#include "tools/cli/command/suggest.h"
 #include "tools/cli/explain/gather.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/text/suggest.h"
 
 namespace indurop::tools {
 namespace {

@@ -5,15 +5,15 @@
 
 #include "core/rt/clock.h"
 #include "store/operate/hold.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/plant/board_forces.h"
 #include "tools/cli/values/assignment.h"
-#include "tools/cli/values/force_view.h"
 #include "tools/cli/values/forcing.h"
-#include "tools/cli/values/node_choice.h"
-#include "tools/cli/values/value_source.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
+#include "tools/client/values/force_view.h"
+#include "tools/client/values/value_source.h"
 
 namespace indurop::tools {
 namespace {

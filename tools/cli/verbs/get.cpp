@@ -4,10 +4,10 @@
 
 #include <set>
 
-#include "tools/cli/values/mirror_view.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/values/variables.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/mirror_view.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 namespace {

@@ -7,11 +7,11 @@
 #include <tuple>
 
 #include "core/rt/clock.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/plant/board_history.h"
-#include "tools/cli/plant/board_roster.h"
-#include "tools/cli/plant/board_table.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/board/board_history.h"
+#include "tools/client/board/board_roster.h"
+#include "tools/client/board/board_table.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

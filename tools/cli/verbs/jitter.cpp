@@ -7,11 +7,11 @@
 
 #include "core/base/replace_file.h"
 #include "tools/cli/command/repeat.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/pictures/histogram_bins.h"
 #include "tools/cli/pictures/histogram_svg.h"
 #include "tools/cli/plant/board_run.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -7,9 +7,9 @@
 #include <chrono>
 
 #include "core/keys/plant_keys.h"
-#include "tools/cli/command/suggest.h"
 #include "tools/cli/verbs/keys_request.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/text/suggest.h"
 
 namespace indurop::tools {
 namespace {

@@ -4,10 +4,10 @@
 
 #include "store/operate/set.h"
 #include "tools/cli/plant/board_forces.h"
-#include "tools/cli/values/force_view.h"
 #include "tools/cli/values/forcing.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/values/force_view.h"
 
 namespace indurop::tools {
 namespace {

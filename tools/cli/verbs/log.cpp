@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include "core/base/replace_file.h"
-#include "tools/cli/command/audit.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/pictures/trace.h"
 #include "tools/cli/plant/board_run.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/audit.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "config/xml/reader.h"
 #include "store/vars/node_lock.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/values/node_choice.h"
-#include "tools/cli/values/run_report.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/node/run_report.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

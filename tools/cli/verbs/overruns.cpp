@@ -2,9 +2,9 @@
 // indurop overruns: which module was late, when, what time it used itself, and which one ran before it.
 #include <fmt/format.h>
 
-#include "tools/cli/command/units.h"
 #include "tools/cli/plant/board_run.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "deploy/bundle/bundle.h"
 #include "deploy/link/link_keys.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/plant/plant_source.h"
 #include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

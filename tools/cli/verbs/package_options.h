@@ -10,7 +10,7 @@
 
 #include "core/base/options.h"
 #include "core/base/text.h"
-#include "tools/cli/command/units.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 

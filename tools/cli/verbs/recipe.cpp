@@ -4,13 +4,13 @@
 
 #include "core/base/user_name.h"
 #include "core/rt/clock.h"
-#include "tools/cli/command/audit.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/recipes/recipe_values.h"
 #include "tools/cli/values/forcing.h"
-#include "tools/cli/values/node_choice.h"
-#include "tools/cli/values/value_source.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/audit.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/recipes/recipe_values.h"
+#include "tools/client/text/units.h"
+#include "tools/client/values/value_source.h"
 
 namespace indurop::tools {
 namespace {

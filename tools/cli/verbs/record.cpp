@@ -20,13 +20,13 @@
 #include "store/vars/unmatched_patterns.h"
 #include "tools/cli/command/amount.h"
 #include "tools/cli/command/config_file.h"
-#include "tools/cli/command/gentle.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/explain/gather.h"
 #include "tools/cli/plant/record_with_agents.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/process/gentle.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -9,8 +9,8 @@
 #include "store/vars/node_lock.h"
 #include "store/vars/retain.h"
 #include "tools/cli/values/forcing.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 namespace {

@@ -3,8 +3,8 @@
 #include "tools/cli/robot/hand.h"
 #include "tools/cli/robot/reload.h"
 #include "tools/cli/robot/teaching.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 namespace {

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "core/keys/digest.h"
-#include "tools/cli/plant/board_history.h"
-#include "tools/cli/plant/board_texts.h"
 #include "tools/cli/plant/run_deployment.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/board/board_history.h"
+#include "tools/client/board/board_texts.h"
 
 namespace indurop::tools {
 namespace {

@@ -7,15 +7,15 @@
 
 #include "core/base/replace_file.h"
 #include "core/rt/clock.h"
-#include "tools/cli/command/gentle.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/command/screen.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/pictures/chart_svg.h"
 #include "tools/cli/pictures/chart_text.h"
-#include "tools/cli/scope/save.h"
-#include "tools/cli/scope/scope.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/process/gentle.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/scope/save.h"
+#include "tools/client/scope/scope.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

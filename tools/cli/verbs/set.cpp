@@ -6,9 +6,9 @@
 #include "tools/cli/plant/board_forces.h"
 #include "tools/cli/values/assignment.h"
 #include "tools/cli/values/forcing.h"
-#include "tools/cli/values/known_uses.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/known_uses.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "core/rt/clock.h"
 #include "store/vars/node_lock.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/plant/commands.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -13,11 +13,11 @@
 
 #include "core/rt/clock.h"
 #include "tools/cli/command/become_server.h"
-#include "tools/cli/command/gentle.h"
 #include "tools/cli/command/rounds.h"
-#include "tools/cli/values/node_choice.h"
-#include "tools/cli/values/watch_source.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/process/gentle.h"
+#include "tools/client/values/watch_source.h"
 
 namespace indurop::tools {
 namespace {

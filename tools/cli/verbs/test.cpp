@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/base/program_folder.h"
-#include "tools/cli/command/child.h"
 #include "tools/cli/command/package_folder.h"
 #include "tools/cli/plc/plc_coverage.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/process/child.h"
 
 namespace indurop::tools {
 namespace {

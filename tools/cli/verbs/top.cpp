@@ -9,12 +9,12 @@
 #include "core/rt/clock.h"
 #include "store/vars/node_lock.h"
 #include "store/vars/store.h"
-#include "tools/cli/command/gentle.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/top/top_page.h"
 #include "tools/cli/top/top_screen.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/process/gentle.h"
+#include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
 namespace {

@@ -2,9 +2,9 @@
 // indurop typeof: the type of a variable and of its parts.
 #include <fmt/format.h>
 
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/values/variables.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
 namespace {

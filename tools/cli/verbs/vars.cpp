@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "tools/cli/command/units.h"
-#include "tools/cli/values/known_uses.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/values/variables.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/known_uses.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

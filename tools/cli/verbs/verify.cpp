@@ -9,11 +9,11 @@
 #include "core/rt/clock.h"
 #include "deploy/disk/state_check.h"
 #include "store/vars/retain.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/plant/board_texts.h"
 #include "tools/cli/plant/heard_boards.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/board/board_texts.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -7,14 +7,14 @@
 
 #include "core/base/csv_row.h"
 #include "core/rt/clock.h"
-#include "tools/cli/command/gentle.h"
-#include "tools/cli/command/interrupt.h"
 #include "tools/cli/command/rounds.h"
 #include "tools/cli/command/screen.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/values/node_choice.h"
-#include "tools/cli/values/watch_source.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
+#include "tools/client/process/gentle.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
+#include "tools/client/values/watch_source.h"
 
 namespace indurop::tools {
 namespace {

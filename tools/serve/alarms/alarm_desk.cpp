@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "history/alarms/alarm_list.h"
-#include "tools/cli/values/node_trouble.h"
+#include "tools/client/node/node_trouble.h"
 
 namespace indurop::serve {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers about boards and their modules.
 #include "history/alarms/alarm_list.h"
-#include "tools/cli/values/external_view.h"
-#include "tools/cli/values/mirror_view.h"
-#include "tools/cli/values/module_table.h"
-#include "tools/cli/values/run_report.h"
+#include "tools/client/node/external_view.h"
+#include "tools/client/node/mirror_view.h"
+#include "tools/client/node/module_table.h"
+#include "tools/client/node/run_report.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/boards.h"
 #include "tools/serve/boards/trouble.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/base/exit_code.h"
-#include "tools/cli/plc/plc_pictures.h"
+#include "tools/client/plc/plc_pictures.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/board.h"
 

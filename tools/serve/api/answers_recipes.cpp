@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers about recipes: sets of parameters, compared with the current values, and loaded in one tick.
 #include "core/rt/clock.h"
-#include "tools/cli/recipes/recipe_values.h"
+#include "tools/client/recipes/recipe_values.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/api/write.h"
 #include "tools/serve/boards/local_board.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tools/cli/values/recorded_file.h"
+#include "tools/client/recordings/recorded_file.h"
 #include "tools/serve/api/answers.h"
 
 namespace indurop::serve::answers {

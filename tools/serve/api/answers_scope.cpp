@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/rt/clock.h"
-#include "tools/cli/command/interrupt.h"
-#include "tools/cli/scope/save.h"
-#include "tools/cli/scope/scope.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/scope/save.h"
+#include "tools/client/scope/scope.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/board.h"
 

@@ -12,7 +12,7 @@
 
 #include "core/base/json.h"
 #include "history/alarms/alarm_book.h"
-#include "tools/cli/values/known_uses.h"
+#include "tools/client/node/known_uses.h"
 #include "tools/serve/audit.h"
 #include "tools/serve/door/gate.h"
 

@@ -19,7 +19,7 @@
 #include "store/operate/who.h"
 #include "store/vars/custody.h"
 #include "store/vars/store.h"
-#include "tools/cli/values/run_view.h"
+#include "tools/client/node/run_view.h"
 #include "tools/serve/boards/write_request.h"
 
 namespace indurop::tools {

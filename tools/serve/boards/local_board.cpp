@@ -8,7 +8,7 @@
 
 #include "history/alarms/alarm_list.h"
 #include "scheduler/words.h"
-#include "tools/cli/values/force_view.h"
+#include "tools/client/values/force_view.h"
 #include "tools/serve/door/request.h"
 
 namespace indurop::serve {

@@ -10,7 +10,7 @@
 
 #include "store/operate/item.h"
 #include "store/operate/refusal.h"
-#include "tools/cli/values/here_source.h"
+#include "tools/client/values/here_source.h"
 #include "tools/serve/boards/board.h"
 
 namespace indurop::serve {

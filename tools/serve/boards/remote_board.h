@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "tools/cli/plant/plant_watch.h"
-#include "tools/cli/plant/reported_board.h"
+#include "tools/client/board/plant_watch.h"
+#include "tools/client/board/reported_board.h"
 #include "tools/serve/boards/board.h"
 
 namespace indurop::serve {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/plant/plant_watch.h"
-#include "tools/cli/plant/reported_board.h"
+#include "tools/client/board/plant_watch.h"
+#include "tools/client/board/reported_board.h"
 
 namespace indurop::serve {
 

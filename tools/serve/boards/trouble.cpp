@@ -8,9 +8,9 @@
 
 #include "history/alarms/alarm_list.h"
 #include "scheduler/module_health.h"
-#include "tools/cli/command/units.h"
-#include "tools/cli/values/force_view.h"
-#include "tools/cli/values/mirror_view.h"
+#include "tools/client/node/mirror_view.h"
+#include "tools/client/text/units.h"
+#include "tools/client/values/force_view.h"
 
 namespace indurop::serve {
 namespace {

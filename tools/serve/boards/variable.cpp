@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "tools/cli/values/here_source.h"
+#include "tools/client/values/here_source.h"
 
 namespace indurop::serve {
 namespace {

@@ -7,7 +7,7 @@
 #include "tools/cli/pictures/chart_svg.h"
 #include "tools/cli/pictures/chart_text.h"
 #include "tools/cli/pictures/way_svg.h"
-#include "tools/cli/values/recording.h"
+#include "tools/client/recordings/recording.h"
 
 namespace indurop::tools {
 namespace {

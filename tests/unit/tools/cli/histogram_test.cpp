@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "scheduler/statistics.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/pictures/histogram_bins.h"
 #include "tools/cli/pictures/histogram_svg.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/command/audit.h"
+#include "tools/client/audit.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

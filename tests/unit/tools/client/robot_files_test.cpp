@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/client/robot/robot_files.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace indurop::tools {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* kArm = R"(<robot name="arm"><link name="base"/><link name="tool"/>
+<joint name="j1" type="revolute"><parent link="base"/><child link="tool"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" velocity="1" effort="0"/></joint></robot>)";
+
+class Robot_files : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(folder_);
+    config_.file = folder_ / "module.xml";
+    config_.modules.emplace_back();
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  [[nodiscard]] std::vector<std::string> errors() const {
+    std::vector<std::string> texts;
+    for (const base::Diagnostic& one : check_robot_files(config_, check_)) {
+      texts.push_back(base::to_string(one).substr(folder_.string().size() + 1));
+    }
+    return texts;
+  }
+
+  config::Config config_;
+  config::CheckResult check_;
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("robot_files_test." + std::to_string(::getpid()));
+};
+
+TEST_F(Robot_files, All_of_them_are_read_and_all_errors_told_at_once) {
+  config_.modules[0].properties = {{"urdf", "arm.urdf"}, {"jobs", "points.job  pick.job gone.job"}};
+  write("arm.urdf", "<robot name=\"arm\"/>");
+  write("points.job", "POINT A = JOINT 1 2 3\n");
+  write("pick.job", "MOVJ A\nMOVE B\n");
+  const auto found = errors();
+  EXPECT_THAT(found, testing::Contains(HasSubstr("arm.urdf:1:")));
+  EXPECT_THAT(found, testing::Contains(HasSubstr("points.job:1:")));
+  EXPECT_THAT(found, testing::Contains(HasSubstr("pick.job:2:1: error: unknown statement 'MOVE'")));
+  EXPECT_THAT(found, testing::Contains(HasSubstr("gone.job:1:1: error: this job cannot be read")));
+}
+
+TEST_F(Robot_files, Jobs_name_variables_that_there_are) {
+  const auto add = [&](const char* name, schema::Base base) {
+    schema::Variable one;
+    one.name = name;
+    one.type.base = base;
+    one.type.element_size = 2;
+    check_.schema.variables.push_back(one);
+  };
+  add("PLC_ROBOT::I4", schema::Base::Int16);
+  add("PLC_ROBOT::name", schema::Base::Text);
+  write("arm.urdf", kArm);
+  config_.modules[0].properties = {{"urdf", "arm.urdf"}, {"jobs", "pick.job"}};
+  write("pick.job", "WAIT I4 ON\nSET PLC_ROBOT::I4 ON\nSET I5 OFF\nIF I4 ON AND  name = 1\n SET I5 ON\nEND\n");
+  EXPECT_THAT(errors(),
+              testing::IsSupersetOf({HasSubstr("pick.job:3:5: error: no variable 'I5'; did you mean 'PLC_ROBOT::I4'?"),
+                                     HasSubstr("pick.job:4:15: error: 'name' is not a number")}));
+  write("pick.job", "WAIT I4 ON\nSET PLC_ROBOT::I4 ON\n");
+  EXPECT_THAT(errors(), testing::Not(testing::Contains(HasSubstr("pick.job"))));
+}
+
+TEST_F(Robot_files, Only_robot_modules_have_them) {
+  config_.modules[0].properties = {{"gain", "3"}};
+  EXPECT_THAT(errors(), IsEmpty());
+  // Another module with a property of that name: it does not read URDF.
+  config_.modules[0].properties = {{"jobs", "7 8"}};
+  check_.facts.resize(1);
+  check_.facts[0].file.imports = {"_ZN3irp5printEv", "malloc"};
+  EXPECT_THAT(errors(), IsEmpty());
+  check_.facts[0].file.imports = {"_ZN4urdf9parseURDFERKNSt7__cxx1112basic_stringE", "malloc"};
+  EXPECT_THAT(errors(), ElementsAre(HasSubstr("robot.urdf:1:1: error"), HasSubstr("7:1:1: error"), HasSubstr("8:1:1")));
+}
+
+}  // namespace
+}  // namespace indurop::tools

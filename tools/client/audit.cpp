@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/client/audit.h"
+
+#include <sys/stat.h>
+
+#include <cstdint>
+
+#include "core/base/line_journal.h"
+#include "store/vars/retain.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::uintmax_t kMaxAuditBytes = 8U << 20;
+
+}  // namespace
+
+base::Json json_of(const AuditEntry& entry) {
+  return {{"wall_ns", entry.wall_ns}, {"who", entry.who},   {"from", entry.from},       {"board", entry.board},
+          {"action", entry.action},   {"what", entry.what}, {"outcome", entry.outcome}, {"reason", entry.reason}};
+}
+
+std::optional<AuditEntry> parse_audit_line(std::string_view line) {
+  const auto json = base::Json::parse(line);
+  AuditEntry entry;
+  if (!json || !base::read(*json, "wall_ns", entry.wall_ns) || !base::read(*json, "action", entry.action)) {
+    return std::nullopt;
+  }
+  base::read(*json, "who", entry.who);
+  base::read(*json, "from", entry.from);
+  base::read(*json, "board", entry.board);
+  base::read(*json, "what", entry.what);
+  base::read(*json, "outcome", entry.outcome);
+  base::read(*json, "reason", entry.reason);
+  return entry;
+}
+
+std::filesystem::path usual_audit_file() {
+  return vars::state_directory("serve") / "audit.jsonl";
+}
+
+std::string append_audit(const std::filesystem::path& file, const AuditEntry& entry) {
+  return base::append_line({file, kMaxAuditBytes, S_IRUSR | S_IWUSR, base::Durable::Yes}, json_of(entry).dump());
+}
+
+std::vector<AuditEntry> read_audit(const std::filesystem::path& file, std::size_t most) {
+  std::vector<AuditEntry> all;
+  base::each_line(file, [&all](std::string_view line) {
+    if (auto entry = parse_audit_line(line)) {
+      all.push_back(std::move(*entry));
+    }
+  });
+  if (all.size() > most) {
+    all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(most));
+  }
+  return all;
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/client/board/board_commander.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/keys/credentials.h"
+#include "core/rt/clock.h"
+#include "tools/cli/plant/run_deployment.h"
+#include "tools/client/process/interrupt.h"
+#include "tools/client/text/units.h"
+
+namespace indurop::tools {
+namespace {
+
+using deploy::Outcome;
+
+constexpr std::int64_t kRepeatNs = 200'000'000;
+
+}  // namespace
+
+Result<BoardCommander, Failure> BoardCommander::make(Context& context, const std::filesystem::path& keys) {
+  if (keys.empty()) {
+    return BoardCommander("");
+  }
+  auto key = read_deploy_key(context, keys);
+  if (!key) {
+    return Failure{kFailed, key.error().text};
+  }
+  return BoardCommander(std::move(key).value());
+}
+
+Result<Answered, Failure> BoardCommander::give(deploy::DeployLink& link, std::uint64_t self,
+                                               const deploy::BoardReport& board, deploy::Action action,
+                                               const std::string& target, std::int64_t timeout_ns) {
+  if (commands_ == nullptr) {
+    auto opened = deploy::CommandLink::open(link, deploy::CommandSide::Commander);
+    if (!opened) {
+      return Failure{kUnreachable, opened.error().text};
+    }
+    commands_ = std::move(opened).value();
+  }
+  deploy::Command command{self, deploy::host_name(), board.board, board.agent, board.plant, action, target, 0, {}};
+  bool taken = false;
+  const std::int64_t begin = rt::now_ns();
+  std::int64_t say_ns = 0;
+  while (!interrupted() && rt::now_ns() < begin + timeout_ns) {
+    if (rt::now_ns() >= say_ns) {
+      commands_->send(command);
+      say_ns = rt::now_ns() + kRepeatNs;
+    }
+    link.wait(rt::mono_time(std::min(say_ns, begin + timeout_ns)));
+    for (const deploy::CommandReply& reply : commands_->take_replies()) {
+      if (reply.commander != command.commander || reply.board != command.board || reply.agent != command.agent) {
+        continue;
+      }
+      if (reply.outcome == Outcome::Nonce && !taken) {
+        command.nonce = reply.nonce;
+        command.signature = key_.empty() ? "" : keys::signature_of(deploy::command_text(command), key_);
+        say_ns = 0;
+      } else if (reply.nonce == command.nonce && reply.outcome == Outcome::UnderWay) {
+        taken = true;
+      } else if (reply.nonce == command.nonce && reply.outcome != Outcome::Nonce) {
+        return Answered{reply, rt::now_ns() - begin};
+      }
+    }
+  }
+  if (interrupted()) {
+    return Failure{interrupt_code(), "interrupted"};
+  }
+  return Failure{kUnreachable,
+                 fmt::format("{} within {}",
+                             taken ? "the board is still at it, not done"
+                                   : "its agent did not answer (agents of older releases do not know all commands)",
+                             human_age(timeout_ns))};
+}
+
+}  // namespace indurop::tools

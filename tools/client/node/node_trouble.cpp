@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/client/node/node_trouble.h"
+
+#include <fmt/format.h>
+
+#include "scheduler/module_health.h"
+#include "tools/client/text/units.h"
+
+namespace indurop::tools {
+
+std::optional<std::vector<alarms::ModuleNow>> modules_now(const RunView& run) {
+  if (!run.node_alive() || run.block().state.load(std::memory_order_relaxed) != scheduler::NodeState::Running) {
+    return std::nullopt;
+  }
+  std::vector<alarms::ModuleNow> all;
+  for (std::uint32_t i = 0; i < run.module_count(); ++i) {
+    const scheduler::ModuleRecord& module = run.module(i);
+    const auto state = module.state.load(std::memory_order_acquire);
+    const char* const down = scheduler::down_text(state);
+    all.push_back({printable(fixed_text(module.name)), down != nullptr ? down : "",
+                   scheduler::is_down_by_fault(state) ? printable(fixed_text(module.last_fault)) : std::string()});
+  }
+  return all;
+}
+
+std::optional<std::vector<alarms::ModuleNow>> modules_now(const std::string& node) {
+  const auto run = RunView::open(node);
+  return run.ok() ? modules_now(*run) : std::nullopt;
+}
+
+std::vector<std::string> trouble_now(const RunView& run, const std::optional<MirrorView>& mirror) {
+  std::vector<std::string> all;
+  const auto modules = modules_now(run);
+  for (const alarms::ModuleNow& one : modules ? *modules : std::vector<alarms::ModuleNow>()) {
+    if (!one.down.empty()) {
+      all.push_back(fmt::format("module {} {}{}{}", one.name, one.down, one.why.empty() ? "" : ": ", one.why));
+    }
+  }
+  if (mirror && !mirror->problem.empty()) {
+    all.push_back(fmt::format("not connected with other boards: {}", printable(mirror->problem)));
+  }
+  for (const PeerView& peer : mirror ? mirror->peers : std::vector<PeerView>()) {
+    if (peer.state != "alive" || !peer.problem.empty()) {
+      all.push_back(printable(
+          fmt::format("board {} is {}{}{}", peer.name, peer.state, peer.problem.empty() ? "" : ": ", peer.problem)));
+    }
+  }
+  return all;
+}
+
+}  // namespace indurop::tools

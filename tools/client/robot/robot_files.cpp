@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/client/robot/robot_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "tools/client/text/suggest.h"
+
+namespace indurop::tools {
+namespace {
+
+const config::Property* property(const config::Module& module, std::string_view name) {
+  const auto found = std::find_if(module.properties.begin(), module.properties.end(),
+                                  [name](const config::Property& one) { return one.name == name; });
+  return found == module.properties.end() ? nullptr : &*found;
+}
+
+// Modules that link libindurop-robot.a import the URDF parser from another library.
+bool reads_urdf(const schema::ModuleFile& file) {
+  const std::string name = "_ZN4urdf9parseURDF";
+  const auto found = std::lower_bound(file.imports.begin(), file.imports.end(), name);
+  return file.imports.empty() || (found != file.imports.end() && found->rfind(name, 0) == 0);
+}
+
+std::string beside(const config::Config& config, const std::string& name) {
+  return (config.file.parent_path() / name).lexically_normal().string();
+}
+
+robot::FileNames files_of(const config::Config& config, const config::Module& module) {
+  const config::Property* const urdf = property(module, "urdf");
+  const config::Property* const jobs = property(module, "jobs");
+  robot::FileNames names{beside(config, urdf == nullptr ? "robot.urdf" : urdf->value), {}, {}};
+  std::istringstream words(jobs == nullptr ? "" : jobs->value);
+  for (std::string word; words >> word;) {
+    names.jobs.push_back(beside(config, word));
+  }
+  return names;
+}
+
+// Warns of misspelled properties: a name that the robot task does not know is the module's own, unless it is similar to
+// a known one.
+void warn_of_names(const config::Config& config, const config::Module& module, std::vector<base::Diagnostic>& all) {
+  for (const config::Property& one : module.properties) {
+    const auto& known = robot::setting_names();
+    const bool is_known = std::find(known.begin(), known.end(), one.name) != known.end();
+    if (const std::string meant = is_known ? "" : did_you_mean(one.name, known); !meant.empty()) {
+      all.push_back({base::Diagnostic::Severity::Warning, config.file.string(), one.place,
+                     fmt::format("the robot has no property '{}'.{}", one.name, meant)});
+    }
+  }
+}
+
+bool is_number(const schema::Type& type) {
+  using schema::Base;
+  return type.dims.empty() && type.base != Base::Struct && type.base != Base::Text && type.base != Base::Char &&
+         type.base != Base::Enum;
+}
+
+// Finds shared variables that jobs name and no module of the board declares; the node would not start.
+void check_variables(const robot::Findings& found, const schema::Schema& schema, std::vector<base::Diagnostic>& all) {
+  for (const robot::NamedVariable& one : found.variables) {
+    std::string message;
+    const auto place = schema::find_place(schema, one.name, message);
+    if (!place || !is_number(place->type)) {
+      all.push_back({base::Diagnostic::Severity::Error, one.file, one.place,
+                     place ? fmt::format("'{}' is not a number or bool; name a part that is one", one.name)
+                           : fmt::format("{} (jobs name variables of this board's modules)", message)});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<base::Diagnostic> check_robot_files(const config::Config& config, const config::CheckResult& check) {
+  std::vector<base::Diagnostic> all;
+  for (std::size_t i = 0; i < config.modules.size(); ++i) {
+    const config::Module& module = config.modules[i];
+    const bool named = property(module, "urdf") != nullptr || property(module, "jobs") != nullptr;
+    const bool built = i < check.facts.size();
+    if (!named || (built && !reads_urdf(check.facts[i].file))) {
+      continue;
+    }
+    const auto text_of = [&](const char* name) {
+      const config::Property* const found = property(module, name);
+      return found == nullptr ? std::string() : found->value;
+    };
+    const robot::Findings found = robot::check_module(files_of(config, module), text_of);
+    for (const robot::WrongSetting& one : found.properties) {
+      const config::Property* const wrong = property(module, one.property);
+      all.push_back({base::Diagnostic::Severity::Error, config.file.string(),
+                     wrong == nullptr ? module.place : wrong->place,
+                     fmt::format("property {}: {}", one.property, one.text)});
+    }
+    warn_of_names(config, module, all);
+    all.insert(all.end(), found.files.begin(), found.files.end());
+    if (!check.schema.variables.empty() && !base::has_error(found.files)) {
+      check_variables(found, check.schema, all);
+    }
+  }
+  return all;
+}
+
+std::vector<RobotFiles> robot_files_of(const config::Config& config) {
+  std::vector<RobotFiles> out;
+  for (const config::Module& module : config.modules) {
+    if (property(module, "urdf") != nullptr || property(module, "jobs") != nullptr) {
+      out.push_back({module.name, files_of(config, module)});
+    }
+  }
+  return out;
+}
+
+}  // namespace indurop::tools
