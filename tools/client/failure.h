@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a verb cannot continue: the error type of the functions it calls.
+// Why a program cannot continue: the error type of functions that programs call.
 
 #pragma once
 
@@ -8,21 +8,12 @@
 #include <string>
 
 #include "core/base/exit_code.h"
-#include "tools/cli/command/output.h"
 
 namespace indurop::tools {
 
 struct Failure {
-  int code = kFailed;
-  std::string text;  // empty: it was printed already
+  int code = kFailed;  // exit code for a program that ends with this failure
+  std::string text;    // empty: it was said already (messages.h)
 };
-
-// Prints the failure and returns the exit code.
-inline int report(Output& out, const Failure& failure) {
-  if (!failure.text.empty()) {
-    out.error(failure.text);
-  }
-  return failure.code;
-}
 
 }  // namespace indurop::tools

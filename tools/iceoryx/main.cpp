@@ -13,6 +13,7 @@
 #include "tools/client/process/gentle.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/client/values/watch_source.h"
+#include "tools/console/context.h"
 #include "tools/iceoryx/publisher.h"
 #include "tools/iceoryx/supervisor.h"
 

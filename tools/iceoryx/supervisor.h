@@ -5,6 +5,7 @@
 #pragma once
 
 #include "tools/client/values/watch_source.h"
+#include "tools/console/context.h"
 
 namespace indurop::iceoryx {
 

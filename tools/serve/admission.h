@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/problem.h"
-#include "tools/cli/command/serve_options.h"
 #include "tools/client/failure.h"
+#include "tools/console/serve_options.h"
 #include "tools/serve/client_authority.h"
 #include "tools/serve/door/gate.h"
 

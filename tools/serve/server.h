@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/command/serve_options.h"
 #include "tools/client/board/plant_watch.h"
 #include "tools/client/plc/plc_pictures.h"
+#include "tools/console/serve_options.h"
 #include "tools/serve/admission.h"
 #include "tools/serve/alarms/alarm_desk.h"
 #include "tools/serve/api/api.h"

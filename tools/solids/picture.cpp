@@ -7,7 +7,7 @@
 #include <random>
 
 #include "core/base/svg.h"
-#include "tools/cli/pictures/svg_parts.h"
+#include "core/base/svg_style.h"
 #include "tools/solids/beyond.h"
 #include "tools/solids/planar.h"
 
@@ -71,13 +71,13 @@ Scale scale_of(const std::vector<std::vector<Vec3>>& skins) {
 
 void draw_view(base::SvgPart& out, const std::vector<Vec3>& dots, const std::vector<std::vector<Vec3>>& skins,
                const Scale& scale, const View& view) {
-  tools::svg_text(out, kView / 2.0, kTitle + kView - 4, "middle", "label", view.name);
+  base::svg_text(out, kView / 2.0, kTitle + kView - 4, "middle", "label", view.name);
   std::string commands;
   for (const Vec3& dot : dots) {
     const Vec2 at = scale.at(dot, view);
     commands += "M" + base::svg_number(at.x()) + " " + base::svg_number(at.y()) + "h1v1h-1z";
   }
-  out.path(commands, tools::svg_class("mesh"));
+  out.path(commands, base::svg_class("mesh"));
   for (const auto& skin : skins) {
     std::vector<Vec2> flat;
     for (const Vec3& point : skin) {
@@ -87,7 +87,7 @@ void draw_view(base::SvgPart& out, const std::vector<Vec3>& dots, const std::vec
     for (const Vec2& corner : hull_of(std::move(flat))) {
       outline += (outline.empty() ? "M" : "L") + base::svg_number(corner.x()) + " " + base::svg_number(corner.y());
     }
-    out.path(outline + "z", tools::svg_class("solid"));
+    out.path(outline + "z", base::svg_class("solid"));
   }
 }
 
@@ -99,7 +99,7 @@ base::SvgPart draw_mesh(const DrawnMesh& mesh) {
   const Scale scale = scale_of(skins);
   const std::vector<Vec3> dots = dots_of(mesh.surface);
   base::SvgPart row;
-  row.text(kMargin, kTitle - 12.0, mesh.title, tools::svg_class("head"));
+  row.text(kMargin, kTitle - 12.0, mesh.title, base::svg_class("head"));
   int x = 0;
   for (const View& view : kViews) {
     base::SvgPart part;
@@ -120,7 +120,7 @@ std::string draw(const std::vector<DrawnMesh>& meshes) {
     y += kTitle + kView;
   }
   return base::svg_document(static_cast<int>(std::size(kViews)) * kView, y + kMargin, content,
-                            std::string(tools::kSvgStyle) + kSolidStyle);
+                            std::string(base::kSvgStyle) + kSolidStyle);
 }
 
 }  // namespace indurop::solids

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "tools/cli/command/serve_options.h"
 #include "tools/cli/command/verb.h"
+#include "tools/console/serve_options.h"
 
 namespace indurop::tools {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/command/output.h"
+#include "tools/console/output.h"
 
 namespace indurop::tools {
 

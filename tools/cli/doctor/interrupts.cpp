@@ -34,7 +34,7 @@ struct Device {
   bool disk = false;
 };
 
-std::optional<int> number_in(std::string_view text) {
+std::optional<int> cpu_number_in(std::string_view text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
@@ -45,8 +45,8 @@ bool list_holds(const std::string& list, int core) {
   std::istringstream in(list);
   for (std::string range; std::getline(in, range, ',');) {
     const std::size_t dash = range.find('-');
-    const auto first = number_in(std::string_view(range).substr(0, dash));
-    const auto last = dash == std::string::npos ? first : number_in(std::string_view(range).substr(dash + 1));
+    const auto first = cpu_number_in(std::string_view(range).substr(0, dash));
+    const auto last = dash == std::string::npos ? first : cpu_number_in(std::string_view(range).substr(dash + 1));
     if (first && last && *first <= core && core <= *last) {
       return true;
     }
@@ -63,11 +63,11 @@ std::set<int> interrupts_of(const fs::path& device, const fs::path& root) {
   for (; !error && numbers.empty() && at != top && at.has_relative_path(); at = at.parent_path()) {
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(at / "msi_irqs", none)) {
-      if (const auto number = number_in(entry.path().filename().string())) {
+      if (const auto number = cpu_number_in(entry.path().filename().string())) {
         numbers.insert(*number);
       }
     }
-    if (const auto line = number_in(first_line(at / "irq")); numbers.empty() && line && *line > 0) {
+    if (const auto line = cpu_number_in(first_line(at / "irq")); numbers.empty() && line && *line > 0) {
       numbers.insert(*line);
     }
   }
@@ -97,13 +97,13 @@ Counts fired(const fs::path& root) {
   std::vector<int> cores;
   std::istringstream head(line);
   for (std::string word; head >> word;) {
-    cores.push_back(number_in(std::string_view(word).substr(std::min<std::size_t>(3, word.size()))).value_or(-1));
+    cores.push_back(cpu_number_in(std::string_view(word).substr(std::min<std::size_t>(3, word.size()))).value_or(-1));
   }
   while (std::getline(in, line)) {
     std::istringstream words(line);
     std::string label;
     words >> label;
-    const auto number = number_in(std::string_view(label).substr(0, label.find(':')));
+    const auto number = cpu_number_in(std::string_view(label).substr(0, label.find(':')));
     std::uint64_t count = 0;
     for (std::size_t i = 0; number && i < cores.size() && words >> count; ++i) {
       counts[*number][cores[i]] = count;

@@ -8,8 +8,8 @@
 #include "config/check/uses.h"
 #include "config/xml/plant_reader.h"
 #include "scheduler/words.h"
-#include "tools/cli/command/config_file.h"
 #include "tools/cli/explain/gather.h"
+#include "tools/client/config/checked_config.h"
 
 namespace indurop::tools {
 namespace {

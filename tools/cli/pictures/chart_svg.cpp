@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tools/cli/pictures/svg_parts.h"
+#include "core/base/svg_style.h"
 #include "tools/cli/pictures/way_svg.h"
 #include "tools/client/text/units.h"
 
@@ -82,7 +82,7 @@ void lane(const Recording& recording, const Series& series, const Scale& x, doub
       const std::string value = series.words.empty() ? plain(line[i]) : series.words[static_cast<std::size_t>(line[i])];
       const auto color = static_cast<std::size_t>(std::abs(line[i])) % kColors;
       out.rect(left, top + 2, width, kLane - 8,
-               svg_class(fmt::format("s{}", series.words.empty() && line[i] == 1 ? 0 : color)),
+               base::svg_class(fmt::format("s{}", series.words.empty() && line[i] == 1 ? 0 : color)),
                fmt::format("{} from {:.3f} s", printable(value), recording.time_s[i]));
       constexpr double kLetter = 6.6;
       const bool says = !series.words.empty() || line[i] != 1;
@@ -115,12 +115,12 @@ void panel(const Recording& recording, const Series& series, const Scale& x, dou
     svg_text(out, kLeft - 6, y.at(value) + 4, "end", "label", plain(value));
   }
   for (std::size_t i = 0; i < series.lines.size(); ++i) {
-    out.path(path(recording.time_s, series.lines[i], x, y), svg_class(fmt::format("l{}", i % kColors)));
+    out.path(path(recording.time_s, series.lines[i], x, y), base::svg_class(fmt::format("l{}", i % kColors)));
     const auto last =
         std::find_if(series.lines[i].rbegin(), series.lines[i].rend(), [](double v) { return !std::isnan(v); });
     if (series.lines.size() > 1 && last != series.lines[i].rend()) {
       const double line_at = top + kGap + 12 + 15 * static_cast<double>(i);
-      out.rect(kLeft + kPlot + 8, line_at - 5, 12, 3, svg_class(fmt::format("s{}", i % kColors)));
+      out.rect(kLeft + kPlot + 8, line_at - 5, 12, 3, base::svg_class(fmt::format("s{}", i % kColors)));
       svg_text(out, kLeft + kPlot + 24, line_at, "start", "label", part_name(series, i));
     }
   }
@@ -129,7 +129,7 @@ void panel(const Recording& recording, const Series& series, const Scale& x, dou
 std::string style() {
   constexpr std::array<const char*, kColors> kPalette{"#2f6fb0", "#c2492f", "#3f8f4f", "#8a5fb0",
                                                       "#c08a1e", "#2f9aa0", "#7a5a44", "#5b6770"};
-  std::string out = kSvgStyle;
+  std::string out = base::kSvgStyle;
   out +=
       ".name{font-size:13px}.inside{font-size:11px;fill:#ffffff}"
       ".mark{stroke:#c2492f;stroke-width:1.4;stroke-dasharray:5 3}"

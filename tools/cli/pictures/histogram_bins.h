@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scheduler/quantile.h"
-#include "tools/cli/command/output.h"
+#include "tools/console/output.h"
 
 namespace indurop::tools {
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/svg_style.h"
 #include "tools/cli/pictures/histogram_bins.h"
-#include "tools/cli/pictures/svg_parts.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
@@ -142,7 +142,7 @@ void panel_svg(const HistogramPanel& panel, double y0, base::SvgPart& out) {
       const double left = x.at(positive(bin.from_ns));
       const double width = std::max(1.0, x.at(positive(bin.to_ns)) - left - 0.6);
       const double h = height.at(static_cast<double>(bin.count));
-      out.rect(left, base - h, width, h, svg_class("bar"),
+      out.rect(left, base - h, width, h, base::svg_class("bar"),
                fmt::format("{} to {}: {}", human_ns(static_cast<std::int64_t>(bin.from_ns)),
                            human_ns(static_cast<std::int64_t>(bin.to_ns)), bin.count));
     }
@@ -166,7 +166,7 @@ std::string histogram_svg(const std::string& heading, std::span<const HistogramP
     panel_svg(panel, y, out);
     y += kHistogramPanel;
   }
-  std::string style = kSvgStyle;
+  std::string style = base::kSvgStyle;
   style +=
       ".title{font-size:15px;font-weight:bold}.bar{fill:#3b7dbf}"
       ".mark{stroke:#c2492f;stroke-dasharray:3 3}";

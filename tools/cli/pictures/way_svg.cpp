@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "core/base/svg_style.h"
 #include "tools/cli/pictures/chart_svg.h"
-#include "tools/cli/pictures/svg_parts.h"
 
 namespace indurop::tools {
 namespace {
@@ -90,9 +90,9 @@ void draw(const View& view, const Frame& frame, const std::string& name, base::S
     ends[2] = x;
     ends[3] = y;
   }
-  out.path(way, svg_class("l0"));
+  out.path(way, base::svg_class("l0"));
   out.circle(ends[0], ends[1], kEndRadius, "class=\"l1\" fill=\"none\"");
-  out.circle(ends[2], ends[3], kEndRadius, svg_class("s1"));
+  out.circle(ends[2], ends[3], kEndRadius, base::svg_class("s1"));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ class Orders {
   // Returns the exit code, after a message if it is not kOk.
   int give(deploy::Action action, const std::string& target) {
     if (!commander_) {
-      auto made = BoardCommander::make(context_, options_.board.link.keys);
+      auto made = BoardCommander::make(context_.out, options_.board.link.keys);
       if (!made) {
         return report(context_.out, made.error());
       }

@@ -19,39 +19,6 @@ namespace {
 
 constexpr std::int64_t kHearNs = 3'000'000'000;  // agents report twice a second
 
-std::vector<ForceView> forces_in(const JsonValue& head) {
-  std::vector<ForceView> forces;
-  const JsonValue* list = head.find("forces");
-  for (const JsonValue& one : list == nullptr ? std::vector<JsonValue>() : list->values()) {
-    ForceView force;
-    std::int64_t left_ns = 0;
-    if (read(one, "name", force.name) && read(one, "value", force.value)) {
-      force.raw = one["raw"];
-      force.left_ns = read(one, "left_ns", left_ns) ? std::optional(left_ns) : std::nullopt;
-      read(one, "who", force.note.who);
-      read(one, "from", force.note.from);
-      read(one, "reason", force.note.reason);
-      read(one, "lease", force.note.lease);
-      forces.push_back(std::move(force));
-    }
-  }
-  return forces;
-}
-
-vars::LockNote lock_in(const JsonValue& head) {
-  vars::LockNote note;
-  std::string word;
-  const JsonValue& lock = head["lock"];
-  if (read(lock, "lock", word)) {
-    note.lock = vars::write_lock_of(word).value_or(vars::WriteLock::None);
-  }
-  read(lock, "who", note.who);
-  read(lock, "from", note.from);
-  read(lock, "reason", note.reason);
-  read(lock, "wall_ns", note.wall_ns);
-  return note;
-}
-
 Failure not_heard(const BoardChoice& choice) {
   std::vector<std::string> heard;
   for (const auto& [key, entry] : choice.roster.all()) {
@@ -75,31 +42,6 @@ const BoardRoster::Entry* chosen(const BoardChoice& choice) {
   const auto& all = choice.roster.all();
   return !choice.board.empty() ? choice.roster.find(choice.board) : all.size() == 1 ? &all.begin()->second : nullptr;
 }
-
-}  // namespace
-
-Result<BoardRun, Failure> read_run(const std::string& who, const std::string& text) {
-  const auto line = text.find('\n');
-  const JsonValue head = JsonValue::parse(text.substr(0, line)).value_or(JsonValue());
-  bool running = false;
-  std::int64_t now_ns = 0;
-  if (line == std::string::npos || !read(head, "running", running) || !read(head, "now_ns", now_ns)) {
-    return Failure{kFailed, fmt::format("{} does not say how a node does", who)};
-  }
-  if (line + 1 == text.size()) {
-    return Failure{kUnreachable, fmt::format("{} has no node that runs or ran", who)};
-  }
-  auto run = RunView::from_image(std::string_view(text).substr(line + 1), running, now_ns);
-  if (!run) {
-    return run.error().code == Errc::VersionMismatch
-               ? Failure{kSchemaMismatch, fmt::format("{} is of another release of InduRoP", who)}
-               : Failure{kFailed, fmt::format("what {} says is damaged ({})", who, run.error().where)};
-  }
-  const std::string node = fixed_text(run->block().node_name);
-  return BoardRun{{node, std::move(run).value()}, forces_in(head), lock_in(head)};
-}
-
-namespace {
 
 Result<BoardRun, Failure> kept_in(const std::string& file) {
   const auto text = base::read_file(file);
@@ -132,7 +74,7 @@ Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardCho
     return Failure{kUsage, "--node names a node of this machine; a board in the network is chosen with --board"};
   }
   if (choice.open == nullptr) {
-    choice.open = open_link(context, choice.link);
+    choice.open = open_link(context.out, choice.link);
     if (choice.open == nullptr) {
       return Failure{kUnreachable, {}};
     }

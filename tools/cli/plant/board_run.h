@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run block of a board anywhere in the network, as its agent reports it, for the verbs that inspect a node.
+// The board or node that a verb inspects, and its run block.
 
 #pragma once
 
@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "deploy/link/deploy_link.h"
+#include "tools/cli/command/verb.h"
 #include "tools/client/board/board_roster.h"
-#include "tools/client/node/node_choice.h"
-#include "tools/client/values/force_view.h"
+#include "tools/client/board/board_run.h"
 
 namespace indurop::tools {
 
@@ -36,14 +36,6 @@ void add_kept_option(base::Options& app, BoardChoice& choice);
 // Returns the agent of the chosen board; the failure names the boards that are present.
 Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardChoice& choice);
 
-struct BoardRun : ChosenRun {
-  std::optional<std::vector<ForceView>> forces;  // for a board only
-  vars::LockNote lock;                           // for a board only
-  bool kept = false;                             // an old one from a file
-};
-// Parses a report of a board's agent about its node: a line of JSON and the run block (deploy/agent/run_image.h). `who`
-// names the source.
-Result<BoardRun, Failure> read_run(const std::string& who, const std::string& text);
 // Returns the current run block of the chosen board or of a node of this machine (--node), or the one in the file.
 Result<BoardRun, Failure> open_run(Context& context, BoardChoice& choice);
 

@@ -15,7 +15,7 @@
 
 #include "config/check/chain_age.h"
 #include "config/check/uses.h"
-#include "tools/cli/command/config_file.h"
+#include "tools/client/config/checked_config.h"
 
 namespace indurop::tools {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "tools/cli/command/config_file.h"
 #include "tools/cli/plant/chains.h"
 #include "tools/client/node/mirror_view.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 

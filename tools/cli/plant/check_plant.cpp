@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/plant/check_plant.h"
+#include "tools/console/table_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +9,8 @@
 
 #include "config/check/uses.h"
 #include "config/xml/reader.h"
-#include "tools/cli/command/config_file.h"
+#include "tools/client/config/checked_config.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {
@@ -173,7 +175,7 @@ int check_plant_file(Context& context, const std::string& file, const config::Ch
     print_diagnostics(context, checked.diagnostics, true);
     for (const Table& table : {view.boards(), view.routes()}) {
       if (!context.out.quiet() && !table.empty()) {
-        context.out.write(table.text(context.out));
+        context.out.write(table_text(table, context.out));
         context.out.line();
       }
     }

@@ -89,11 +89,11 @@ Result<void, Failure> all_there(Context& context, const BoardRoster& roster, con
 
 int command_remote(Context& context, ModuleCommand what, const std::vector<CommandTarget>& targets,
                    CommandOptions& options) {
-  auto commander = BoardCommander::make(context, options.link.keys);
+  auto commander = BoardCommander::make(context.out, options.link.keys);
   if (!commander) {
     return report(context.out, commander.error());
   }
-  auto link = open_link(context, options.link);
+  auto link = open_link(context.out, options.link);
   if (link == nullptr) {
     return kUnreachable;
   }

@@ -18,7 +18,7 @@ void HeardBoards::refresh(const std::string& only) {
 
 Result<HeardBoards, Failure> hear_boards(Context& context, deploy::LinkSettings& link, const std::string& only) {
   constexpr std::int64_t kHearNs = 3'000'000'000;  // agents report twice a second
-  HeardBoards boards{open_link(context, link), {}, {}};
+  HeardBoards boards{open_link(context.out, link), {}, {}};
   if (boards.link == nullptr) {
     return Failure{kUnreachable, {}};
   }

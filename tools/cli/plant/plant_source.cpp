@@ -11,6 +11,9 @@
 #include "core/base/read_file.h"
 #include "core/keys/participant_keys.h"
 #include "deploy/bundle/project.h"
+#include "tools/cli/command/config_file.h"
+#include "tools/client/config/checked_config.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {

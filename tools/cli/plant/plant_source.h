@@ -11,10 +11,9 @@
 
 #include "deploy/bundle/bundle.h"
 #include "deploy/transaction/package.h"
-#include "tools/cli/command/config_file.h"
-#include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/command/verb.h"
 #include "tools/cli/plant/project_files.h"
+#include "tools/client/process/temporary_folder.h"
 
 namespace indurop::tools {
 

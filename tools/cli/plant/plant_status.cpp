@@ -79,7 +79,7 @@ VariablesRead ask(deploy::DeployLink& link, std::uint64_t self, const BoardRoste
 
 int PlantStatus::show(Context& context) {
   if (open_ == nullptr) {
-    open_ = open_link(context, link);
+    open_ = open_link(context.out, link);
     if (open_ == nullptr) {
       return kUnreachable;
     }
@@ -102,7 +102,7 @@ int PlantStatus::show(Context& context) {
   for (const std::string& text : trouble) {
     context.out.error(printable(text));
   }
-  note_others(context, roster_);
+  note_others(context.out, roster_);
   print_table(context, table,
               {{"domain", link.network.domain},
                {"not_heard", missing},

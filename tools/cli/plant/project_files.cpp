@@ -13,8 +13,8 @@
 #include "core/base/read_file.h"
 #include "core/base/text.h"
 #include "deploy/transaction/package.h"
-#include "tools/cli/command/temporary_folder.h"
 #include "tools/client/process/child.h"
+#include "tools/client/process/temporary_folder.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {

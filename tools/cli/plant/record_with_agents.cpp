@@ -96,7 +96,7 @@ int join(Context& context, const RemoteWish& wish, BoardRecordings& recordings, 
 int record_with_agents(Context& context, const RemoteWish& wish, deploy::LinkSettings& link,
                        const std::vector<std::string>& nobody_has,
                        const std::function<int(const fs::path& file)>& here) {
-  auto commander = BoardCommander::make(context, link.keys);
+  auto commander = BoardCommander::make(context.out, link.keys);
   if (!commander) {
     return report(context.out, commander.error());
   }
@@ -107,7 +107,7 @@ int record_with_agents(Context& context, const RemoteWish& wish, deploy::LinkSet
     context.out.error(what + " exists already, or cannot be written; remove it, or give another name");
     return kFailed;
   }
-  auto opened = open_link(context, link);
+  auto opened = open_link(context.out, link);
   if (opened == nullptr) {
     fs::remove_all(parts, error);
     return kUnreachable;

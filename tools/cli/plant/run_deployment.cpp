@@ -234,29 +234,6 @@ int run_deployment(Context& context, deploy::DeployLink& link, BoardRoster& rost
   return Run(context, link, roster, std::move(deployment)).run();
 }
 
-Result<std::string, base::Problem> read_deploy_key(Context& context, const std::filesystem::path& folder) {
-  if (folder.empty()) {
-    context.out.note("open: no keys. Anybody on this network may deploy to these boards");
-    return std::string{};
-  }
-  std::error_code ignored;
-  const std::filesystem::path own = folder / "deploy.key";  // in the deployer's folder
-  const std::filesystem::path file =
-      std::filesystem::exists(own, ignored) ? own : keys::PlantKeys(folder).deployer() / "deploy.key";
-  const auto text = base::read_file(file);
-  const std::string key = text ? *text : std::string{};
-  if (!key.empty() && !keys::signature_of("probe", key).empty()) {
-    if (const std::string exposed = keys::exposed_key(file); !exposed.empty()) {
-      context.out.note("warning: " + exposed);
-    }
-    return key;
-  }
-  return base::Problem{
-      fmt::format("{} is missing or is not a key, so the deployment cannot be signed; indurop "
-                  "keys init makes it; --keys says where it is",
-                  file.string())};
-}
-
 std::uint64_t next_generation(const BoardRoster& roster) {
   std::uint64_t last = 0;
   for (const auto& [key, entry] : roster.all()) {
@@ -288,7 +265,7 @@ Result<std::vector<std::string>, Failure> present_boards(Context& context, deplo
   const std::string seen =
       fmt::format("{} of {} boards heard within {}", present.size(), wanted.size(), human_age(timeout_ns));
   if (!missing.empty() || !roster.impostors().empty()) {
-    note_others(context, roster);
+    note_others(context.out, roster);
   }
   if (!missing.empty() && !allow_missing) {
     return Failure{kUnreachable,

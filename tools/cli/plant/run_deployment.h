@@ -31,9 +31,6 @@ struct Deployment {
 // Prints progress and the result; returns the exit code.
 int run_deployment(Context& context, deploy::DeployLink& link, BoardRoster& roster, Deployment deployment);
 
-// Reads the private key of the deployer in a folder of keys (indurop keys init). Without a folder there is none, and a
-// note explains what that means.
-Result<std::string, base::Problem> read_deploy_key(Context& context, const std::filesystem::path& folder);
 // Returns a generation above all those reported.
 std::uint64_t next_generation(const BoardRoster& roster);
 // Returns those of `wanted` that are present, at least one. Fails if some are missing (and `allow_missing` is not set),

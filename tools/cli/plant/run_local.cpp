@@ -15,8 +15,8 @@
 #include "core/base/spawn.h"
 #include "core/rt/clock.h"
 #include "core/rt/thread.h"
-#include "tools/cli/command/config_file.h"
 #include "tools/client/process/interrupt.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/keys/digest.h"
-#include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/plant/board_file.h"
 #include "tools/client/board/board_texts.h"
+#include "tools/client/process/temporary_folder.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {

@@ -15,7 +15,6 @@
 #include "core/base/program_folder.h"
 #include "core/base/replace_file.h"
 #include "core/base/spawn.h"
-#include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/plc/debug_link.h"
 #include "tools/cli/plc/debug_session.h"
 #include "tools/cli/plc/plc_build.h"
@@ -23,6 +22,7 @@
 #include "tools/cli/plc/plc_sources.h"
 #include "tools/client/process/child.h"
 #include "tools/client/process/interrupt.h"
+#include "tools/client/process/temporary_folder.h"
 
 namespace indurop::tools {
 namespace {

@@ -12,7 +12,7 @@
 #include "tools/cli/command/screen.h"
 #include "tools/cli/plc/plc_file.h"
 #include "tools/cli/plc/plc_sources.h"
-#include "tools/client/plc/plc_view.h"
+#include "tools/cli/plc/plc_view_text.h"
 #include "tools/client/process/gentle.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/client/text/units.h"
@@ -61,10 +61,10 @@ class View {
   }
 
   std::vector<std::string> page() {
-    const std::vector<std::string> all = view_.lines();
+    const std::vector<std::string> all = lines_of(view_, context_.out);
     last_ = all.size() > room() ? all.size() - room() : 0;
     first_ = std::min(first_, last_);
-    std::vector<std::string> lines{view_.heading()};
+    std::vector<std::string> lines{heading_of(view_, context_.out)};
     lines.insert(lines.end(), all.begin() + static_cast<std::ptrdiff_t>(first_),
                  all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), first_ + room())));
     lines.push_back(context_.out.paint(Style::Dim, last_ == 0 ? "q quit" : "j k f b scroll, q quit"));
@@ -121,8 +121,8 @@ int watch(Context& context, Request& request) {
   }
   for (bool key = false; rounds.wait(-1, key); rounds.done()) {
     view.sample();
-    context.out.line(view.heading());
-    for (const std::string& line : view.lines()) {
+    context.out.line(heading_of(view, context.out));
+    for (const std::string& line : lines_of(view, context.out)) {
       context.out.line(line);
     }
     if (!context.out.flush()) {

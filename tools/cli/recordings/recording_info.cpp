@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/recordings/recording_info.h"
+#include "tools/console/table_text.h"
 
 #include <fmt/format.h>
 
@@ -105,7 +106,7 @@ int show_recording(Context& context, const std::filesystem::path& file) {
   if (context.format == Format::Table) {
     print_head(context, file, *survey);
     const Table modules = modules_of(*survey);
-    context.out.write(modules.empty() ? "" : "\n" + modules.text(context.out));
+    context.out.write(modules.empty() ? "" : "\n" + table_text(modules, context.out));
     context.out.line("");
   }
   print_table(context, channels_of(*survey),

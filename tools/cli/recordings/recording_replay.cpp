@@ -9,11 +9,11 @@
 #include "history/recorder/sources.h"
 #include "history/recording/mcap_reader.h"
 #include "tools/cli/command/node_program.h"
-#include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/pictures/chart_svg.h"
 #include "tools/cli/recordings/recorded_csv.h"
 #include "tools/cli/recordings/replayed_over.h"
 #include "tools/client/process/child.h"
+#include "tools/client/process/temporary_folder.h"
 
 namespace indurop::tools {
 namespace {

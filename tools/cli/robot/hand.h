@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "tools/cli/command/verb.h"
 #include "tools/cli/robot/robot_desk.h"
 
 namespace indurop::tools {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "tools/cli/command/verb.h"
 #include "tools/cli/robot/robot_desk.h"
 
 namespace indurop::tools {

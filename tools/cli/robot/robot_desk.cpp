@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "config/xml/plant_reader.h"
-#include "tools/cli/command/config_file.h"
+#include "tools/client/config/checked_config.h"
 #include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {

@@ -6,9 +6,10 @@
 #include <string>
 
 #include "control/robot/files/teach.h"
-#include "tools/cli/values/variables.h"
+#include "tools/cli/command/verb.h"
 #include "tools/client/failure.h"
 #include "tools/client/robot/robot_files.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 

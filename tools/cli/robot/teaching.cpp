@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "tools/cli/command/config_file.h"
 #include "tools/client/node/node_choice.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "history/alarms/alarm_book.h"
-#include "tools/cli/command/output.h"
 #include "tools/client/node/mirror_view.h"
 #include "tools/client/node/run_report.h"
 #include "tools/client/node/run_view.h"
 #include "tools/client/values/force_view.h"
+#include "tools/console/output.h"
 
 namespace indurop::tools {
 

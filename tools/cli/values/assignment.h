@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "store/operate/item.h"
-#include "tools/cli/values/variables.h"
+#include "tools/cli/command/verb.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 

@@ -10,6 +10,7 @@
 #include "store/operate/refusal.h"
 #include "store/operate/who.h"
 #include "store/vars/custody.h"
+#include "tools/cli/command/verb.h"
 #include "tools/cli/values/assignment.h"
 
 namespace indurop::tools {

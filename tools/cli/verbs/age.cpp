@@ -18,6 +18,7 @@
 #include "tools/client/node/mirror_view.h"
 #include "tools/client/process/gentle.h"
 #include "tools/client/process/interrupt.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {

@@ -14,20 +14,20 @@
 #include "history/recorder/join.h"
 #include "store/vars/box_request.h"
 #include "store/vars/retain.h"
-#include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/plant/board_boxes.h"
 #include "tools/cli/plant/board_file.h"
 #include "tools/cli/plant/heard_boards.h"
 #include "tools/cli/recordings/recording_export.h"
 #include "tools/cli/recordings/recording_info.h"
 #include "tools/cli/recordings/recording_replay.h"
-#include "tools/cli/values/variables.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/board/board_commander.h"
 #include "tools/client/node/node_choice.h"
 #include "tools/client/process/interrupt.h"
+#include "tools/client/process/temporary_folder.h"
 #include "tools/client/text/table.h"
 #include "tools/client/text/units.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 namespace {
@@ -277,7 +277,7 @@ int keep(Context& context, const std::string& why) {
 // what preceded it.
 int keep_remote(Context& context, Options& options) {
   constexpr std::int64_t kTimeoutNs = 5'000'000'000;
-  auto commander = BoardCommander::make(context, options.link.keys);
+  auto commander = BoardCommander::make(context.out, options.link.keys);
   if (!commander) {
     return report(context.out, commander.error());
   }

@@ -22,7 +22,7 @@ struct Options {
 
 int show(Context& context, Options& options) {
   if (options.open == nullptr) {
-    options.open = open_link(context, options.link);
+    options.open = open_link(context.out, options.link);
     if (options.open == nullptr) {
       return kUnreachable;
     }
@@ -37,7 +37,7 @@ int show(Context& context, Options& options) {
                     "--board NAME{}",
                     options.link.network.domain, human_age(options.wait_ns), keys_hint(options.link)));
   }
-  note_others(context, options.roster);
+  note_others(context.out, options.roster);
   print_table(context, table,
               {{"domain", options.link.network.domain},
                {"other_releases", json_of_others(options.roster)},

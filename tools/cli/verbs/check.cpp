@@ -10,6 +10,9 @@
 #include "tools/cli/plant/check_chain.h"
 #include "tools/cli/plant/check_plant.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/config/checked_config.h"
+#include "tools/console/diagnostics.h"
+#include "tools/console/table_text.h"
 
 namespace indurop::tools {
 namespace {
@@ -67,7 +70,7 @@ int check_one(Context& context, const std::string& file, const config::CheckOpti
   } else {
     print_diagnostics(context, checked.diagnostics, true);
     if (!context.out.quiet() && !variables.empty()) {
-      context.out.write(variables.text(context.out));
+      context.out.write(table_text(variables, context.out));
       context.out.line();
     }
     print_verdict(context, checked.diagnostics, summary_line(checked));

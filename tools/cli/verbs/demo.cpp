@@ -21,9 +21,9 @@
 #include "core/rt/clock.h"
 #include "core/rt/thread.h"
 #include "tools/cli/command/example_folder.h"
-#include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/process/interrupt.h"
+#include "tools/client/process/temporary_folder.h"
 
 namespace indurop::tools {
 namespace {

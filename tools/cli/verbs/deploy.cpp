@@ -8,12 +8,13 @@
 #include "core/rt/clock.h"
 #include "deploy/link/link_keys.h"
 #include "deploy/transaction/package.h"
-#include "tools/cli/command/config_file.h"
 #include "tools/cli/plant/plant_source.h"
 #include "tools/cli/plant/run_deployment.h"
 #include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/board/deploy_key.h"
 #include "tools/client/text/units.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {
@@ -108,7 +109,7 @@ Result<std::string, base::Problem> deploy_key(Context& context, const config::Pl
       return std::move(used).error();
     }
   }
-  return read_deploy_key(context, link.keys);
+  return read_deploy_key(context.out, link.keys);
 }
 
 int deploy_plant(Context& context, Options& options) {
@@ -129,7 +130,7 @@ int deploy_plant(Context& context, Options& options) {
     context.out.error(fmt::format("{}: {}", options.file, refusal));
     return kFailed;
   }
-  auto link = open_link(context, options.link);
+  auto link = open_link(context.out, options.link);
   if (link == nullptr) {
     return kUnreachable;
   }

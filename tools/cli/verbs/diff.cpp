@@ -11,11 +11,11 @@
 
 #include "core/keys/digest.h"
 #include "deploy/link/link_keys.h"
-#include "tools/cli/command/temporary_folder.h"
 #include "tools/cli/plant/plant_source.h"
 #include "tools/cli/plant/running_project.h"
 #include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/process/temporary_folder.h"
 #include "tools/client/text/table.h"
 
 namespace indurop::tools {

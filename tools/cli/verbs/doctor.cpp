@@ -18,6 +18,7 @@
 #include "tools/client/node/run_report.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/client/text/units.h"
+#include "tools/console/table_text.h"
 
 namespace indurop::tools {
 namespace {
@@ -117,7 +118,7 @@ void print_tuning(Context& context, const Tuning& tuning, int core) {
   if (table.empty()) {
     context.out.line("nothing to set while the machine runs");
   } else {
-    context.out.write(table.text(context.out));
+    context.out.write(table_text(table, context.out));
   }
   if (!tuning.boot.empty()) {
     context.out.line(

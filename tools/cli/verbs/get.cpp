@@ -4,10 +4,11 @@
 
 #include <set>
 
-#include "tools/cli/values/variables.h"
+#include "tools/cli/values/items_to_show.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/mirror_view.h"
 #include "tools/client/node/node_choice.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 namespace {

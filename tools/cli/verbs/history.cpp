@@ -70,7 +70,7 @@ Table table_of(const std::vector<Row>& rows) {
 }
 
 int history(Context& context, Options& options) {
-  auto link = open_link(context, options.link);
+  auto link = open_link(context.out, options.link);
   if (link == nullptr) {
     return kUnreachable;
   }

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "core/rt/clock.h"
-#include "tools/cli/values/variables.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/node_choice.h"
 #include "tools/client/process/gentle.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/client/text/units.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 namespace {

@@ -8,8 +8,8 @@
 #include "config/xml/plant_reader.h"
 #include "config/xml/plant_rules.h"
 #include "core/keys/plant_keys.h"
-#include "tools/cli/command/config_file.h"
 #include "tools/cli/verbs/keys_request.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 

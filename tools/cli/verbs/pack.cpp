@@ -13,6 +13,7 @@
 #include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/text/units.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {

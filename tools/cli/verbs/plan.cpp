@@ -8,6 +8,8 @@
 #include "core/base/replace_file.h"
 #include "tools/cli/command/config_file.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/config/checked_config.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {

@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "deploy/link/link_keys.h"
-#include "tools/cli/command/config_file.h"
 #include "tools/cli/plant/running_project.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {

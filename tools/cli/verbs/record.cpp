@@ -19,7 +19,6 @@
 #include "history/recorder/parts.h"
 #include "store/vars/unmatched_patterns.h"
 #include "tools/cli/command/amount.h"
-#include "tools/cli/command/config_file.h"
 #include "tools/cli/explain/gather.h"
 #include "tools/cli/plant/record_with_agents.h"
 #include "tools/cli/verbs/verbs.h"
@@ -27,6 +26,7 @@
 #include "tools/client/process/gentle.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/client/text/units.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {

@@ -13,6 +13,7 @@
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/board/board_history.h"
 #include "tools/client/board/board_texts.h"
+#include "tools/client/board/deploy_key.h"
 
 namespace indurop::tools {
 namespace {
@@ -79,7 +80,7 @@ std::string fetch_package(deploy::DeployLink& link, const BoardRoster& roster, s
 }
 
 int roll_back(Context& context, Options& options) {
-  auto link = open_link(context, options.link);
+  auto link = open_link(context.out, options.link);
   if (link == nullptr) {
     return kUnreachable;
   }
@@ -99,7 +100,7 @@ int roll_back(Context& context, Options& options) {
   }
   const std::vector<std::string> members = newest->members;
   Deployment deployment;
-  auto key = read_deploy_key(context, options.link.keys);
+  auto key = read_deploy_key(context.out, options.link.keys);
   if (!key) {
     context.out.error(key.error().text);
     return kFailed;

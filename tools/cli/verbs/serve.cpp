@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "tools/cli/command/become_server.h"
-#include "tools/cli/command/serve_options.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/console/serve_options.h"
 
 namespace indurop::tools {
 namespace {

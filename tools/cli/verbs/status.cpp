@@ -9,6 +9,7 @@
 #include "tools/cli/command/repeat.h"
 #include "tools/cli/plant/board_run.h"
 #include "tools/cli/plant/plant_status.h"
+#include "tools/cli/values/status_lines.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/external_view.h"
 #include "tools/client/node/mirror_view.h"

@@ -2,9 +2,10 @@
 // indurop typeof: the type of a variable and of its parts.
 #include <fmt/format.h>
 
-#include "tools/cli/values/variables.h"
+#include "tools/cli/values/items_to_show.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/node_choice.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "tools/cli/values/variables.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/known_uses.h"
 #include "tools/client/node/node_choice.h"
 #include "tools/client/text/units.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 namespace {

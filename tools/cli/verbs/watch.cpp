@@ -15,6 +15,7 @@
 #include "tools/client/process/interrupt.h"
 #include "tools/client/text/units.h"
 #include "tools/client/values/watch_source.h"
+#include "tools/console/table_text.h"
 
 namespace indurop::tools {
 namespace {
@@ -245,13 +246,13 @@ void print_once(Context& context, WatchSource& source) {
   for (const auto& value : source.values()) {
     table.add({Cell(value.item.name), Cell(text_of(value)), Cell(value.item.place.unit)});
   }
-  context.out.write(table.text(context.out));
+  context.out.write(table_text(table, context.out));
 }
 
 int watch(Context& context, const Options& options) {
   std::vector<std::string> names = options.names;
   for (const std::string& list : options.lists) {
-    if (!read_watch_list(context, list, names)) {
+    if (!read_watch_list(context.out, list, names)) {
       return kFailed;
     }
   }

@@ -7,7 +7,7 @@
 
 #include "core/keys/credentials.h"
 #include "core/rt/clock.h"
-#include "tools/cli/plant/run_deployment.h"
+#include "tools/client/board/deploy_key.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/client/text/units.h"
 
@@ -20,11 +20,11 @@ constexpr std::int64_t kRepeatNs = 200'000'000;
 
 }  // namespace
 
-Result<BoardCommander, Failure> BoardCommander::make(Context& context, const std::filesystem::path& keys) {
+Result<BoardCommander, Failure> BoardCommander::make(Messages& messages, const std::filesystem::path& keys) {
   if (keys.empty()) {
     return BoardCommander("");
   }
-  auto key = read_deploy_key(context, keys);
+  auto key = read_deploy_key(messages, keys);
   if (!key) {
     return Failure{kFailed, key.error().text};
   }

@@ -12,7 +12,8 @@
 #include "deploy/link/command_link.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/words/command_words.h"
-#include "tools/cli/command/verb.h"
+#include "tools/client/failure.h"
+#include "tools/client/messages.h"
 
 namespace indurop::tools {
 
@@ -24,7 +25,7 @@ struct Answered {
 class BoardCommander {
  public:
   // Signs with the key in this folder of the plant's keys; empty: unsigned, which boards without keys accept.
-  static Result<BoardCommander, Failure> make(Context& context, const std::filesystem::path& keys);
+  static Result<BoardCommander, Failure> make(Messages& messages, const std::filesystem::path& keys);
 
   // `self`: session of the link. Fails if no final answer comes in time, or the user interrupts.
   Result<Answered, Failure> give(deploy::DeployLink& link, std::uint64_t self, const deploy::BoardReport& board,

@@ -20,15 +20,15 @@ constexpr std::int64_t kSilentNs = 1'500'000'000;  // agents report twice a seco
 
 }  // namespace
 
-std::unique_ptr<deploy::DeployLink> open_link(Context& context, deploy::LinkSettings& settings) {
+std::unique_ptr<deploy::DeployLink> open_link(Messages& messages, deploy::LinkSettings& settings) {
   settings.self = deploy::new_session();
   auto opened = deploy::DeployLink::open(settings);
   if (!opened) {
-    context.out.error(opened.error().text);
+    messages.error(opened.error().text);
     return nullptr;
   }
   if (!opened->note.empty()) {
-    context.out.note(opened->note);
+    messages.note(opened->note);
   }
   return std::move(opened->link);
 }

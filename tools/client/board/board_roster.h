@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "deploy/link/deploy_link.h"
-#include "tools/cli/command/verb.h"
 #include "tools/client/failure.h"
+#include "tools/client/messages.h"
 
 namespace indurop::tools {
 
 // Returns null after an error message.
-std::unique_ptr<deploy::DeployLink> open_link(Context& context, deploy::LinkSettings& settings);
+std::unique_ptr<deploy::DeployLink> open_link(Messages& messages, deploy::LinkSettings& settings);
 
 // Returns a hint that keys may be why boards were not discovered: "; boards that have keys ...".
 std::string keys_hint(const deploy::LinkSettings& settings);

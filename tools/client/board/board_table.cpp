@@ -120,12 +120,12 @@ Table board_table(const BoardRoster& roster, std::int64_t now, const VariablesRe
   return table;
 }
 
-void note_others(Context& context, const BoardRoster& roster) {
+void note_others(Messages& messages, const BoardRoster& roster) {
   for (const deploy::OtherAgent& other : roster.others()) {
-    context.out.error(printable(describe(other, schema::protocol())));
+    messages.error(printable(describe(other, schema::protocol())));
   }
   for (const deploy::Impostor& impostor : roster.impostors()) {
-    context.out.error(printable(fmt::format("{}; heard {} times", describe(impostor), impostor.reports)));
+    messages.error(printable(fmt::format("{}; heard {} times", describe(impostor), impostor.reports)));
   }
 }
 

@@ -19,9 +19,9 @@ using VariablesRead = std::map<std::uint64_t, std::vector<mirror::MirroredVariab
 
 // With `read` the table also has what each board reads from the others and its age.
 Table board_table(const BoardRoster& roster, std::int64_t now_ns, const VariablesRead* read = nullptr);
-// Agents of other releases and participants that report in the name of others, which are not in the table: one line
-// each on stderr, and as JSON.
-void note_others(Context& context, const BoardRoster& roster);
+// Agents of other releases and participants that report in the name of others, which are not in the table: one error
+// each, and as JSON.
+void note_others(Messages& messages, const BoardRoster& roster);
 JsonValue json_of_others(const BoardRoster& roster);
 JsonValue json_of_impostors(const BoardRoster& roster);
 // Boards that others name as members of their plant and that were not discovered.

@@ -82,13 +82,11 @@ Result<std::string, Failure> PlantWatch::order(const std::string& board, const R
   if (!open()) {
     return Failure{kUnreachable, problem_};
   }
-  std::vector<std::string> said;
-  Context context;
-  context.out.divert(&said);
+  KeptMessages said;
   if (commander_ == nullptr) {
-    auto made = BoardCommander::make(context, settings_.keys);
+    auto made = BoardCommander::make(said, settings_.keys);
     if (!made) {
-      return Failure{kFailed, said.empty() ? made.error().text : said.front()};
+      return Failure{kFailed, said.texts.empty() ? made.error().text : said.texts.front()};
     }
     commander_ = std::make_unique<BoardCommander>(std::move(made).value());
   }

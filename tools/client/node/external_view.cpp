@@ -34,23 +34,6 @@ std::optional<ExternalView> view_external(const std::string& node) {
                       .cycle_max_ns = block.cycle_max_ns.load(kRelaxed)};
 }
 
-std::vector<std::string> external_lines(const ExternalView& view, const Output& output) {
-  std::vector<std::string> lines;
-  std::string line =
-      fmt::format("other tools: DDS domain {}, {} topics, {} with readers", view.domain, view.topics, view.read);
-  if (view.writable > 0) {
-    line += fmt::format(", {} can be set ({} values taken, {} refused)", view.writable, view.received, view.refused);
-  }
-  if (!view.up) {
-    line += output.paint(Style::Bad, ", not in the network yet");
-  }
-  lines.push_back(line);
-  if (!view.problem.empty()) {
-    lines.push_back("            " + output.paint(Style::Warn, printable(view.problem)));
-  }
-  return lines;
-}
-
 JsonValue json_of(const ExternalView& view) {
   return {{"domain", view.domain},   {"in_network", view.up},         {"problem", view.problem},
           {"topics", view.topics},   {"with_readers", view.read},     {"settable", view.writable},

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/command/verb.h"
+#include "tools/client/text/table.h"
 
 namespace indurop::tools {
 
@@ -28,7 +28,6 @@ struct ExternalView {
 
 // Returns nothing if the node shows nothing to third-party tools, or its file is invalid.
 std::optional<ExternalView> view_external(const std::string& node);
-std::vector<std::string> external_lines(const ExternalView& view, const Output& output);
 JsonValue json_of(const ExternalView& view);
 
 }  // namespace indurop::tools

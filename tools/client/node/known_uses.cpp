@@ -5,7 +5,7 @@
 
 #include "config/check/uses.h"
 #include "config/xml/plant_reader.h"
-#include "tools/cli/command/config_file.h"
+#include "tools/client/config/checked_config.h"
 #include "tools/client/node/run_view.h"
 
 namespace indurop::tools {

@@ -39,33 +39,6 @@ PeerView view_peer(const mirror::PeerRecord& record, std::int64_t now) {
           .epoch_wall_ns = record.epoch_wall_ns.load(kRelaxed)};
 }
 
-Style style_of(const std::string& state) {
-  return state == "alive" ? Style::Good : state == "absent" ? Style::Warn : Style::Bad;
-}
-
-// Tells whether this board leads the variables that a standby sends too.
-std::string lead_of(const MirrorView& view, const std::string& board) {
-  std::map<std::string, int> owners;
-  for (const mirror::MirroredVariable& one : view.variables) {
-    ++owners[one.name];
-  }
-  int shared = 0;
-  int led = 0;
-  for (const mirror::MirroredVariable& one : view.variables) {
-    if (one.owner == board && owners[one.name] > 1) {
-      ++shared;
-      led += one.leads ? 1 : 0;
-    }
-  }
-  if (shared == 0) {
-    return "";
-  }
-  if (led == 0) {
-    return fmt::format("  standby of {} variable{}", shared, shared == 1 ? "" : "s");
-  }
-  return fmt::format("  leads {} variable{} with a standby", led, led == 1 ? "" : "s");
-}
-
 }  // namespace
 
 std::optional<MirrorView> view_mirror(const std::string& node) {
@@ -134,39 +107,6 @@ std::vector<std::string> explain_old(const MirrorView& view, const std::set<std:
     for (const auto& [leader, names] : taken_over) {
       lines.push_back(fmt::format("board {} is {} ({}): its standby {} leads, with values of now: {}", peer.name,
                                   peer.state, heard, leader, names));
-    }
-  }
-  return lines;
-}
-
-std::vector<std::string> mirror_lines(const MirrorView& view, const Output& output) {
-  std::vector<std::string> lines;
-  lines.push_back(fmt::format(
-      "  plant     {}, board {}, DDS domain {}, {}; sends {} variables in {} frames of up to "
-      "1300 bytes, {} frames so far",
-      printable(view.plant), printable(view.board), view.domain,
-      view.up ? output.paint(Style::Good, "in the network") : output.paint(Style::Bad, "not in the network yet"),
-      view.outgoing, view.parts, view.frames));
-  if (!view.problem.empty()) {
-    lines.push_back("            " + output.paint(Style::Warn, printable(view.problem)));
-  }
-  for (const PeerView& peer : view.peers) {
-    std::string line =
-        fmt::format("  board     {}  {}", printable(peer.name), output.paint(style_of(peer.state), peer.state));
-    if (peer.wanted > 0) {
-      line += fmt::format("  {} variables from it, {}, {} frames, {} updates lost", peer.wanted,
-                          peer.heard_ns < 0 ? std::string("never heard") : "heard " + human_ns(peer.heard_ns) + " ago",
-                          peer.frames, peer.lost_updates);
-    }
-    line += lead_of(view, peer.name);
-    if (peer.clock_known) {
-      line += fmt::format("  clocks {} apart (+-{}){}", human_ns(std::abs(peer.clock_offset_ns)),
-                          human_ns(peer.clock_bound_ns),
-                          view.clock_synchronised && peer.clock_synchronised ? "" : ", not synchronised");
-    }
-    lines.push_back(line);
-    if (!peer.problem.empty()) {
-      lines.push_back("            " + output.paint(Style::Bad, printable(peer.problem)));
     }
   }
   return lines;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "network/mirror/frames/mirrored_variables.h"
-#include "tools/cli/command/verb.h"
+#include "tools/client/text/table.h"
 
 namespace indurop::tools {
 
@@ -56,7 +56,6 @@ struct MirrorView {
 std::optional<MirrorView> view_mirror(const std::string& node);
 // For each board in these variables that is not being received: returns why its values are old, and which ones.
 std::vector<std::string> explain_old(const MirrorView& view, const std::set<std::string>& variables);
-std::vector<std::string> mirror_lines(const MirrorView& view, const Output& output);
 JsonValue json_of(const std::vector<mirror::MirroredVariable>& variables);
 JsonValue json_of(const MirrorView& view);
 

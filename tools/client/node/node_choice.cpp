@@ -59,26 +59,26 @@ Result<std::string, Failure> named_node(const std::string& name, const char* ori
                         fmt::join(running, ", "))};
 }
 
-Result<vars::Store, Failure> open_remote(Context& context, const std::vector<std::string>& names) {
-  if (!context.node.empty()) {
+Result<vars::Store, Failure> open_remote(Access& access, const std::vector<std::string>& names) {
+  if (!access.node.empty()) {
     return Failure{kUsage, "--node names a node of this machine; boards in the network are chosen by NAME@BOARD"};
   }
-  dds::NetworkSettings network = context.remote.network;
-  auto peers = peer_addresses(network.peers, rt::MonoClock::now() + std::chrono::nanoseconds(context.remote.wait_ns));
+  dds::NetworkSettings network = access.remote.network;
+  auto peers = peer_addresses(network.peers, rt::MonoClock::now() + std::chrono::nanoseconds(access.remote.wait_ns));
   if (!peers) {
     return std::move(peers).error();
   }
   network.peers = std::move(peers).value();
   std::vector<std::string> notes;
-  auto source = RemoteSource::open(network, context.remote.wait_ns, names, notes);
+  auto source = RemoteSource::open(network, access.remote.wait_ns, names, notes);
   for (const std::string& note : notes) {
-    context.out.note(note);
+    access.messages->note(note);
   }
   if (!source.ok()) {
     return std::move(source).error();
   }
-  context.values = std::move(source).value();
-  auto store = context.values->attach();
+  access.values = std::move(source).value();
+  auto store = access.values->attach();
   if (!store.ok()) {
     return Failure{kFailed, fmt::format("no memory for the values: {}", store.error().where)};
   }
@@ -183,29 +183,29 @@ int exit_code_of(const Error& error) {
   }
 }
 
-Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode, const std::vector<std::string>& names) {
-  if (context.remote.wanted) {
-    return open_remote(context, names);
+Result<vars::Store, Failure> open_store(Access& access, vars::Mode mode, const std::vector<std::string>& names) {
+  if (access.remote.wanted) {
+    return open_remote(access, names);
   }
-  auto node = choose_node(context.node);
+  auto node = choose_node(access.node);
   if (!node.ok()) {
     return std::move(node).error();
   }
-  context.values = std::make_shared<HereSource>(*node, mode);
-  auto store = context.values->attach();
+  access.values = std::make_shared<HereSource>(*node, mode);
+  auto store = access.values->attach();
   // A node that starts under a name that was used before shows the values of the former one until its own store exists.
   while_starting([&] {
     if (store.ok() && store_alive(*node, store->header())) {
       return true;
     }
-    store = context.values->attach();
+    store = access.values->attach();
     return false;
   });
   if (!store.ok()) {
     return Failure{exit_code_of(store.error()),
                    explain_open_error(store.error(), *node, mode == vars::Mode::ReadWrite)};
   }
-  context.node = *node;
+  access.node = *node;
   return std::move(store).value();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the node for a verb, and opens its shared memory with messages that say what to do.
+// Chooses the node for a program, and opens its shared memory with messages that say what to do.
 
 #pragma once
 
@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "store/vars/store.h"
-#include "tools/cli/command/verb.h"
 #include "tools/client/node/run_view.h"
-#include "tools/client/values/value_source.h"
+#include "tools/client/values/access.h"
 
 namespace indurop::tools {
 
@@ -18,9 +17,9 @@ namespace indurop::tools {
 // those whose values remain. Waits for a node that is just starting.
 Result<std::string, Failure> choose_node(const std::string& asked);
 
-// Opens the store of the chosen node, or with --remote that of the boards in the network; `context.values` is then its
-// source. `names`: the requested ones; once they are known, silent boards are not waited for.
-Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode, const std::vector<std::string>& names = {});
+// Opens the store of the chosen node, or that of the boards in the network; `access.values` is then its source, and
+// `access.node` the node. `names`: the requested ones; once they are known, silent boards are not waited for.
+Result<vars::Store, Failure> open_store(Access& access, vars::Mode mode, const std::vector<std::string>& names = {});
 
 // The chosen node's run block.
 struct ChosenRun {

@@ -93,48 +93,6 @@ std::string rt_text(const scheduler::Obtained& rt) {
   return text;
 }
 
-std::vector<std::string> header_lines(const NodeReport& report, const Output& output) {
-  std::vector<std::string> lines;
-  std::string first = output.paint(Style::Bold, report.node) + "  " +
-                      output.paint(report.alive && !report.hung() ? Style::Good : Style::Bad, report.state);
-  if (report.alive) {
-    first += fmt::format("  pid {}", report.pid);
-    if (report.uptime_ns > 0) {
-      first += "  up " + human_age(report.uptime_ns);
-    }
-  }
-  lines.push_back(first + "  " + printable(report.config_file));
-  if (!report.deployment.empty()) {
-    lines.push_back("  deployed  " + deploy::shown_id(report.deployment));
-  }
-  if (!report.stop_reason.empty()) {
-    lines.push_back("  reason    " + printable(report.stop_reason));
-  }
-  if (report.basic_period_ns > 0) {
-    lines.push_back(fmt::format("  schedule  basic period {}, macro period {}, tick {}, {} lost ticks",
-                                base::format_duration(base::Nanos(report.basic_period_ns)),
-                                base::format_duration(base::Nanos(report.macro_period_ns)), report.ticks,
-                                report.lost_ticks));
-  }
-  if (report.lateness.count > 0) {
-    lines.push_back(fmt::format("  lateness  p50 {}, p99 {}, max {}", human_ns(report.lateness.p50),
-                                human_ns(report.lateness.p99), human_ns(report.lateness.max)));
-  }
-  lines.push_back("  obtained  " + output.paint(report.rt.fifo != 0 ? Style::None : Style::Warn, rt_text(report.rt)));
-  if (!report.same_core.empty()) {
-    const std::string others = fmt::format(
-        "shares core {} with {}: their ticks delay each other; choose another with "
-        "--core",
-        report.rt.tick_core, fmt::join(report.same_core, ", "));
-    lines.push_back("            " + output.paint(Style::Warn, others));
-  }
-  const std::string why = fixed_text(report.rt.why);
-  if (!why.empty()) {
-    lines.push_back("            " + output.paint(Style::Warn, printable(why)));
-  }
-  return lines;
-}
-
 JsonValue json_of(const NodeReport& report) {
   return {{"node", report.node},
           {"running", report.alive},

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/command/verb.h"
 #include "tools/client/node/run_view.h"
+#include "tools/client/text/table.h"
 
 namespace indurop::tools {
 
@@ -41,8 +41,6 @@ struct NodeReport {
 void set_owner(NodeReport& report);
 
 NodeReport report_of(const std::string& node, const RunView& run);
-// Returns two or three lines: state, key values, real-time rights.
-std::vector<std::string> header_lines(const NodeReport& report, const Output& output);
 // Returns "FIFO 90 on core 1, memory locked" or "no FIFO, ...".
 std::string rt_text(const scheduler::Obtained& rt);
 JsonValue json_of(const NodeReport& report);

@@ -52,8 +52,8 @@ PlcFiles files_of(const std::string& words) {
 struct PlcPictures::Program {
   // A view of one node.
   struct Watched {
-    Context context;
-    std::vector<std::string> said;
+    KeptMessages said;
+    Access access;
     std::unique_ptr<PlcView> view;
   };
 
@@ -93,14 +93,14 @@ struct PlcPictures::Program {
       return watched->view.get();
     }
     watched = std::make_unique<Watched>();
-    watched->context.node = node;
-    watched->context.out.divert(&watched->said);
+    watched->access.node = node;
+    watched->access.messages = &watched->said;
     plc::Diagnostics quiet;  // errors were reported already
     auto view =
-        std::make_unique<PlcView>(watched->context, *plan, plc::live_bodies(plan->document, "", quiet), ViewChoice{});
+        std::make_unique<PlcView>(watched->access, *plan, plc::live_bodies(plan->document, "", quiet), ViewChoice{});
     if (auto opened = view->open(); !opened) {
       const Failure& why = opened.error();
-      return Failure{why.code, why.text.empty() ? fmt::format("{}", fmt::join(watched->said, "; ")) : why.text};
+      return Failure{why.code, why.text.empty() ? fmt::format("{}", fmt::join(watched->said.texts, "; ")) : why.text};
     }
     watched->view = std::move(view);
     return watched->view.get();

@@ -23,21 +23,6 @@
 namespace indurop::tools {
 namespace {
 
-using plc::draw::Run;
-
-Style style_of(Run::Look look) {
-  switch (look) {
-    case Run::Look::Powered:
-      return Style::Good;
-    case Run::Look::Value:
-      return Style::Accent;
-    case Run::Look::Plain:
-    case Run::Look::Name:
-      break;
-  }
-  return Style::None;
-}
-
 // Returns the texts that may contain names of shared variables.
 std::vector<std::string> texts_of(const plc::LiveBody& body) {
   if (is_text(body)) {
@@ -71,8 +56,8 @@ std::string first_indent(const plc::LiveBody& body) {
   return blanks;
 }
 
-PlcView::PlcView(Context& context, const plc::WatchPlan& plan, std::vector<plc::LiveBody> bodies, ViewChoice choice)
-    : context_(context), plan_(plan), bodies_(std::move(bodies)), choice_(std::move(choice)) {}
+PlcView::PlcView(Access& access, const plc::WatchPlan& plan, std::vector<plc::LiveBody> bodies, ViewChoice choice)
+    : access_(access), plan_(plan), bodies_(std::move(bodies)), choice_(std::move(choice)) {}
 
 Result<void, Failure> PlcView::open() {
   if (auto chosen = choose(); !chosen) {
@@ -84,11 +69,13 @@ Result<void, Failure> PlcView::open() {
       paths.emplace(one.path, &one);
     }
   }
-  source_.emplace(context_.node, names());
-  if (auto opened = source_->open(context_); !opened) {
-    const int code = report(context_.out, opened.error());
-    context_.out.note("was the module built with `indurop plc build --watch`?");
-    return Failure{code, {}};
+  source_.emplace(access_.node, names());
+  if (auto opened = source_->open(access_); !opened) {
+    if (!opened.error().text.empty()) {
+      access_.messages->error(opened.error().text);
+    }
+    access_.messages->note("was the module built with `indurop plc build --watch`?");
+    return Failure{opened.error().code, {}};
   }
   be_gentle(source_->node());
   sample();
@@ -187,29 +174,6 @@ Result<void, Failure> PlcView::check_marks() const {
   return {};
 }
 
-std::string PlcView::heading() const {
-  const Output& out = context_.out;
-  return out.paint(Style::Bold, "node " + source_->node()) + "  " +
-         (source_->alive() ? out.paint(Style::Good, "running") : out.paint(Style::Bad, source_->absence()));
-}
-
-std::vector<std::string> PlcView::lines() const {
-  std::vector<std::string> lines;
-  if (!others_.empty()) {
-    lines.push_back(context_.out.paint(Style::Dim, fmt::format("--instance shows also {}", others_)));
-  }
-  for (const Shown& shown : shown_) {
-    if (shown.body->drawn()) {
-      network_lines(shown, lines);
-    } else if (choice_.rung == 0 && shown.body->chart) {
-      chart_lines(shown, lines);
-    } else if (choice_.rung == 0 && is_text(*shown.body)) {
-      text_lines(shown, lines);
-    }
-  }
-  return lines;
-}
-
 std::string PlcView::path_of(const Shown& shown, const std::string& path) const {
   return shown.inside.empty() ? path : shown.inside + "." + path;
 }
@@ -264,56 +228,6 @@ std::string PlcView::output_value(const Shown& shown, const plc::network::Source
   return flows ? std::string() : plc::value_text(*found->type, told(shown).subspan(found->offset));
 }
 
-void PlcView::text_lines(const Shown& shown, std::vector<std::string>& lines) const {
-  lines.push_back(context_.out.paint(
-      Style::Dim, shown.title + (shown.body->action.empty() ? "" : ", action " + shown.body->action)));
-  const auto text = plc::live_lines(first_indent(*shown.body) + shown.body->body->text,
-                                    [&](const std::string& path) { return value(shown, path); });
-  constexpr int kMost = 60;
-  int width = 0;
-  for (const plc::LiveLine& one : text) {
-    width = std::max(width, one.values.empty() ? 0 : std::min(kMost, plc::draw::text_width(one.text)));
-  }
-  for (const plc::LiveLine& one : text) {
-    const int room = std::max(0, width - plc::draw::text_width(one.text));
-    lines.push_back(one.values.empty() ? one.text
-                                       : one.text + std::string(static_cast<std::size_t>(room), ' ') + "  " +
-                                             context_.out.paint(Style::Accent, printable(one.values)));
-  }
-  lines.emplace_back();
-}
-
-void PlcView::chart_lines(const Shown& shown, std::vector<std::string>& lines) const {
-  lines.push_back(context_.out.paint(Style::Dim, shown.title));
-  const bool unicode = context_.out.unicode();
-  plc::ChartMarks marks;
-  marks.step = [&](const plc::network::Step& step) {
-    const std::string name = plc::upper(step.name);
-    return flag(shown, name, 0) ? context_.out.paint(Style::Good, fmt::format(" {} active {}", unicode ? "●" : "*",
-                                                                              value(shown, name + ".T")))
-                                : std::string();
-  };
-  marks.condition = [&](const std::string& condition) {
-    const auto lines_of = plc::live_lines(condition, [&](const std::string& path) { return value(shown, path); });
-    return lines_of.empty() || lines_of[0].values.empty()
-               ? std::string()
-               : "  " + context_.out.paint(Style::Accent, printable(lines_of[0].values));
-  };
-  const std::string text = plc::chart_text(*shown.body->chart, unicode, marks);
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    lines.push_back(line);
-  }
-}
-
-void PlcView::network_lines(const Shown& shown, std::vector<std::string>& lines) const {
-  for (std::size_t n = 0; n < shown.body->pictures.size(); ++n) {
-    if (choice_.rung == 0 || choice_.rung == shown.body->sheet->networks[n].number) {
-      network(shown, n, lines);
-    }
-  }
-}
-
 plc::draw::Live PlcView::live_of(const Shown& shown) const {
   const auto power = std::make_shared<plc::LivePower>(
       *shown.body,
@@ -326,24 +240,6 @@ plc::draw::Live PlcView::live_of(const Shown& shown) const {
   live.closed = [power](const plc::network::Element& element) { return power->closed(element); };
   live.value = [this, &shown](const plc::network::Source& source) { return output_value(shown, source); };
   return live;
-}
-
-void PlcView::network(const Shown& shown, std::size_t number, std::vector<std::string>& lines) const {
-  const plc::LiveBody& body = *shown.body;
-  const auto& drawn = body.sheet->networks[number];
-  const auto remarks = plc::remarks_of(drawn);
-  lines.push_back(context_.out.paint(
-      Style::Dim, fmt::format("{}{} {} {}{}{}", shown.title, body.action.empty() ? "" : ", action " + body.action,
-                              plc::network::word_of(body.body->language), drawn.number, remarks.empty() ? "" : ": ",
-                              remarks.empty() ? "" : printable(remarks.front()))));
-  for (const auto& row : plc::draw::draw_text(body.pictures[number], context_.out.unicode(), live_of(shown))) {
-    std::string line = "  ";
-    for (const Run& run : row) {
-      line += context_.out.paint(style_of(run.look), run.text);
-    }
-    lines.push_back(std::move(line));
-  }
-  lines.emplace_back();
 }
 
 }  // namespace indurop::tools

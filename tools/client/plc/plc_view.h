@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The code of a running PLC program with its values: power in networks, active steps, values next to lines of text.
+// The code of a running PLC program with its values: power in networks, active steps, values of variables.
 
 #pragma once
 
@@ -11,7 +11,6 @@
 #include "control/plc/draw/text_picture.h"
 #include "control/plc/front/watch_plan.h"
 #include "control/plc/print/live.h"
-#include "tools/cli/command/verb.h"
 #include "tools/client/values/watch_source.h"
 
 namespace indurop::tools {
@@ -30,20 +29,6 @@ std::string first_indent(const plc::LiveBody& body);
 
 class PlcView {
  public:
-  PlcView(Context& context, const plc::WatchPlan& plan, std::vector<plc::LiveBody> bodies, ViewChoice choice);
-
-  // Finds the selected part and attaches to the node.
-  Result<void, Failure> open();
-  void sample() { source_->sample(context_, 0, SIZE_MAX); }
-
-  [[nodiscard]] std::string heading() const;
-  [[nodiscard]] std::vector<std::string> lines() const;
-
-  // For other programs: the drawings, which are constant, and the values that change in them, in the same order.
-  [[nodiscard]] JsonValue pictures() const;
-  [[nodiscard]] JsonValue live() const;
-
- private:
   // The code of one instance.
   struct Shown {
     const plc::LiveBody* body = nullptr;
@@ -51,6 +36,27 @@ class PlcView {
     std::string inside;       // POU in the program: "MOTOR", "" for the program itself
     std::size_t program = 0;  // index in the plan
   };
+  PlcView(Access& access, const plc::WatchPlan& plan, std::vector<plc::LiveBody> bodies, ViewChoice choice);
+
+  // Finds the selected part and attaches to the node.
+  Result<void, Failure> open();
+  void sample() { source_->sample(access_, 0, SIZE_MAX); }
+
+  [[nodiscard]] const WatchSource& source() const noexcept { return *source_; }
+  [[nodiscard]] const std::vector<Shown>& shown() const noexcept { return shown_; }
+  [[nodiscard]] int rung() const noexcept { return choice_.rung; }  // the selected one; 0: all
+  // Names of instances of the POU that are not shown, separated by commas.
+  [[nodiscard]] const std::string& others() const noexcept { return others_; }
+  [[nodiscard]] bool flag(const Shown& shown, const std::string& path, std::size_t index) const;
+  // Returns the value of a variable of the instance, else of a shared one; "" if there is none.
+  [[nodiscard]] std::string value(const Shown& shown, const std::string& path) const;
+  [[nodiscard]] plc::draw::Live live_of(const Shown& shown) const;
+
+  // For other programs: the drawings, which are constant, and the values that change in them, in the same order.
+  [[nodiscard]] JsonValue pictures() const;
+  [[nodiscard]] JsonValue live() const;
+
+ private:
   Result<void, Failure> choose();
   [[nodiscard]] std::string title_of(std::size_t program, const std::string& name) const;
   void show(std::size_t program, const plc::WatchedInstance& instance);
@@ -61,23 +67,14 @@ class PlcView {
   [[nodiscard]] std::string path_of(const Shown& shown, const std::string& path) const;
   [[nodiscard]] std::span<const std::uint8_t> told(const Shown& shown) const;
   [[nodiscard]] const plc::WatchedVariable* find(const Shown& shown, const std::string& path) const;
-  [[nodiscard]] bool flag(const Shown& shown, const std::string& path, std::size_t index) const;
-  // Returns the value of a variable of the instance, else of a shared one; "" if there is none.
-  [[nodiscard]] std::string value(const Shown& shown, const std::string& path) const;
   [[nodiscard]] std::string shared_value(const std::string& name) const;
   [[nodiscard]] std::string output_value(const Shown& shown, const plc::network::Source& source) const;
 
-  [[nodiscard]] plc::draw::Live live_of(const Shown& shown) const;
   [[nodiscard]] JsonValue networks_of(const Shown& shown) const;
   void tell_networks(const Shown& shown, JsonValue& one) const;
   void tell_steps(const Shown& shown, JsonValue& one) const;
 
-  void text_lines(const Shown& shown, std::vector<std::string>& lines) const;
-  void chart_lines(const Shown& shown, std::vector<std::string>& lines) const;
-  void network_lines(const Shown& shown, std::vector<std::string>& lines) const;
-  void network(const Shown& shown, std::size_t number, std::vector<std::string>& lines) const;
-
-  Context& context_;
+  Access& access_;
   const plc::WatchPlan& plan_;
   std::vector<plc::LiveBody> bodies_;
   ViewChoice choice_;

@@ -8,7 +8,7 @@
 
 #include "core/base/text.h"
 #include "core/schema/leaf.h"
-#include "tools/cli/values/variables.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/json.h"
-#include "tools/cli/command/output.h"
+#include "tools/client/text/style.h"
 
 namespace indurop::tools {
 
@@ -44,19 +44,14 @@ class Table {
   void add(std::vector<Cell> cells) { rows_.push_back(std::move(cells)); }
   [[nodiscard]] bool empty() const noexcept { return rows_.empty(); }
 
-  // Returns heading and rows, columns separated by two spaces, no trailing spaces, columns without any text left out;
-  // empty if there are no rows.
-  [[nodiscard]] std::string text(const Output& output) const;
+  [[nodiscard]] const std::vector<Column>& columns() const noexcept { return columns_; }
+  [[nodiscard]] const std::vector<std::vector<Cell>>& rows() const noexcept { return rows_; }
+
   // RFC 4180 with a heading, lines ended by \n.
   [[nodiscard]] std::string csv() const;
   [[nodiscard]] JsonValue json() const;
 
  private:
-  // Width per column, 0 for columns that are not shown.
-  [[nodiscard]] std::vector<std::size_t> widths(const Output& output) const;
-  [[nodiscard]] std::string row_text(const std::vector<Cell>& row, const std::vector<std::size_t>& widths,
-                                     const Output& output) const;
-
   std::vector<Column> columns_;
   std::vector<std::vector<Cell>> rows_;
 };

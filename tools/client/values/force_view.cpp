@@ -5,8 +5,8 @@
 
 #include "core/rt/clock.h"
 #include "store/vars/held_value.h"
-#include "tools/cli/values/variables.h"
 #include "tools/client/text/units.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 

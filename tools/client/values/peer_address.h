@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/rt/clock.h"
-#include "tools/cli/command/verb.h"
+#include "tools/client/failure.h"
 
 namespace indurop::tools {
 

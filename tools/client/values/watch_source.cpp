@@ -12,34 +12,34 @@
 #include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
-Result<void, Failure> WatchSource::open(Context& context) {
-  context.node = node_;
-  auto store = open_store(context, vars::Mode::ReadOnly, names_);
+Result<void, Failure> WatchSource::open(Access& access) {
+  access.node = node_;
+  auto store = open_store(access, vars::Mode::ReadOnly, names_);
   if (!store.ok()) {
     return std::move(store).error();
   }
   store_ = std::move(store).value();
-  node_ = context.values->title();
-  generation_ = context.values->generation();
+  node_ = access.values->title();
+  generation_ = access.values->generation();
   std::vector<Item> items;
-  if (const int code = select_items(context, *store_, names_, items); code != kOk) {
+  if (const int code = select_items(access, *store_, names_, items); code != kOk) {
     return Failure{code, {}};
   }
   for (Item& item : items) {
     std::vector<std::uint8_t> bytes(item.place.type.size());
     values_.push_back({std::move(item), std::move(bytes)});
   }
-  absence_ = context.values->absence(&*store_);
+  absence_ = access.values->absence(&*store_);
   return {};
 }
 
-void WatchSource::attach_again(Context& context) {
-  auto fresh = context.values->attach();
+void WatchSource::attach_again(Access& access) {
+  auto fresh = access.values->attach();
   if (!fresh.ok()) {
-    absence_ = context.values->absence(nullptr);
+    absence_ = access.values->absence(nullptr);
     return;
   }
-  generation_ = context.values->generation();
+  generation_ = access.values->generation();
   ++reconnects_;
   store_ = std::move(fresh).value();
   for (WatchedValue& value : values_) {
@@ -54,17 +54,17 @@ void WatchSource::attach_again(Context& context) {
       value.item.entry = entry;
       value.bytes.assign(value.item.place.type.size(), 0);
     } else {
-      context.out.note(fmt::format("node '{}' came back without {}", node_, value.item.name));
+      access.messages->note(fmt::format("node '{}' came back without {}", node_, value.item.name));
     }
   }
-  absence_ = context.values->absence(&*store_);
+  absence_ = access.values->absence(&*store_);
 }
 
-void WatchSource::sample(Context& context, std::size_t first, std::size_t count) {
-  if (store_->retired() || context.values->generation() != generation_) {
-    attach_again(context);
+void WatchSource::sample(Access& access, std::size_t first, std::size_t count) {
+  if (store_->retired() || access.values->generation() != generation_) {
+    attach_again(access);
   } else {
-    absence_ = context.values->absence(&*store_);
+    absence_ = access.values->absence(&*store_);
   }
   const std::size_t end = std::min(values_.size(), first + count);
   std::vector<std::uint8_t> now;
@@ -85,10 +85,10 @@ void WatchSource::sample(Context& context, std::size_t first, std::size_t count)
   }
 }
 
-bool read_watch_list(Context& context, const std::string& file, std::vector<std::string>& names) {
+bool read_watch_list(Messages& messages, const std::string& file, std::vector<std::string>& names) {
   const auto text = base::read_file(file);
   if (!text) {
-    context.out.error(base::cannot_read(file, text.error()));
+    messages.error(base::cannot_read(file, text.error()));
     return false;
   }
   std::istringstream in(*text);
@@ -100,7 +100,7 @@ bool read_watch_list(Context& context, const std::string& file, std::vector<std:
     }
   }
   if (names.size() == before) {
-    context.out.error(fmt::format("{} names no variable; write one name or glob per line, # begins a comment", file));
+    messages.error(fmt::format("{} names no variable; write one name or glob per line, # begins a comment", file));
     return false;
   }
   return true;

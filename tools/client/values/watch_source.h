@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/values/variables.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 
@@ -26,11 +26,11 @@ class WatchSource {
  public:
   WatchSource(std::string node, std::vector<std::string> names) : node_(std::move(node)), names_(std::move(names)) {}
 
-  // Attaches for the first time; `context.values` is then the source of the values.
-  Result<void, Failure> open(Context& context);
+  // Attaches for the first time; `access.values` is then the source of the values.
+  Result<void, Failure> open(Access& access);
 
   // Reads values [first, first + count). Attaches again if the store was replaced.
-  void sample(Context& context, std::size_t first, std::size_t count);
+  void sample(Access& access, std::size_t first, std::size_t count);
 
   [[nodiscard]] std::span<const WatchedValue> values() const noexcept { return values_; }
   [[nodiscard]] const std::string& node() const noexcept { return node_; }
@@ -41,7 +41,7 @@ class WatchSource {
   [[nodiscard]] std::uint64_t reconnects() const noexcept { return reconnects_; }
 
  private:
-  void attach_again(Context& context);
+  void attach_again(Access& access);
 
   std::string node_;
   std::vector<std::string> names_;
@@ -54,6 +54,6 @@ class WatchSource {
 
 // Reads the names of a watch list: one per line, without blank lines and # comments. Returns false after an error
 // message.
-bool read_watch_list(Context& context, const std::string& file, std::vector<std::string>& names);
+bool read_watch_list(Messages& messages, const std::string& file, std::vector<std::string>& names);
 
 }  // namespace indurop::tools

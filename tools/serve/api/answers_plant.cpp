@@ -9,9 +9,9 @@
 #include "core/base/program_folder.h"
 #include "core/base/read_file.h"
 #include "core/base/text.h"
-#include "tools/cli/command/serve_options.h"
 #include "tools/client/board/plant_watch.h"
 #include "tools/client/process/child.h"
+#include "tools/console/serve_options.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/api/write.h"
 

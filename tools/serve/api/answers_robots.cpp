@@ -9,7 +9,7 @@
 
 #include "config/xml/plant_reader.h"
 #include "core/base/read_file.h"
-#include "tools/cli/command/config_file.h"
+#include "tools/client/config/checked_config.h"
 #include "tools/client/robot/work_frames.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/board.h"

@@ -4,7 +4,7 @@
 
 #include "config/plan/plan.h"
 #include "config/xml/plant_reader.h"
-#include "tools/cli/command/config_file.h"
+#include "tools/client/config/checked_config.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/board.h"
 

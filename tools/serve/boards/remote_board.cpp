@@ -8,7 +8,7 @@
 
 #include "core/rt/clock.h"
 #include "history/alarms/alarm_list.h"
-#include "tools/cli/plant/board_run.h"
+#include "tools/client/board/board_run.h"
 #include "tools/serve/door/request.h"
 
 namespace indurop::serve {

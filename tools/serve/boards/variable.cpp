@@ -137,11 +137,13 @@ base::Json form_of(const schema::Type& type) {
 
 std::vector<tools::Item> items_named(const vars::Store& store, const std::string& node,
                                      const std::vector<std::string>& names, std::vector<std::string>& problems) {
-  tools::Context context;
-  context.out.divert(&problems);
-  context.values = std::make_shared<tools::HereSource>(node, vars::Mode::ReadOnly);
+  tools::KeptMessages messages;
+  tools::Access access;
+  access.messages = &messages;
+  access.values = std::make_shared<tools::HereSource>(node, vars::Mode::ReadOnly);
   std::vector<tools::Item> items;
-  tools::select_items(context, store, names, items, tools::Values::NotNeeded);
+  tools::select_items(access, store, names, items, tools::Values::NotNeeded);
+  problems.insert(problems.end(), messages.texts.begin(), messages.texts.end());
   return items;
 }
 

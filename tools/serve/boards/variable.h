@@ -10,7 +10,7 @@
 
 #include "core/base/json.h"
 #include "store/vars/store.h"
-#include "tools/cli/values/variables.h"
+#include "tools/client/values/variables.h"
 
 namespace indurop::serve {
 

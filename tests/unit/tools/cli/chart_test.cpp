@@ -16,7 +16,6 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::NanSensitiveDoubleEq;
 using testing::Not;
 using testing::StartsWith;
 
@@ -31,43 +30,6 @@ Recording read(std::string_view text) {
   auto recording = read_recording(text, "run.csv");
   EXPECT_TRUE(recording) << base::to_string(recording.error());
   return *recording;
-}
-
-std::string problem(std::string_view text) {
-  return base::to_string(read_recording(text, "run.csv").error());
-}
-
-TEST(RecordingText, Numbers_words_arrays_and_gaps_are_read) {
-  const Recording sut = read(kRun);
-  EXPECT_THAT(sut.time_s, ElementsAre(0, 0.5, 1.0));
-  ASSERT_EQ(sut.series.size(), 4U);
-  EXPECT_THAT(sut.series[0].lines, ElementsAre(ElementsAre(0.5, 1.5, NanSensitiveDoubleEq(std::nan("")))));
-  EXPECT_FALSE(sut.series[0].steps);
-  EXPECT_THAT(sut.series[1].words, ElementsAre("Idle", "Moving"));
-  EXPECT_THAT(sut.series[1].lines, ElementsAre(ElementsAre(0, 1, 0)));
-  EXPECT_TRUE(sut.series[1].steps);
-  EXPECT_EQ(sut.series[2].name, "arm,joint");
-  EXPECT_THAT(sut.series[2].lines, ElementsAre(ElementsAre(1, 1.5, 2), ElementsAre(2, 2.5, 3)));
-  EXPECT_THAT(sut.series[3].lines, ElementsAre(ElementsAre(0, 1, 1)));
-}
-
-TEST(RecordingText, What_is_no_recording_is_named_with_its_line) {
-  EXPECT_THAT(problem("a,b\n1,2\n"), StartsWith("run.csv:1:1: error: the heading is not that of a recording"));
-  EXPECT_THAT(problem("time_ns,a\n1,2\n2\n"), StartsWith("run.csv:3:1: error: 1 values for 2 columns"));
-  EXPECT_THAT(problem("time_ns,a\nx,2\n"), StartsWith("run.csv:2:1: error: the first column is not a time"));
-  EXPECT_THAT(problem("time_ns,a\n2,2\n1,2\n"), HasSubstr("error: the times are not rising"));
-  EXPECT_THAT(problem("time_ns,a\n1,2\n"), HasSubstr("at least two rows"));
-  EXPECT_THAT(problem(""), HasSubstr("error"));
-}
-
-TEST(RecordingText, A_number_of_many_values_is_a_line_and_one_of_few_a_lane) {
-  std::string text = "time,many,few\n";
-  for (int i = 0; i < 20; ++i) {
-    text += std::to_string(i) + "," + std::to_string(i) + "," + std::to_string(i % 3) + "\n";
-  }
-  const Recording sut = read(text);
-  EXPECT_FALSE(sut.series[0].steps);
-  EXPECT_TRUE(sut.series[1].steps);
 }
 
 TEST(ChartSvg, Every_column_is_there_and_nothing_is_not_a_number) {
@@ -85,41 +47,6 @@ TEST(ChartSvg, A_constant_and_a_column_without_values_can_be_drawn) {
   const std::string svg = chart_svg("", read("time,a,b\n0,3.5,\n1,3.5,\n"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(svg, Not(HasSubstr("inf")));
-}
-
-TEST(RecordingNames, Columns_and_lines_get_other_names_and_numbers_words) {
-  Recording sut = read("time,CELL::state [1],CELL::joint [deg]\n0,1,\"[1,2]\"\n1,5,\"[1,2]\"\n");
-  EXPECT_FALSE(rename(sut, "joint[1]=J2"));
-  EXPECT_FALSE(rename(sut, "CELL::joint=joints, deg"));
-  EXPECT_FALSE(give_words(sut, "state=1 ready,  4 stops hard"));
-  drop_common_namespace(sut);
-  EXPECT_EQ(sut.series[0].words, (std::vector<std::string>{"0", "ready", "2", "3", "stops hard", "5"}));
-  EXPECT_EQ(part_name(sut.series[1], 0), "[0]");
-  EXPECT_EQ(part_name(sut.series[1], 1), "J2");
-  const std::string svg = chart_svg("", sut);
-  for (const char* word : {"joints, deg", ">J2<", "ready from 0.000 s"}) {
-    EXPECT_THAT(svg, HasSubstr(word));
-  }
-}
-
-TEST(RecordingNames, What_cannot_be_named_is_told) {
-  Recording sut = read("time,CELL::speed,CELL::on\n0,0.5,1\n1,2,0\n");
-  EXPECT_THAT(rename(sut, "sped=v").value_or(""), HasSubstr("no column 'sped'; there are CELL::speed and CELL::on"));
-  EXPECT_THAT(rename(sut, "speed[0]").value_or(""), HasSubstr("write OLD=NEW"));
-  EXPECT_THAT(rename(sut, "speed[7]=v").value_or(""), HasSubstr("no column"));
-  EXPECT_THAT(give_words(sut, "speed=0 off").value_or(""), HasSubstr("no small whole number"));
-  EXPECT_THAT(give_words(sut, "on=off").value_or(""), HasSubstr("write 0 off, 1 on"));
-  EXPECT_THAT(give_words(sut, "on").value_or(""), HasSubstr("write NAME=0 off"));
-}
-
-TEST(RecordingNames, The_namespace_that_all_have_is_left_out) {
-  Recording sut = read("time,A::x,A::B::y\n0,0.5,1\n1,2,0\n");
-  drop_common_namespace(sut);
-  EXPECT_EQ(sut.series[0].name, "x");
-  EXPECT_EQ(sut.series[1].name, "B::y");
-  Recording other = read("time,A::x,B::y\n0,0.5,1\n1,2,0\n");
-  drop_common_namespace(other);
-  EXPECT_EQ(other.series[0].name, "A::x");
 }
 
 TEST(ChartSvg, A_way_is_seen_from_above_and_from_the_side_in_one_scale) {
@@ -170,6 +97,39 @@ TEST(ChartText, A_row_each_between_smallest_and_largest) {
 
 TEST(ChartText, Fits_a_narrow_terminal) {
   EXPECT_THAT(chart_lines(read(kRun), 1, true), Each(Not(IsEmpty())));
+}
+
+// As a scope saves it: 0 s is its trigger.
+Recording triggered() {
+  Recording out;
+  out.time_s = {-0.002, -0.001, 0, 0.001};
+  out.series = {{"on", {{0, 0, 1, 1}}, {"false", "true"}, true},
+                {"joints", {{0.5, 1.5, std::nan(""), 3.5}, {0, 0, 0, 0}, {1, 1, 1, 1}}, {}, false}};
+  out.marked = true;
+  return out;
+}
+
+TEST(ChartText, Marks_the_trigger_below_its_time) {
+  const auto lines = chart_lines(triggered(), 80, false);
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_THAT(lines[0], StartsWith("on "));
+  EXPECT_THAT(lines[4], HasSubstr("-0.002 s"));
+  EXPECT_NE(lines[4].find('^'), std::string::npos);
+}
+
+TEST(ChartSvg, Shows_other_names_and_words_for_numbers) {
+  Recording sut = read("time,CELL::state [1],CELL::joint [deg]\n0,1,\"[1,2]\"\n1,5,\"[1,2]\"\n");
+  EXPECT_FALSE(rename(sut, "joint[1]=J2"));
+  EXPECT_FALSE(rename(sut, "CELL::joint=joints, deg"));
+  EXPECT_FALSE(give_words(sut, "state=1 ready,  4 stops hard"));
+  const std::string svg = chart_svg("", sut);
+  for (const char* word : {"joints, deg", ">J2<", "ready from 0.000 s"}) {
+    EXPECT_THAT(svg, HasSubstr(word));
+  }
+}
+
+TEST(ChartSvg, Marks_the_trigger) {
+  EXPECT_THAT(chart_svg("capture", triggered()), HasSubstr("class=\"mark\""));
 }
 
 }  // namespace

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scope may be asked: expressions, triggers, channels; and its picture as text.
+// What a scope may be asked: expressions, triggers, channels; and what it captured.
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <map>
 
-#include "tools/cli/pictures/chart_svg.h"
-#include "tools/cli/pictures/chart_text.h"
 #include "tools/client/scope/channels.h"
 #include "tools/client/scope/formula.h"
 #include "tools/client/scope/save.h"
@@ -212,13 +210,6 @@ TEST(ScopePicture, Has_its_trigger_at_0_s) {
   const Capture sut = picture();
   EXPECT_EQ(heading_of(sut), "on rises at tick 102, 2 ticks before and 1 after, every 1.00 ms");
   EXPECT_THAT(recording_of(sut).time_s, ElementsAre(-0.002, -0.001, 0, 0.001));
-  const auto lines = chart_lines(recording_of(sut), 80, false);
-  ASSERT_THAT(lines, SizeIs(5));
-  EXPECT_THAT(lines[0], StartsWith("on "));
-  EXPECT_THAT(lines[4], HasSubstr("-0.002 s"));
-  // The mark stands below the first column in which `on` is true.
-  EXPECT_EQ(lines[4].find('^'), lines[0].find('9'));
-  EXPECT_THAT(chart_svg(heading_of(sut), recording_of(sut)), HasSubstr("class=\"mark\""));
 }
 
 TEST(ScopePicture, As_csv_is_what_a_chart_reads) {

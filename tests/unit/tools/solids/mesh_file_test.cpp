@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "tools/cli/command/temporary_folder.h"
+#include "tools/client/process/temporary_folder.h"
 
 namespace indurop::solids {
 namespace {

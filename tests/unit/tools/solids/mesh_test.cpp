@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "tests/unit/tools/solids/bodies.h"
-#include "tools/cli/command/temporary_folder.h"
+#include "tools/client/process/temporary_folder.h"
 #include "tools/solids/cut.h"
 
 namespace indurop::solids {

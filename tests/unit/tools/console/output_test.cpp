@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What others wrote moves no cursor and sets no colour on the terminal of whoever reads it.
-#include "tools/cli/command/output.h"
+#include "tools/console/output.h"
 
 #include <gtest/gtest.h>
 #include <pty.h>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/command/verb.h"
+#include "tools/console/context.h"
 
 #include "core/base/duration.h"
 #include "deploy/link/link_keys.h"
 #include "network/dds/network_options.h"
+#include "tools/console/table_text.h"
 
 namespace indurop::tools {
 namespace {
@@ -95,7 +96,7 @@ void print_table(Context& context, const Table& table, const JsonValue& head, co
       break;
     case Format::Table:
     case Format::Svg:
-      context.out.write(table.text(context.out));
+      context.out.write(table_text(table, context.out));
       break;
   }
 }

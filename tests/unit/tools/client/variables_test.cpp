@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names, globs and ranges as arguments give them.
-#include "tools/cli/values/variables.h"
+#include "tools/client/values/variables.h"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/client/failure.h"
+#include "tools/client/messages.h"
+#include "tools/client/text/style.h"
+
 namespace indurop::tools {
 
-enum class Style { None, Bold, Dim, Good, Warn, Bad, Accent };
 enum class ColorWhen { Auto, Always, Never };
 
 // Terminal width and height of stdout; 80 x 24 if it is not a terminal.
@@ -19,12 +22,9 @@ struct Extent {
   int rows = 24;
 };
 
-class Output {
+class Output final : public Messages {
  public:
   explicit Output(ColorWhen when = ColorWhen::Auto, bool quiet = false);
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-  ~Output() = default;
 
   void configure(ColorWhen when, bool quiet);
 
@@ -49,12 +49,9 @@ class Output {
   [[nodiscard]] int write_errno() const noexcept { return write_errno_; }
 
   // Messages, one line each, to stderr, after the pending output to stdout.
-  void error(std::string_view text);
-  void note(std::string_view text);          // silent with -q
-  void message_line(std::string_view text);  // to stderr unchanged
-
-  // Collects messages in `to` instead, without a prefix; null: to stderr again.
-  void divert(std::vector<std::string>* to) noexcept { diverted_ = to; }
+  void error(std::string_view text) override;
+  void note(std::string_view text) override;  // silent with -q
+  void message_line(std::string_view text);   // to stderr unchanged
 
   [[nodiscard]] bool terminal() const noexcept { return terminal_; }
   [[nodiscard]] bool unicode() const noexcept { return unicode_; }
@@ -67,7 +64,6 @@ class Output {
   void send(std::string_view text);
   void keep(std::string_view text);
 
-  std::vector<std::string>* diverted_ = nullptr;
   std::vector<std::string> errors_;
   std::string pending_;
   bool written_ = false;
@@ -79,5 +75,13 @@ class Output {
   bool reader_gone_ = false;
   int write_errno_ = 0;
 };
+
+// Prints the failure and returns the exit code.
+inline int report(Output& out, const Failure& failure) {
+  if (!failure.text.empty()) {
+    out.error(failure.text);
+  }
+  return failure.code;
+}
 
 }  // namespace indurop::tools

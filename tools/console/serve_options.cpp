@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/command/serve_options.h"
+#include "tools/console/serve_options.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/values/variables.h"
+#include "tools/client/values/variables.h"
 
 #include <fmt/format.h>
 
@@ -27,24 +27,24 @@ void add_item(Item item, std::vector<Item>& items) {
 }
 
 // Returns the exit code, after an error message: there is no such variable, or its board cannot be reached.
-int unknown(Context& context, const std::string& name, const std::string& message) {
-  if (const std::string owner = context.values->silent_owner(name); !owner.empty()) {
-    context.out.error(fmt::format("'{}' is of board {}, which is silent", name, owner));
+int unknown(Access& access, const std::string& name, const std::string& message) {
+  if (const std::string owner = access.values->silent_owner(name); !owner.empty()) {
+    access.messages->error(fmt::format("'{}' is of board {}, which is silent", name, owner));
     return kUnreachable;
   }
-  context.out.error(message);
-  const std::string silent = context.values->here() ? std::string() : context.values->absence(nullptr);
+  access.messages->error(message);
+  const std::string silent = access.values->here() ? std::string() : access.values->absence(nullptr);
   if (silent.empty()) {
     return kFailed;
   }
-  context.out.note("it may be of a board that is " + silent);
+  access.messages->note("it may be of a board that is " + silent);
   return kUnreachable;
 }
 
 // Splits "NAME@BOARD". Returns the exit code, after an error message.
-int take_board(Context& context, const vars::Store& store, std::string& name, std::string& board) {
+int take_board(Access& access, const vars::Store& store, std::string& name, std::string& board) {
   const auto at = name.rfind('@');
-  if (context.values->here() || at == std::string::npos) {
+  if (access.values->here() || at == std::string::npos) {
     return kOk;
   }
   board = name.substr(at + 1);
@@ -55,16 +55,16 @@ int take_board(Context& context, const vars::Store& store, std::string& name, st
     const auto place = schema::find_place(store.schema(), name, message);
     pattern = place.ok() ? place.value().variable->name : name;
   }
-  const std::string problem = context.values->prefer(pattern, board);
-  return problem.empty() ? kOk : unknown(context, name, problem);
+  const std::string problem = access.values->prefer(pattern, board);
+  return problem.empty() ? kOk : unknown(access, name, problem);
 }
 
 // Removes the items that the keys do not permit reading. Returns false if these were all.
-bool drop_forbidden(Context& context, std::vector<Item>& items) {
+bool drop_forbidden(Access& access, std::vector<Item>& items) {
   std::set<std::string> forbidden;
   std::erase_if(items, [&](const Item& item) {
     const std::string& variable = item.place.variable->name;
-    return context.values->forbidden(variable) && (forbidden.insert(variable), true);
+    return access.values->forbidden(variable) && (forbidden.insert(variable), true);
   });
   if (forbidden.empty()) {
     return true;
@@ -73,21 +73,21 @@ bool drop_forbidden(Context& context, std::vector<Item>& items) {
       fmt::format("the keys given by --keys do not let {} be read (indurop keys list -o json shows their lists)",
                   fmt::join(forbidden, ", "));
   if (items.empty()) {
-    context.out.error(text);
+    access.messages->error(text);
   } else {
-    context.out.note(text);
+    access.messages->note(text);
   }
   return !items.empty();
 }
 
 }  // namespace
 
-int select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
+int select_items(Access& access, const vars::Store& store, const std::vector<std::string>& names,
                  std::vector<Item>& items, Values values) {
   int code = kOk;
   for (std::string name : names) {
     std::string board;
-    if (const int refused = take_board(context, store, name, board); refused != kOk) {
+    if (const int refused = take_board(access, store, name, board); refused != kOk) {
       code = refused;
       continue;
     }
@@ -96,13 +96,13 @@ int select_items(Context& context, const vars::Store& store, const std::vector<s
       if (found) {
         add_item(std::move(found).value(), items);
       } else {
-        code = unknown(context, name, found.error().text);
+        code = unknown(access, name, found.error().text);
       }
       continue;
     }
     bool any = false;
     for (const auto& variable : store.schema().variables) {
-      const bool meant = board.empty() || context.values->owner(variable.name) == board;
+      const bool meant = board.empty() || access.values->owner(variable.name) == board;
       if (!meant || !schema::glob_match(name, variable.name)) {
         continue;
       }
@@ -112,9 +112,9 @@ int select_items(Context& context, const vars::Store& store, const std::vector<s
       }
     }
     if (!any) {
-      code = unknown(
-          context, name,
-          fmt::format("no variable of {} matches '{}' (indurop vars lists all)", context.values->whose(), name));
+      code =
+          unknown(access, name,
+                  fmt::format("no variable of {} matches '{}' (indurop vars lists all)", access.values->whose(), name));
     }
   }
   if (code == kOk && values == Values::Needed) {
@@ -122,11 +122,11 @@ int select_items(Context& context, const vars::Store& store, const std::vector<s
     for (const Item& item : items) {
       variables.insert(item.place.variable->name);
     }
-    if (const auto missing = context.values->follow(variables); !missing.empty()) {
-      context.out.note(
-          fmt::format("no value heard of {} within {}", fmt::join(missing, ", "), human_age(context.remote.wait_ns)));
+    if (const auto missing = access.values->follow(variables); !missing.empty()) {
+      access.messages->note(
+          fmt::format("no value heard of {} within {}", fmt::join(missing, ", "), human_age(access.remote.wait_ns)));
     }
-    code = drop_forbidden(context, items) ? kOk : kFailed;
+    code = drop_forbidden(access, items) ? kOk : kFailed;
   }
   return code;
 }
@@ -141,17 +141,6 @@ std::string range_text(const std::optional<schema::Range>& range) {
   }
   const auto end = [](double value) { return std::isinf(value) ? std::string() : fmt::format("{}", value); };
   return end(range->min) + ".." + end(range->max);
-}
-
-std::shared_ptr<const std::vector<std::string>> add_items_to_show(base::Options& app, Context& context) {
-  auto names = std::make_shared<std::vector<std::string>>();
-  app.add("names", "NAME", *names, "Variables, parts of them (joints[1].y) or globs ('knu::*')")
-      .required()
-      .completes(base::Completion::Variable);
-  add_node_option(app, context);
-  add_remote_options(app, context);
-  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
-  return names;
 }
 
 }  // namespace indurop::tools

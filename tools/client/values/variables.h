@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables and parts of them as arguments of a verb, their values, and their declared ranges.
+// Variables and parts of them as arguments, their values, and their declared ranges.
 
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "store/operate/item.h"
 #include "store/vars/store.h"
-#include "tools/cli/command/verb.h"
+#include "tools/client/text/table.h"
+#include "tools/client/values/access.h"
 
 namespace indurop::tools {
 
@@ -21,7 +22,7 @@ using operate::Item;
 // error message for each name without a match, or of a silent board. Items of boards in the network have a value
 // afterwards, if it comes in time, or are named in a message.
 enum class Values { Needed, NotNeeded };
-int select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
+int select_items(Access& access, const vars::Store& store, const std::vector<std::string>& names,
                  std::vector<Item>& items, Values values = Values::Needed);
 using schema::is_glob;
 
@@ -30,9 +31,5 @@ JsonValue raw_value(const schema::Type& type, std::span<const std::uint8_t> byte
 
 // Returns "0..10", "0.." without maximum, "" without range.
 std::string range_text(const std::optional<schema::Range>& range);
-
-// Adds the options of a verb that prints a table of given items, local or of boards in the network; returns their
-// names.
-std::shared_ptr<const std::vector<std::string>> add_items_to_show(base::Options& app, Context& context);
 
 }  // namespace indurop::tools

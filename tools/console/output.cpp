@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/command/output.h"
+#include "tools/console/output.h"
 
 #include <poll.h>
 #include <sys/ioctl.h>
@@ -154,10 +154,6 @@ bool Output::flush() {
 }
 
 void Output::send(std::string_view text) {
-  if (diverted_ != nullptr) {
-    diverted_->emplace_back(text);
-    return;
-  }
   flush();
   static_cast<void>(
       write_all(STDERR_FILENO, harmless(text, "\n\t") + '\n'));  // there is no place to report that stderr is broken
@@ -176,8 +172,7 @@ void Output::message_line(std::string_view text) {
 }
 
 void Output::message(std::string_view kind, Style style, std::string_view text) {
-  send(diverted_ != nullptr ? std::string(text)
-                            : "indurop: " + painted(color_messages_, style, kind) + std::string(text));
+  send("indurop: " + painted(color_messages_, style, kind) + std::string(text));
 }
 
 void Output::error(std::string_view text) {
