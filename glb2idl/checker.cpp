@@ -26,10 +26,15 @@ class Checker {
   void operator()(const ast::Include& /*unused*/) {}  // the compiler has already read it
 
   void operator()(const ast::Namespace& found) {
+    constexpr std::size_t kLongest = 150;
     std::string scope;
     bool good = true;
     for (std::size_t i = 0; i < found.path.parts.size(); ++i) {
       const std::string& part = found.path.parts[i];
+      if (scope.size() + part.size() > kLongest) {  // the rest would only make each name below longer
+        context_.error(found.path.at, fmt::format("the namespace is longer than {} characters, shorten it", kLongest));
+        break;
+      }
       const ast::Name name{part, found.path.at};
       context_.current = scope;
       good = context_.check_name(name, NameRole::Namespace) && good;
@@ -45,10 +50,6 @@ class Checker {
       }
     }
     context_.current = scope;
-    constexpr std::size_t kLongest = 150;
-    if (scope.size() > kLongest) {
-      context_.error(found.path.at, fmt::format("the namespace is longer than {} characters, shorten it", kLongest));
-    }
   }
 
   void operator()(const ast::Define& found) {

@@ -42,8 +42,8 @@ std::optional<Value> Context::constant(const ast::Path& path) {
   if (found != nullptr && found->kind != Symbol::Kind::Broken) {
     error(path.at, fmt::format("'{}' is not a constant, only constants and numbers have a value here", shown));
   } else if (found == nullptr && !is_broken(path)) {
-    const auto known = scope.names(Symbol::Kind::Constant, file);
-    const std::string near = base::nearest(path.parts.back(), known);
+    const std::string near =
+        diagnostics.full() ? "" : base::nearest(path.parts.back(), scope.names(Symbol::Kind::Constant, file));
     error(path.at, near.empty() ? fmt::format("'{}' is not known here, declare it above with #define or const", shown)
                                 : fmt::format("'{}' is not known here, did you mean '{}'?", shown, near));
   }

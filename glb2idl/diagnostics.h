@@ -26,6 +26,8 @@ class Diagnostics {
 
   [[nodiscard]] bool failed() const noexcept { return all_.failed(); }
   [[nodiscard]] std::size_t errors() const noexcept { return all_.errors(); }
+  // Returns true if further errors are only counted: their texts need no search for a similar name.
+  [[nodiscard]] bool full() const noexcept { return all_.full(); }
   // Call it once, after the last error: sorts the errors, those about no file first, then by file and place.
   void finish();
   // Returns "knuRobot.glb:3", for texts that refer to another place.

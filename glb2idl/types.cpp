@@ -159,6 +159,16 @@ std::optional<schema::Type> TypeBuilder::define_enum(const ast::EnumBody& body, 
   return type;
 }
 
+// Empty, too, if the error that needs it would not be shown.
+std::string TypeBuilder::similar_type(const std::string& name) const {
+  if (context_.diagnostics.full()) {
+    return {};
+  }
+  std::vector<std::string> known = context_.scope.names(Symbol::Kind::Type, context_.file);
+  known.insert(known.end(), type_names().begin(), type_names().end());
+  return base::nearest(name, known);
+}
+
 std::optional<schema::Type> TypeBuilder::named(const ast::TypeSpec& spec) {
   const Symbol* found = context_.scope.find(context_.current, spec.path.parts, context_.file);
   const std::string shown = join_names(spec.path.parts, "::");
@@ -177,10 +187,7 @@ std::optional<schema::Type> TypeBuilder::named(const ast::TypeSpec& spec) {
     context_.error(spec.at, fmt::format("'{}' is not a type, a type was expected here", shown));
   } else if (found == nullptr && !context_.is_broken(spec.path)) {
     const std::string_view substitute = substitute_for(spec.path.parts.front());
-    std::vector<std::string> known = context_.scope.names(Symbol::Kind::Type, context_.file);
-    known.insert(known.end(), type_names().begin(), type_names().end());
-    const std::string near =
-        substitute.empty() ? base::nearest(spec.path.parts.back(), known) : std::string(substitute);
+    const std::string near = substitute.empty() ? similar_type(spec.path.parts.back()) : std::string(substitute);
     context_.error(spec.at, near.empty()
                                 ? fmt::format("there is no type '{}', declare it above or include its file", shown)
                             : substitute.empty() ? fmt::format("there is no type '{}', did you mean '{}'?", shown, near)

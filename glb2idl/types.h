@@ -40,6 +40,7 @@ class TypeBuilder {
   using Seen = std::map<std::string, std::string>;  // field names: lower case -> as written
   bool add_fields(const ast::Declaration& declaration, const std::string& hint, schema::Type& to, Seen& seen);
   bool check_field(const ast::Declarator& declarator, const schema::Type& owner, Seen& seen);
+  [[nodiscard]] std::string similar_type(const std::string& name) const;
   std::optional<schema::Type> named(const ast::TypeSpec& spec);
   std::optional<std::uint32_t> dimension(const ast::Dimension& from, const ast::Declarator& declarator, bool first,
                                          bool is_text);

@@ -111,6 +111,11 @@ class Scanner {
     note(place, std::move(text));
     stopped_ = true;
   }
+  // A limit is exceeded, which is a mistake in tolerant reading, too: the XML library would take it.
+  void refuse(SourcePlace place, std::string text) {
+    found_.mistakes.push_back({place, std::move(text)});
+    stopped_ = true;
+  }
 
   void markup() {
     const SourcePlace start = here();
@@ -233,9 +238,8 @@ class Scanner {
       return;
     }
     if (open_.size() >= rules_.max_depth) {
-      found_.mistakes.push_back({start, "elements are nested deeper than " + std::to_string(rules_.max_depth) +
-                                            " levels; no " + rules_.purpose + " needs that"});
-      stopped_ = true;
+      refuse(start, "elements are nested deeper than " + std::to_string(rules_.max_depth) + " levels; no " +
+                        rules_.purpose + " needs that");
       return;
     }
     TagPlaces tag;
@@ -269,8 +273,8 @@ class Scanner {
       } else if (!separated) {
         stop(here(), "a space is missing before this attribute");
       } else if (tag.attributes.size() >= rules_.max_attributes) {
-        stop(here(),
-             "more than " + std::to_string(rules_.max_attributes) + " attributes in one tag; no element has that many");
+        refuse(here(), "more than " + std::to_string(rules_.max_attributes) +
+                           " attributes in one tag; no element has that many");
       } else {
         attribute(tag);
       }

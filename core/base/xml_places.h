@@ -20,8 +20,8 @@ struct XmlRules {
   const char* form = "";
   const char* purpose = "";
   std::size_t max_bytes = 0;
-  std::size_t max_depth = 0;  // less than 100
-  std::size_t max_attributes = 32;
+  std::size_t max_depth = 0;        // less than 100
+  std::size_t max_attributes = 32;  // of one tag; each is compared with all before it
   // For files written by programs: what the XML library accepts is no mistake, and texts and values keep the white
   // space around them. Where the scanner cannot follow, places are lines only.
   bool tolerant = false;

@@ -16,7 +16,7 @@ namespace indurop::plc::plcopen {
 
 inline constexpr std::size_t kMaxXmlSize = std::size_t{64} * 1024 * 1024;
 inline constexpr std::size_t kMaxXmlDepth = 64;
-inline constexpr std::size_t kMaxXmlAttributes = 1000;  // of one element
+inline constexpr std::size_t kMaxXmlAttributes = 64;  // of one element
 
 struct Attribute {
   std::string name;  // without a namespace prefix, as all names here

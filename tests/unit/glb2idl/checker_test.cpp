@@ -116,6 +116,16 @@ TEST(Scopes, Names_are_found_from_the_inside_out) {
   EXPECT_EQ(variable(sut, "c::z").type.dims[0], 3U);
 }
 
+TEST(Scopes, A_namespace_is_not_read_beyond_its_longest_length) {
+  std::string path = "namespace n";
+  for (int i = 0; i < 60; ++i) {
+    path += ".n" + std::to_string(i);
+  }
+  const std::string found = messages(compile_text(path + ".int;\nint32_t x;"));
+  EXPECT_THAT(found, HasSubstr("the namespace is longer than 150 characters, shorten it"));
+  EXPECT_THAT(found, Not(HasSubstr("'int'")));
+}
+
 TEST(Scopes, A_define_is_known_in_every_namespace) {
   EXPECT_EQ(variable(compile_text("namespace a;\n#define N 3\nnamespace b;\nint32_t x[N];"), "b::x").type.dims[0], 3U);
   EXPECT_THAT(messages(compile_text("namespace a;\n#define N 3\nnamespace c;\n#define N 4\nnamespace b;\nint x[N];")),

@@ -70,10 +70,11 @@ TEST(Xml, Limits_are_parameters) {
     EXPECT_EQ(mistakes_in("<a><a><a><a>\n<a/></a></a></a></a>", each),
               "2:1 elements are nested deeper than 4 levels; no list needs that\n");
   }
-  rules = strict();
-  rules.max_attributes = 1;
-  EXPECT_EQ(mistakes_in("<a b=\"\" c=\"\"/>", rules),
-            "1:9 more than 1 attributes in one tag; no element has that many\n");
+  for (XmlRules each : {strict(), tolerant()}) {
+    each.max_attributes = 1;
+    EXPECT_EQ(mistakes_in("<a b=\"\" c=\"\"/>", each),
+              "1:9 more than 1 attributes in one tag; no element has that many\n");
+  }
 }
 
 TEST(Xml, What_programs_write_is_taken_as_the_library_takes_it) {
