@@ -14,6 +14,7 @@
 #include "core/rt/signal_word.h"
 #include "core/schema/topic_name.h"
 #include "deploy/link/link_keys.h"
+#include "deploy/link/report_inbox.h"
 #include "deploy/link/speakers.h"
 #include "deploy/link/wire_words.h"
 #include "network/dds/endpoint.h"
@@ -28,7 +29,7 @@ namespace {
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
 constexpr std::int64_t kChunkBlockNs = 100'000'000;  // maximum time that a chunk waits for room
 constexpr std::int32_t kChunkDepth = 512;            // messages a receiver may lag behind
-constexpr std::int32_t kReports = 8;  // of one name, so that a report under a false name does not hide the true one
+constexpr std::int32_t kReports = 8;  // of one name: several threads of DDS may store one before ReportInbox takes it
 constexpr std::int64_t kLettingInNs = 2'000'000'000;
 constexpr std::size_t kMaxRoom = 2U << 20U;
 
@@ -55,11 +56,13 @@ dds::Qos link_qos(bool state, bool writer) {
 struct DeployLink::Impl {
   explicit Impl(const std::string& certificate) : senders(certificate) {}
   Result<void, base::Problem> make();
-  dds::Endpoint reader(const dds::TypeDescriptor& type, const std::string& topic, bool state);
+  dds::Endpoint reader(const dds::TypeDescriptor& type, const std::string& topic, bool state,
+                       const dds::Listener& listener);
   dds::Endpoint writer(const dds::TypeDescriptor& type, const std::string& topic, bool state);
 
   std::uint64_t self = 0;
   rt::SignalWord wake{};  // used by listeners until the readers are gone
+  ReportInbox reports{wake};
   dds::Participant participant;
   dds::OtherReleases others;
   Speakers senders;
@@ -73,8 +76,9 @@ struct DeployLink::Impl {
   dds::Endpoint blobs_in;
 };
 
-dds::Endpoint DeployLink::Impl::reader(const dds::TypeDescriptor& type, const std::string& topic, bool state) {
-  return dds::make_reader(participant.get(), type, topic, link_qos(state, false), dds::wake_listener(wake));
+dds::Endpoint DeployLink::Impl::reader(const dds::TypeDescriptor& type, const std::string& topic, bool state,
+                                       const dds::Listener& listener) {
+  return dds::make_reader(participant.get(), type, topic, link_qos(state, false), listener);
 }
 
 dds::Endpoint DeployLink::Impl::writer(const dds::TypeDescriptor& type, const std::string& topic, bool state) {
@@ -82,10 +86,11 @@ dds::Endpoint DeployLink::Impl::writer(const dds::TypeDescriptor& type, const st
 }
 
 Result<void, base::Problem> DeployLink::Impl::make() {
-  boards_in = reader(indurop_deploy_BoardReport_desc, topic_name("board"), true);
-  orders_in = reader(indurop_deploy_Order_desc, topic_name("order"), true);
-  requests_in = reader(indurop_deploy_Request_desc, topic_name("request"), false);
-  blobs_in = reader(indurop_deploy_Chunk_desc, blob_topic(self), false);
+  const dds::Listener wakes = dds::wake_listener(wake);
+  boards_in = reader(indurop_deploy_BoardReport_desc, topic_name("board"), true, reports.listener());
+  orders_in = reader(indurop_deploy_Order_desc, topic_name("order"), true, wakes);
+  requests_in = reader(indurop_deploy_Request_desc, topic_name("request"), false, wakes);
+  blobs_in = reader(indurop_deploy_Chunk_desc, blob_topic(self), false, wakes);
   boards_out = writer(indurop_deploy_BoardReport_desc, topic_name("board"), true);
   orders_out = writer(indurop_deploy_Order_desc, topic_name("order"), true);
   requests_out = writer(indurop_deploy_Request_desc, topic_name("request"), false);
@@ -190,21 +195,17 @@ std::vector<DeployLink::BoardNews> DeployLink::take_boards() {
   std::vector<BoardNews> news;
   const dds::Handle reader = impl_->boards_in.get();
   Speakers& senders = impl_->senders;
-  dds::take_all<indurop_deploy_BoardReport>(reader, [&](const auto& sample, const dds::SampleInfo& info) {
-    BoardReport report;
-    if (info.valid) {
-      report = wire::word_of<BoardReport>(sample);
-      if (senders.admit(reader, info.publication, report)) {
-        news.push_back({std::move(report), false});
-      }
+  for (ReportInbox::Received& one : impl_->reports.take()) {
+    if (one.report && senders.admit(reader, one.publication, *one.report, one.reports)) {
+      news.push_back({std::move(*one.report), false});
     }
-    if (!info.alive && senders.leave(reader, info.publication, sample.board, sample.agent)) {
-      report = {};
-      report.board = sample.board;
-      report.agent = sample.agent;
-      news.push_back({std::move(report), true});
+    if (one.gone && senders.leave(reader, one.publication, one.board, one.agent)) {
+      BoardReport name;
+      name.board = std::move(one.board);
+      name.agent = one.agent;
+      news.push_back({std::move(name), true});
     }
-  });
+  }
   return news;
 }
 

@@ -60,7 +60,8 @@ bool Speakers::speaks_for(dds::Handle reader, dds::InstanceHandle publication, c
   return who && dds::is_numbered_by(*who, digest_of(board));
 }
 
-bool Speakers::admit(dds::Handle reader, dds::InstanceHandle publication, const BoardReport& report) {
+bool Speakers::admit(dds::Handle reader, dds::InstanceHandle publication, const BoardReport& report,
+                     std::uint64_t reports) {
   if (plant_.empty()) {
     return true;
   }
@@ -71,7 +72,7 @@ bool Speakers::admit(dds::Handle reader, dds::InstanceHandle publication, const 
   bound(boards_);
   boards_.insert(*who);
   if (!dds::is_numbered_by(*who, digest_of(report.board))) {
-    note_impostor(*who, report.board);
+    note_impostor(*who, report.board, reports);
     return false;
   }
   bound(agents_);
@@ -107,13 +108,13 @@ bool Speakers::speaks_as(dds::Handle reader, dds::InstanceHandle publication, st
   return who && !boards_.contains(*who);
 }
 
-void Speakers::note_impostor(const dds::Guid& who, const std::string& claimed) {
+void Speakers::note_impostor(const dds::Guid& who, const std::string& claimed, std::uint64_t reports) {
   const auto known = std::find_if(impersonations_.begin(), impersonations_.end(),
                                   [&](const Impersonation& one) { return one.who == who && one.claimed == claimed; });
   if (known != impersonations_.end()) {
-    ++known->reports;
+    known->reports += reports;
   } else if (impersonations_.size() < kMaxImpersonations) {
-    impersonations_.push_back({who, claimed, 1});
+    impersonations_.push_back({who, claimed, reports});
   }
 }
 

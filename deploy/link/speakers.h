@@ -23,8 +23,9 @@ class Speakers {
   // `certificate`: that of this participant; an empty path: the plant is open.
   explicit Speakers(const std::string& certificate);
 
-  // Returns whether this report is accepted. `publication`: of its writer, as `reader` knows it.
-  bool admit(dds::Handle reader, dds::InstanceHandle publication, const BoardReport& report);
+  // Returns whether this report, the last of `reports`, is accepted. `publication`: of its writer, as `reader` knows
+  // it.
+  bool admit(dds::Handle reader, dds::InstanceHandle publication, const BoardReport& report, std::uint64_t reports);
   // Reports that no participant writes this agent's reports any more. Returns false if only another participant claims
   // so.
   bool leave(dds::Handle reader, dds::InstanceHandle publication, const std::string& board, std::uint64_t agent);
@@ -37,7 +38,7 @@ class Speakers {
  private:
   [[nodiscard]] std::optional<dds::Guid> participant_of(dds::Handle reader, dds::InstanceHandle publication);
   const std::string& digest_of(const std::string& board);
-  void note_impostor(const dds::Guid& who, const std::string& claimed);
+  void note_impostor(const dds::Guid& who, const std::string& claimed, std::uint64_t reports);
 
   struct Agent {
     std::string board;

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <string>
 #include <thread>
 
 #include "agents_fixture.h"
@@ -11,6 +12,10 @@
 #include "deploy/link/command_link.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/link/link_keys.h"
+#include "deploy/link/report_inbox.h"
+#include "deploy/link/wire_words.h"
+#include "network/dds/endpoint.h"
+#include "network/dds/setup.h"
 
 namespace indurop::test {
 namespace {
@@ -79,6 +84,58 @@ class Rogue {
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
+
+// Participants of one process, so that every sample has arrived when its write returns.
+TEST(ReportInbox, Keeps_the_report_of_each_writer_however_often_another_one_writes_under_its_name) {
+  dds::NetworkSettings network;
+  network.domain = dds_domain(1);
+  network.one_host = true;
+  const auto joined = dds::join_network(network);
+  ASSERT_TRUE(joined) << joined.error().text;
+  const auto domain = static_cast<dds_domainid_t>(network.domain);
+  const auto participant = [&] { return dds::Entity(dds_create_participant(domain, nullptr, nullptr)); };
+  const dds::Entity board = participant();
+  const dds::Entity rogue = participant();
+  ASSERT_TRUE(board.ok() && rogue.ok()) << board.why() << rogue.why();
+  const dds::Qos qos = dds::make_qos({.depth = 8});
+  const std::string topic = "boards";
+  rt::SignalWord wake{};
+  wake.init(false);
+  deploy::ReportInbox sut(wake);
+  const auto reader =
+      dds::make_reader(joined->participant.get(), indurop_deploy_BoardReport_desc, topic, qos, sut.listener());
+  const auto truth = dds::make_writer(board.get(), indurop_deploy_BoardReport_desc, topic, qos);
+  auto lies = dds::make_writer(rogue.get(), indurop_deploy_BoardReport_desc, topic, qos);
+  ASSERT_TRUE(reader.ok() && truth.ok() && lies.ok());
+  const auto write = [](const dds::Endpoint& by, std::uint64_t tick) {
+    deploy::BoardReport report;
+    report.board = "a";
+    report.agent = 1;
+    report.tick = tick;
+    const deploy::wire::Lent lent(report);
+    EXPECT_TRUE(dds::write(by.get(), lent.sample()).ok());
+  };
+
+  write(truth, 7);
+  for (std::uint64_t lie = 0; lie < 100; ++lie) {
+    write(lies, 1000 + lie);
+  }
+  const auto both = sut.take();
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].report.value_or(deploy::BoardReport{}).tick, 7U);
+  EXPECT_EQ(both[1].report.value_or(deploy::BoardReport{}).tick, 1099U);
+  EXPECT_EQ(both[1].reports, 100U);
+  EXPECT_NE(both[0].publication, both[1].publication);
+  EXPECT_TRUE(wake.try_wait());
+  EXPECT_TRUE(sut.take().empty());
+
+  lies.reset();
+  write(truth, 8);
+  const auto again = sut.take();
+  ASSERT_EQ(again.size(), 1U) << "the board still writes it";
+  EXPECT_EQ(again[0].report.value_or(deploy::BoardReport{}).tick, 8U);
+  EXPECT_FALSE(again[0].gone);
+}
 
 class Impostors : public AgentsTest {
  protected:
