@@ -70,6 +70,11 @@ def node_command(arguments, xml, milliseconds):
             f"{milliseconds}ms"]
 
 
+def role(thread):
+    """The thread's name without its core: a node beside this one may take the core of the run before."""
+    return re.sub(r"^(irp-tick)-\d+$", r"\1", thread)
+
+
 def allocations(arguments, xml, folder, milliseconds):
     report = os.path.join(folder, f"allocations{milliseconds}")
     run(node_command(arguments, xml, milliseconds),
@@ -78,7 +83,7 @@ def allocations(arguments, xml, folder, milliseconds):
     with open(report, encoding="utf-8") as lines:
         for line in lines:
             name, calls = line.split()
-            counts[name] += int(calls)
+            counts[role(name)] += int(calls)
     if "end" not in counts:
         sys.exit("the allocation counter wrote no complete report")
     del counts["end"]
@@ -95,7 +100,7 @@ def system_calls(arguments, xml, folder, milliseconds):
             # A call that was interrupted by another thread's line is counted where it begins.
             match = re.match(r"\d+<(irp-(?:tick|band|events)[^>]*)> (\w+)\(", line)
             if match:
-                counts[match.groups()] += 1
+                counts[role(match[1]), match[2]] += 1
     return counts
 
 
@@ -114,7 +119,7 @@ def page_faults(arguments, xml, folder, milliseconds):
                     name, rest = stat.read().split("(", 1)[1].rsplit(")", 1)
                 if re.match(r"irp-(tick|band|events)", name):
                     fields = rest.split()
-                    seen[name].append(int(fields[7]) + int(fields[9]))  # minor and major
+                    seen[role(name)].append(int(fields[7]) + int(fields[9]))  # minor and major
         except (FileNotFoundError, ProcessLookupError):
             pass  # it ends
     if node.returncode != 0:
@@ -172,7 +177,8 @@ def main():
             if call not in ALLOWED and grown > ONCE.get(call, 0):
                 print(f"  FAILED: {name} calls {call} while it runs")
                 failed = True
-            if call == "clock_nanosleep" and grown > (LONG - SHORT) * 1.05 + 5:
+            # Of the long run alone: ticks that the short one misses on a busy machine are no growth.
+            if call == "clock_nanosleep" and count > LONG * 1.05 + 5:
                 print(f"  FAILED: {name} sleeps more than once per tick")
                 failed = True
     finally:
