@@ -52,6 +52,8 @@ class JobLine {
   void error(const JobToken& at, const std::string& text);
   void error_in(const std::string& file, std::size_t line, std::size_t column, const std::string& text);
   [[nodiscard]] bool failed() const noexcept { return failed_; }
+  // Returns true if further errors are only counted: their texts need no search for a similar name.
+  [[nodiscard]] bool full() const noexcept { return errors_.full(); }
   // Returns the token as error messages show it.
   [[nodiscard]] static std::string shown(const JobToken& token);
 

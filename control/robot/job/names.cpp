@@ -13,9 +13,17 @@ constexpr const char* kFrame = "POSE 500 0 100 RPY 0 0 45";
 constexpr const char* kTool = "POSE 0 0 120 RPY 0 0 0";
 
 template <class List>
-int index_of(const List& list, std::string_view name) {
-  const auto found = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
-  return found == list.end() ? -1 : static_cast<int>(found - list.begin());
+std::unordered_map<std::string_view, int> index(const List& list) {
+  std::unordered_map<std::string_view, int> out;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    out.try_emplace(list[i].name, static_cast<int>(i));
+  }
+  return out;
+}
+
+int find(const std::unordered_map<std::string_view, int>& names, std::string_view name) {
+  const auto found = names.find(name);
+  return found == names.end() ? -1 : found->second;
 }
 
 std::string count_of(std::size_t count, const char* what) {
@@ -63,12 +71,13 @@ void JobNames::label(const JobToken& name) {
   }
 }
 
-int JobNames::tool_called(std::string_view name) const noexcept {
-  return index_of(draft_.book().tools, name);
-}
-
 void JobNames::error(const Mention& at, const std::string& text) {
   line_.error_in(draft_.book().jobs[at.job].file, at.line, at.column, text);
+}
+
+template <class List>
+std::vector<std::string> JobNames::suggested(const List& list) const {
+  return line_.full() ? std::vector<std::string>{} : names_of(list);
 }
 
 void JobNames::no_such(const Mention& at, const char* what, const std::vector<std::string>& known) {
@@ -76,6 +85,8 @@ void JobNames::no_such(const Mention& at, const char* what, const std::vector<st
 }
 
 void JobNames::resolve() {
+  const JobBook& book = draft_.book();
+  known_ = {index(book.points), index(book.frames), index(book.tools), index(book.jobs)};
   resolve_point_frames();
   resolve_frame_points();
   resolve_tool_points();
@@ -90,9 +101,9 @@ void JobNames::resolve() {
 void JobNames::resolve_point_frames() {
   JobBook& book = draft_.book();
   for (const auto& [owner, at] : of(In::PointFrame)) {
-    const int frame = index_of(book.frames, at.name);
+    const int frame = find(known_.frames, at.name);
     if (frame < 0) {
-      error(at, robot::no_such("frame", at.name, book.frames, "FRAME", kFrame));
+      error(at, robot::no_such("frame", at.name, suggested(book.frames), "FRAME", kFrame));
     } else {
       book.points[owner].frame = frame;
     }
@@ -104,9 +115,9 @@ void JobNames::resolve_frame_points() {
   std::size_t i = 0;
   for (const auto& [owner, at] : of(In::FramePoint)) {
     const std::size_t corner = i++ % 3;
-    const int point = index_of(book.points, at.name);
+    const int point = find(known_.points, at.name);
     if (point < 0) {
-      no_such(at, "point", names_of(book.points));
+      no_such(at, "point", suggested(book.points));
     } else if (book.points[static_cast<std::size_t>(point)].frame >= 0) {
       error(at, "point '" + at.name + "' is given in a frame itself; a frame is taught by points of the base");
     } else if (owner < book.frames.size()) {
@@ -118,9 +129,9 @@ void JobNames::resolve_frame_points() {
 void JobNames::resolve_tool_points() {
   JobBook& book = draft_.book();
   for (const auto& [owner, at] : of(In::ToolPoint)) {
-    const int point = index_of(book.points, at.name);
+    const int point = find(known_.points, at.name);
     if (point < 0) {
-      no_such(at, "point", names_of(book.points));
+      no_such(at, "point", suggested(book.points));
     } else if (book.points[static_cast<std::size_t>(point)].target.is_pose) {
       error(at, "point '" + at.name + "' is given as POSE; a tool is taught by points given as JOINT");
     } else if (owner < book.tools.size()) {
@@ -132,9 +143,9 @@ void JobNames::resolve_tool_points() {
 void JobNames::resolve_frame_tools() {
   JobBook& book = draft_.book();
   for (const auto& [owner, at] : of(In::FrameTool)) {
-    const int tool = tool_called(at.name);
+    const int tool = find(known_.tools, at.name);
     if (tool < 0) {
-      error(at, robot::no_such("tool", at.name, book.tools, "TOOL", kTool));
+      error(at, robot::no_such("tool", at.name, suggested(book.tools), "TOOL", kTool));
     } else if (owner < book.frames.size()) {
       book.frames[owner].tool = tool;
     }
@@ -144,9 +155,9 @@ void JobNames::resolve_frame_tools() {
 void JobNames::resolve_zones() {
   JobBook& book = draft_.book();
   for (const auto& [owner, at] : of(In::ZoneFrame)) {
-    const int frame = index_of(book.frames, at.name);
+    const int frame = find(known_.frames, at.name);
     if (frame < 0) {
-      error(at, robot::no_such("frame", at.name, book.frames, "FRAME", kFrame));
+      error(at, robot::no_such("frame", at.name, suggested(book.frames), "FRAME", kFrame));
     } else if (owner < book.keepouts.size()) {
       book.keepouts[owner].frame = frame;
     }
@@ -156,10 +167,10 @@ void JobNames::resolve_zones() {
 void JobNames::resolve_bodies() {
   JobBook& book = draft_.book();
   for (BodyLine& body : book.bodies) {
-    body.tool = tool_called(body.name);
+    body.tool = find(known_.tools, body.name);
     if (body.tool < 1) {
       line_.error_in(body.file, static_cast<std::size_t>(body.place.line), static_cast<std::size_t>(body.place.column),
-                     robot::no_such("tool", body.name, book.tools, "TOOL", kTool));
+                     robot::no_such("tool", body.name, suggested(book.tools), "TOOL", kTool));
     }
   }
 }
@@ -171,9 +182,9 @@ void JobNames::resolve(const Reference& reference) {
       resolve_label(reference, step);
       break;
     case To::Tool:
-      step.index = tool_called(reference.at.name);
+      step.index = find(known_.tools, reference.at.name);
       if (step.index < 0) {
-        no_such(reference.at, "tool", names_of(draft_.book().tools));
+        no_such(reference.at, "tool", suggested(draft_.book().tools));
       }
       break;
     case To::Job:
@@ -192,17 +203,17 @@ void JobNames::resolve_label(const Reference& reference, Step& step) {
     return;
   }
   std::vector<std::string> known;
-  for (const auto& [name, label] : labels) {
-    known.push_back(name);
+  for (auto label = labels.begin(); label != labels.end() && !line_.full(); ++label) {
+    known.push_back(label->first);
   }
   no_such(reference.at, "label", known);
 }
 
 void JobNames::resolve_job(const Reference& reference, Step& step) {
   JobBook& book = draft_.book();
-  step.index = index_of(book.jobs, reference.at.name);
+  step.index = find(known_.jobs, reference.at.name);
   if (step.index < 0) {
-    no_such(reference.at, "job", names_of(book.jobs));
+    no_such(reference.at, "job", suggested(book.jobs));
     return;
   }
   const Job& called = book.jobs[static_cast<std::size_t>(step.index)];
@@ -218,12 +229,12 @@ void JobNames::resolve_job(const Reference& reference, Step& step) {
 void JobNames::resolve_point(const Reference& reference, Step& step) {
   const JobBook& book = draft_.book();
   const bool target = reference.to == To::Target;
-  const int point = index_of(book.points, reference.at.name);
+  const int point = find(known_.points, reference.at.name);
   const bool back = point < 0 && target && reference.at.name == "BACK";
   int& place = target ? step.index : step.mid;
   place = back ? kBack : point;
   if (point < 0 && !back) {
-    no_such(reference.at, "point", names_of(book.points));
+    no_such(reference.at, "point", suggested(book.points));
   }
   if (point >= 0 && target && step.formula >= 0 && !book.points[static_cast<std::size_t>(point)].target.is_pose) {
     error(reference.at, "an OFFSET goes from a point given as POSE; '" + reference.at.name +

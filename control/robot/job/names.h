@@ -10,6 +10,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "control/robot/job/draft.h"
@@ -38,7 +39,6 @@ class JobNames {
   void drop_frame_of(std::size_t point);
   // Declares a label at the step that is added next.
   void label(const JobToken& name);
-  [[nodiscard]] int tool_called(std::string_view name) const noexcept;
 
   void resolve();
 
@@ -63,6 +63,15 @@ class JobNames {
     std::size_t line = 0;
   };
 
+  // Names to their places in the book; the first of equals.
+  using Index = std::unordered_map<std::string_view, int>;
+  struct Known {
+    Index points;
+    Index frames;
+    Index tools;
+    Index jobs;
+  };
+
   [[nodiscard]] Mention mention(const JobToken& name) const;
   void error(const Mention& at, const std::string& text);
   void no_such(const Mention& at, const char* what, const std::vector<std::string>& known);
@@ -78,8 +87,12 @@ class JobNames {
   void resolve_point(const Reference& reference, Step& step);
   [[nodiscard]] std::vector<Declared>& of(In in) { return declared_[static_cast<std::size_t>(in)]; }
 
+  template <class List>
+  [[nodiscard]] std::vector<std::string> suggested(const List& list) const;
+
   JobLine& line_;
   JobDraft& draft_;
+  Known known_;  // all names, while they are resolved
   std::vector<Reference> references_;
   std::array<std::vector<Declared>, 5> declared_;                  // by In
   std::vector<std::map<std::string, Label, std::less<>>> labels_;  // per job

@@ -23,12 +23,7 @@ std::vector<std::string> names_of(const List& list) {
 }
 
 // Returns "there is no frame 'palet'; did you mean 'pallet'?", or, after the name, how to declare it.
-template <class List>
-std::string no_such(const char* what, const std::string& name, const List& list, const char* keyword,
-                    const char* example) {
-  const std::string near = meant(name, names_of(list));
-  return std::string("there is no ") + what + " '" + name + "'" +
-         (near.empty() ? std::string("; declare it, ") + keyword + " " + name + " = " + example : near);
-}
+std::string no_such(const char* what, const std::string& name, const std::vector<std::string>& known,
+                    const char* keyword, const char* example);
 
 }  // namespace indurop::robot

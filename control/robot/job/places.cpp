@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/places.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -115,9 +113,7 @@ void PlaceReader::frame() {
   frame.name = name.text;
   frame.file = line_.file();
   frame.place = line_.place(name);
-  const bool known = std::any_of(draft_.book().frames.begin(), draft_.book().frames.end(),
-                                 [&](const WorkFrame& each) { return each.name == frame.name; });
-  if (known) {
+  if (frames_.contains(frame.name)) {
     line_.error(name, "there is already a frame " + in_quotes(name.text));
     return;
   }
@@ -145,6 +141,7 @@ void PlaceReader::frame() {
     line_.error(line_.peek(), "expected POSE or POINTS, found " + JobLine::shown(line_.peek()));
     return;
   }
+  frames_.insert(frame.name);
   draft_.book().frames.push_back(std::move(frame));
 }
 

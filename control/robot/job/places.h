@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 
 #include "control/robot/job/statement.h"
@@ -31,6 +32,7 @@ class PlaceReader {
   JobNames& names_;
   const ArmShape shape_;
   std::map<std::string, std::string, std::less<>> point_places_;  // file and line, by name
+  std::set<std::string> frames_;                                  // names
 };
 
 }  // namespace indurop::robot

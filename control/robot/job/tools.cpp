@@ -23,7 +23,7 @@ void ToolReader::tool() {
   tool.name = name.text;
   tool.file = line_.file();
   tool.place = line_.place(name);
-  if (names_.tool_called(name.text) >= 0) {
+  if (tools_.contains(tool.name)) {
     line_.error(name, "there is already a tool " + in_quotes(name.text));
     return;
   }
@@ -39,6 +39,7 @@ void ToolReader::tool() {
     mass(tool.body);
   }
   if (!line_.failed()) {
+    tools_.insert(tool.name);
     draft_.book().tools.push_back(std::move(tool));
   }
 }

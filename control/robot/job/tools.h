@@ -3,13 +3,20 @@
 
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "control/robot/job/statement.h"
 
 namespace indurop::robot {
 
 class ToolReader {
  public:
-  explicit ToolReader(const StatementParts& parts) : line_(parts.line), draft_(parts.draft), names_(parts.names) {}
+  explicit ToolReader(const StatementParts& parts) : line_(parts.line), draft_(parts.draft), names_(parts.names) {
+    for (const Tool& tool : draft_.book().tools) {
+      tools_.insert(tool.name);
+    }
+  }
 
   void tool();
   void load();
@@ -21,6 +28,7 @@ class ToolReader {
   JobLine& line_;
   JobDraft& draft_;
   JobNames& names_;
+  std::set<std::string> tools_;  // names
 };
 
 }  // namespace indurop::robot
