@@ -21,6 +21,7 @@ void NodeOutput::close() noexcept {
     ::close(pipe_);
   }
   pipe_ = -1;
+  line_.clear();
 }
 
 void NodeOutput::add(char c, bool replace) {
@@ -50,6 +51,7 @@ void NodeOutput::copy(bool replace) {
     }
   }
   if (got == 0) {
+    add('\n', replace);  // nothing ends the line of a node that died in it
     close();
   }
 }
