@@ -183,7 +183,7 @@ bool AxisCoupling::leave(const SetPointGate& gate, double seconds) noexcept {
     brakes_ = false;
     return true;
   }
-  state_ = brakes_ ? told : next;
+  state_ = brakes_ ? gate.braked() : next;
   return false;
 }
 

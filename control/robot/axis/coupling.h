@@ -57,7 +57,7 @@ class AxisCoupling {
   // While held, the remaining distance to the law is not closed; the axis follows its master all the same.
   void hold(bool held) noexcept;
   // Called instead of step() from then on, until it returns true: there is no acceleration left. Where that would lead
-  // too near to the end of the axis, the gate has to brake to standstill: brakes().
+  // too near to the end of the axis, the gate has to brake to standstill: brakes(). state() is where it then will be.
   bool leave(const SetPointGate& gate, double seconds) noexcept;
   [[nodiscard]] bool brakes() const noexcept { return brakes_; }
 

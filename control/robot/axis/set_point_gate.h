@@ -36,6 +36,8 @@ class SetPointGate {
 
   // The set point nearest to `wanted` that speed, acceleration and jerk allow next; `wanted` itself if they allow it.
   [[nodiscard]] double nearest(double wanted) const noexcept;
+  // The set point that brake(1) leads to.
+  [[nodiscard]] LineState braked() const noexcept { return braked(state_, limits_); }
   // The next set point of the shortest way to zero acceleration.
   [[nodiscard]] LineState unloaded() const noexcept;
   // Returns whether the axis could still come to rest before its limit from that state.

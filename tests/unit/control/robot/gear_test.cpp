@@ -121,6 +121,26 @@ TEST_F(Gears, A_master_without_power_is_left) {
   ASSERT_TRUE(until([&] { return axis(1) == AxisState::Standstill; }));
 }
 
+// The master's own motion sees no end, but the sum with the superimposed one reaches it, so that its gate brakes.
+TEST_F(Gears, A_master_that_its_gate_brakes_is_followed_to_standstill) {
+  give(1, AxisService::MoveVelocity, 0, 20);
+  const Given on_top = give(1, AxisService::MoveSuperimposed, 60, 40);
+  ASSERT_TRUE(done(on_top));
+  const Given in = gear(2, 1, 0.03);
+  ASSERT_TRUE(until([&] { return reached(in); }));
+  bool braked = false;
+  for (int i = 0; i < 1000 && axis(0) != AxisState::Standstill; ++i) {
+    step();
+    ASSERT_NEAR(moved(1), 0.03 * moved(0), 1e-9) << joint(0);
+    ASSERT_TRUE(reached(in));
+    braked = braked || axis(0) == AxisState::Stopping;
+  }
+  EXPECT_TRUE(braked);
+  EXPECT_GT(joint(0), cell.out.axes[0].upper - 5);
+  EXPECT_EQ(moved(1), 0);
+  EXPECT_EQ(axis(1), AxisState::SynchronizedMotion);
+}
+
 TEST_F(Gears, Other_motions_take_over_and_a_buffered_one_follows) {
   give(1, AxisService::MoveVelocity, 0, 40);
   const Given in = gear(2, 1, 1);
