@@ -20,6 +20,15 @@ double Approach::at(double master) const noexcept {
   return curve(std::clamp(part(master), 0.0, 1.0));
 }
 
+double Approach::slope_at(double master) const noexcept {
+  const double x = std::clamp(part(master), 0.0, 1.0);
+  return x * x * (3 * third_ + x * (4 * fourth_ + x * 5 * fifth_)) / length_;
+}
+
+double Approach::size() const noexcept {
+  return std::max({std::abs(start_), std::abs(third_), std::abs(fourth_), std::abs(fifth_)});
+}
+
 std::pair<double, double> Approach::extent() const noexcept {
   std::pair<double, double> both = std::minmax({curve(0), curve(1)});
   const auto look = [&](double where) {

@@ -20,6 +20,10 @@ class Approach {
   // Returns true until the master has reached the end of the approach.
   [[nodiscard]] bool leads(double master) const noexcept { return known_ && part(master) < 1; }
   [[nodiscard]] double at(double master) const noexcept;
+  // Returns the motion of the follower per unit of master motion.
+  [[nodiscard]] double slope_at(double master) const noexcept;
+  // Returns the greatest number that at() adds up.
+  [[nodiscard]] double size() const noexcept;
   // Returns the smallest and the greatest position of the follower during the approach.
   [[nodiscard]] std::pair<double, double> extent() const noexcept;
 

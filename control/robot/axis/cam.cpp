@@ -46,6 +46,12 @@ ErrorCode Cam::set(const CamTable& table, bool periodic) noexcept {
     points_[i] = {table.master[i], table.slave[i], 0, 0};
   }
   bend_through();
+  size_ = 0;
+  for (std::size_t i = 0; i + 1 < count_; ++i) {
+    for (const double power : between(points_[i], points_[i + 1], points_[i].x).powers) {
+      size_ = std::max(size_, std::abs(power));
+    }
+  }
   return ErrorCode::Ok;
 }
 
@@ -100,7 +106,7 @@ void Cam::bend_through() noexcept {
 }
 
 // The unique polynomial of fifth order with position, slope and second derivative of both points.
-double Cam::between(const Point& a, const Point& b, double x) noexcept {
+Cam::Part Cam::between(const Point& a, const Point& b, double x) noexcept {
   const double h = b.x - a.x;
   const double t = (x - a.x) / h;
   const double way = b.y - a.y;
@@ -111,17 +117,25 @@ double Cam::between(const Point& a, const Point& b, double x) noexcept {
   const double third = 10 * way - 6 * v0 - 4 * v1 - 3 * a0 + a1;
   const double fourth = -15 * way + 8 * v0 + 7 * v1 + 3 * a0 - 2 * a1;
   const double fifth = 6 * way - 3 * v0 - 3 * v1 - a0 + a1;
-  return a.y + t * (v0 + t * (a0 + t * (third + t * (fourth + t * fifth))));
+  return {{a.y, v0, a0, third, fourth, fifth}, h, t};
+}
+
+double Cam::Part::position() const noexcept {
+  const auto& c = powers;
+  return c[0] + part * (c[1] + part * (c[2] + part * (c[3] + part * (c[4] + part * c[5]))));
+}
+
+double Cam::Part::slope() const noexcept {
+  const auto& c = powers;
+  return (c[1] + part * (2 * c[2] + part * (3 * c[3] + part * (4 * c[4] + part * 5 * c[5])))) / width;
 }
 
 double Cam::stride() const noexcept {
   return count_ > 0 ? points_[count_ - 1].y - points_[0].y : 0;
 }
 
-double Cam::at(double master) const noexcept {
-  if (count_ == 0) {
-    return 0;
-  }
+// Beyond the ends of a cam that is not periodic, it is at the end.
+Cam::Part Cam::part_at(double master) const noexcept {
   const Point& first = points_[0];
   const Point& last = points_[count_ - 1];
   const double turns = periodic_ ? std::floor((master - first.x) / (last.x - first.x)) : 0;
@@ -129,7 +143,21 @@ double Cam::at(double master) const noexcept {
   const auto* const begin = points_.begin();
   const auto* const next = std::upper_bound(begin + 1, begin + count_ - 1, x,
                                             [](double place, const Point& point) { return place < point.x; });
-  return turns * stride() + between(*(next - 1), *next, x);
+  Part part = between(*(next - 1), *next, x);
+  part.turns = turns;
+  return part;
+}
+
+double Cam::at(double master) const noexcept {
+  if (count_ == 0) {
+    return 0;
+  }
+  const Part part = part_at(master);
+  return part.turns * stride() + part.position();
+}
+
+double Cam::slope_at(double master) const noexcept {
+  return count_ == 0 ? 0 : part_at(master).slope();
 }
 
 std::pair<double, double> Cam::extent() const noexcept {
@@ -138,7 +166,7 @@ std::pair<double, double> Cam::extent() const noexcept {
   for (std::size_t i = 0; i + 1 < count_; ++i) {
     for (int k = 0; k <= kLooks; ++k) {
       const double x = points_[i].x + (points_[i + 1].x - points_[i].x) * k / kLooks;
-      const double y = between(points_[i], points_[i + 1], x);
+      const double y = between(points_[i], points_[i + 1], x).position();
       found = {std::min(found.first, y), std::max(found.second, y)};
     }
   }

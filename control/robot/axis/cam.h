@@ -20,6 +20,10 @@ class Cam {
   [[nodiscard]] bool known() const noexcept { return count_ > 0; }
 
   [[nodiscard]] double at(double master) const noexcept;
+  // Returns the motion of the follower per unit of master motion.
+  [[nodiscard]] double slope_at(double master) const noexcept;
+  // Returns the greatest number that at() adds up within a turn.
+  [[nodiscard]] double size() const noexcept { return size_; }
   // Returns the smallest and the greatest position of the follower within one turn.
   [[nodiscard]] std::pair<double, double> extent() const noexcept;
   // Returns the offset that each turn adds.
@@ -30,11 +34,22 @@ class Cam {
     double x = 0, y = 0;
     double slope = 0, bend = 0;  // first and second derivative
   };
+  // A part of the curve as a polynomial from 0 to 1, and where on it a position of the master is.
+  struct Part {
+    std::array<double, 6> powers{};  // coefficients
+    double width = 1;                // of the master
+    double part = 0;
+    double turns = 0;  // before it
+    [[nodiscard]] double position() const noexcept;
+    [[nodiscard]] double slope() const noexcept;
+  };
   void bend_through() noexcept;
-  static double between(const Point& a, const Point& b, double x) noexcept;
+  static Part between(const Point& a, const Point& b, double x) noexcept;
+  [[nodiscard]] Part part_at(double master) const noexcept;
 
   std::array<Point, kCamPoints> points_{};
   std::size_t count_ = 0;
+  double size_ = 0;
   bool periodic_ = false;
 };
 

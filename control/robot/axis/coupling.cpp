@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "control/robot/kinematics/geometry.h"
 
 namespace indurop::robot {
 
@@ -17,17 +20,30 @@ LineState difference(double now, const LineState& before, double seconds) noexce
   return {now, velocity, (velocity - before.velocity) / seconds};
 }
 
-// Returns the rounding error of a position of an axis. Tool paths, which have larger errors, lead no other axis.
-double rounding_at(double position) noexcept {
-  constexpr double kPart = 1e-15, kTurns = 100;  // with the values it was computed from
-  return kPart * (kTurns + std::abs(position));
-}
+constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();  // of what a position is computed from
 
 double left(double limit, double used, double most) noexcept {
   return std::max(limit - std::abs(used), std::min(limit, kLeast * most));
 }
 
 }  // namespace
+
+// Tool paths, whose places are rounded further, lead no other axis. A motion computes its places from those where it
+// began, so that they are rounded as those of a turn at least.
+double CouplingLaw::rounding_at(double master, double phase) const noexcept {
+  constexpr double kTurn = 2 * kPi;
+  const double from = kTurn + std::abs(master) + std::abs(phase) + std::abs(master_zero);
+  const double there = master + phase;
+  if (approach.leads(there)) {
+    return kRounding * (std::abs(approach.slope_at(there)) * from + approach.size());
+  }
+  const double own = std::abs(slave_zero) + std::abs(at(there));
+  if (cam.known()) {
+    const double slope = slave_scale / master_scale * cam.slope_at((there - master_zero) / master_scale);
+    return kRounding * (std::abs(slope) * from + own + std::abs(slave_scale) * cam.size());
+  }
+  return kRounding * (std::abs(ratio) * from + own);
+}
 
 void AxisCoupling::engage(const CouplingLaw& law, const LineLimits& limits, const LineLimits& most,
                           const LineState& now) noexcept {
@@ -89,7 +105,8 @@ ErrorCode AxisCoupling::step(const Master& master, const SetPointGate& gate, dou
     return code;
   }
   // The gate allows for the rounding of paths, which in short periods is as large as the jerk limit.
-  const double noise = 8 * rounding_at(std::max(std::abs(next), std::abs(master.now))) / (seconds * seconds);
+  const double rounding = law_.rounding_at(master.now, phase_.position) + kRounding * std::abs(next);
+  const double noise = 8 * rounding / (seconds * seconds);
   const double change = difference(next, told, seconds).acceleration - told.acceleration;
   if (std::abs(change) > most_.jerk * seconds * kMargin + noise) {
     return ErrorCode::Jerk;
@@ -156,8 +173,7 @@ ErrorCode AxisCoupling::judge_approach(double master, double jerk, double second
     law_.approach = {};
     return synced_ ? ErrorCode::Ok : ErrorCode::Speed;
   }
-  const double noise = 8 * rounding_at(std::max(std::abs(law_state_.position), std::abs(master))) /
-                       (seconds * seconds * seconds);  // of the jerk
+  const double noise = 8 * law_.rounding_at(master, phase_.position) / (seconds * seconds * seconds);  // of the jerk
   if (std::abs(law_state_.velocity) > limits_.velocity * kMargin) {
     return ErrorCode::Speed;
   }

@@ -30,6 +30,8 @@ struct CouplingLaw {
     return slave_zero +
            (cam.known() ? slave_scale * cam.at((master - master_zero) / master_scale) : ratio * (master - master_zero));
   }
+  // Returns by how much rounding may move at(master + phase): it passes on that of the master.
+  [[nodiscard]] double rounding_at(double master, double phase) const noexcept;
 };
 
 class AxisCoupling {

@@ -21,8 +21,10 @@ inline long from_environment(const char* name, long otherwise) {
 
 class FollowCell : public testing::Test, public CommandCell {
  public:
-  explicit FollowCell(double period_ms = 10)
-      : CommandCell(period_ms, in_tick()), judge_(period_ms / 1000, cell_urdf(), 1e-14) {}
+  // `urdf`: of another arm. `rounding`: of its set points, rad.
+  explicit FollowCell(double period_ms = 10, const std::string& urdf = "", double rounding = 1e-14)
+      : CommandCell(period_ms, in_tick(), urdf),
+        judge_(period_ms / 1000, urdf.empty() ? cell_urdf() : urdf, rounding) {}
   static Settings in_tick() {
     Settings settings;
     settings.plan_in_tick = true;
