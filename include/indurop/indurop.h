@@ -12,6 +12,7 @@
 #include <indurop/print.h>
 #include <indurop/result.h>
 #include <indurop/snapshot.h>
+#include <indurop/state.h>
 #include <indurop/string.h>
 #include <indurop/var.h>
 
