@@ -39,6 +39,8 @@ class alignas(kLine) Track {
   // Ends the open run of a writer that died in the middle of it as a run that ended by a fault; nothing if there was
   // none. Called by the process that continues the track, before anything else. Not real-time safe.
   void end_of_dead(RunTail times) noexcept;
+  // Number of runs recorded so far. Any thread.
+  [[nodiscard]] std::uint64_t runs() const noexcept { return shared_.runs.load(std::memory_order_acquire); }
   // Position of the next run.
   [[nodiscard]] const void* next() const noexcept { return words_ + (head_ & mask_); }
   // A run that only checks: nothing is written if nothing changed. Real-time safe.

@@ -136,6 +136,9 @@ std::string external_file(const std::string& node) {
 std::string tape_file(const std::string& node) {
   return "indurop." + node + ".tape";
 }
+std::string keyframe_file(const std::string& node) {
+  return "indurop." + node + ".keyframes";
+}
 std::string replay_input_file(const std::string& node) {
   return "indurop." + node + ".retold";
 }

@@ -29,6 +29,7 @@ std::string run_file(const std::string& node);           // indurop.<node>.run
 std::string mirror_file(const std::string& node);        // indurop.<node>.mirror
 std::string external_file(const std::string& node);      // indurop.<node>.external
 std::string tape_file(const std::string& node);          // indurop.<node>.tape
+std::string keyframe_file(const std::string& node);      // indurop.<node>.keyframes
 std::string replay_input_file(const std::string& node);  // indurop.<node>.retold
 std::string lock_file(const std::string& node);          // indurop.<node>.lock
 

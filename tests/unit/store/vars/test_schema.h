@@ -59,7 +59,8 @@ class TestNode {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] std::string path() const { return std::string(kShmDirectory) + "/" + block_file(name_); }
   void remove() const {
-    for (const std::string& file : {block_file(name_), run_file(name_), tape_file(name_), lock_file(name_)}) {
+    for (const std::string& file :
+         {block_file(name_), run_file(name_), tape_file(name_), keyframe_file(name_), lock_file(name_)}) {
       static_cast<void>(remove_shm_file(file));
       static_cast<void>(remove_unfinished(file));
     }
