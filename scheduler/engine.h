@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,6 +61,10 @@ class Engine {
   [[nodiscard]] bool at_rest(std::uint32_t module) noexcept;
   void enable(std::uint32_t module) noexcept;
 
+  // For a thread module of the schedule: a number that has changed when its code was entered since; nullopt while it is
+  // being executed. Any thread.
+  [[nodiscard]] std::optional<std::uint64_t> entries_if_outside(std::uint32_t module) const noexcept;
+
   // Ends the runs in progress as faults of their modules, however short they have run. Any thread.
   void end_runs_in_progress() noexcept;
 
@@ -80,7 +85,7 @@ class Engine {
   void add_band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<TaskState*> processes = {});
   void connect_predecessors();
   Core& core(int number);
-  TaskState* thread_module(std::uint32_t module) noexcept;
+  [[nodiscard]] TaskState* thread_module(std::uint32_t module) const noexcept;
   [[nodiscard]] Band* find_band(std::uint32_t module) const noexcept;
   Status start_band_threads();
   Status start_watchdog();

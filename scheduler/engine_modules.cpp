@@ -7,7 +7,7 @@
 
 namespace indurop::scheduler {
 
-TaskState* Engine::thread_module(std::uint32_t module) noexcept {
+TaskState* Engine::thread_module(std::uint32_t module) const noexcept {
   for (const auto& state : states_) {
     if (state->task.index == module && state->task.type == ModuleType::Thread) {
       return state.get();
@@ -46,6 +46,18 @@ bool Engine::at_rest(std::uint32_t module) noexcept {
     band->runner().enforce_budget(kernel_.now(), true, settings_.stop_grace_ns);
   }
   return false;
+}
+
+// The thread sets the module as its current one before it counts the entry, so the count is read first.
+std::optional<std::uint64_t> Engine::entries_if_outside(std::uint32_t module) const noexcept {
+  const TaskState* state = thread_module(module);
+  Band* band = state == nullptr ? nullptr : find_band(module);
+  if (band == nullptr) {
+    return std::nullopt;
+  }
+  const std::uint64_t entries = band->runner().entries();
+  std::atomic_thread_fence(std::memory_order_acquire);
+  return band->runner().current() == state ? std::nullopt : std::optional(entries);
 }
 
 void Engine::end_runs_in_progress() noexcept {

@@ -78,6 +78,8 @@ class Runner {
   [[nodiscard]] std::int64_t current_start() const noexcept { return current_start_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::int32_t previous_module() const noexcept { return previous_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::int64_t previous_exec() const noexcept { return previous_exec_.load(std::memory_order_relaxed); }
+  // How often code of a module was entered: a condition, and the run that it led to, count once. Any thread.
+  [[nodiscard]] std::uint64_t entries() const noexcept { return guard_.current_run(); }
   // Times of the task at `position` in the last run(); its end is 0 if it did not run.
   [[nodiscard]] const RunTimes& times(std::size_t position) const noexcept { return times_[position]; }
 

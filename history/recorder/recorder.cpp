@@ -110,7 +110,6 @@ void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& 
     const schema::Type& type = variable(i).type;
     copied_[i] = recording::lies_as_cdr(type) && type.size() == follower_.variables()[i].size;
   }
-  wanted_count_ = static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), true));
   held_.resize(follower_.tracks());
   known_.resize(follower_.tracks());
   for (Known& known : known_) {
@@ -121,6 +120,7 @@ void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& 
 // Writes everything that precedes the first run.
 Result<void, Problem> Recorder::begin_file() {
   channels_.assign(wanted_.size(), 0);
+  keyframes_.begin_file();
   schemas_.clear();
   if (auto channels = add_own_channels(); !channels) {
     return channels;
@@ -214,58 +214,6 @@ Result<void, Problem> Recorder::write_value(const tape::Value& value, std::uint3
   return written;
 }
 
-void Recorder::note(std::size_t track, const tape::Run& run) {
-  Known& known = known_[track];
-  for (const tape::Value& value : run.values) {
-    known.values[value.variable].assign(value.bytes.begin(), value.bytes.end());
-  }
-  known.end_ns = run.tail.end_ns;
-}
-
-// Reads the values of the runs so far, without recording them.
-void Recorder::learn() {
-  begin_ns_ = store_.now().time_since_epoch().count();
-  tape::Run run;
-  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
-    while (follower_.next(track, run)) {
-      note(track, run);
-    }
-  }
-}
-
-// Writes the values from before any module was started, if the recording begins with the first run, else those of the
-// runs before it.
-Result<void, Problem> Recorder::write_first_values(const tape::Run& first) {
-  const std::int64_t before = first.tail.release_ns - about_.basic_period_ns;
-  for (std::uint32_t i = 0; first.tail.number == 0 && i < wanted_.size(); ++i) {
-    const tape::Value value{tape::EntryKind::Run, i, follower_.first_value(i)};
-    if (auto written = write_value(value, kOthers, before, before); !written) {
-      return written;
-    }
-  }
-  return write_known_values();
-}
-
-// Writes the values of each module at the end of its last run: inputs of the next run come later, however long that
-// takes.
-Result<void, Problem> Recorder::write_known_values() {
-  for (std::size_t track = 0; track < known_.size(); ++track) {
-    const Known& known = known_[track];
-    const std::uint32_t module = follower_.module_of(track);
-    for (std::uint32_t i = 0; i < known.values.size(); ++i) {
-      if (known.values[i].empty()) {
-        continue;
-      }
-      const tape::Value value{tape::EntryKind::Before, i, known.values[i]};
-      if (auto written = write_value(value, module == tape::kOthers ? kOthers : module, known.end_ns, known.end_ns);
-          !written) {
-        return written;
-      }
-    }
-  }
-  return {};
-}
-
 // Writes part number `part` of a run: its values, the results of the clock and of calls, and last the run itself.
 Result<void, Problem> Recorder::write_part(const tape::Run& run, std::size_t part) {
   const std::uint32_t module = module_of(run);
@@ -322,7 +270,11 @@ Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_n
     }
     first_values_written_ = true;
   }
-  if (auto written = write_run(*held); !written) {
+  auto written = write_keyframe(*held);
+  if (written) {
+    written = write_run(*held);
+  }
+  if (!written) {
     return std::move(written).error();
   }
   latest_ns_ = std::max(latest_ns_, held->run.tail.end_ns);
@@ -334,6 +286,7 @@ Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_n
 }
 
 Result<void, Problem> Recorder::take(std::int64_t until_ns) {
+  keyframes_.read(about_.node, follower_.header(), [this](std::uint32_t module) { return records_inputs(module); });
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
     for (bool more = true; more;) {
       auto taken = take_run(track, until_ns);
@@ -347,6 +300,10 @@ Result<void, Problem> Recorder::take(std::int64_t until_ns) {
     }
   }
   return {};
+}
+
+std::size_t Recorder::variables() const noexcept {
+  return static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), true));
 }
 
 std::optional<std::int64_t> Recorder::waiting_ns() const noexcept {

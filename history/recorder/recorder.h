@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/base/problem.h"
+#include "history/recorder/keyframe_queue.h"
 #include "history/recording/mcap_writer.h"
 #include "store/tape/follower.h"
 #include "store/vars/store.h"
@@ -84,7 +85,7 @@ class Recorder {
   [[nodiscard]] const About& about() const noexcept { return about_; }
   // The end of the latest run that was taken, in the node's time; 0: none yet.
   [[nodiscard]] std::int64_t latest_ns() const noexcept { return latest_ns_; }
-  [[nodiscard]] std::size_t variables() const noexcept { return wanted_count_; }
+  [[nodiscard]] std::size_t variables() const noexcept;
   // Requested variables that no tape records, because they are too large.
   [[nodiscard]] const std::vector<std::string>& too_large() const noexcept { return too_large_; }
 
@@ -116,6 +117,9 @@ class Recorder {
   Result<void, base::Problem> write_value(const tape::Value& value, std::uint32_t module, std::int64_t time_ns,
                                           std::int64_t release_ns);
   Result<std::uint16_t, base::Problem> channel_of(std::uint32_t index);
+  [[nodiscard]] bool records_inputs(std::uint32_t module) const;
+  Result<std::uint16_t, base::Problem> keyframe_channel_of(std::uint32_t module);
+  Result<void, base::Problem> write_keyframe(const Held& held);
   [[nodiscard]] const schema::Variable& variable(std::uint32_t index) const;
   [[nodiscard]] std::uint64_t real_time(std::int64_t node_ns) const noexcept;
   [[nodiscard]] std::uint64_t log_time(std::int64_t node_ns) const noexcept;
@@ -127,13 +131,13 @@ class Recorder {
   About about_;
   std::vector<bool> wanted_;
   std::vector<bool> copied_;  // variables with the same bytes in memory and in the file
-  std::size_t wanted_count_ = 0;
   std::vector<std::string> too_large_;
   std::vector<std::uint16_t> channels_;  // channels of variables; 0: none yet
   std::map<std::string, std::uint16_t> schemas_;
   std::uint16_t runs_channel_ = 0;
   std::uint16_t clock_channel_ = 0;
   std::uint16_t answer_channel_ = 0;
+  KeyframeQueue keyframes_;
   bool remembers_ = false;
   bool first_values_written_ = false;
   std::vector<Known> known_;               // by track

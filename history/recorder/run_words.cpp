@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 
 namespace indurop::recorder {
 namespace {
@@ -50,6 +51,15 @@ const std::string_view kAnswerIdl =
     "  };\n"
     "};\n";
 
+const std::string_view kKeyframeIdl =
+    "module indurop {\n"
+    "  struct Keyframe {\n"
+    "    unsigned long long run;\n"
+    "    unsigned long long tick;\n"
+    "    sequence<octet> bytes;\n"
+    "  };\n"
+    "};\n";
+
 void to_cdr(std::int64_t clock_ns, std::vector<std::uint8_t>& cdr) {
   cdr.assign(kLittleEndian.begin(), kLittleEndian.end());
   const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof clock_ns>>(clock_ns);
@@ -88,6 +98,33 @@ Result<AnswerRecord> answer_from_cdr(std::span<const std::uint8_t> cdr) {
     return damaged;
   }
   return AnswerRecord{*code, bytes};
+}
+
+void to_cdr(const KeyframeRecord& keyframe, std::vector<std::uint8_t>& cdr) {
+  cdr.assign(kLittleEndian.begin(), kLittleEndian.end());
+  const auto append = [&cdr](const auto& value) {
+    const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof value>>(value);
+    cdr.insert(cdr.end(), bytes.begin(), bytes.end());
+  };
+  append(keyframe.run);
+  append(keyframe.tick);
+  append(static_cast<std::uint32_t>(keyframe.bytes.size()));
+  cdr.insert(cdr.end(), keyframe.bytes.begin(), keyframe.bytes.end());
+}
+
+Result<KeyframeRecord> keyframe_from_cdr(std::span<const std::uint8_t> cdr) {
+  std::array<std::uint64_t, 2> numbers{};
+  std::uint32_t length = 0;
+  constexpr std::size_t kHead = kLittleEndian.size() + sizeof numbers + sizeof length;
+  if (cdr.size() < kHead || !std::equal(kLittleEndian.begin(), kLittleEndian.end(), cdr.begin())) {
+    return Error{Errc::Corrupt, 0, "a keyframe of a recording"};
+  }
+  std::memcpy(numbers.data(), cdr.data() + kLittleEndian.size(), sizeof numbers);
+  std::memcpy(&length, cdr.data() + kHead - sizeof length, sizeof length);
+  if (cdr.size() - kHead != length) {
+    return Error{Errc::Corrupt, 0, "a keyframe of a recording"};
+  }
+  return KeyframeRecord{numbers[0], numbers[1], cdr.subspan(kHead)};
 }
 
 void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr) {

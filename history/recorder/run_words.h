@@ -51,6 +51,21 @@ void to_cdr(const AnswerRecord& answer, std::vector<std::uint8_t>& cdr);
 // The result points into `cdr`. Errors: Corrupt.
 Result<AnswerRecord> answer_from_cdr(std::span<const std::uint8_t> cdr);
 
+// What modules keep between runs: messages of the channels indurop/keyframes/<module>, each before the run that begins
+// with this state. The channel's metadata says what the bytes are: a line for each item of name, type and size.
+inline constexpr std::string_view kKeyframeTopic = "indurop/keyframes/";
+inline constexpr std::string_view kKeyframeSchema = "indurop::Keyframe";
+inline constexpr const char* kKeyframeForm = "form";  // key in the channel's metadata
+extern const std::string_view kKeyframeIdl;
+struct KeyframeRecord {
+  std::uint64_t run = 0;  // number of the run that begins with it
+  std::uint64_t tick = 0;
+  std::span<const std::uint8_t> bytes;
+};
+void to_cdr(const KeyframeRecord& keyframe, std::vector<std::uint8_t>& cdr);
+// The result points into `cdr`. Errors: Corrupt.
+Result<KeyframeRecord> keyframe_from_cdr(std::span<const std::uint8_t> cdr);
+
 void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr);
 // Errors: Corrupt.
 Result<RunWords> run_from_cdr(std::span<const std::uint8_t> cdr);

@@ -33,6 +33,8 @@ ChannelPlace place_of(const Source& source, std::size_t number, const std::strin
     kind = ChannelKind::Clock;
   } else if (name == kAnswerTopic) {
     kind = ChannelKind::Answer;
+  } else if (name.starts_with(kKeyframeTopic)) {
+    kind = ChannelKind::Keyframe;
   }
   return {number, kind, name};
 }

@@ -36,11 +36,11 @@ struct Source {
   [[nodiscard]] std::string name() const { return prefix.empty() ? "" : prefix.substr(0, prefix.size() - 1); }
 };
 
-enum class ChannelKind : std::uint8_t { Value, Run, Clock, Answer };
+enum class ChannelKind : std::uint8_t { Value, Run, Clock, Answer, Keyframe };
 struct ChannelPlace {
   std::size_t source = 0;
   ChannelKind kind = ChannelKind::Value;
-  std::string name;  // of the variable
+  std::string name;  // of the variable; Keyframe: topic without prefix
 };
 
 struct Sources {

@@ -71,6 +71,12 @@ Result<void, base::Problem> ModuleLibrary::load(const std::filesystem::path& fil
 }
 
 void ModuleLibrary::find_functions() {
+  if (auto describe = reinterpret_cast<void (*)(StateDescriptor*)>(::dlsym(handle_, "indurop_module_state"));
+      describe != nullptr) {
+    StateDescriptor declared;
+    describe(&declared);
+    memory_ = ModuleMemory(declared);
+  }
   using Describe = void (*)(ModuleDescriptor*);
   if (auto describe = reinterpret_cast<Describe>(::dlsym(handle_, "indurop_module_describe")); describe != nullptr) {
     describe(&functions_);
@@ -102,7 +108,8 @@ ModuleLibrary::ModuleLibrary(ModuleLibrary&& other) noexcept
       mark_(other.mark_),
       handle_(std::exchange(other.handle_, nullptr)),
       copy_(std::exchange(other.copy_, -1)),
-      functions_(other.functions_) {}
+      functions_(other.functions_),
+      memory_(std::move(other.memory_)) {}
 
 ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
   std::swap(file_, other.file_);
@@ -110,6 +117,7 @@ ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
   std::swap(handle_, other.handle_);
   std::swap(copy_, other.copy_);
   std::swap(functions_, other.functions_);
+  std::swap(memory_, other.memory_);
   return *this;
 }
 

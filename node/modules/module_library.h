@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "core/base/problem.h"
+#include "node/modules/module_memory.h"
 
 namespace indurop::node {
 
@@ -29,6 +30,7 @@ class ModuleLibrary {
   [[nodiscard]] bool is_outdated() const;
 
   [[nodiscard]] const ModuleDescriptor& functions() const noexcept { return functions_; }
+  [[nodiscard]] const ModuleMemory& memory() const noexcept { return memory_; }
 
  private:
   // Identifies the file that was loaded.
@@ -46,6 +48,7 @@ class ModuleLibrary {
   void* handle_ = nullptr;
   int copy_ = -1;  // stays open: the dynamic linker would mistake a second file with the same inode number for this one
   ModuleDescriptor functions_;
+  ModuleMemory memory_;
 };
 
 }  // namespace indurop::node

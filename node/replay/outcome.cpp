@@ -74,6 +74,10 @@ bool Replay::tell_left_out() {
       fmt::print("{} of {} runs of {} were not repeated: not all of what they began with is told before them\n",
                  module.too_early, module.seen, name);
     }
+    if (const std::uint64_t waited = module.kept.waited(); waited > 0) {
+      fmt::print("{} of {} runs of {} were not repeated: they come before the first keyframe they could begin with\n",
+                 waited, module.seen, name);
+    }
   }
   if (runs_not_here_ > 0) {
     console_.error("{} runs of modules that are not in this configuration were not repeated", runs_not_here_);

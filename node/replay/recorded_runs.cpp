@@ -54,6 +54,12 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
     if (place.source != *source) {
       continue;
     }
+    if (place.kind == recorder::ChannelKind::Keyframe) {
+      const recording::TextMap& said = contents.channels.at(id).metadata;
+      const auto form = said.find(recorder::kKeyframeForm);
+      keyframes_[id] = form == said.end() ? std::string() : form->second;
+      continue;
+    }
     if (place.kind != recorder::ChannelKind::Value) {
       channel_of(place.kind) = id;
       continue;
@@ -78,6 +84,12 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
                  kSchemaMismatch};
   }
   return {};
+}
+
+bool RecordedRuns::has_keyframes(const std::string& module) const {
+  const std::string topic = prefix_ + std::string(recorder::kKeyframeTopic) + module;
+  const auto& channels = reader_.contents().channels;
+  return std::any_of(channels.begin(), channels.end(), [&](const auto& entry) { return entry.second.topic == topic; });
 }
 
 explain::Facts RecordedRuns::facts() const {
@@ -121,6 +133,14 @@ Result<std::optional<RecordedRuns::Item>, Problem> RecordedRuns::next() {
         return Problem{"an input record of the recording is damaged"};
       }
       return std::optional<Item>(RecordedTold{recorder::from_sequence(one.sequence).module, *told});
+    }
+    if (const auto known = keyframes_.find(one.channel); known != keyframes_.end()) {
+      auto keyframe = recorder::keyframe_from_cdr(one.data.view);
+      if (!keyframe) {
+        return Problem{"a keyframe of the recording is damaged"};
+      }
+      return std::optional<Item>(
+          RecordedKeyframe{recorder::from_sequence(one.sequence).module, *keyframe, &known->second});
     }
     if (const auto known = variables_.find(one.channel); known != variables_.end()) {
       return std::optional<Item>(RecordedValue{recorder::from_sequence(one.sequence), known->second, one.data.view});

@@ -43,6 +43,12 @@ struct RecordedTold {
   recorder::AnswerRecord words;
 };
 
+struct RecordedKeyframe {
+  std::uint32_t module = 0;
+  recorder::KeyframeRecord words;
+  const std::string* form = nullptr;  // of its bytes
+};
+
 // Why a recording cannot be used, and the exit code for that.
 struct Unfit {
   std::string text;
@@ -58,9 +64,11 @@ class RecordedRuns {
 
   // Returns the next item; nullopt after the last. Views in it are valid until the next call.
   // Errors: a part of the file is damaged; the next call continues after it.
-  using Item = std::variant<RecordedValue, RecordedRun, RecordedClock, RecordedTold>;
+  using Item = std::variant<RecordedValue, RecordedRun, RecordedClock, RecordedTold, RecordedKeyframe>;
   Result<std::optional<Item>, base::Problem> next();
 
+  // Returns true if the recording has keyframes of the module of this name.
+  [[nodiscard]] bool has_keyframes(const std::string& module) const;
   // kRecordingFormat of the program that recorded it.
   [[nodiscard]] std::int64_t format() const noexcept { return format_; }
   // CLOCK_REALTIME minus the node's time, when recorded; 0: virtual time.
@@ -84,6 +92,7 @@ class RecordedRuns {
   std::int64_t real_minus_node_ns_ = 0;
   std::vector<std::string> modules_;
   std::map<std::uint16_t, std::uint32_t> variables_;  // by channel
+  std::map<std::uint16_t, std::string> keyframes_;    // forms, by channel
   std::vector<std::string> unknown_;
   std::uint16_t runs_channel_ = 0;
   std::uint16_t clock_channel_ = 0;

@@ -123,6 +123,7 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
     module.why_not =
         known ? reason_to_leave_out(configured[i], checked_.check.facts[i].file.imports) : "it is not in the recording";
     module.runs = module.why_not.empty();
+    module.kept.expect(libraries_[i].memory(), recorded.has_keyframes(configured[i].name));
     if (!module.runs) {
       console_.info("module {} does not run: {}; what it wrote comes from the recording", configured[i].name,
                     module.why_not);
@@ -187,22 +188,20 @@ std::vector<tape::ReplayedAnswer> Replay::Module::told() const {
   return all;
 }
 
-// Runs before this one may be missing, and their inputs with them.
-void Replay::note_gap(Module& module, const recorder::RunWords& run) {
-  const std::uint64_t missing = run.tail.number - module.next_number;
-  module.missing += missing;
+// Returns false for a run that cannot be repeated because not all is known that it began with.
+bool Replay::can_repeat(Module& module, const recorder::RunWords& run) {
+  if (module.seen > 0 && run.tail.number != module.next_number) {
+    forget(module);  // inputs of missing runs are missing, too
+  }
   module.next_number = run.tail.number + 1;
-  if (module.seen > 0 && missing > 0) {
-    forget(module);
+  const bool known = knows_inputs(module);
+  module.too_early += known ? 0U : 1U;
+  const ReplayedMemory::Next next = module.kept.next(run.tail.number, run.anew, known);
+  module.restores = next == ReplayedMemory::Next::Restore;
+  if (next == ReplayedMemory::Next::Doubt) {
+    doubt(module, run.tail.tick);
   }
-  if (!knows_inputs(module)) {
-    ++module.missing;
-    ++module.too_early;
-  } else if (const std::uint64_t all = std::exchange(module.missing, 0); all > 0) {
-    console_.warning(
-        "{} runs of {} before tick {} are not in the recording: what it keeps inside may differ from here on", all,
-        module.state.record->name, run.tail.tick);
-  }
+  return next != ReplayedMemory::Next::Wait;
 }
 
 bool Replay::run_again(const recorder::RunWords& run) {
@@ -219,9 +218,8 @@ bool Replay::run_again(const recorder::RunWords& run) {
     module.left_out += module.unknown_inputs.empty() ? 0U : 1U;
     return true;
   }
-  note_gap(module, run);
   module.anew = module.anew || run.anew;
-  const bool can = knows_inputs(module);
+  const bool can = can_repeat(module, run);
   const bool going_on = !can || repeat(module, index, run);
   module.clock.clear();
   module.codes.clear();
@@ -246,6 +244,9 @@ bool Replay::repeat(Module& module, std::uint32_t index, const recorder::RunWord
       return false;
     }
     give_inputs(module);  // its start may have written variables
+  }
+  if (std::exchange(module.restores, false)) {
+    restore(module);
   }
   if (module.state.task.type == ModuleType::Process) {
     run_process(module, index, run.tail);
@@ -319,6 +320,10 @@ bool Replay::replay(RecordedRuns& recorded) {
       if (const std::uint32_t index = configured(told->module); index != kNoSuchModule) {
         modules_[index]->codes.push_back(told->words.code);
         modules_[index]->answers.emplace_back(told->words.bytes.begin(), told->words.bytes.end());
+      }
+    } else if (const auto* keyframe = std::get_if<RecordedKeyframe>(&**item); keyframe != nullptr) {
+      if (const std::uint32_t index = configured(keyframe->module); index != kNoSuchModule) {
+        modules_[index]->kept.take(keyframe->words, *keyframe->form);
       }
     } else if (value != nullptr) {
       const bool first = value->words.kind == tape::EntryKind::Run;

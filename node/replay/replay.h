@@ -15,6 +15,7 @@
 #include "node/replay/forced_then.h"
 #include "node/replay/output.h"
 #include "node/replay/recorded_runs.h"
+#include "node/replay/replayed_memory.h"
 #include "node/run/checked.h"
 #include "node/run/console.h"
 #include "node/run/loaded.h"
@@ -82,7 +83,6 @@ class Replay {
     std::string unknown_inputs;   // variables that it reads and that are not recorded; empty: none
     std::uint64_t left_out = 0;   // runs that were not repeated for that reason
     std::uint64_t too_early = 0;  // not repeated because not all of their inputs are recorded before them
-    std::uint64_t missing = 0;    // not repeated before the next one that is
     std::uint64_t repeated = 0;
     std::uint64_t seen = 0;  // runs in the recording
     std::vector<Known> known;
@@ -95,7 +95,9 @@ class Replay {
     scheduler::TaskState state;
     std::uint64_t count = 0;
     std::uint64_t next_number = 0;
+    ReplayedMemory kept;
     bool anew = false;       // it must be restarted before it runs again
+    bool restores = false;   // its keyframe is put back before this run
     bool died = false;       // its process ended
     bool disturbed = false;  // its inputs were changed while it ran
     std::uint64_t disturbed_runs = 0;
@@ -116,8 +118,10 @@ class Replay {
   bool start_modules();
   bool replay(RecordedRuns& recorded);
   bool run_again(const recorder::RunWords& run);
-  void note_gap(Module& module, const recorder::RunWords& run);
+  bool can_repeat(Module& module, const recorder::RunWords& run);
+  void doubt(Module& module, std::uint64_t tick);
   bool repeat(Module& module, std::uint32_t index, const recorder::RunWords& run);
+  void restore(Module& module);
   bool start_anew(Module& module, std::uint32_t index);
   bool restart_process(std::uint32_t index);
   bool call(std::uint32_t index, const char* phase, void (*function)());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a replay repeats events that the values do not show: processes run and die, modules that were restarted are
-// restarted again.
+// restarted again, and what a module kept inside is put back.
 
 #include <thread>
 
@@ -87,6 +87,23 @@ bool Replay::start_anew(Module& module, std::uint32_t index) {
     console_.error("module {} was started anew in the recording and could not be now", module.state.record->name);
   }
   return good;
+}
+
+void Replay::restore(Module& module) {
+  for (const std::string& name : module.kept.restore()) {
+    console_.warning("module {}: {} cannot be put back: it is declared otherwise than in the recording",
+                     module.state.record->name, name);
+  }
+}
+
+// Runs before this one are missing, and nothing tells what the module kept inside.
+void Replay::doubt(Module& module, std::uint64_t tick) {
+  const char* const reason = module.state.task.type == scheduler::ModuleType::Process ? "it is a process"
+                             : module.kept.is_recorded() ? "its file declares no state any more"
+                                                         : "the recording has no keyframe of it";
+  console_.warning(
+      "{} runs of {} before tick {} are not in the recording: what it keeps inside may differ from here on; {}",
+      module.kept.take_missing(), module.state.record->name, tick, reason);
 }
 
 }  // namespace indurop::node

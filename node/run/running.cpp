@@ -43,10 +43,10 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
       checked_(checked),
       prepared_(prepared),
       run_(prepared.run()),
-      tasks_(loaded.tasks),
+      loaded_(loaded),
       kernel_(make_kernel()),
       mirror_(options, checked, prepared, console),
-      engine_(run_, tasks_, engine_settings(), hooks(), kernel_),
+      engine_(run_, loaded.tasks, engine_settings(), hooks(), kernel_),
       memory_(options.node, prepared, engine_, console),
       phases_(checked.config, run_, loaded.libraries, console, signals, plain_hooks(), kernel_),
       normal_threads_(checked.config, run_, loaded.libraries, plain_hooks(), kernel_),
@@ -165,6 +165,7 @@ void Running::set_tape(scheduler::Hooks& hooks, const tape::Tape& tape) {
 }
 
 Result<void, Ending> Running::start() {
+  keyframes_ = KeyframePart::begin(options_, prepared_, loaded_, engine_, console_);
   auto recording = RecordPart::begin(options_, checked_, prepared_, console_);
   if (!recording) {
     return std::move(recording).error();
@@ -249,7 +250,7 @@ Result<void, Ending> Running::start_schedule() {
       return locked;
     }
   }
-  for (const scheduler::Task& task : tasks_) {
+  for (const scheduler::Task& task : loaded_.tasks) {
     if (task.type == ModuleType::Thread) {
       run_.modules()[task.index].state.store(ModuleState::Running);
     }
@@ -313,6 +314,9 @@ Ending Running::supervise() {
   Ending ending;
   while (!engine_.finished()) {
     const int number = pass();
+    if (keyframes_) {
+      keyframes_->take(kernel_);
+    }
     if (recording_ && simulation_) {
       recording_->take(kernel_.now());
     }

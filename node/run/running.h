@@ -16,6 +16,7 @@
 #include "node/parts/board_mirror.h"
 #include "node/parts/force_watch.h"
 #include "node/parts/kernel_watch.h"
+#include "node/parts/keyframe_part.h"
 #include "node/parts/memory_watch.h"
 #include "node/parts/record_part.h"
 #include "node/run/loaded.h"
@@ -63,7 +64,7 @@ class Running {
   Checked& checked_;
   Prepared& prepared_;
   scheduler::RunBlock& run_;
-  const std::vector<scheduler::Task>& tasks_;
+  const Loaded& loaded_;
   bool started_ = false;                      // start() of the modules was called, so stop() will be
   std::atomic<std::uint32_t> stop_order_{0};  // 1 + index of the module whose policy stops the node
   scheduler::SystemKernel system_;
@@ -80,7 +81,8 @@ class Running {
   ModuleCommands commands_;
   std::optional<KernelWatch> kernel_watch_;  // none in a simulation, like the black box
   std::optional<BlackBox> black_box_;
-  std::unique_ptr<RecordPart> recording_;  // null if not requested
+  std::unique_ptr<KeyframePart> keyframes_;  // null if no module declares what it keeps
+  std::unique_ptr<RecordPart> recording_;    // null if not requested
 };
 
 }  // namespace indurop::node

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keyframes of a node that were read and wait for the runs that begin with them.
+
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "store/tape/keyframes.h"
+
+namespace indurop::recorder {
+
+class KeyframeQueue {
+ public:
+  // Reads what is there, before runs are read: a run that is seen afterwards may begin with it. `wanted`: modules whose
+  // keyframes are of use. The node is asked once whether it has keyframes, when its first run is on the tape.
+  void read(const std::string& node, const tape::TapeHeader& tape, const std::function<bool(std::uint32_t)>& wanted);
+
+  // Returns the keyframe that a run of the module begins with; null: there is none. Those of earlier runs are dropped.
+  const tape::Keyframe* of(std::uint32_t module, std::uint64_t run);
+  // The channel of the module's keyframes in the file that is being written; 0: none yet.
+  std::uint16_t& channel(std::uint32_t module) { return waiting_.at(module).channel; }
+  // What the bytes of its keyframes are.
+  [[nodiscard]] const std::string& form(std::uint32_t module) const;
+  void begin_file();
+
+ private:
+  struct Waiting {
+    std::size_t index = 0;  // in the follower
+    std::uint16_t channel = 0;
+    std::deque<tape::Keyframe> keyframes;
+  };
+  bool sought_ = false;
+  std::optional<tape::KeyframeFollower> follower_;
+  std::map<std::uint32_t, Waiting> waiting_;  // by module
+};
+
+}  // namespace indurop::recorder

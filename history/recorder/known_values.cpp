@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is known before the runs of a file: the first values, and the last ones of each module.
+
+#include "history/recorder/recorder.h"
+#include "history/recorder/run_words.h"
+
+namespace indurop::recorder {
+
+using base::Problem;
+
+void Recorder::note(std::size_t track, const tape::Run& run) {
+  Known& known = known_[track];
+  for (const tape::Value& value : run.values) {
+    known.values[value.variable].assign(value.bytes.begin(), value.bytes.end());
+  }
+  known.end_ns = run.tail.end_ns;
+}
+
+// Reads the values of the runs so far, without recording them.
+void Recorder::learn() {
+  begin_ns_ = store_.now().time_since_epoch().count();
+  tape::Run run;
+  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
+    while (follower_.next(track, run)) {
+      note(track, run);
+    }
+  }
+}
+
+// Writes the values from before any module was started, if the recording begins with the first run, else those of the
+// runs before it.
+Result<void, Problem> Recorder::write_first_values(const tape::Run& first) {
+  const std::int64_t before = first.tail.release_ns - about_.basic_period_ns;
+  for (std::uint32_t i = 0; first.tail.number == 0 && i < wanted_.size(); ++i) {
+    const tape::Value value{tape::EntryKind::Run, i, follower_.first_value(i)};
+    if (auto written = write_value(value, kOthers, before, before); !written) {
+      return written;
+    }
+  }
+  return write_known_values();
+}
+
+// Writes the values of each module at the end of its last run: inputs of the next run come later, however long that
+// takes.
+Result<void, Problem> Recorder::write_known_values() {
+  for (std::size_t track = 0; track < known_.size(); ++track) {
+    const Known& known = known_[track];
+    const std::uint32_t module = follower_.module_of(track);
+    for (std::uint32_t i = 0; i < known.values.size(); ++i) {
+      if (known.values[i].empty()) {
+        continue;
+      }
+      const tape::Value value{tape::EntryKind::Before, i, known.values[i]};
+      if (auto written = write_value(value, module == tape::kOthers ? kOthers : module, known.end_ns, known.end_ns);
+          !written) {
+        return written;
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace indurop::recorder

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a loaded thread module keeps from one run to the next, as it declares it (<indurop/state.h>): copied to bytes
+// and put back from bytes, by name and type. Not real-time safe.
+
+#pragma once
+
+#include <indurop/state.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace indurop::node {
+
+class ModuleMemory {
+ public:
+  ModuleMemory() = default;
+  explicit ModuleMemory(const StateDescriptor& declared);
+
+  // Returns true if all that the module keeps can be taken.
+  [[nodiscard]] bool is_whole() const noexcept { return most_ > 0 && missing_.empty(); }
+  // What the module itself says cannot be taken; empty: nothing.
+  [[nodiscard]] const std::string& missing() const noexcept { return missing_; }
+  [[nodiscard]] std::uint64_t most() const noexcept { return most_; }
+  // A line for each item, "name, tab, type, tab, bytes": what the bytes of a keyframe are.
+  [[nodiscard]] const std::string& form() const noexcept { return form_; }
+
+  // Copies the state; a run of the module may change it meanwhile. Returns the bytes written, 0: it cannot be taken
+  // now.
+  std::size_t save(std::span<std::byte> to) const;
+
+  // Puts bytes of this form back. Returns the names of items that differ: kept in the bytes and unknown here, of
+  // another type, or new here. Items of the same name and type are put back whatever the others are.
+  [[nodiscard]] std::vector<std::string> restore(std::string_view form, std::span<const std::uint8_t> bytes) const;
+
+ private:
+  struct Item {
+    std::string name;
+    std::string type;
+    void* address = nullptr;
+    std::size_t size = 0;
+  };
+  [[nodiscard]] std::size_t save_by_function(std::span<std::byte> to) const;
+
+  std::vector<Item> items_;
+  StateDescriptor functions_;
+  std::uint64_t most_ = 0;
+  std::string form_;
+  std::string missing_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/parts/keyframe_part.h"
+
+#include <utility>
+
+namespace indurop::node {
+namespace {
+
+constexpr std::chrono::milliseconds kKeyframePeriod{500};
+constexpr std::uint32_t kMissedInARow = 10;  // then it is reported
+
+// A reader sees the entry of a module's code before what this code changes only where stores keep their order.
+#if defined(__x86_64__)
+constexpr bool kStoresKeepOrder = true;
+#else
+constexpr bool kStoresKeepOrder = false;
+#endif
+
+}  // namespace
+
+std::unique_ptr<KeyframePart> KeyframePart::begin(const Options& options, const Prepared& prepared,
+                                                  const Loaded& loaded, const scheduler::Engine& engine,
+                                                  const Console& console) {
+  std::vector<Subject> subjects;
+  std::vector<tape::KeyframePlan> plans;
+  for (std::uint32_t i = 0; kStoresKeepOrder && prepared.tape && i < loaded.libraries.size(); ++i) {
+    const ModuleMemory& memory = loaded.libraries[i].memory();
+    if (memory.is_whole() && prepared.tape->of(i) != nullptr && engine.band_of(i) != nullptr) {
+      subjects.push_back({i, &memory});
+      plans.push_back({i, memory.most(), memory.form()});
+    }
+  }
+  (void)vars::remove_shm_file(vars::keyframe_file(options.node));  // left by an earlier run
+  if (plans.empty()) {
+    return nullptr;
+  }
+  auto writer = tape::KeyframeWriter::create(options.node, plans);
+  if (!writer) {
+    console.warning("no keyframes are taken: {}", describe(writer.error()));
+    return nullptr;
+  }
+  return std::unique_ptr<KeyframePart>(
+      new KeyframePart(prepared, engine, console, std::move(subjects), std::move(writer).value()));
+}
+
+KeyframePart::KeyframePart(const Prepared& prepared, const scheduler::Engine& engine, const Console& console,
+                           std::vector<Subject> subjects, tape::KeyframeWriter writer)
+    : prepared_(prepared),
+      engine_(engine),
+      console_(console),
+      subjects_(std::move(subjects)),
+      writer_(std::move(writer)) {}
+
+void KeyframePart::begin_period() {
+  for (std::size_t i = 0; i < subjects_.size(); ++i) {
+    Subject& subject = subjects_[i];
+    const scheduler::ModuleRecord& record = prepared_.run().modules()[subject.module];
+    if (subject.due && record.state.load() == scheduler::ModuleState::Running) {
+      writer_.note_missed(i);
+      if (++subject.missed == kMissedInARow) {
+        console_.warning("module {}: no keyframe for {} s, because its runs leave too little time between them",
+                         record.name, (kKeyframePeriod * kMissedInARow).count() / 1000);
+      }
+    }
+    subject.due = true;
+  }
+}
+
+void KeyframePart::take(scheduler::Kernel& kernel) {
+  if (const rt::MonoTime now = kernel.now(); now >= next_) {
+    if (next_ != rt::MonoTime{}) {
+      begin_period();
+    }
+    next_ = now + kKeyframePeriod;
+  }
+  for (std::size_t i = 0; i < subjects_.size(); ++i) {
+    if (subjects_[i].due && take_one(i, kernel)) {
+      subjects_[i].due = false;
+      subjects_[i].missed = 0;
+    }
+  }
+}
+
+// The copy counts if no code of the module was being executed before it and none was entered until it was complete.
+// Commands stop and start modules on this thread, so start() and stop() are not running either.
+bool KeyframePart::take_one(std::size_t index, scheduler::Kernel& kernel) {
+  const Subject& subject = subjects_[index];
+  const scheduler::RunBlock& run = prepared_.run();
+  const scheduler::ModuleRecord& record = run.modules()[subject.module];
+  const auto before = engine_.entries_if_outside(subject.module);
+  if (!before || record.state.load() != scheduler::ModuleState::Running) {
+    return false;
+  }
+  tape::KeyframeHead head;
+  head.run = prepared_.tape->of(subject.module)->runs();
+  head.tick = run.tick.load();
+  head.time_ns = rt::to_ns(kernel.now());
+  head.bytes = subject.memory->save(writer_.room(index));
+  std::atomic_thread_fence(std::memory_order_acquire);
+  const bool whole = head.bytes > 0 && engine_.entries_if_outside(subject.module) == before;
+  if (whole) {
+    writer_.publish(index, head);
+  }
+  return whole;
+}
+
+}  // namespace indurop::node

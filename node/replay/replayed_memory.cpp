@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/replay/replayed_memory.h"
+
+#include <utility>
+
+namespace indurop::node {
+
+void ReplayedMemory::expect(const ModuleMemory& memory, bool recorded) noexcept {
+  memory_ = &memory;
+  recorded_ = recorded;
+}
+
+void ReplayedMemory::take(const recorder::KeyframeRecord& keyframe, const std::string& form) {
+  keyframe_run_ = keyframe.run;
+  form_ = form;
+  bytes_.assign(keyframe.bytes.begin(), keyframe.bytes.end());
+}
+
+ReplayedMemory::Next ReplayedMemory::next(std::uint64_t run, bool restarted, bool possible) noexcept {
+  missing_ += run - std::exchange(next_run_, run + 1);
+  if (run < first_ || !possible) {
+    waited_ += run < first_ ? 1U : 0U;
+    ++missing_;
+    return Next::Wait;
+  }
+  if (missing_ == 0 || restarted) {
+    missing_ = 0;
+    return Next::Run;
+  }
+  if (has_keyframes() && keyframe_run_ == run) {
+    missing_ = 0;
+    return Next::Restore;
+  }
+  if (has_keyframes()) {
+    ++waited_;
+    ++missing_;
+    return Next::Wait;
+  }
+  return Next::Doubt;
+}
+
+std::vector<std::string> ReplayedMemory::restore() const {
+  return memory_->restore(form_, bytes_);
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a module of a replay keeps inside what it kept in the recording: from its first run on, after a restart, and
+// from each keyframe on. Between, as behind missing runs, only a keyframe makes it so again.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "history/recorder/run_words.h"
+#include "node/modules/module_memory.h"
+
+namespace indurop::node {
+
+class ReplayedMemory {
+ public:
+  // `memory`: of the module as it is loaded now; borrowed. `recorded`: the recording has keyframes of it.
+  void expect(const ModuleMemory& memory, bool recorded) noexcept;
+  // Repeat no run before the run `first`: a keyframe begins there.
+  void begin_at(std::uint64_t first) noexcept { first_ = first; }
+
+  // The keyframe of a run that follows.
+  void take(const recorder::KeyframeRecord& keyframe, const std::string& form);
+
+  enum class Next {
+    Run,      // it keeps what it kept
+    Restore,  // it will, after restore()
+    Wait,     // this run cannot be repeated; a keyframe may follow
+    Doubt,    // it may keep something else, and no keyframe can help
+  };
+  // Called for each run, in order. `restarted`: its module was started again before it. `possible`: all that it reads
+  // is known; else it is not repeated.
+  Next next(std::uint64_t run, bool restarted, bool possible) noexcept;
+  // Puts the keyframe of this run back. Returns the names of what was not possible with.
+  [[nodiscard]] std::vector<std::string> restore() const;
+
+  // Runs whose inputs are known and that were not repeated.
+  [[nodiscard]] std::uint64_t waited() const noexcept { return waited_; }
+  // Doubt: how many runs it lacks. The next run is not in doubt for these.
+  std::uint64_t take_missing() noexcept { return std::exchange(missing_, 0); }
+  [[nodiscard]] bool has_keyframes() const noexcept { return recorded_ && memory_->is_whole(); }
+  [[nodiscard]] bool is_recorded() const noexcept { return recorded_; }
+
+ private:
+  const ModuleMemory* memory_ = nullptr;
+  bool recorded_ = false;
+  std::uint64_t first_ = 0;
+  std::uint64_t next_run_ = 0;
+  std::uint64_t missing_ = 0;
+  std::uint64_t waited_ = 0;
+  std::optional<std::uint64_t> keyframe_run_;
+  std::string form_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace indurop::node

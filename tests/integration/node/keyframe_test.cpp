@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings that begin in the middle of a run: modules that declare what they keep are repeated from a keyframe on.
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "node_fixture.h"
+#include "tests/support/wait_until.h"
+
+namespace indurop::test {
+namespace {
+
+std::string bytes_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class FromTheMiddle : public NodeTest {
+ protected:
+  [[nodiscard]] std::string file() const { return folder() / "run.mcap"; }
+  Outcome replay(const std::string& file, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"replay", file, "--node", node() + "-r"};
+    words.insert(words.end(), more.begin(), more.end());
+    return indurop(words);
+  }
+  static Module rambler(const std::string& file = "rambler.so") {
+    return {.file = file, .name = "rambler", .period = "2ms", .priority = 2};
+  }
+  // Replays the recording from this time on.
+  Outcome replay_from(std::uint64_t ms) const {
+    const std::string part = folder() / "part.mcap";
+    std::filesystem::remove(part);
+    EXPECT_EQ(indurop({"recording", "cut", file(), "--from", std::to_string(ms) + "ms", "-o", part}).code, 0);
+    return replay(part);
+  }
+  const Module kCounter{.file = "counter.so", .name = "counter", .priority = 1};
+  const Module kWalker{.file = "walker.so", .name = "rambler", .period = "2ms", .priority = 2};
+};
+
+TEST_F(FromTheMiddle, A_live_recording_is_repeated_from_its_first_keyframes) {
+  Program& sut = start_and_wait({kCounter, rambler()});
+  ASSERT_TRUE(runs_reach("rambler", 300));
+  const Outcome recorded = indurop({"record", "-o", file(), "--duration", "1500ms"});
+  ASSERT_EQ(recorded.code, 0) << recorded.err;
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  const Outcome again = replay(file());
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, " values: equal");
+  EXPECT_CONTAINS(again.out, "runs of rambler were not repeated: they come before the first keyframe");
+  EXPECT_CONTAINS(again.err, "runs of counter before tick ");
+  EXPECT_CONTAINS(again.err, "the recording has no keyframe of it");
+  EXPECT_FALSE(contains(again.err, "runs of rambler before tick ")) << again.err;
+}
+
+TEST_F(FromTheMiddle, Any_cut_is_repeated_as_the_whole_is) {
+  for (const char* module : {"rambler.so", "rambler_by.so"}) {
+    std::filesystem::remove(file());
+    ASSERT_EQ(run_to_end({kCounter, rambler(module)}, {"--sim", "--until", "4s", "--record", file()}).code, 0);
+    EXPECT_CONTAINS(replay(file()).out, "4000 ticks, 6000 runs, 12000 values: equal");
+    std::mt19937 random(7);  // NOLINT(cert-msc51-cpp): the same each time
+    for (int round = 0; round < 20; ++round) {
+      const std::uint64_t from = 1 + random() % 3200;
+      const Outcome again = replay_from(from);
+      EXPECT_EQ(again.code, 0) << from << again.out << again.err;
+      EXPECT_CONTAINS(again.out, " values: equal");
+    }
+  }
+}
+
+TEST_F(FromTheMiddle, Without_a_declaration_it_differs) {
+  ASSERT_EQ(run_to_end({kCounter, kWalker}, {"--sim", "--until", "2s", "--record", file()}).code, 0);
+  const Outcome again = replay_from(1000);
+  EXPECT_EQ(again.code, 4) << again.out << again.err;
+  EXPECT_CONTAINS(again.err, "runs of rambler before tick 1000 are not in the recording");
+}
+
+TEST_F(FromTheMiddle, What_another_file_declares_otherwise_is_named) {
+  ASSERT_EQ(run_to_end({kCounter, rambler()}, {"--sim", "--until", "2s", "--record", file()}).code, 0);
+  const std::string part = folder() / "part.mcap";
+  ASSERT_EQ(indurop({"recording", "cut", file(), "--from", "1s", "-o", part}).code, 0);
+  const Outcome again = replay(part, {"--config", write("by.xml", xml({kCounter, rambler("rambler_by.so")}))});
+  EXPECT_CONTAINS(again.err, "module rambler: path cannot be put back: it is declared otherwise than in the recording");
+}
+
+TEST_F(FromTheMiddle, Simulations_make_the_same_keyframes_each_time) {
+  for (const char* name : {"one.mcap", "two.mcap"}) {
+    ASSERT_EQ(run_to_end({kCounter, rambler()}, {"--sim", "--until", "2s", "--record", folder() / name}).code, 0);
+  }
+  const std::string one = bytes_of_file(folder() / "one.mcap");
+  EXPECT_NE(one.find("indurop/keyframes/rambler"), std::string::npos);
+  EXPECT_TRUE(one == bytes_of_file(folder() / "two.mcap"));
+}
+
+// Each keyframe is of a moment between two runs, however short that is.
+TEST_F(FromTheMiddle, A_module_that_is_nearly_always_running_has_whole_keyframes) {
+  Module busy = rambler("rambler_busy.so");
+  Program& sut = start_and_wait({kCounter, busy});
+  ASSERT_TRUE(runs_reach("rambler", 300));
+  ASSERT_EQ(indurop({"record", "-o", file(), "--duration", "3s"}).code, 0);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  for (std::uint64_t from = 0; from < 2000; from += 250) {
+    const Outcome again = replay_from(from);
+    EXPECT_EQ(again.code, 0) << from << again.out << again.err;
+    EXPECT_CONTAINS(again.out, " values: equal");
+  }
+}
+
+}  // namespace
+}  // namespace indurop::test
