@@ -40,6 +40,9 @@ void Retainer::load(Console& console, bool only_changed) {
   for (const std::string& one : report.value().lost) {
     console.warning("retained {}", one);
   }
+  if (const std::string kept = report.value().kept_line(); !kept.empty()) {
+    console.info("retained {}", kept);
+  }
   if (report.value().restored > 0 && !only_changed) {
     console.info("{} retained variables restored", report.value().restored);
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// File: FileHeader, u32 length and text of the types (schema JSON), then one record per variable: RecordHeader, name,
-// value. A new copy replaces the older of the two at once, so at any moment one complete copy exists under its name.
+// A new copy replaces the older of the two at once, so at any moment one complete copy exists under its name.
 
 #include "store/vars/retain.h"
 
@@ -19,115 +18,29 @@
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 #include "core/schema/carry.h"
-#include "store/vars/crc32c.h"
 #include "store/vars/os_error.h"
+#include "store/vars/retain_format.h"
 #include "store/vars/shm_file.h"
 
 namespace indurop::vars {
 
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
-constexpr std::uint64_t kRetainMagic = 0x3154455255444e49ULL;  // "INDURET1"
-constexpr std::uint32_t kRetainVersion = 2;
-constexpr std::uint32_t kWithoutTypes = 1;  // still readable
 constexpr std::array<const char*, 2> kNames{"retain.a", "retain.b"};
-constexpr const char* kLosses = "retain.lost";
+constexpr const char* kReport = "retain.lost";
 constexpr std::size_t kMaxBytes = std::numeric_limits<std::size_t>::max() / 2;
-constexpr std::size_t kChecked = 16;  // the checksum covers everything from this offset on
 
-struct FileHeader {
-  std::uint64_t magic;
-  std::uint32_t version;
-  std::uint32_t checksum;
-  std::uint64_t sequence;  // the higher one is the newer
-  std::uint64_t payload_size;
-};
-static_assert(sizeof(FileHeader) == 32 && offsetof(FileHeader, sequence) == kChecked);
-
-struct RecordHeader {
-  std::uint64_t name_hash;
-  std::uint64_t type_hash;
-  std::uint32_t name_length;
-  std::uint32_t value_size;
-};
-
-void append(Bytes& to, const void* from, std::size_t size) {
-  const auto* at = static_cast<const std::uint8_t*>(from);
-  to.insert(to.end(), at, at + size);
+const DirectoryEntry* find_retained(const Store& store, const Record& record) {
+  const DirectoryEntry* const entry = store.find(record.header.name_hash);
+  return entry != nullptr && (entry->flags & kRetain) != 0 ? entry : nullptr;
 }
 
-// Text for people, empty if the copy is valid.
-std::string damage_of(std::span<const std::uint8_t> bytes) {
-  FileHeader header{};
-  if (bytes.size() < sizeof(header)) {
-    return "cut off";
-  }
-  std::memcpy(&header, bytes.data(), sizeof(header));
-  if (header.magic != kRetainMagic) {
-    return "not a file of retained values";
-  }
-  if (header.version != kRetainVersion && header.version != kWithoutTypes) {
-    return "written by another version of InduRoP";
-  }
-  if (header.payload_size != bytes.size() - sizeof(header)) {
-    return "cut off";
-  }
-  return header.checksum == crc32c(bytes.subspan(kChecked)) ? "" : "checksum is wrong";
-}
-
-struct Record {
-  RecordHeader header{};
-  std::string name;
-  std::span<const std::uint8_t> value;
-};
-
-// Removes one record from `rest`. Returns false at the end, and at anything that cannot be a record.
-bool next_record(std::span<const std::uint8_t>& rest, Record& record) {
-  if (rest.size() < sizeof(RecordHeader)) {
-    return false;
-  }
-  std::memcpy(&record.header, rest.data(), sizeof(RecordHeader));
-  rest = rest.subspan(sizeof(RecordHeader));
-  const std::uint64_t size = std::uint64_t{record.header.name_length} + record.header.value_size;
-  if (size > rest.size()) {
-    return false;
-  }
-  record.name.assign(reinterpret_cast<const char*>(rest.data()), record.header.name_length);
-  record.value = rest.subspan(record.header.name_length, record.header.value_size);
-  rest = rest.subspan(size);
-  return true;
-}
-
-// Reads the types at the start of `rest` and removes them.
-schema::Schema take_types(std::span<const std::uint8_t>& rest) {
-  std::uint32_t length = 0;
-  if (rest.size() < sizeof length) {
-    return {};
-  }
-  std::memcpy(&length, rest.data(), sizeof length);
-  rest = rest.subspan(sizeof length);
-  length = static_cast<std::uint32_t>(std::min<std::size_t>(length, rest.size()));
-  auto types = schema::from_json({reinterpret_cast<const char*>(rest.data()), length});
-  rest = rest.subspan(length);
-  return types ? std::move(types).value() : schema::Schema{};  // another version: only equal types are restored
-}
-
-// The types of the retained variables, as a later run needs them.
-std::string types_of(const Store& store) {
-  schema::Schema out;
-  for (const DirectoryEntry& entry : store.directory()) {
-    if ((entry.flags & kRetain) != 0) {
-      const schema::Variable& variable = store.schema().variables[entry.schema_index];
-      schema::Variable& kept = out.variables.emplace_back();
-      kept.name = variable.name;
-      kept.type = variable.type;
-      kept.unit = variable.unit;
-      kept.kind = variable.kind;
-    }
-  }
-  return schema::to_json(out);
+void add_type(schema::Schema& types, const schema::Variable& variable) {
+  schema::Variable& one = types.variables.emplace_back();
+  one.name = variable.name;
+  one.type = variable.type;
+  one.unit = variable.unit;
+  one.kind = variable.kind;
 }
 
 class Restorer {
@@ -136,13 +49,9 @@ class Restorer {
       : store_(store), types_(types), only_changed_(only_changed), report_(report) {}
 
   void restore(const Record& record) {
-    const DirectoryEntry* entry = store_.find(record.header.name_hash);
+    const DirectoryEntry* entry = find_retained(store_, record);
     if (entry == nullptr) {
-      report_.lost.push_back(record.name + ": is no longer declared");
-      return;
-    }
-    if ((entry->flags & kRetain) == 0) {
-      report_.lost.push_back(record.name + ": is no longer declared retain, starts with its initial value");
+      report_.kept.push_back(record.name);
       return;
     }
     const schema::Variable& variable = store_.schema().variables[entry->schema_index];
@@ -186,41 +95,25 @@ class Restorer {
   RetainReport& report_;
 };
 
-Result<Bytes> collect(const Store& store, const std::string& types) {
+Result<Bytes> collect(const Store& store, const std::string& types, const Bytes& kept) {
   Bytes payload;
-  const auto length = static_cast<std::uint32_t>(types.size());
-  append(payload, &length, sizeof length);
-  append(payload, types.data(), types.size());
+  append_types(payload, types);
+  const std::size_t without_records = payload.size();
   Bytes value;
-  bool any = false;
   for (const DirectoryEntry& entry : store.directory()) {
     if ((entry.flags & kRetain) == 0) {
       continue;
     }
-    any = true;
     value.resize(entry.value_size);
     if (Status status = store.read(entry, 0, value); !status) {
       return status.error();
     }
     const std::string& name = store.schema().variables[entry.schema_index].name;
-    const RecordHeader header{entry.name_hash, entry.type_hash, static_cast<std::uint32_t>(name.size()),
-                              entry.value_size};
-    append(payload, &header, sizeof(header));
-    append(payload, name.data(), name.size());
-    append(payload, value.data(), value.size());
+    const auto length = static_cast<std::uint32_t>(name.size());
+    append_record(payload, {{entry.name_hash, entry.type_hash, length, entry.value_size}, name, value});
   }
-  return any ? payload : Bytes{};
-}
-
-Bytes encode(std::uint64_t sequence, const Bytes& payload) {
-  FileHeader header{kRetainMagic, kRetainVersion, 0, sequence, payload.size()};
-  Bytes bytes;
-  bytes.reserve(sizeof(header) + payload.size());
-  append(bytes, &header, sizeof(header));
-  append(bytes, payload.data(), payload.size());
-  header.checksum = crc32c(std::span(bytes).subspan(kChecked));
-  std::memcpy(bytes.data(), &header, sizeof(header));
-  return bytes;
+  payload.insert(payload.end(), kept.begin(), kept.end());
+  return payload.size() > without_records ? payload : Bytes{};
 }
 
 }  // namespace
@@ -245,6 +138,18 @@ std::filesystem::path state_directory(const std::string& node) {
     home = user == nullptr ? "/" : user->pw_dir;
   }
   return std::filesystem::path(home) / ".local/state/indurop" / node;
+}
+
+std::string RetainReport::kept_line() const {
+  constexpr std::size_t kShown = 5;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kept.size(), kShown); ++i) {
+    names += (i == 0 ? " " : ", ") + kept[i];
+  }
+  if (kept.size() > kShown) {
+    names += " and " + std::to_string(kept.size() - kShown) + " more";
+  }
+  return names.empty() ? "" : "values are kept for variables that this configuration does not declare retain:" + names;
 }
 
 RetainFile::RetainFile(std::filesystem::path directory) : directory_(std::move(directory)) {}
@@ -285,45 +190,73 @@ Result<RetainReport> RetainFile::load(Store& store, bool only_changed) {
     return status.error();
   }
   std::span<const std::uint8_t> rest(copy_.payload);
-  const schema::Schema types = copy_.version == kRetainVersion && !rest.empty() ? take_types(rest) : schema::Schema{};
+  const schema::Schema types = take_types(copy_.version, rest);
   Restorer restorer(store, types, only_changed, report);
   Record record;
   while (next_record(rest, record)) {
     restorer.restore(record);
   }
-  keep_losses(report);
+  std::sort(report.kept.begin(), report.kept.end());
+  keep_report(report);
   return report;
 }
 
-void RetainFile::keep_losses(RetainReport& report) const {
-  const std::filesystem::path losses = directory_ / kLosses;
+void RetainFile::keep_report(RetainReport& report) const {
   std::error_code failure;
-  if (report.lost.empty()) {
-    std::filesystem::remove(losses, failure);
-    return;
+  if (!report.lost.empty()) {
+    const std::filesystem::path kept = directory_ / ("retain.before." + std::to_string(copy_.sequence));
+    std::filesystem::copy_file(directory_ / kNames[static_cast<std::size_t>(newest_)], kept,
+                               std::filesystem::copy_options::overwrite_existing, failure);
+    report.lost.push_back(failure ? kept.string() + ": cannot be written: " + failure.message()
+                                  : "the previous values are kept in " + kept.string());
   }
-  const std::filesystem::path kept = directory_ / ("retain.before." + std::to_string(copy_.sequence));
-  std::filesystem::copy_file(directory_ / kNames[static_cast<std::size_t>(newest_)], kept,
-                             std::filesystem::copy_options::overwrite_existing, failure);
-  report.lost.push_back(failure ? kept.string() + ": cannot be written: " + failure.message()
-                                : "the previous values are kept in " + kept.string());
   std::string text;
   for (const std::string& one : report.lost) {
     text += one + "\n";
   }
-  static_cast<void>(base::replace_file(losses, text, base::Durable::No));  // already reported at the start
+  if (const std::string kept = report.kept_line(); !kept.empty()) {
+    text += kept + "\n";
+  }
+  if (text.empty()) {
+    std::filesystem::remove(directory_ / kReport, failure);
+    return;
+  }
+  static_cast<void>(base::replace_file(directory_ / kReport, text, base::Durable::No));  // reported at the start, too
 }
 
-std::vector<std::string> RetainFile::losses() const {
+std::vector<std::string> RetainFile::last_report() const {
   std::vector<std::string> lines;
   constexpr std::size_t kMaxText = 1U << 20U;
-  const auto text = base::read_file(directory_ / kLosses, kMaxText);
+  const auto text = base::read_file(directory_ / kReport, kMaxText);
   for (std::size_t from = 0; text && from < text->size();) {
     const std::size_t end = std::min(text->find('\n', from), text->size());
     lines.push_back(text->substr(from, end - from));
     from = end + 1;
   }
   return lines;
+}
+
+void RetainFile::prepare(const Store& store) {
+  schema::Schema types;
+  for (const DirectoryEntry& entry : store.directory()) {
+    if ((entry.flags & kRetain) != 0) {
+      add_type(types, store.schema().variables[entry.schema_index]);
+    }
+  }
+  kept_.clear();
+  std::span<const std::uint8_t> rest(copy_.payload);
+  const schema::Schema older = take_types(copy_.version, rest);
+  Record record;
+  while (next_record(rest, record)) {
+    if (find_retained(store, record) == nullptr) {
+      append_record(kept_, record);
+      if (const schema::Variable* const type = schema::find_variable(older, record.name); type != nullptr) {
+        add_type(types, *type);
+      }
+    }
+  }
+  types_ = schema::to_json(types);
+  layout_ = store.header().layout_hash;
 }
 
 Status RetainFile::save(const Store& store, bool* written) {
@@ -336,11 +269,10 @@ Status RetainFile::save(const Store& store, bool* written) {
       return status;
     }
   }
-  if (types_layout_ != store.header().layout_hash) {
-    types_ = types_of(store);
-    types_layout_ = store.header().layout_hash;
+  if (layout_ != store.header().layout_hash) {
+    prepare(store);
   }
-  auto payload = collect(store, types_);
+  auto payload = collect(store, types_, kept_);
   if (!payload) {
     return payload.error();
   }
@@ -381,7 +313,7 @@ Status RetainFile::write_copy(const std::filesystem::path& target, const Bytes& 
 Status RetainFile::erase() {
   scanned_ = false;
   bool found = false;
-  for (const char* name : {kNames[0], kNames[1], kLosses}) {
+  for (const char* name : {kNames[0], kNames[1], kReport}) {
     if (::unlink((directory_ / name).c_str()) == 0) {
       found = true;
     } else if (errno != ENOENT && errno != ENOTDIR) {

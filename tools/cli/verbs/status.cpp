@@ -40,7 +40,8 @@ int show_once(Context& context, const BoardRun& chosen, bool check) {
   const NodeReport report = report_of(node, run);
   const auto mirror = run.here() ? view_mirror(node) : std::nullopt;
   const auto external = run.here() ? view_external(node) : std::nullopt;
-  const auto lost = run.here() ? vars::RetainFile(vars::state_directory(node)).losses() : std::vector<std::string>();
+  const auto retained =
+      run.here() ? vars::RetainFile(vars::state_directory(node)).last_report() : std::vector<std::string>();
   const alarms::AlarmCounts alarms = run.here() ? alarms_here(node) : alarms::AlarmCounts{};
   const auto forces = chosen.forces ? *chosen.forces : forces_here(node);
   const vars::LockNote lock = chosen.forces ? chosen.lock : vars::lock_of(node);
@@ -61,7 +62,7 @@ int show_once(Context& context, const BoardRun& chosen, bool check) {
     if (const std::string text = alarms::sentence_of(alarms); !text.empty()) {
       context.out.line(context.out.paint(Style::Warn, fmt::format("  alarms    {} (indurop alarms)", text)));
     }
-    for (const std::string& one : lost) {
+    for (const std::string& one : retained) {
       context.out.line(context.out.paint(Style::Warn, "  retained  " + one));
     }
     if (mirror) {
@@ -85,7 +86,7 @@ int show_once(Context& context, const BoardRun& chosen, bool check) {
   head["lock"] = json_of(lock);
   head["alarms"] = json_of(alarms);
   head["trouble"] = JsonValue(trouble);
-  head["retain_lost"] = lost;
+  head["retain_lost"] = retained;
   head["external"] = external ? json_of(*external) : JsonValue();
   print_table(context, module_table(run, report.alive), head, "modules");
   if (!report.alive && !chosen.kept) {
