@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The controller chip of a simulated slave: registers and memory as a master reaches them, with SyncManagers, FMMUs,
+// the EEPROM interface and the distributed clock. What the device behind it does is in slave.h.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "control/io/ethercat/bytes.h"
+#include "control/io/ethercat/registers.h"
+
+namespace indurop::io::ethercat {
+
+using Time = std::chrono::nanoseconds;  // virtual, since the simulation began
+
+struct EscConfig {
+  std::uint8_t type = 0x11;
+  std::uint8_t fmmus = 8;
+  std::uint8_t sync_managers = 8;
+  std::uint8_t ram_kilobytes = 8;
+  bool has_clock = true;
+  Time clock_start{0};         // what its clock shows when the simulation begins
+  std::int64_t drift_ppb = 0;  // how much faster than time its clock runs, 1e-9
+  Time eeprom_time{100'000};   // busy for each access
+  std::vector<std::uint8_t> eeprom;
+};
+
+// What the master did that the device has to see.
+struct EscEvents {
+  bool al_control = false;
+  bool mailbox = false;  // a message arrived in SyncManager 0
+  bool repeat = false;   // the answer in SyncManager 1 is asked for again
+  bool outputs = false;  // a SyncManager of outputs was written
+};
+
+class Esc {
+ public:
+  explicit Esc(EscConfig config);
+
+  // As after power-on: registers have their first values, the EEPROM keeps its own.
+  void reset();
+
+  // Access of the master. False: refused, the working counter does not rise.
+  bool read(std::uint16_t offset, std::span<std::uint8_t> to, Time now);
+  bool write(std::uint16_t offset, Bytes from, Time now);
+  bool read_logical(std::uint32_t address, std::span<std::uint8_t> to, Time now);
+  bool write_logical(std::uint32_t address, Bytes from, Time now);
+  // A write to the receive times passed the processing unit, and came back through the next port.
+  void latch_receive_times(Time in, Time back) noexcept;
+
+  // Access of the device behind.
+  [[nodiscard]] std::uint8_t at(std::size_t offset) const noexcept { return memory_[offset]; }
+  template <class T>
+  [[nodiscard]] T value(std::size_t offset) const noexcept {
+    return load<T>(memory_, offset);
+  }
+  template <class T>
+  void set(std::size_t offset, T value) noexcept {
+    store<T>(memory_, offset, value);
+  }
+  [[nodiscard]] std::span<std::uint8_t> memory(std::size_t offset, std::size_t size) noexcept;
+  EscEvents take_events() noexcept;
+  [[nodiscard]] bool mailbox_is_full(unsigned sync_manager) const noexcept;
+  void set_mailbox_full(unsigned sync_manager, bool full) noexcept;
+
+  // Its clock, and that with the offset the master has set.
+  [[nodiscard]] Time local_time(Time now) const noexcept;
+  [[nodiscard]] Time system_time(Time now) const noexcept;
+  void jump_clock(Time by) noexcept { clock_adjusted_ += by; }
+
+  void hold_eeprom_busy(Time until) noexcept { eeprom_busy_until_ = until; }
+  [[nodiscard]] std::vector<std::uint8_t>& eeprom() noexcept { return config_.eeprom; }
+
+ private:
+  [[nodiscard]] bool is_there(std::uint16_t offset, std::size_t size) const noexcept;
+  [[nodiscard]] bool may_access(std::uint16_t offset, std::size_t size, bool write) const noexcept;
+  void after_access(std::uint16_t offset, std::size_t size, bool write) noexcept;
+  void refresh(std::uint16_t offset, std::size_t size, Time now) noexcept;
+  void write_register(std::uint16_t offset, std::uint8_t byte) noexcept;
+  void after_write(std::uint16_t offset, std::size_t size, Time now);
+  void run_eeprom_command(Time now);
+  void follow_reference(Time received, Time now) noexcept;
+
+  struct Mapping {  // one FMMU
+    std::uint64_t first_bit = 0;
+    std::uint64_t end_bit = 0;
+    std::uint64_t physical_bit = 0;
+    bool reads = false;
+    bool writes = false;
+  };
+  [[nodiscard]] bool mapping(unsigned number, Mapping& found) const noexcept;
+
+  EscConfig config_;
+  std::vector<std::uint8_t> memory_;
+  EscEvents events_;
+  Time eeprom_busy_until_{0};
+  Time clock_adjusted_{0};
+};
+
+}  // namespace indurop::io::ethercat

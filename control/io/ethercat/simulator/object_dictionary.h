@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The objects of a simulated slave, and the answers to SDO requests for them.
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "control/io/ethercat/coe.h"
+
+namespace indurop::io::ethercat {
+
+class ObjectDictionary {
+ public:
+  void add(std::uint16_t index, std::uint8_t subindex, std::vector<std::uint8_t> value, bool writable = true);
+  template <class T>
+  void add_number(std::uint16_t index, std::uint8_t subindex, T value, bool writable = true) {
+    std::vector<std::uint8_t> bytes(sizeof(T));
+    store<T>(bytes, 0, value);
+    add(index, subindex, std::move(bytes), writable);
+  }
+  // The value as a number, 0 if it is not there.
+  [[nodiscard]] std::uint64_t number(std::uint16_t index, std::uint8_t subindex) const;
+  [[nodiscard]] bool has(std::uint16_t index) const;
+
+  // An object's value, or the reason why not. Complete: all subindices in a row, the first as 16 bits.
+  std::optional<AbortCode> read(std::uint16_t index, std::uint8_t subindex, bool complete,
+                                std::vector<std::uint8_t>& value) const;
+  std::optional<AbortCode> write(std::uint16_t index, std::uint8_t subindex, bool complete, Bytes value);
+
+ private:
+  struct Object {
+    std::vector<std::uint8_t> value;
+    bool writable = true;
+  };
+  std::map<std::pair<std::uint16_t, std::uint8_t>, Object> objects_;
+};
+
+// Answers SDO requests one after the other, and remembers a transfer in segments. A message is what is behind the
+// mailbox header.
+class SdoServer {
+ public:
+  // `room` is the size of the mailbox that the answers go to.
+  std::vector<std::uint8_t> answer(Bytes message, ObjectDictionary& objects, std::size_t room);
+  void reset() noexcept { transfer_.reset(); }
+
+  // The next request gets this abort code, or none at all (0).
+  void refuse_next(std::uint32_t code) noexcept { refusal_ = code; }
+  // Transfers by which objects were written since the slave was reset.
+  [[nodiscard]] std::uint64_t downloads() const noexcept { return downloads_; }
+
+ private:
+  struct Transfer {
+    std::uint16_t index = 0;
+    std::uint8_t subindex = 0;
+    bool complete = false;
+    bool toggle = false;
+    std::size_t done = 0;
+    std::vector<std::uint8_t> value;
+  };
+
+  std::vector<std::uint8_t> download(Bytes message, ObjectDictionary& objects);
+  std::vector<std::uint8_t> download_segment(Bytes message, ObjectDictionary& objects);
+  std::vector<std::uint8_t> upload(Bytes message, const ObjectDictionary& objects, std::size_t room);
+  std::vector<std::uint8_t> upload_segment(Bytes message, std::size_t room);
+  std::vector<std::uint8_t> finish_download(const Transfer& transfer, ObjectDictionary& objects);
+
+  std::optional<Transfer> transfer_;
+  std::optional<std::uint32_t> refusal_;
+  std::uint64_t downloads_ = 0;
+};
+
+}  // namespace indurop::io::ethercat

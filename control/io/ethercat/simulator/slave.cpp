@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/io/ethercat/simulator/slave.h"
+
+#include <algorithm>
+
+namespace indurop::io::ethercat {
+
+namespace {
+
+constexpr unsigned kMailboxOut = 0;  // SyncManagers
+constexpr unsigned kMailboxIn = 1;
+constexpr unsigned kOutputs = 2;
+constexpr unsigned kInputs = 3;
+constexpr std::uint16_t kAssignment = 0x1C10;  // plus the number of a SyncManager
+
+constexpr std::size_t manager_at(unsigned number) {
+  return reg::kSyncManager + std::size_t{number} * kSyncManagerBytes;
+}
+
+}  // namespace
+
+Slave::Slave(SlaveConfig config, Application application)
+    : esc_(std::move(config.esc)),
+      objects_(std::move(config.objects)),
+      application_(std::move(application)),
+      state_time_(config.state_time),
+      mailbox_time_(config.mailbox_time) {
+  if (auto sii = read_sii(esc_.eeprom())) {
+    sii_ = std::move(sii).value();
+  }
+}
+
+AlState Slave::state() const noexcept {
+  return static_cast<AlState>(esc_.at(reg::kAlStatus) & kAlStateMask);
+}
+
+void Slave::set_power(bool on) {
+  if (on && !on_) {
+    esc_.reset();
+    sdo_.reset();
+    answers_.clear();
+    last_answer_.clear();
+    state_due_.reset();
+    last_counter_ = 0;
+    own_counter_ = 0;
+  }
+  on_ = on;
+}
+
+void Slave::set_next_port(bool linked) noexcept {
+  // Ports 0 and 1 with link and communication; those without are closed.
+  esc_.set<std::uint16_t>(reg::kDlStatus, linked ? 0x5A31 : 0x5611);
+}
+
+// --- frames ---
+
+void Slave::process(std::span<std::uint8_t> frame, Time now, Time back) {
+  advance_device(now);
+  FrameReader reader(frame);
+  Datagram datagram;
+  while (reader.next(datagram)) {
+    run_datagram(datagram, frame, now, back);
+    react(now);
+  }
+}
+
+bool Slave::is_station(std::uint16_t address) const noexcept {
+  const bool alias = (esc_.at(reg::kDlControl + 3U) & 1U) != 0;
+  return address == esc_.value<std::uint16_t>(reg::kStation) ||
+         (alias && address == esc_.value<std::uint16_t>(reg::kAlias));
+}
+
+void Slave::run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame, Time now, Time back) {
+  const auto address = static_cast<std::uint16_t>(datagram.address);
+  const auto offset = static_cast<std::uint16_t>(datagram.address >> 16U);
+  bool by_position = false;
+  bool is_mine = true;
+  bool reads = false;
+  bool writes = false;
+  switch (datagram.command) {
+    case Command::Nop:
+      return;
+    case Command::Lrd:
+    case Command::Lwr:
+    case Command::Lrw:
+      access_logical(datagram, frame, now);
+      return;
+    case Command::Aprd:
+    case Command::Apwr:
+    case Command::Aprw:
+      by_position = true;
+      is_mine = address == 0;
+      break;
+    case Command::Fprd:
+    case Command::Fpwr:
+    case Command::Fprw:
+      is_mine = is_station(address);
+      break;
+    case Command::Brd:
+    case Command::Bwr:
+    case Command::Brw:
+      by_position = true;
+      break;
+    case Command::Armw:
+    case Command::Frmw:
+      by_position = datagram.command == Command::Armw;
+      reads = by_position ? address == 0 : is_station(address);
+      writes = !reads;
+      break;
+  }
+  if (datagram.command <= Command::Brw) {
+    const unsigned kind = (static_cast<unsigned>(datagram.command) - 1) % 3;  // read, write, both
+    reads = kind != 1;
+    writes = kind != 0;
+  }
+  if (by_position) {
+    store<std::uint16_t>(frame, datagram.at + 2, static_cast<std::uint16_t>(address + 1));
+  }
+  if (is_mine) {
+    if (writes && offset == reg::kReceiveTimes) {
+      esc_.latch_receive_times(now, back);
+    }
+    access(datagram, frame, reads, writes, now);
+  }
+}
+
+void Slave::access(const Datagram& datagram, std::span<std::uint8_t> frame, bool reads, bool writes, Time now) {
+  const auto offset = static_cast<std::uint16_t>(datagram.address >> 16U);
+  const auto data = frame.subspan(datagram.data_at(), datagram.length);
+  std::array<std::uint8_t, kMaxFrame> found{};
+  const auto read = std::span(found).first(datagram.length);
+  const bool has_read = reads && esc_.read(offset, read, now);
+  const bool has_written = writes && esc_.write(offset, data, now);
+  if (has_read) {
+    const bool broadcast = datagram.command == Command::Brd || datagram.command == Command::Brw;
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      data[i] = static_cast<std::uint8_t>(broadcast ? data[i] | read[i] : read[i]);
+    }
+  }
+  const unsigned write_counts = reads ? 2 : 1;
+  store<std::uint16_t>(frame, datagram.wkc_at(),
+                       static_cast<std::uint16_t>(load<std::uint16_t>(frame, datagram.wkc_at()) + (has_read ? 1U : 0U) +
+                                                  (has_written ? write_counts : 0U)));
+}
+
+void Slave::access_logical(const Datagram& datagram, std::span<std::uint8_t> frame, Time now) {
+  const auto data = frame.subspan(datagram.data_at(), datagram.length);
+  unsigned count = 0;
+  std::array<std::uint8_t, kMaxFrame> copy{};
+  std::copy(data.begin(), data.end(), copy.begin());
+  if (datagram.command != Command::Lwr && esc_.read_logical(datagram.address, data, now)) {
+    count += 1;
+  }
+  if (datagram.command != Command::Lrd && esc_.write_logical(datagram.address, Bytes(copy).first(data.size()), now)) {
+    count += datagram.command == Command::Lrw ? 2 : 1;
+  }
+  store<std::uint16_t>(frame, datagram.wkc_at(),
+                       static_cast<std::uint16_t>(load<std::uint16_t>(frame, datagram.wkc_at()) + count));
+}
+
+// --- the device ---
+
+void Slave::react(Time now) {
+  const EscEvents events = esc_.take_events();
+  if (events.al_control) {
+    state_due_ = now + state_time_;
+  }
+  if (events.mailbox) {
+    receive_mailbox(now);
+  }
+  if (events.repeat && !last_answer_.empty()) {
+    answers_.push_front({now + mailbox_time_, last_answer_});
+    esc_.set_mailbox_full(kMailboxIn, false);
+  }
+  if (events.outputs) {
+    outputs_at_ = now;
+    run_application();
+  }
+}
+
+void Slave::advance_device(Time now) {
+  if (state_due_ && *state_due_ <= now) {
+    state_due_.reset();
+    change_state(esc_.at(reg::kAlControl));
+    outputs_at_ = now;
+  }
+  const auto watchdog = Time(esc_.value<std::uint16_t>(reg::kWatchdogProcessData) * std::int64_t{40} *
+                             (esc_.value<std::uint16_t>(reg::kWatchdogDivider) + 2));
+  if (state() == AlState::Op && process_bytes(SyncManagerUse::Outputs) > 0 && now - outputs_at_ > watchdog &&
+      (esc_.at(manager_at(kOutputs) + 4) & 0x40U) != 0) {
+    fall_to(AlState::SafeOp, kAlSyncWatchdog);
+  }
+  deliver_mailbox(now);
+}
+
+void Slave::fall_to(AlState state, std::uint16_t code) noexcept {
+  esc_.set<std::uint16_t>(reg::kAlStatus, static_cast<std::uint16_t>(static_cast<unsigned>(state) | kAlError));
+  esc_.set<std::uint16_t>(reg::kAlStatusCode, code);
+}
+
+void Slave::refuse_state(AlState state, std::uint16_t code, unsigned times) {
+  refusal_ = {state, code, times};
+}
+
+void Slave::change_state(std::uint8_t request) {
+  const AlState from = state();
+  const auto to = static_cast<AlState>(request & kAlStateMask);
+  const bool has_error = (esc_.at(reg::kAlStatus) & kAlError) != 0;
+  if (has_error && (request & kAlError) == 0 && to != AlState::Init) {
+    return;  // the master has not acknowledged
+  }
+  std::uint16_t code = check_change(from, to);
+  if (code == kAlNoError && refusal_.times > 0 && refusal_.state == to && from != to) {
+    --refusal_.times;
+    code = refusal_.code;
+  }
+  if (code != kAlNoError) {
+    fall_to(from, code);
+    return;
+  }
+  esc_.set<std::uint16_t>(reg::kAlStatus, static_cast<std::uint16_t>(to));
+  esc_.set<std::uint16_t>(reg::kAlStatusCode, kAlNoError);
+  if (to == AlState::Init) {
+    answers_.clear();
+    sdo_.reset();
+    last_counter_ = 0;
+  }
+  run_application();
+}
+
+std::uint16_t Slave::check_change(AlState from, AlState to) const {
+  if (to != AlState::Init && to != AlState::PreOp && to != AlState::SafeOp && to != AlState::Op) {
+    return to == AlState::Boot ? 0x0013 : kAlUnknownState;
+  }
+  if (to <= from) {
+    return kAlNoError;
+  }
+  if (from == AlState::Init) {
+    return to != AlState::PreOp ? kAlInvalidChange : mailbox_fits() ? kAlNoError : kAlInvalidMailbox;
+  }
+  if (from == AlState::PreOp) {
+    return to != AlState::SafeOp                                   ? kAlInvalidChange
+           : !process_data_fits(SyncManagerUse::Outputs, kOutputs) ? kAlInvalidOutputs
+           : !process_data_fits(SyncManagerUse::Inputs, kInputs)   ? kAlInvalidInputs
+                                                                   : kAlNoError;
+  }
+  return kAlNoError;
+}
+
+Slave::Area Slave::area_of(unsigned sync_manager) const noexcept {
+  const std::size_t at = manager_at(sync_manager);
+  if ((esc_.at(at + 6) & 1U) == 0) {
+    return {};
+  }
+  return {esc_.value<std::uint16_t>(at), esc_.value<std::uint16_t>(at + 2)};
+}
+
+bool Slave::mailbox_fits() const {
+  if (sii_.mailbox.receive_size == 0) {
+    return true;
+  }
+  const Area out = area_of(kMailboxOut);
+  const Area in = area_of(kMailboxIn);
+  return out.start == sii_.mailbox.receive_at && out.length == sii_.mailbox.receive_size &&
+         in.start == sii_.mailbox.send_at && in.length == sii_.mailbox.send_size;
+}
+
+std::size_t Slave::process_bytes(SyncManagerUse use) const {
+  const unsigned number = use == SyncManagerUse::Outputs ? kOutputs : kInputs;
+  std::size_t bits = 0;
+  if (objects_.has(static_cast<std::uint16_t>(kAssignment + number))) {
+    const auto assignment = static_cast<std::uint16_t>(kAssignment + number);
+    for (std::uint64_t i = 1; i <= objects_.number(assignment, 0); ++i) {
+      const auto pdo = static_cast<std::uint16_t>(objects_.number(assignment, static_cast<std::uint8_t>(i)));
+      for (std::uint64_t k = 1; k <= objects_.number(pdo, 0); ++k) {
+        bits += objects_.number(pdo, static_cast<std::uint8_t>(k)) & 0xFFU;
+      }
+    }
+  } else {
+    for (const Pdo& pdo : use == SyncManagerUse::Outputs ? sii_.outputs : sii_.inputs) {
+      bits += pdo.sync_manager != 0xFF ? bits_of(pdo) : 0;
+    }
+  }
+  return (bits + 7) / 8;
+}
+
+bool Slave::process_data_fits(SyncManagerUse use, unsigned number) const {
+  if (sii_.mailbox.receive_size == 0) {
+    return true;  // without a processor there is none that checks
+  }
+  return area_of(number).length == process_bytes(use);
+}
+
+void Slave::run_application() {
+  if (!application_) {
+    return;
+  }
+  const Area out = area_of(kOutputs);
+  const Area in = area_of(kInputs);
+  const bool operates = state() == AlState::Op;
+  application_(operates ? Bytes(esc_.memory(out.start, out.length)) : Bytes(), esc_.memory(in.start, in.length));
+}
+
+// --- mailbox ---
+
+void Slave::receive_mailbox(Time now) {
+  const Area area = area_of(kMailboxOut);
+  esc_.set_mailbox_full(kMailboxOut, false);
+  const auto mailbox = read_mailbox(esc_.memory(area.start, area.length));
+  if (!mailbox || state() == AlState::Init) {
+    return;
+  }
+  if (mailbox->counter != 0 && mailbox->counter == last_counter_) {
+    return;  // the same once more: its answer was lost, or it was
+  }
+  last_counter_ = mailbox->counter;
+  if (service_of(*mailbox) != CoeService::SdoRequest) {
+    return;
+  }
+  const auto bytes = sdo_.answer(mailbox->data, objects_, area_of(kMailboxIn).length);
+  if (bytes.empty()) {
+    return;
+  }
+  own_counter_ = next_counter(own_counter_);
+  std::vector<std::uint8_t> message(kMailboxHeader);
+  write_mailbox_header(message, bytes.size(), MailboxType::Coe, own_counter_);
+  message.insert(message.end(), bytes.begin(), bytes.end());
+  answers_.push_back({now + mailbox_time_, std::move(message)});
+}
+
+void Slave::send_emergency(const Emergency& emergency) {
+  std::vector<std::uint8_t> message(kCoeHeader + 8);
+  own_counter_ = next_counter(own_counter_);
+  write_mailbox_header(message, message.size() - kMailboxHeader, MailboxType::Coe, own_counter_);
+  write_coe_header(message, CoeService::Emergency);
+  store<std::uint16_t>(message, kCoeHeader, emergency.code);
+  message[kCoeHeader + 2] = emergency.error_register;
+  std::copy(emergency.data.begin(), emergency.data.end(), message.begin() + kCoeHeader + 3);
+  answers_.push_back({Time(0), std::move(message)});
+}
+
+void Slave::deliver_mailbox(Time now) {
+  const Area area = area_of(kMailboxIn);
+  if (answers_.empty() || answers_.front().due > now || area.length == 0 || state() == AlState::Init ||
+      esc_.mailbox_is_full(kMailboxIn)) {
+    return;
+  }
+  last_answer_ = std::move(answers_.front().bytes);
+  answers_.pop_front();
+  const auto to = esc_.memory(area.start, area.length);
+  std::fill(to.begin(), to.end(), std::uint8_t{0});
+  std::copy_n(last_answer_.begin(), std::min(last_answer_.size(), to.size()), to.begin());
+  esc_.set_mailbox_full(kMailboxIn, true);
+}
+
+}  // namespace indurop::io::ethercat
