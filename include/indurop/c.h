@@ -150,6 +150,30 @@ IRP_API irp_code irp_get_text(const irp_node* node, uint32_t id, char* to, size_
  * ended meanwhile), IRP_CHANGED, those of irp_read(). */
 IRP_API irp_code irp_wait_change(const irp_node* node, uint32_t id, uint64_t* seen, int64_t timeout_ns);
 
+/* ---- Every run: gapless values from the node's tape ---- */
+
+typedef struct irp_stream irp_stream;
+
+/* Follows variables: one row for each run of a module that writes one of them; for those that no module writes, of a
+ * module that reads them, and for those that no module uses, whenever the node records their changes. `ids` has
+ * `count` elements. `past` not 0: begins with the oldest run on the tape (two seconds or more), else with the next one.
+ * The stream belongs to the handle: close it first. Errors: IRP_NOT_FOUND (no such id; the node has no tape, or a
+ * variable is too large for it), IRP_CHANGED. */
+IRP_API irp_code irp_stream_open(const irp_node* node, const uint32_t* ids, size_t count, int past,
+                                 irp_stream** stream);
+IRP_API void irp_stream_close(irp_stream* stream); /* null: no effect */
+
+/* Copies rows that are ready, at most `max`, into `rows`; if there is none, waits for `timeout_ns`. A row has
+ * `row_size` bytes: at byte 0 the tick of the run (uint64_t), at byte 8 the time of its end (int64_t, ns of the node's
+ * clock), and at `offsets[i]` the value of variable i after the run. `*taken` is their number. Rows come in the order
+ * of their times. Errors: IRP_TIMEOUT, IRP_GONE and IRP_CHANGED (all rows were taken before), IRP_SIZE (an offset and
+ * its value exceed the row). */
+IRP_API irp_code irp_stream_read(irp_stream* stream, void* rows, size_t row_size, const size_t* offsets, size_t max,
+                                 int64_t timeout_ns, size_t* taken);
+
+/* Returns the number of runs that were overwritten before they were read; 0: the rows have no gap. */
+IRP_API uint64_t irp_stream_lost(const irp_stream* stream);
+
 /* ---- Changes. Each is noted in the node's journal with user and reason (`reason` may be null) ---- */
 
 /* Sets a value once, exactly these bytes (of a NaN, some NaN). Errors: IRP_DENIED, IRP_LOCKED, IRP_FORCED, IRP_RANGE,

@@ -11,8 +11,8 @@ A handle is for one thread at a time. Reading never disturbs the node. See docs/
 from indurop._errors import (Apart, Busy, Changed, Corrupt, Denied, Error, Forced, Gone, Invalid, Locked, NotFound,
                              OtherVersion, OutOfRange, SystemFailure, Timeout, WrongSize)
 from indurop._layout import Record
-from indurop._node import Node, Quality, Variable, node, version
+from indurop._node import Node, Quality, Stream, Variable, node, version
 
 __all__ = ["Apart", "Busy", "Changed", "Corrupt", "Denied", "Error", "Forced", "Gone", "Invalid", "Locked", "Node",
-           "NotFound", "OtherVersion", "OutOfRange", "Quality", "Record", "SystemFailure", "Timeout", "Variable",
+           "NotFound", "OtherVersion", "OutOfRange", "Quality", "Record", "Stream", "SystemFailure", "Timeout", "Variable",
            "WrongSize", "node", "version"]

@@ -188,6 +188,60 @@ class Variable:
         return f"<{self.name}: {self.type}>"
 
 
+class Stream:
+    """Every run of the modules that write some variables, from the node's tape, without a gap as long as `lost` is 0.
+    Iterating yields numpy arrays of rows with the fields `@tick`, `@time` (ns of the node's clock) and the names given.
+    Needs numpy."""
+
+    def __init__(self, node: "Node", names: tuple[str, ...], past: bool) -> None:
+        import numpy
+
+        self._node = node
+        variables = [node.variable(name) for name in names]
+        self.dtype = numpy.dtype([("@tick", "u8"), ("@time", "i8")]
+                                 + [(name, one.layout.dtype()) for name, one in zip(names, variables)])
+        fields: Any = self.dtype.fields
+        self._offsets = ffi.new("size_t[]", [fields[name][1] for name in names])
+        self._taken = ffi.new("size_t*")
+        stream = ffi.new("irp_stream**")
+        ids = ffi.new("uint32_t[]", [one._id for one in variables])
+        node._check(lib.irp_stream_open(node._handle, ids, len(names), 1 if past else 0, stream))
+        self._stream = ffi.gc(stream[0], lib.irp_stream_close)
+
+    def read(self, most: int = 4096, timeout: float = 1.0) -> Any:
+        """Returns the rows that are ready, at most `most`; waits for one if there is none. Raises Timeout, Gone after
+        the last row of a node that has ended, and Changed."""
+        import numpy
+
+        rows = numpy.empty(most, self.dtype)
+        self._node._check(lib.irp_stream_read(self._stream, ffi.from_buffer(rows), self.dtype.itemsize, self._offsets,
+                                              most, int(timeout * 1e9), self._taken))
+        return rows[:self._taken[0]]
+
+    def __iter__(self) -> Iterator[Any]:
+        while True:
+            try:
+                yield self.read(timeout=0.1)  # not longer, so that Ctrl-C is noticed
+            except Timeout:
+                continue
+            except Gone:
+                return
+
+    @property
+    def lost(self) -> int:
+        """Runs that were overwritten before they were read."""
+        return int(lib.irp_stream_lost(self._stream))
+
+    def close(self) -> None:
+        ffi.release(self._stream)
+
+    def __enter__(self) -> "Stream":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
 class Node:
     """A node of this machine. `node["name"]` reads a value, `node["name"] = value` sets it; names may leave leading
     namespaces out, and name parts: "joints[1].y"."""
@@ -293,6 +347,10 @@ class Node:
             return self.snapshot(*names)
         self._check(code)
         return {name: one.layout.value(one._bytes) for name, one in zip(names, variables)}
+
+    def stream(self, *names: str, past: bool = False) -> Stream:
+        """Follows variables run by run; `past`: begins with the oldest run on the tape, two seconds ago or more."""
+        return Stream(self, names, past)
 
     def __repr__(self) -> str:
         return f"<node {self.name}, {len(self)} variables>"

@@ -171,6 +171,36 @@ class Python(unittest.TestCase):
 
         self.assertEqual(len(asyncio.run(some())), 5)
 
+    # Every run, in order, with the values after it; the command line's tape reader counts the same.
+    def test_every_run(self):
+        rows = []
+        with self.node.stream("count", "doors::twice", past=True) as stream:
+            while len(rows) < 2000:
+                rows.extend(stream.read().tolist())
+            self.assertEqual(stream.lost, 0)
+        ticks = [row[0] for row in rows]
+        counts = [row[2] for row in rows]
+        self.assertEqual(counts, list(range(counts[0], counts[0] + len(counts))))
+        self.assertEqual(counts[0], 1, "from the first run on")
+        self.assertEqual(ticks, sorted(set(ticks)))
+        self.assertEqual([row[3] for row in rows], [2 * count for count in counts])
+        self.assertEqual([row[1] for row in rows], sorted(row[1] for row in rows))
+
+    def test_runs_from_now_on(self):
+        before = self.node["count"]
+        with self.node.stream("count") as stream:
+            first = stream.read()["count"].tolist()[0]
+            self.assertGreater(first, before)
+            self.stop()
+            rest = [count for rows in stream for count in rows["count"].tolist()]
+        self.assertEqual(rest, list(range(rest[0], rest[0] + len(rest))) if rest else [])
+        self.assertEqual(self.node["count"], rest[-1] if rest else first)
+
+    def test_changes_of_what_no_module_uses(self):
+        with self.node.stream("gain") as stream:
+            self.node["gain"] = 2.5
+            wait_until("the change comes", lambda: 2.5 in stream.read(timeout=PATIENCE)["gain"])
+
     def test_the_end_of_a_node(self):
         watched = self.node.variable("count").watch()
         next(watched)

@@ -311,7 +311,7 @@ void Slave::receive_mailbox(Time now) {
     return;
   }
   if (mailbox->counter != 0 && mailbox->counter == last_counter_) {
-    return;  // the same once more: its answer was lost, or it was
+    return;  // the same again: its answer was lost, or it was
   }
   last_counter_ = mailbox->counter;
   if (service_of(*mailbox) != CoeService::SdoRequest) {

@@ -18,6 +18,7 @@ int main(void) {
   irp_node* node = (irp_node*)&failures;
   irp_variable variable = IRP_VARIABLE_INIT;
   irp_quality quality = IRP_QUALITY_INIT;
+  irp_stream* stream = NULL;
   uint64_t seen = 0;
   uint32_t id = 0;
   if (strlen(irp_version()) < 5 || irp_error()[0] != '\0' || irp_node_name(NULL)[0] != '\0') {
@@ -45,6 +46,13 @@ int main(void) {
   expect("irp_get_quality", irp_get_quality(NULL, id, &quality), IRP_INVALID);
   expect("irp_get_text", irp_get_text(NULL, id, NULL, 0, NULL), IRP_INVALID);
   expect("irp_wait_change", irp_wait_change(NULL, id, &seen, 0), IRP_INVALID);
+  irp_stream_close(NULL);
+  expect("irp_stream_open", irp_stream_open(NULL, &id, 1, 0, &stream), IRP_INVALID);
+  expect("irp_stream_read", irp_stream_read(NULL, &id, 1, NULL, 1, 0, NULL), IRP_INVALID);
+  if (irp_stream_lost(NULL) != 0) {
+    printf("lost runs of no stream\n");
+    ++failures;
+  }
   expect("irp_write", irp_write(NULL, id, &id, sizeof id, NULL), IRP_INVALID);
   expect("irp_set_text", irp_set_text(NULL, id, "1", NULL), IRP_INVALID);
   expect("irp_force", irp_force(NULL, id, &id, sizeof id, 0, NULL), IRP_INVALID);
