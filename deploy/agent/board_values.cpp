@@ -12,6 +12,7 @@
 
 #include "core/base/json.h"
 #include "deploy/agent/run_image.h"
+#include "deploy/words/node_texts.h"
 #include "history/alarms/alarm_list.h"
 #include "scheduler/printed_messages.h"
 #include "store/vars/node_lock.h"
@@ -49,7 +50,7 @@ std::string bytes_of(const vars::Store& store, std::int64_t now_ns) {
   for (const schema::Variable& variable : store.schema().variables) {
     const auto* const entry = store.find(variable.name_hash());
     const std::size_t size = variable.type.size();
-    if (all.size() + sizeof(std::int64_t) + size > BoardValues::kMaxBytes) {
+    if (all.size() + sizeof(std::int64_t) + size > kMaxValuesBytes) {
       return {};
     }
     bytes.assign(size, 0);
@@ -86,7 +87,7 @@ std::string BoardValues::variables() const {
     return {};
   }
   std::string text = Json{{"layout", layout_of(*store)}}.dump() + "\n" + schema::to_json(store->schema());
-  return text.size() > kMaxBytes ? std::string() : text;
+  return text.size() > kMaxValuesBytes ? std::string() : text;
 }
 
 const std::string& BoardValues::values(rt::MonoTime now) {

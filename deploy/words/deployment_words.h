@@ -151,9 +151,9 @@ inline std::string shown_id(const std::string& id) {
 inline constexpr const char* kHistoryBlob = "history";
 // Blob name: the variables that the board's node currently reads from other boards, and their age.
 inline constexpr const char* kMirrorBlob = "mirror";
-// Blob name: the current run block of the board's node (deploy/agent/run_image.h), for remote tools.
+// Blob name: the current run block of the board's node (node_texts.h), for remote tools.
 inline constexpr const char* kRunBlob = "run";
-// Blob names: the variables of the board's node, their values, and what was printed (deploy/agent/board_values.h).
+// Blob names: the variables of the board's node, their values, and what was printed (node_texts.h).
 inline constexpr const char* kVariablesBlob = "variables";
 inline constexpr const char* kValuesBlob = "values";
 inline constexpr const char* kMessagesBlob = "messages";

@@ -47,7 +47,7 @@ def load_rules(file):
 
 TABLE_DOCUMENT = "docs/architecture.md"
 TABLE_MARKS = re.compile(r"<!-- rooms -->\n(.*?)<!-- /rooms -->\n", re.DOTALL)
-EVERYWHERE = {"std", "posix", "public", "own"}
+EVERYWHERE = {"std", "posix", "public", "own", "program"}
 
 
 def table(root, file, rules):
@@ -94,6 +94,12 @@ def groups_of(root, name, quote, target):
     return groups
 
 
+def inside_of_program(rules, name, target):
+    """The program into which this include reaches from another room: what two programs need is a library of its own."""
+    programs = [folder for folder, words in rules.items() if "program" in words]
+    return next((folder for folder in programs if target.startswith(folder) and not name.startswith((folder, "tests/"))), None)
+
+
 def check(root, rules):
     findings = []
     used = {folder: set() for folder in rules}
@@ -108,6 +114,11 @@ def check(root, rules):
         for found in INCLUDE.finditer(text):
             quote, target = found.groups()
             shown = f"<{target}>" if quote == "<" else f'"{target}"'
+            program = inside_of_program(rules, name, target)
+            if program and quote == '"':
+                line = text.count("\n", 0, found.start(1)) + 1
+                findings.append(f"{name}:{line}: includes {shown} of the program {program}; move what both need to a library")
+                continue
             forbidden = f"-<{target}>" in allowed
             words = groups_of(root, name, quote, target) | {f"<{target}>"}
             permitted = words & set(allowed)

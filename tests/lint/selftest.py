@@ -55,6 +55,9 @@ class Includes(Sample):
         self.put("core/rt/clock.h", HEAD)
         self.assertEqual(self.check("scheduler/a.cpp", '"core/rt/clock.h"'), [])
 
+    def test_no_room_reaches_into_a_program(self):
+        self.found(self.check("tools/serve/a.cpp", '"tools/cli/a.h"'), "tools/serve/a.cpp:4", "of the program tools/cli/")
+
     def test_dds_outside_dds(self):
         self.found(self.check("network/mirror/a.cpp", "<dds/dds.h>"), "network/mirror/a.cpp:4", "dds/dds.h")
 
@@ -100,7 +103,6 @@ class Includes(Sample):
         self.found(self.check("examples/a/a.cpp", '"store/vars/store.h"'), "store/vars/store.h")
 
     def test_relative_path_upwards(self):
-        self.put("core/rt/clock.h", HEAD)
         self.found(self.check("core/rt/a.cpp", '"../rt/clock.h"'), "../rt/clock.h")
 
     def test_folder_without_rule(self):

@@ -17,8 +17,8 @@ struct BoardRun : ChosenRun {
   vars::LockNote lock;                           // for a board only
   bool kept = false;                             // an old one from a file
 };
-// Parses a report of a board's agent about its node: a line of JSON and the run block (deploy/agent/run_image.h). `who`
-// names the source.
+// Parses a report of a board's agent about its node: a line of JSON and the run block (deploy/words/node_texts.h).
+// `who` names the source.
 Result<BoardRun, Failure> read_run(const std::string& who, const std::string& text);
 
 }  // namespace indurop::tools

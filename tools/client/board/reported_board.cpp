@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/rt/clock.h"
-#include "deploy/agent/board_values.h"
+#include "deploy/words/node_texts.h"
 #include "store/vars/shm_file.h"
 #include "tools/client/text/units.h"
 
@@ -95,9 +95,9 @@ bool ReportedBoard::take_variables(std::string_view text) {
   std::uint64_t size = 0;
   for (schema::Variable& variable : schema->variables) {
     variable.maxage_ns += variable.maxage_ns > 0 ? kValuesLateNs : 0;
-    size += std::min<std::uint64_t>(variable.type.size(), deploy::BoardValues::kMaxBytes + 1);
+    size += std::min<std::uint64_t>(variable.type.size(), deploy::kMaxValuesBytes + 1);
   }
-  if (size > deploy::BoardValues::kMaxBytes) {
+  if (size > deploy::kMaxValuesBytes) {
     return false;  // no agent reports that much
   }
   const std::string name = remote_store_prefix() + std::to_string(next_store());
