@@ -86,6 +86,7 @@ struct CheckOptions {
   bool machine = true;
   bool simulation = false;       // also report what differs between runs in virtual time
   const Times* times = nullptr;  // longest measured executions by module name, used for modules without <wcet>
+  std::string arch{};            // what modules must be built for: amd64, arm64; empty: any, but all for the same
   std::string board{};           // of a plant: the only board that will run on this machine; empty: all
 };
 

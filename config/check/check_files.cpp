@@ -20,9 +20,10 @@ using scheduler::Operation;
 struct Machine {
   std::uint16_t number;
   const char* name;
+  const char* arch = "";  // as manifests name it
 };
 constexpr Machine kMachines[] = {
-    {3, "32-bit x86"}, {40, "32-bit ARM"}, {62, "x86-64"}, {183, "AArch64"}, {243, "RISC-V"}};
+    {3, "32-bit x86"}, {40, "32-bit ARM"}, {62, "x86-64", "amd64"}, {183, "AArch64", "arm64"}, {243, "RISC-V"}};
 #if defined(__x86_64__)
 constexpr std::uint16_t kThisMachine = 62;
 #elif defined(__aarch64__)
@@ -40,6 +41,11 @@ std::string machine_name(std::uint16_t number) {
     }
   }
   return "machine number " + std::to_string(number);
+}
+
+bool is_for(std::uint16_t number, const std::string& arch) {
+  return std::any_of(std::begin(kMachines), std::end(kMachines),
+                     [&](const Machine& machine) { return machine.number == number && machine.arch == arch; });
 }
 
 bool has(const std::vector<std::string>& sorted, const std::string& name) {
@@ -83,6 +89,7 @@ class FileCheck {
       : report_(context.report),
         texts_(context.texts),
         this_machine_(context.options.machine),
+        arch_(context.options.arch),
         module_(module),
         facts_(facts),
         place_(module.places.file) {}
@@ -110,6 +117,11 @@ class FileCheck {
       return;
     }
     facts_.file = std::move(read.value());
+    if (!arch_.empty() && !is_for(facts_.file.machine, arch_)) {
+      error("is built for " + machine_name(facts_.file.machine) + ", the board is " + arch_ +
+            "; name the file that is built for the board, or correct arch=");
+      return;
+    }
     if (this_machine_ && facts_.file.machine != kThisMachine) {
       error("is built for " + machine_name(facts_.file.machine) + ", this machine is " + machine_name(kThisMachine) +
             "; build it for this one");
@@ -201,6 +213,7 @@ class FileCheck {
   base::Diagnostics& report_;
   SchemaTexts& texts_;
   bool this_machine_;
+  const std::string& arch_;
   const Module& module_;
   ModuleFacts& facts_;
   base::SourcePlace place_;

@@ -34,6 +34,7 @@ class PlantCheckRun {
       Board& board = plant.boards[i];
       CheckOptions own = options;
       own.machine = options.machine && (options.board.empty() || options.board == board.name);
+      own.arch = board.arch;
       CheckResult& result = result_.boards[i];
       contexts_.push_back(
           {board.config, own, result, base::Diagnostics(plant.file.string(), result.diagnostics), texts_});

@@ -19,6 +19,7 @@ struct Board {
   std::string name;            // [A-Za-z0-9_-]{1,40}; the node of the board has the same name
   std::string address;         // IP address or host name for <multicast>off</multicast>; empty: found by multicast
   std::string interface_name;  // network interface that connects the plant; empty: DDS chooses
+  std::string arch;            // of its processor, as Debian calls it: amd64, arm64; empty: not declared
   Config config;
   base::SourcePlace place;
 };

@@ -50,6 +50,7 @@ class PlantReader {
       report_.error(root_.place, "<plant> has no <board>; add one per board, with its modules in it");
     }
     add_standbys(plant_, report_);
+    put_architectures(plant_, report_);
     for (const Board& board : plant_.boards) {
       if (board.config.modules.empty() && !board.name.empty() && !misspelt_.contains(board.name)) {
         report_.note(board.place, "the board " + base::in_quotes(board.name) +
@@ -207,7 +208,7 @@ class PlantReader {
 
   void read_board(const base::Element& e) {
     boards_given_ = true;
-    check_attributes(e, {"name", "address", "interface"}, report_);
+    check_attributes(e, {"name", "address", "interface", "arch"}, report_);
     Board board;
     board.place = e.place;
     if (const base::Attribute* name = need_attribute(e, "name", "<board name=\"sensor\">", report_)) {
@@ -215,6 +216,7 @@ class PlantReader {
     }
     board.address = optional_attribute(e, "address", address_problem, report_);
     board.interface_name = optional_attribute(e, "interface", interface_problem, report_);
+    board.arch = optional_attribute(e, "arch", arch_problem, report_);
     board.config.file = plant_.file;
     read_configuration(e, board.config, report_);
     const bool misspelt = std::any_of(e.children.begin(), e.children.end(), [](const base::Element& child) {

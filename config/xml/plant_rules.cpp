@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 
+#include "config/xml/module_file.h"
 #include "core/base/text.h"
 
 namespace indurop::config {
@@ -145,6 +146,12 @@ std::string interface_problem(std::string_view name) {
          "follows an '@', for example eth0";
 }
 
+std::string arch_problem(const std::string& name) {
+  return name == "amd64" || name == "arm64"
+             ? std::string{}
+             : base::in_quotes(name) + " is not an architecture; write amd64 (x86-64) or arm64 (AArch64)";
+}
+
 void add_standbys(Plant& plant, base::Diagnostics& report) {
   std::vector<std::string> names;
   for (const Board& board : plant.boards) {
@@ -178,6 +185,28 @@ void add_standbys(Plant& plant, base::Diagnostics& report) {
     module.is_standby = true;
     module.standby.clear();
     board->config.modules.push_back(std::move(module));
+  }
+}
+
+void put_architectures(Plant& plant, base::Diagnostics& report) {
+  static constexpr std::string_view kArch = "${arch}";
+  for (Board& board : plant.boards) {
+    for (Module& module : board.config.modules) {
+      std::size_t at = module.file_as_written.find(kArch);
+      if (at == std::string::npos) {
+        continue;
+      }
+      if (board.arch.empty()) {
+        report.error(module.places.file, "${arch} stands for the architecture of the board, and the board " +
+                                             base::in_quotes(board.name) + R"( does not say it; write <board name=")" +
+                                             board.name + R"(" arch="amd64">, or arm64)");
+        continue;
+      }
+      for (; at != std::string::npos; at = module.file_as_written.find(kArch)) {
+        module.file_as_written.replace(at, kArch.size(), board.arch);
+      }
+      module.file = module_file(plant.file.parent_path(), module.file_as_written);
+    }
   }
 }
 

@@ -318,6 +318,33 @@ TEST_F(CheckPlant, Modules_for_elsewhere_are_not_compared_with_this_machine) {
   EXPECT_THAT(checked(a + board("b", periodic("b.so", "1ms", 1)), only_b).lines(), IsEmpty());
 }
 
+TEST_F(CheckPlant, Files_are_those_of_the_board_s_architecture) {
+  ModuleSpec arm;
+  arm.machine = EM_AARCH64;
+  for (const char* folder : {"build-arm64", "build-amd64"}) {
+    std::filesystem::create_directory(folder_ / folder);
+  }
+  write_module(folder_ / "build-arm64/a.so", arm);
+  write_module(folder_ / "build-amd64/a.so", {});
+  const auto on = [](const std::string& name, const std::string& arch, const std::string& file) {
+    return "<board name=\"" + name + "\" arch=\"" + arch + "\">" + periodic(file, "1ms", 1) + "</board>\n";
+  };
+  const CheckOptions elsewhere{.machine = false};
+  const std::string each = "build-${arch}/a.so";
+  EXPECT_THAT(checked(on("x", "amd64", each) + on("y", "arm64", each), elsewhere).lines(), IsEmpty());
+  EXPECT_THAT(checked(on("x", "amd64", each) + on("y", "arm64", "build-amd64/a.so"), elsewhere).lines(),
+              ElementsAre(AllOf(HasSubstr("plant.xml:4:48: error: "),
+                                HasSubstr("'build-amd64/a.so' is built for x86-64, the board is arm64; name the file "
+                                          "that is built for the board"))));
+  // A board checks its own files against its own processor, too.
+  const std::string swapped = on("x", "arm64", each) + on("y", "amd64", each);
+  const CheckOptions here{.board = "x"};
+#if defined(__x86_64__)
+  EXPECT_THAT(checked(swapped, here).lines(),
+              ElementsAre(HasSubstr("'build-arm64/a.so' is built for AArch64, this machine is x86-64")));
+#endif
+}
+
 TEST_F(CheckPlant, Type_libraries_are_looked_at) {
   write("lib_types.so", {}, {});
   write_channel("p.exe", {}, "4read");

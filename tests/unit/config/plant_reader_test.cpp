@@ -204,6 +204,24 @@ TEST(PlantReader, Addresses_are_of_one_machine) {
               ElementsAre(HasSubstr("note: the boards 'b' and 'c' have one address")));
 }
 
+TEST(PlantReader, Arch_stands_for_the_architecture_of_the_board_that_runs_the_module) {
+  const std::string module = periodic("build-${arch}/a.so", "1ms", 1, "<standby>spare</standby>");
+  const ReadPlant sut = read_plant_text(
+      plant(board(R"(name="main" arch="amd64")", module) + board(R"(name="spare" arch="arm64")", "")), "/cell/p.xml");
+  ASSERT_TRUE(sut.ok());
+  const Module& first = sut.plant.boards[0].config.modules[0];
+  const Module& second = sut.plant.boards[1].config.modules[0];
+  EXPECT_EQ(first.file, "/cell/build-amd64/a.so");
+  EXPECT_EQ(first.name, "a");
+  EXPECT_EQ(second.file, "/cell/build-arm64/a.so");
+  EXPECT_EQ(second.file_as_written, "build-arm64/a.so");
+  EXPECT_THAT(lines_of(plant(board("name=\"main\"", periodic("build-${arch}/a.so", "1ms", 1)))),
+              ElementsAre(AllOf(HasSubstr("p.xml:2:"), HasSubstr("the board 'main' does not say it; write <board "
+                                                                 "name=\"main\" arch=\"amd64\">, or arm64"))));
+  EXPECT_THAT(with_board(board("name=\"b\" arch=\"x86\"")),
+              ElementsAre(HasSubstr("arch: 'x86' is not an architecture; write amd64 (x86-64) or arm64 (AArch64)")));
+}
+
 TEST(PlantReader, Interfaces_are_named_as_the_kernel_does) {
   for (const char* good : {"eth0", "enp0s31f6", "br-lan", "eth0.100"}) {
     EXPECT_THAT(with_board(board("name=\"b\" interface=\"" + std::string(good) + "\"")), IsEmpty()) << good;
