@@ -11,6 +11,7 @@
 #include <cstdio>
 
 #include "core/base/exit_code.h"
+#include "core/base/help_text.h"
 #include "core/base/option_errors.h"
 #include "core/base/option_pages.h"
 
@@ -24,7 +25,6 @@ struct Option::State {
 
 namespace {
 
-constexpr int kHelpColumn = 30;
 constexpr const char* kFormatFlag = "--help-format";
 constexpr const char* kHelpHelp = "Print help and exit";
 constexpr const char* kVersionHelp = "Print the version and exit";
@@ -134,7 +134,7 @@ Options::Options(const std::string& name, std::string purpose)
     : owned_(std::make_unique<CLI::App>(purpose, name)), app_(owned_.get()) {
   text_.name = name;
   text_.purpose = std::move(purpose);
-  app_->get_formatter()->column_width(kHelpColumn);
+  app_->get_formatter()->column_width(kHelpDescription);
   app_->get_formatter()->label("Positionals", "Arguments");
   app_->get_formatter()->label("Needs", "needs");
   app_->get_formatter()->label("REQUIRED", "(required)");
@@ -303,7 +303,7 @@ Options::Result Options::parse(std::vector<std::string> words) {
   try {
     app_->parse(std::move(words));
   } catch (const CLI::CallForHelp&) {
-    return {Outcome::Info, app_->help()};
+    return {Outcome::Info, wrapped_help(app_->help())};
   } catch (const CLI::CallForVersion&) {
     return {Outcome::Info, app_->version() + "\n"};
   } catch (const CLI::ParseError& error) {

@@ -381,7 +381,7 @@ Action declare(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kAgeVerb{
-    "age", "Timing", "Measure how old what a variable says is when it has become another, beside what is predicted",
+    "age", "Timing", "Measure end-to-end data age between two variables, and compare with what is predicted",
     "Follows values from run to run, over modules and boards: from the release of the run that wrote FROM to the "
     "release\n"
     "of the run that wrote TO. BEST and WORST are what indurop check --chain predicts with the times the modules took\n"

@@ -357,7 +357,7 @@ Action declare(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kBlackboxVerb{
-    "blackbox", "Timing", "List what nodes kept when something went wrong, keep it now, or fetch it from all boards",
+    "blackbox", "Timing", "List what nodes kept after a fault, keep it now, or fetch it from all boards",
     "When a module faults, has many overruns, or a node starts again that crashed, the last seconds of its tape are\n"
     "kept as a recording: what every run saw and wrote; agents have it kept on all boards of the plant. The newest "
     "ten\n"

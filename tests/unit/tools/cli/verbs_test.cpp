@@ -73,6 +73,35 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
+// The help of a verb and of all its commands.
+std::vector<std::string> helps_of(const Verb& verb) {
+  std::vector<std::vector<std::string>> all{{"--help"}};
+  for (const base::CommandText& command : Declared(verb).options.text().commands) {
+    all.push_back({command.name, "--help"});
+  }
+  std::vector<std::string> helps;
+  for (const std::vector<std::string>& words : all) {
+    const auto result = Declared(verb).options.parse(words);
+    EXPECT_EQ(result.outcome, base::Options::Outcome::Info);
+    helps.push_back(result.text);
+  }
+  return helps;
+}
+
+TEST_P(EveryVerb, Has_a_help_whose_lines_end_before_column_100) {
+  for (const std::string& help : helps_of(*GetParam())) {
+    std::istringstream lines(help);
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_LT(line.size(), 100U) << line;
+    }
+  }
+}
+
+TEST_P(EveryVerb, Has_a_summary_that_fits_into_the_list_of_verbs) {
+  constexpr std::size_t kColumn = 13;
+  EXPECT_LT(std::string(GetParam()->summary).size() + kColumn, 100U);
+}
+
 TEST_P(EveryVerb, Has_examples_that_it_understands) {
   const Verb& verb = *GetParam();
   const std::string start = std::string("  indurop ") + verb.name;
