@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/xml/after_rules.h"
 
-#include <algorithm>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/base/text.h"
@@ -10,25 +11,32 @@
 namespace indurop::config {
 namespace {
 
-// Returns empty if `module` comes after `earlier` in the order of execution.
-std::string objection(const Config& config, const Module& module, const std::string& name) {
-  const auto earlier = std::find_if(config.modules.begin(), config.modules.end(),
-                                    [&](const Module& other) { return other.name == name; });
-  if (earlier == config.modules.end()) {
-    std::vector<std::string> names;
-    for (const Module& other : config.modules) {
-      names.push_back(other.name);
-    }
-    return "no module is called " + base::in_quotes(name) + base::suggestion(name, names);
+using ByName = std::unordered_map<std::string, const Module*>;  // the first of equals
+
+std::string no_module(const Config& config, const std::string& name, bool suggest) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; suggest && i < config.modules.size(); ++i) {
+    names.push_back(config.modules[i].name);
   }
-  if (&*earlier == &module) {
+  return "no module is called " + base::in_quotes(name) + base::suggestion(name, names);
+}
+
+// Returns empty if `module` comes after the one of this name in the order of execution. `suggest`: a name that is not
+// known is compared with all others.
+std::string objection(const Config& config, const ByName& by_name, const Module& module, const std::string& name,
+                      bool suggest) {
+  const auto found = by_name.find(name);
+  if (found == by_name.end()) {
+    return no_module(config, name, suggest);
+  }
+  const Module* const earlier = found->second;
+  if (earlier == &module) {
     return "a module does not come after itself; remove it";
   }
   if (earlier->operation != scheduler::Operation::Periodic) {
     return name + " is not periodic, so it has no place in the order; remove it";
   }
-  const bool later =
-      earlier->priority > module.priority || (earlier->priority == module.priority && &*earlier > &module);
+  const bool later = earlier->priority > module.priority || (earlier->priority == module.priority && earlier > &module);
   return later ? name + " has priority " + std::to_string(earlier->priority) + " and runs after " + module.name +
                      ", which has " + std::to_string(module.priority) + "; let it have a lower value"
                : "";
@@ -37,18 +45,24 @@ std::string objection(const Config& config, const Module& module, const std::str
 }  // namespace
 
 void check_after(Config& config, base::Diagnostics& report) {
+  ByName by_name;
+  for (const Module& module : config.modules) {
+    by_name.try_emplace(module.name, &module);
+  }
   for (Module& module : config.modules) {
-    for (std::size_t i = 0; i < module.after.size();) {
-      const std::string wrong = objection(config, module, module.after[i]);
-      if (wrong.empty()) {
-        ++i;
+    std::vector<std::string> after;
+    std::vector<base::SourcePlace> places;
+    for (std::size_t i = 0; i < module.after.size(); ++i) {
+      const std::string wrong = objection(config, by_name, module, module.after[i], !report.full());
+      if (!wrong.empty()) {
+        report.error(module.places.after[i], "<after>: " + wrong);
         continue;
       }
-      report.error(module.places.after[i], "<after>: " + wrong);
-      const auto at = static_cast<std::ptrdiff_t>(i);
-      module.after.erase(module.after.begin() + at);
-      module.places.after.erase(module.places.after.begin() + at);
+      after.push_back(std::move(module.after[i]));
+      places.push_back(module.places.after[i]);
     }
+    module.after = std::move(after);
+    module.places.after = std::move(places);
   }
 }
 

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "config/xml/module_file.h"
 #include "core/base/text.h"
@@ -91,10 +94,11 @@ void check_owners(const Plant& plant, base::Diagnostics& report) {
   for (const Board& board : plant.boards) {
     names.push_back(board.name);
   }
+  const std::unordered_set<std::string> known(names.begin(), names.end());
   for (const VariableRule& rule : plant.variables) {
-    if (!rule.owner.empty() && std::find(names.begin(), names.end(), rule.owner) == names.end()) {
-      report.error(rule.owner_place,
-                   "owner: there is no board " + base::in_quotes(rule.owner) + base::suggestion(rule.owner, names));
+    if (!rule.owner.empty() && !known.contains(rule.owner)) {
+      report.error(rule.owner_place, "owner: there is no board " + base::in_quotes(rule.owner) +
+                                         (report.full() ? "" : base::suggestion(rule.owner, names)));
     }
   }
 }
@@ -157,18 +161,22 @@ void add_standbys(Plant& plant, base::Diagnostics& report) {
   for (const Board& board : plant.boards) {
     names.push_back(board.name);
   }
+  std::unordered_map<std::string_view, Board*> by_name;
+  for (Board& board : plant.boards) {
+    by_name.try_emplace(board.name, &board);
+  }
   std::vector<std::pair<Board*, Module>> seconds;
   for (const Board& board : plant.boards) {
     for (const Module& module : board.config.modules) {
       if (module.standby.empty()) {
         continue;
       }
-      const auto other = std::find_if(plant.boards.begin(), plant.boards.end(),
-                                      [&](const Board& b) { return b.name == module.standby; });
-      if (other == plant.boards.end()) {
+      const auto found = by_name.find(module.standby);
+      Board* const other = found == by_name.end() ? nullptr : found->second;
+      if (other == nullptr) {
         report.error(module.places.standby, "<standby>: there is no board " + base::in_quotes(module.standby) +
-                                                base::suggestion(module.standby, names));
-      } else if (&*other == &board) {
+                                                (report.full() ? "" : base::suggestion(module.standby, names)));
+      } else if (other == &board) {
         report.error(module.places.standby, "<standby>: " + base::in_quotes(module.name) +
                                                 " runs on this board anyway; name another one, that outlives it");
       } else if (std::any_of(other->config.modules.begin(), other->config.modules.end(),
@@ -177,7 +185,7 @@ void add_standbys(Plant& plant, base::Diagnostics& report) {
                                                 " has a module named " + base::in_quotes(module.name) +
                                                 " of its own; give one of them another <name>");
       } else {
-        seconds.emplace_back(&*other, module);
+        seconds.emplace_back(other, module);
       }
     }
   }
