@@ -20,15 +20,22 @@ int middle(int cell) noexcept {
 
 class Painter {
  public:
-  Painter(Graph graph, bool rails, int width) : graph_(std::move(graph)), rails_(rails), width_(width) {}
+  Painter(Graph graph, bool rails, int width)
+      : graph_(std::move(graph)), nets_(nets_by_column(graph_)), rails_(rails), width_(width) {}
 
   Picture run() {
     picture_.rails = rails_;
     assign_rows(graph_);
     place_columns();
     place_symbols();
-    for (int column = 0; column + 1 < graph_.columns; ++column) {
-      lines_behind(column);
+    std::vector<std::vector<const Item*>> wires(nets_.size());
+    for (const Item& each : graph_.items) {
+      if (each.role == Role::Wire && each.symbol.shape.width > 0) {
+        wires[static_cast<std::size_t>(each.column)].push_back(&each);
+      }
+    }
+    for (std::size_t column = 0; column + 1 < nets_.size(); ++column) {
+      lines_behind(column, wires[column]);
     }
     for (Item& item : graph_.items) {
       picture_.height = std::max(picture_.height, item.symbol.y + item.symbol.shape.height);
@@ -56,7 +63,7 @@ class Painter {
     for (int column = 0; column < graph_.columns; ++column) {
       begins_.push_back(x);
       int clash = -1;
-      tracks_.push_back(assign_tracks(graph_, column, clash));
+      tracks_.push_back(assign_tracks(graph_, nets_[static_cast<std::size_t>(column)], clash));
       const auto& tracks = tracks_.back();
       const int used = tracks.empty() ? 0 : *std::max_element(tracks.begin(), tracks.end()) + 1;
       const bool last = column + 1 == graph_.columns;
@@ -127,23 +134,19 @@ class Painter {
     }
   }
 
-  void lines_behind(int column) {
-    const auto at = static_cast<std::size_t>(column);
-    const int first_track = begins_[at] + widths_[at] + 1;
-    for (std::size_t n = 0; n < graph_.nets.size(); ++n) {
-      const Net& net = graph_.nets[n];
-      if (item(net.sources.front()).column != column) {
-        continue;
-      }
-      const int track = tracks_[at].empty() ? -1 : tracks_[at][n];
-      draw(net, static_cast<int>(n), track < 0 ? -1 : middle(first_track + kTrackPitch * track));
+  // `wires`: those of the column.
+  void lines_behind(std::size_t column, const std::vector<const Item*>& wires) {
+    const int first_track = begins_[column] + widths_[column] + 1;
+    const std::vector<int>& tracks = tracks_[column];
+    for (std::size_t i = 0; i < nets_[column].size(); ++i) {
+      const std::size_t n = nets_[column][i];
+      const int track = tracks.empty() ? -1 : tracks[i];
+      draw(graph_.nets[n], static_cast<int>(n), track < 0 ? -1 : middle(first_track + kTrackPitch * track));
     }
-    for (const Item& each : graph_.items) {
-      const int width = each.symbol.shape.width;
-      if (each.column == column && each.role == Role::Wire && width > 0) {
-        const int y = middle(each.symbol.y);
-        picture_.lines.push_back({2 * each.symbol.x, y, 2 * (each.symbol.x + width), y, -1, each.carries});
-      }
+    for (const Item* each : wires) {
+      const int y = middle(each->symbol.y);
+      const int begin = each->symbol.x;
+      picture_.lines.push_back({2 * begin, y, 2 * (begin + each->symbol.shape.width), y, -1, each->carries});
     }
   }
 
@@ -172,12 +175,13 @@ class Painter {
   }
 
   Graph graph_;
+  std::vector<std::vector<std::size_t>> nets_;  // by column
   bool rails_;
   int width_;  // minimum
   Picture picture_;
   std::vector<int> begins_;  // first character of each column
   std::vector<int> widths_;
-  std::vector<std::vector<int>> tracks_;  // after each column, by net
+  std::vector<std::vector<int>> tracks_;  // after each column, by its nets
 };
 
 }  // namespace

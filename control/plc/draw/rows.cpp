@@ -17,7 +17,7 @@ const Item& item_of(const Graph& graph, const End& end) {
 
 class Rows {
  public:
-  explicit Rows(Graph& graph) : graph_(graph) {
+  explicit Rows(Graph& graph) : graph_(graph), nets_(nets_by_column(graph)) {
     columns_.resize(static_cast<std::size_t>(graph.columns));
     for (std::size_t i = 0; i < graph.items.size(); ++i) {
       columns_[static_cast<std::size_t>(graph.items[i].column)].push_back(i);
@@ -112,13 +112,14 @@ class Rows {
 
   [[nodiscard]] int find_clash() const {
     int clash = -1;
-    for (int column = 0; column + 1 < graph_.columns && clash < 0; ++column) {
-      (void)assign_tracks(graph_, column, clash);
+    for (std::size_t column = 0; column + 1 < nets_.size() && clash < 0; ++column) {
+      (void)assign_tracks(graph_, nets_[column], clash);
     }
     return clash;
   }
 
   Graph& graph_;
+  std::vector<std::vector<std::size_t>> nets_;  // by column
   std::vector<std::vector<std::size_t>> columns_;
   std::vector<const Net*> into_;    // by item: the net into its first connected input
   std::vector<const Net*> out_of_;  // by item: the net of which it is the first source
@@ -126,20 +127,17 @@ class Rows {
 
 // The lines that a net between two columns touches.
 struct Span {
-  std::size_t net = 0;
+  std::size_t net = 0;  // index in the nets of its column
   int top = 0;
   int bottom = 0;
   std::vector<int> left;   // lines of its sources
   std::vector<int> right;  // lines of its targets
 };
 
-std::vector<Span> spans_of(const Graph& graph, int column) {
+std::vector<Span> spans_of(const Graph& graph, const std::vector<std::size_t>& nets) {
   std::vector<Span> spans;
-  for (std::size_t n = 0; n < graph.nets.size(); ++n) {
-    const Net& net = graph.nets[n];
-    if (item_of(graph, net.sources.front()).column != column) {
-      continue;
-    }
+  for (std::size_t n = 0; n < nets.size(); ++n) {
+    const Net& net = graph.nets[nets[n]];
     Span span;
     span.net = n;
     for (const End& end : net.sources) {
@@ -175,9 +173,17 @@ int output_row(const Graph& graph, const End& end) {
   return symbol.y + symbol.shape.outputs[static_cast<std::size_t>(end.port)];
 }
 
-std::vector<int> assign_tracks(const Graph& graph, int column, int& clash) {
-  std::vector<int> tracks(graph.nets.size(), -1);
-  std::vector<Span> open = spans_of(graph, column);
+std::vector<std::vector<std::size_t>> nets_by_column(const Graph& graph) {
+  std::vector<std::vector<std::size_t>> nets(static_cast<std::size_t>(graph.columns));
+  for (std::size_t n = 0; n < graph.nets.size(); ++n) {
+    nets[static_cast<std::size_t>(item_of(graph, graph.nets[n].sources.front()).column)].push_back(n);
+  }
+  return nets;
+}
+
+std::vector<int> assign_tracks(const Graph& graph, const std::vector<std::size_t>& nets, int& clash) {
+  std::vector<int> tracks(nets.size(), -1);
+  std::vector<Span> open = spans_of(graph, nets);
   open.erase(std::remove_if(open.begin(), open.end(), [](const Span& span) { return span.top == span.bottom; }),
              open.end());
   std::vector<Span> done;
@@ -187,7 +193,7 @@ std::vector<int> assign_tracks(const Graph& graph, int column, int& clash) {
                           [&](const Span& other) { return &other != &span && comes_before(other, span); });
     });
     if (next == open.end()) {
-      clash = graph.nets[open.back().net].targets.front().item;
+      clash = graph.nets[nets[open.back().net]].targets.front().item;
       return {};
     }
     int track = 0;

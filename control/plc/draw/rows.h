@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "control/plc/draw/layout_graph.h"
 
 namespace indurop::plc::draw {
@@ -11,10 +14,13 @@ namespace indurop::plc::draw {
 // two columns can be drawn without overlapping.
 void assign_rows(Graph& graph);
 
-// Returns the vertical track, between column `column` and the next, of each net that is not straight; -1: straight, or
-// elsewhere. Tracks are counted from the left. Returns empty if some nets overlap in every order; then `clash` is the
-// item to move down.
-[[nodiscard]] std::vector<int> assign_tracks(const Graph& graph, int column, int& clash);
+// Returns the nets by the column in which they begin.
+[[nodiscard]] std::vector<std::vector<std::size_t>> nets_by_column(const Graph& graph);
+
+// `nets`: all between one column and the next. Returns the vertical track of each that is not straight; -1: straight.
+// Tracks are counted from the left. Returns empty if some nets overlap in every order; then `clash` is the item to move
+// down.
+[[nodiscard]] std::vector<int> assign_tracks(const Graph& graph, const std::vector<std::size_t>& nets, int& clash);
 
 // Returns the line of an input or output.
 [[nodiscard]] int input_row(const Graph& graph, const End& end);

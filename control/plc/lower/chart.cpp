@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "control/plc/lower/chart_actions.h"
 #include "control/plc/model/make.h"
@@ -77,6 +78,7 @@ class ChartLowering {
   static std::string fired(std::size_t i) { return fmt::format("_f{}", i); }
 
   void evaluate() {
+    std::vector<std::vector<std::size_t>> leaving(chart_.steps.size());  // transitions so far, by step
     for (std::size_t i = 0; i < chart_.transitions.size(); ++i) {
       const Transition& transition = chart_.transitions[i];
       const Place& at = transition.element->at;
@@ -84,10 +86,15 @@ class ChartLowering {
       for (const std::size_t step : transition.from) {
         ready = make::both(std::move(ready), active(chart_, step, at));
       }
-      for (std::size_t other = 0; other < i; ++other) {
-        if (share_a_step(transition, chart_.transitions[other])) {
-          ready = make::both(std::move(ready), make::negation(make::name(at, fired(other))));
-        }
+      std::set<std::size_t> others;
+      for (const std::size_t step : transition.from) {
+        others.insert(leaving[step].begin(), leaving[step].end());
+      }
+      for (const std::size_t other : others) {
+        ready = make::both(std::move(ready), make::negation(make::name(at, fired(other))));
+      }
+      for (const std::size_t step : transition.from) {
+        leaving[step].push_back(i);
       }
       ast::Expression value = condition(transition, i);
       declare(ast::Section::Temp, fired(i), make::type(at, Elementary::Bool));
@@ -95,11 +102,6 @@ class ChartLowering {
       fires.guards = true;
       add(make::assign(make::name(at, fired(i)), std::move(fires)));
     }
-  }
-
-  static bool share_a_step(const Transition& a, const Transition& b) {
-    return std::any_of(a.from.begin(), a.from.end(),
-                       [&](std::size_t step) { return std::find(b.from.begin(), b.from.end(), step) != b.from.end(); });
   }
 
   ast::Expression condition(const Transition& transition, std::size_t number) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "control/plc/plcopen/extensions.h"
 #include "control/plc/plcopen/placement.h"
@@ -140,6 +141,11 @@ class Writer {
   Writer(const std::vector<Element>& elements, XmlWriter& out) : elements_(elements), out_(out) {
     for (const Element& one : elements) {
       next_id_ = std::max(next_id_, one.id + 1);
+      if (one.kind == Kind::ActionBlock && !one.inputs.empty()) {
+        for (const Connection& line : one.inputs.front().connections) {
+          acting_.insert(line.from);
+        }
+      }
     }
   }
 
@@ -239,12 +245,7 @@ class Writer {
   }
 
   void step(const Element& one) {
-    const bool acts = std::any_of(elements_.begin(), elements_.end(), [&](const Element& each) {
-      return each.kind == Kind::ActionBlock && !each.inputs.empty() &&
-             std::any_of(each.inputs.front().connections.begin(), each.inputs.front().connections.end(),
-                         [&](const Connection& line) { return line.from == one.id; });
-    });
-    if (acts) {
+    if (acting_.contains(one.id)) {
       out_.open("connectionPointOutAction", {{"formalParameter", ""}});
       position("relPosition", {one.width, one.height / 2});
       out_.close();
@@ -370,6 +371,7 @@ class Writer {
   }
 
   const std::vector<Element>& elements_;
+  std::unordered_set<std::uint64_t> acting_;  // steps with an action block
   XmlWriter& out_;
   std::uint64_t next_id_ = 1;
 };

@@ -57,9 +57,22 @@ Meaning meaning_of(Body body) {
   return out;
 }
 
+// The places of elements by their ids; titles have none. Of equal ids the first one counts.
+using ById = std::unordered_map<std::uint64_t, std::size_t>;
+
+ById index_of(const std::vector<Element>& elements) {
+  ById out;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (elements[i].kind != Kind::Title) {
+      out.emplace(elements[i].id, i);
+    }
+  }
+  return out;
+}
+
 class Placer {
  public:
-  explicit Placer(Body& body) : body_(body) {}
+  explicit Placer(Body& body) : body_(body), by_id_(index_of(body.diagram.elements)) {}
 
   void networks() {
     Diagnostics quiet;
@@ -111,10 +124,7 @@ class Placer {
   }
 
  private:
-  [[nodiscard]] Element& find(std::uint64_t id) {
-    return *std::find_if(body_.diagram.elements.begin(), body_.diagram.elements.end(),
-                         [&](const Element& one) { return one.id == id && one.kind != Kind::Title; });
-  }
+  [[nodiscard]] Element& find(std::uint64_t id) { return body_.diagram.elements[by_id_.at(id)]; }
 
   static bool is_remark(const Element& element) {
     return element.kind == Kind::Label || element.kind == Kind::Comment || element.kind == Kind::Title;
@@ -168,7 +178,8 @@ class Placer {
       if (known || line == nullptr) {
         continue;
       }
-      const Element* from = body_.diagram.find(line->from);
+      const auto found = by_id_.find(line->from);
+      const Element* from = found == by_id_.end() ? nullptr : &body_.diagram.elements[found->second];
       if (from == nullptr || from == &one) {
         continue;
       }
@@ -189,6 +200,7 @@ class Placer {
   }
 
   Body& body_;
+  ById by_id_;
   int y_ = kMargin;
   int right_ = 0;
 };
@@ -196,13 +208,7 @@ class Placer {
 // Completes sizes, spots and corners.
 class Finisher {
  public:
-  explicit Finisher(std::vector<Element>& elements) : elements_(elements) {
-    for (std::size_t i = 0; i < elements_.size(); ++i) {
-      if (elements_[i].kind != Kind::Title) {  // they have no id
-        by_id_.emplace(elements_[i].id, i);
-      }
-    }
-  }
+  explicit Finisher(std::vector<Element>& elements) : elements_(elements), by_id_(index_of(elements)) {}
 
   void run() {
     each_line([this](Pin&, Connection& line) { ++lines_[line.from]; });
@@ -273,7 +279,7 @@ class Finisher {
   }
 
   std::vector<Element>& elements_;
-  std::unordered_map<std::uint64_t, std::size_t> by_id_;
+  ById by_id_;
   std::unordered_map<std::uint64_t, std::size_t> lines_;
   std::unordered_map<std::uint64_t, std::size_t> taken_;
 };

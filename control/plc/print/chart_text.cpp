@@ -64,17 +64,27 @@ std::string condition_text(const network::Element& transition) {
 }
 
 std::string chart_text(const network::Chart& chart, bool unicode, const ChartMarks& marks) {
+  // By step.
+  std::vector<std::vector<const network::Association*>> actions(chart.steps.size());
+  for (const network::Association& association : chart.actions) {
+    actions[association.step].push_back(&association);
+  }
+  std::vector<std::vector<const network::Transition*>> transitions(chart.steps.size());
+  for (const network::Transition& transition : chart.transitions) {
+    if (!transition.from.empty()) {
+      transitions[transition.from.front()].push_back(&transition);
+    }
+  }
   std::string text;
   for (std::size_t i = 0; i < chart.steps.size(); ++i) {
     const network::Step& step = chart.steps[i];
     text += fmt::format("  {0}{2}{1}{3}\n", step.initial ? "[[" : "[", step.initial ? "]]" : "]", step.name,
                         marks.step ? marks.step(step) : "");
-    for (const network::Association& association : chart.actions) {
-      text += association.step == i ? action_line(*association.line) : "";
+    for (const network::Association* association : actions[i]) {
+      text += action_line(*association->line);
     }
-    for (const network::Transition& transition : chart.transitions) {
-      const bool first = !transition.from.empty() && transition.from.front() == i;
-      text += first ? transition_line(chart, i, transition, unicode, marks) : "";
+    for (const network::Transition* transition : transitions[i]) {
+      text += transition_line(chart, i, *transition, unicode, marks);
     }
   }
   return text + "\n";
