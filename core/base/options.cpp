@@ -25,6 +25,7 @@ struct Option::State {
 
 namespace {
 
+constexpr const char* kUsual = "list";  // the command that is meant if none is named
 constexpr const char* kFormatFlag = "--help-format";
 constexpr const char* kHelpHelp = "Print help and exit";
 constexpr const char* kVersionHelp = "Print the version and exit";
@@ -298,6 +299,14 @@ CommandText Options::text() const {
 }
 
 Options::Result Options::parse(std::vector<std::string> words) {
+  const auto names = [this](const std::string& word) {
+    return std::any_of(commands_.begin(), commands_.end(), [&](const auto& one) { return one->text_.name == word; });
+  };
+  const auto asks = [](const std::string& word) { return word == "-h" || word == "--help" || word == "--version"; };
+  if (names(kUsual) && (words.empty() || words[0].starts_with('-')) &&
+      std::none_of(words.begin(), words.end(), names) && std::none_of(words.begin(), words.end(), asks)) {
+    words.insert(words.begin(), kUsual);
+  }
   words = marked(std::move(words));
   std::reverse(words.begin(), words.end());  // CLI11 takes them from the back
   try {

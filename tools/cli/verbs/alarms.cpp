@@ -18,12 +18,17 @@ namespace indurop::tools {
 namespace {
 
 struct Options {
-  std::string action;
   std::vector<std::string> names;
   std::string reason;
   std::int64_t for_ns = 3'600'000'000'000;
   std::uint64_t count = 20;
   bool all = false;
+};
+
+// The alarms that a node declares.
+struct Listed {
+  std::string node;
+  std::vector<alarms::DeclaredAlarm> declared;
 };
 
 Style style_of(const alarms::ListedAlarm& alarm) {
@@ -50,7 +55,8 @@ std::string more_of(const alarms::ListedAlarm& alarm) {
                           : fmt::format("by {}{}", last.who, last.reason.empty() ? "" : ": " + last.reason);
 }
 
-int show_list(Context& context, const std::string& node, const std::vector<alarms::DeclaredAlarm>& declared, bool all) {
+int show_list(Context& context, const Listed& listed, const Options& options) {
+  const auto& [node, declared] = listed;
   alarms::AlarmJournal journal(node);
   journal.refresh();
   Table table({{"PRIORITY", "priority"},
@@ -60,7 +66,7 @@ int show_list(Context& context, const std::string& node, const std::vector<alarm
                {"VALUE", "value"},
                {"TEXT", "text"},
                {"MORE", "more"}});
-  for (const alarms::ListedAlarm& one : alarms::list_alarms(declared, journal.book(), all)) {
+  for (const alarms::ListedAlarm& one : alarms::list_alarms(declared, journal.book(), options.all)) {
     const std::int64_t since = one.record.since_ns;
     table.add({Cell(schema::word_of(one.priority)), Cell(word_of(one.record.state), style_of(one)),
                Cell(since != 0 ? local_time(since) : "-", since != 0 ? JsonValue(since) : JsonValue(), Style::None),
@@ -81,8 +87,8 @@ int show_list(Context& context, const std::string& node, const std::vector<alarm
   return kOk;
 }
 
-int show_history(Context& context, const std::string& node, const Options& options) {
-  const alarms::AlarmJournal journal(node);
+int show_history(Context& context, const Listed& listed, const Options& options) {
+  const alarms::AlarmJournal journal(listed.node);
   Table table({{"TIME", "wall_ns"},
                {"EVENT", "event"},
                {"PRIORITY", "priority"},
@@ -96,11 +102,12 @@ int show_history(Context& context, const std::string& node, const Options& optio
                Cell(schema::word_of(one.priority)), Cell(one.alarm), Cell(printable(one.value)), Cell(one.text),
                Cell(printable(one.who)), Cell(printable(one.reason))});
   }
-  print_table(context, table, {{"node", node}}, "events");
+  print_table(context, table, {{"node", listed.node}}, "events");
   return kOk;
 }
 
-int watch(Context& context, const std::string& node) {
+int watch(Context& context, const Listed& listed, const Options& /*options*/) {
+  const std::string& node = listed.node;
   constexpr std::int64_t kEveryNs = 100'000'000;
   be_gentle(node);
   alarms::AlarmWatch watched(node);
@@ -119,15 +126,15 @@ int watch(Context& context, const std::string& node) {
   return interrupt_code();
 }
 
-int order(Context& context, const std::string& node, const std::vector<alarms::DeclaredAlarm>& declared,
-          alarms::AlarmEvent what, const Options& options) {
+int order(Context& context, const Listed& listed, alarms::AlarmEvent what, const char* verb, const Options& options) {
   if (options.names.empty() != options.all) {
-    context.out.error(fmt::format("name the alarms to {}, or --all", options.action));
+    context.out.error(fmt::format("name the alarms to {}, or --all", verb));
     return kUsage;
   }
-  alarms::AlarmJournal journal(node);
-  const auto done = alarms::carry_out(
-      journal, declared, {what, options.names, options.all, options.for_ns, base::user_name(), "here", options.reason});
+  alarms::AlarmJournal journal(listed.node);
+  const auto done =
+      alarms::carry_out(journal, listed.declared,
+                        {what, options.names, options.all, options.for_ns, base::user_name(), "here", options.reason});
   if (!done) {
     for (const std::string& text : done.error().texts) {
       context.out.error(text);
@@ -138,45 +145,51 @@ int order(Context& context, const std::string& node, const std::vector<alarms::D
     context.out.line(fmt::format("{} {}", word_of(what), name));
   }
   if (done->empty()) {
-    context.out.note(fmt::format("there was nothing to {}", options.action));
+    context.out.note(fmt::format("there was nothing to {}", verb));
   }
   return kOk;
 }
 
-int alarms(Context& context, const Options& options) {
+Result<Listed, Failure> open_alarms(Context& context) {
   const auto store = open_store(context, vars::Mode::ReadOnly);
   if (!store) {
-    return report(context.out, store.error());
+    return store.error();
   }
-  const std::string node = context.node.empty() ? context.values->title() : context.node;
-  const auto declared = alarms::declared_alarms(*store);
-  if (options.action.empty() || options.action == "list") {
-    return show_list(context, node, declared, options.all);
-  }
-  if (options.action == "history") {
-    return show_history(context, node, options);
-  }
-  if (options.action == "watch") {
-    return watch(context, node);
-  }
-  const alarms::AlarmEvent what = options.action == "ack"      ? alarms::AlarmEvent::Acknowledged
-                                  : options.action == "shelve" ? alarms::AlarmEvent::Shelved
-                                                               : alarms::AlarmEvent::Unshelved;
-  return order(context, node, declared, what, options);
+  return Listed{context.node.empty() ? context.values->title() : context.node, alarms::declared_alarms(*store)};
 }
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  app.add("action", "ACTION", options->action, "list (usual), history, ack, shelve, unshelve, watch")
-      .choices({"list", "history", "ack", "shelve", "unshelve", "watch"});
-  app.add("names", "ALARM", options->names, "Alarms, what they look at, or globs");
-  app.flag("--all", options->all, "list: normal ones too; ack, unshelve: all there are");
-  app.add("--reason", "TEXT", options->reason, "Why, for the history");
-  add_time_option(app, "--for", options->for_ns, "shelve: for so long (default 1h)");
-  app.add("-n,--count", "COUNT", options->count, "history: the newest COUNT (default 20)");
+  auto chosen = std::make_shared<Action>();
+  const auto verb = [&](const char* name, const char* help, auto act) -> base::Options& {
+    return app.command(name, help, [options, chosen, act] {
+      *chosen = [options, act](Context& c) {
+        const auto listed = open_alarms(c);
+        return listed ? act(c, *listed, *options) : report(c.out, listed.error());
+      };
+    });
+  };
+  const auto ordering = [&](const char* name, const char* help, alarms::AlarmEvent what) -> base::Options& {
+    base::Options& made = verb(name, help, [what, name](Context& c, const Listed& listed, const Options& o) {
+      return order(c, listed, what, name, o);
+    });
+    made.add("names", "ALARM", options->names, "Alarms, the variables they evaluate, or globs");
+    made.flag("--all", options->all, "All alarms");
+    made.add("--reason", "TEXT", options->reason, "Why, for the history");
+    return made;
+  };
+  base::Options& list = verb("list", "Show the alarms that are not normal", &show_list);
+  list.flag("--all", options->all, "Normal ones, too");
+  base::Options& history = verb("history", "Show what happened", &show_history);
+  history.add("-n,--count", "COUNT", options->count, "The newest COUNT events (default 20)");
+  ordering("ack", "Acknowledge alarms", alarms::AlarmEvent::Acknowledged);
+  base::Options& shelve = ordering("shelve", "Do not raise alarms for a while", alarms::AlarmEvent::Shelved);
+  add_time_option(shelve, "--for", options->for_ns, "For so long (default 1h)");
+  ordering("unshelve", "Raise shelved alarms again", alarms::AlarmEvent::Unshelved);
+  verb("watch", "Evaluate the alarms until Ctrl-C", &watch);
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
-  return [options](Context& c) { return alarms(c, *options); };
+  return [chosen](Context& c) { return (*chosen)(c); };
 }
 
 }  // namespace

@@ -33,7 +33,6 @@ namespace indurop::tools {
 namespace {
 
 struct Options {
-  std::string action;
   std::string what;  // reason, or a file
   std::string when;
   std::string at;  // name of a box; empty: the newest
@@ -183,15 +182,12 @@ int fetch_remote(Context& context, Options& options) {
 }
 
 int fetch(Context& context, Options& options) {
-  if (options.what.empty()) {
-    context.out.error("say into which file: indurop blackbox fetch moment.mcap");
-    return kUsage;
-  }
   return options.is_remote() ? fetch_remote(context, options) : fetch_local(context, options);
 }
 
 // Processes one box, or the boxes of several boards from one moment, like any recording.
-int use(Context& context, Options& options) {
+template <class Act>
+int use(Context& context, Options& options, Act act) {
   const TemporaryFolder folder;
   std::filesystem::path file = folder.path() / "moment.mcap";
   if (options.is_remote()) {
@@ -208,21 +204,31 @@ int use(Context& context, Options& options) {
     file = file_here(*box);
     context.out.note(fmt::format("{}: {}", file.string(), printable(box->reason)));
   }
-  if (options.action == "show") {
-    return show_recording(context, file);
-  }
-  if (options.action == "export") {
+  return act(file);
+}
+
+int show_box(Context& context, Options& options) {
+  return use(context, options, [&](const std::filesystem::path& file) { return show_recording(context, file); });
+}
+
+int export_box(Context& context, Options& options) {
+  return use(context, options, [&](const std::filesystem::path& file) {
     options.out.file = file;
     return export_recording(context, options.out);
-  }
-  ReplayWish wish;
-  wish.file = file;
-  wish.board = options.board;
-  wish.node = context.node.empty() ? "" : context.node + "-replay";
-  wish.with = options.with;
-  wish.svg = options.svg;
-  wish.comes_back = true;
-  return replay_recording(context, wish);
+  });
+}
+
+int replay_box(Context& context, Options& options) {
+  return use(context, options, [&](const std::filesystem::path& file) {
+    ReplayWish wish;
+    wish.file = file;
+    wish.board = options.board;
+    wish.node = context.node.empty() ? "" : context.node + "-replay";
+    wish.with = options.with;
+    wish.svg = options.svg;
+    wish.comes_back = true;
+    return replay_recording(context, wish);
+  });
 }
 
 // Waits until a variable becomes non-zero. Returns the exit code.
@@ -307,21 +313,7 @@ int keep_remote(Context& context, Options& options) {
   return code;
 }
 
-int act(Context& context, Options& options) {
-  if (options.action.empty() || options.action == "list") {
-    return list(context, options);
-  }
-  if (options.action == "fetch") {
-    return fetch(context, options);
-  }
-  if (options.action == "show" || options.action == "export" || options.action == "replay") {
-    return use(context, options);
-  }
-  if (options.action != "keep") {
-    context.out.error(fmt::format("blackbox cannot '{}'; it can list, show, export, replay, keep or fetch",
-                                  printable(options.action)));
-    return kUsage;
-  }
+int keep_any(Context& context, Options& options) {
   options.what = options.what.empty() ? options.when : options.what;
   if (options.is_remote()) {
     return keep_remote(context, options);
@@ -334,24 +326,37 @@ int act(Context& context, Options& options) {
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  app.add("action", "list|show|export|replay|keep|fetch", options->action, "What to do (default: list)");
-  app.add("what", "TEXT", options->what, "With keep: why, for whoever lists it; with fetch: the file to write");
-  app.add("--when", "NAME", options->when,
-          "With keep: wait until this variable of a node of this machine is not 0 any more")
-      .completes(base::Completion::Variable);
-  app.add("--at", "BOX", options->at, "This box, as listed, or its moment (default: the newest)");
-  app.add("--csv", "FILE", options->out.csv, "With export: write the values, as indurop recording export");
-  app.add("--trace", "FILE", options->out.trace,
-          "With export: write when each module ran, for https://ui.perfetto.dev");
-  app.add("--with", "FILE.so", options->with, "With replay: use this file for the module of its name")
+  auto chosen = std::make_shared<Action>();
+  const auto verb = [&](const char* name, const char* help, int (*act)(Context&, Options&)) -> base::Options& {
+    return app.command(name, help,
+                       [options, chosen, act] { *chosen = [options, act](Context& c) { return act(c, *options); }; });
+  };
+  const auto of_a_box = [&](const char* name, const char* help, int (*act)(Context&, Options&)) -> base::Options& {
+    base::Options& made = verb(name, help, act);
+    made.add("--at", "BOX", options->at, "This box, as listed, or its moment (default: the newest)");
+    return made;
+  };
+  verb("list", "Show what was kept, the newest first", [](Context& c, Options& o) { return list(c, o); });
+  of_a_box("show", "Describe the newest box, as indurop recording info", &show_box);
+  base::Options& made = of_a_box("export", "Write the newest box as CSV or as a trace", &export_box);
+  made.add("--csv", "FILE", options->out.csv, "Write the values, as indurop recording export");
+  made.add("--trace", "FILE", options->out.trace, "Write when each module ran, for https://ui.perfetto.dev");
+  base::Options& again = of_a_box("replay", "Run what the newest box holds once more, and compare", &replay_box);
+  again.add("--with", "FILE.so", options->with, "Use this file for the module of its name")
       .completes(base::Completion::File);
-  app.add("--svg", "FILE", options->svg, "With replay: draw what differs");
+  again.add("--svg", "FILE", options->svg, "Draw what differs");
+  base::Options& keeping = verb("keep", "Keep what there is now", &keep_any);
+  keeping.add("reason", "TEXT", options->what, "Why, for the list");
+  keeping.add("--when", "NAME", options->when, "Wait until this variable of a node of this machine is not 0 any more")
+      .completes(base::Completion::Variable);
+  base::Options& fetching = of_a_box("fetch", "Write the boxes of one moment of all boards into one file", &fetch);
+  fetching.add("file", "FILE.mcap", options->what, "The file to write").required().completes(base::Completion::File);
   app.flag("--remote", options->remote, "All boards that are heard, by their agents, not the nodes of this machine");
   app.add("--board", "NAME", options->board, "Only this one of them; implies --remote");
   deploy::add_link_options(app, options->link);
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
-  return [options](Context& c) { return act(c, *options); };
+  return [chosen](Context& c) { return (*chosen)(c); };
 }
 
 }  // namespace
@@ -359,12 +364,10 @@ Action declare(base::Options& app, Context& context) {
 const Verb kBlackboxVerb{
     "blackbox", "Timing", "List what nodes kept after a fault, keep it now, or fetch it from all boards",
     "When a module faults, has many overruns, or a node starts again that crashed, the last seconds of its tape are\n"
-    "kept as a recording: what every run saw and wrote; agents have it kept on all boards of the plant. The newest "
-    "ten\n"
-    "of each node stay. The newest is listed first. They are read by `indurop explain --from`, `replay`, `recording`,\n"
-    "Foxglove and PlotJuggler; blackbox show, export and replay do the same with the newest one. blackbox keep keeps "
-    "what there is now. blackbox fetch writes what the boards kept\n"
-    "within ten seconds of one moment into one file on common time; exit code 1 if a board of the plant has none.\n"
+    "kept as a recording: what every run saw and wrote; agents have it kept on all boards of the plant. The newest\n"
+    "ten of each node stay. They are read by `indurop explain --from`, `replay`, `recording`, Foxglove and\n"
+    "PlotJuggler, too. `fetch` joins what the boards kept within ten seconds of one moment into one file on common\n"
+    "time; exit code 1 if a board of the plant has none.\n"
     "Examples:\n"
     "  indurop blackbox\n"
     "  indurop blackbox show\n"

@@ -16,7 +16,6 @@ namespace indurop::tools {
 namespace {
 
 struct Options {
-  std::string action;
   std::string name;
   std::vector<std::string> names;
   std::string comment;
@@ -92,53 +91,73 @@ int load(Context& context, vars::Store& store, const Recipe& recipe) {
   return kOk;
 }
 
-int with_recipe(Context& context, vars::Store& store, const Options& options) {
-  const auto recipe = read_recipe(context.node, options.name);
-  if (!recipe) {
-    context.out.error(recipe.error().text);
-    return kFailed;
-  }
-  if (options.action == "load") {
-    return load(context, store, *recipe);
-  }
-  if (options.action == "diff") {
-    return diff(context, store, *recipe);
-  }
-  const auto removed = remove_recipe(context.node, options.name);
+int remove(Context& context, const Recipe& recipe) {
+  const auto removed = remove_recipe(context.node, recipe.name);
   if (!removed) {
     context.out.error(removed.error().text);
   }
   return removed ? kOk : kFailed;
 }
 
-int recipe(Context& context, const Options& options) {
-  const bool listing = options.action.empty() || options.action == "list";
-  if (!listing && options.name.empty()) {
-    context.out.error(fmt::format("name the recipe: indurop recipe {} NAME", options.action));
-    return kUsage;
-  }
-  auto store = open_store(context, options.action == "load" ? vars::Mode::ReadWrite : vars::Mode::ReadOnly);
+// Opens the values of the node for a command.
+template <class Act>
+int with_store(Context& context, vars::Mode mode, Act act) {
+  auto store = open_store(context, mode);
   if (!store) {
     return report(context.out, store.error());
   }
   context.node = context.values->title();
-  if (listing) {
-    return show_list(context);
-  }
-  return options.action == "save" ? save(context, *store, options) : with_recipe(context, *store, options);
+  return act(*store);
+}
+
+// Reads the named recipe, too.
+template <class Act>
+int with_recipe(Context& context, vars::Mode mode, const std::string& name, Act act) {
+  return with_store(context, mode, [&](vars::Store& store) {
+    const auto recipe = read_recipe(context.node, name);
+    if (!recipe) {
+      context.out.error(recipe.error().text);
+      return int{kFailed};
+    }
+    return int{act(store, *recipe)};
+  });
 }
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  app.add("action", "ACTION", options->action, "list (usual), save, diff, load, remove")
-      .choices({"list", "save", "diff", "load", "remove"});
-  app.add("recipe", "NAME", options->name, "The recipe");
-  app.add("names", "VAR", options->names, "save: variables, parts or globs (default: all parameters)")
+  auto chosen = std::make_shared<Action>();
+  const auto verb = [&](const char* name, const char* help, Action act) -> base::Options& {
+    return app.command(name, help, [chosen, act] { *chosen = act; });
+  };
+  const auto named = [&](const char* name, const char* help, Action act) -> base::Options& {
+    base::Options& made = verb(name, help, std::move(act));
+    made.add("recipe", "NAME", options->name, "The recipe").required();
+    return made;
+  };
+  verb("list", "Show the recipes of a node", [](Context& c) {
+    return with_store(c, vars::Mode::ReadOnly, [&](vars::Store& /*store*/) { return show_list(c); });
+  });
+  base::Options& saving = named("save", "Save values of the node", [options](Context& c) {
+    return with_store(c, vars::Mode::ReadOnly, [&](vars::Store& store) { return save(c, store, *options); });
+  });
+  saving.add("names", "VAR", options->names, "Variables, parts or globs (default: all parameters)")
       .completes(base::Completion::Variable);
-  app.add("--comment", "TEXT", options->comment, "save: what it is for");
+  saving.add("--comment", "TEXT", options->comment, "What it is for");
+  named("diff", "Show the values that differ from a recipe", [options](Context& c) {
+    return with_recipe(c, vars::Mode::ReadOnly, options->name,
+                       [&](vars::Store& store, const Recipe& recipe) { return diff(c, store, recipe); });
+  });
+  named("load", "Set all values of a recipe in one tick", [options](Context& c) {
+    return with_recipe(c, vars::Mode::ReadWrite, options->name,
+                       [&](vars::Store& store, const Recipe& recipe) { return load(c, store, recipe); });
+  });
+  named("remove", "Delete a recipe", [options](Context& c) {
+    return with_recipe(c, vars::Mode::ReadOnly, options->name,
+                       [&](vars::Store& /*store*/, const Recipe& recipe) { return remove(c, recipe); });
+  });
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
-  return [options](Context& c) { return recipe(c, *options); };
+  return [chosen](Context& c) { return (*chosen)(c); };
 }
 
 }  // namespace

@@ -129,11 +129,30 @@ TEST(Options, What_is_missing_or_too_much_is_named_as_the_help_names_it) {
 TEST(Options, Words_of_a_command_are_judged_by_its_own_options) {
   Options sut("sample", "Show how it is done");
   std::uint64_t count = 0;
-  sut.command("list", "List them", [] {}).add("--count", "N", count, "How many");
+  sut.command("show", "Show them", [] {}).add("--count", "N", count, "How many");
   EXPECT_EQ(sut.parse({}).text, "a command is missing");
-  EXPECT_EQ(sut.parse({"list", "--coutn", "1"}).text, "there is no option --coutn; did you mean --count?");
-  EXPECT_EQ(sut.parse({"list", "x"}).text, "'x' is not expected here");
-  EXPECT_EQ(sut.parse({"lits"}).text, "there is no command 'lits'; did you mean list?");
+  EXPECT_EQ(sut.parse({"show", "--coutn", "1"}).text, "there is no option --coutn; did you mean --count?");
+  EXPECT_EQ(sut.parse({"show", "x"}).text, "'x' is not expected here");
+  EXPECT_EQ(sut.parse({"shwo"}).text, "there is no command 'shwo'; did you mean show?");
+}
+
+TEST(Options, Words_that_name_no_command_mean_list) {
+  const auto chosen_by = [](std::vector<std::string> words) {
+    Options sut("sample", "Show how it is done");
+    std::string chosen;
+    bool all = false;
+    sut.flag("--all", all, "Everything");
+    sut.command("make", "Make one", [&] { chosen = "make"; });
+    sut.command("list", "List them", [&] { chosen = "list"; });
+    const auto result = sut.parse(std::move(words));
+    return result.outcome == Outcome::Parsed ? chosen + (all ? " all" : "") : result.text;
+  };
+  EXPECT_EQ(chosen_by({}), "list");
+  EXPECT_EQ(chosen_by({"--all"}), "list all");
+  EXPECT_EQ(chosen_by({"make", "--all"}), "make all");
+  EXPECT_EQ(chosen_by({"--all", "make"}), "make all");
+  EXPECT_EQ(chosen_by({"mak"}), "there is no command 'mak'; did you mean make?");
+  EXPECT_THAT(chosen_by({"--help"}), HasSubstr("List them"));
 }
 
 TEST(Options, Help_and_version_are_told) {
@@ -151,7 +170,6 @@ TEST(Options, Verbs_have_options_of_their_own) {
   int chosen = 0;
   sut.command("make", "Make it", [&] { chosen = 1; }).add("name", "NAME", name, "Which").required();
   sut.command("list", "List all", [&] { chosen = 2; });
-  EXPECT_EQ(sut.parse({}).outcome, Outcome::Wrong);
   EXPECT_EQ(sut.parse({"make"}).outcome, Outcome::Wrong);
   EXPECT_EQ(sut.parse({"make", "it"}).outcome, Outcome::Parsed);
   EXPECT_EQ(chosen, 1);
