@@ -22,7 +22,7 @@ struct StateItem {
   std::uint32_t type_length = 0;
   const char* type = nullptr;
   void* address = nullptr;
-  std::uint64_t size = 0;
+  std::uint64_t size = 0;  // 0: it cannot be copied as bytes
 };
 
 // Filled in by the module for the node. New fields go at the end only: `size` states how much of it the module knew.
@@ -113,14 +113,15 @@ constexpr std::array<StateItem, sizeof...(T)> state_items(std::string_view names
 
 // INDUROP_STATE(counter, filter) goes on one line of one source file of a thread module, after the variables: those of
 // namespace scope, static members and static variables that keep a value between runs. Their types can be copied as
-// bytes. A thread_local variable does not compile here ("not a constant expression"): it has no fixed place.
-#define INDUROP_STATE(...)                                                                            \
-  extern "C" void indurop_module_state(::indurop::StateDescriptor* indurop_to_) {                     \
-    static constexpr auto indurop_items_ = ::indurop::detail::state_items(#__VA_ARGS__, __VA_ARGS__); \
-    ::indurop::StateDescriptor indurop_d_;                                                            \
-    indurop_d_.items = indurop_items_.data();                                                         \
-    indurop_d_.item_count = static_cast<::std::uint32_t>(indurop_items_.size());                      \
-    ::indurop::detail::hand_over(indurop_d_, indurop_to_);                                            \
+// bytes. With nothing in it, the module says that it keeps nothing. A thread_local variable does not compile here ("not
+// a constant expression"): it has no fixed place.
+#define INDUROP_STATE(...)                                                                                          \
+  extern "C" void indurop_module_state(::indurop::StateDescriptor* indurop_to_) {                                   \
+    static constexpr auto indurop_items_ = ::indurop::detail::state_items(#__VA_ARGS__ __VA_OPT__(, ) __VA_ARGS__); \
+    ::indurop::StateDescriptor indurop_d_;                                                                          \
+    indurop_d_.items = indurop_items_.data();                                                                       \
+    indurop_d_.item_count = static_cast<::std::uint32_t>(indurop_items_.size());                                    \
+    ::indurop::detail::hand_over(indurop_d_, indurop_to_);                                                          \
   }
 
 // INDUROP_STATE_BY(most = 4096, save = &::saveState, restore = &::restoreState) stands in its place where variables

@@ -55,7 +55,7 @@ std::optional<FormLine> next_line(std::string_view& form) {
 
 }  // namespace
 
-ModuleMemory::ModuleMemory(const StateDescriptor& declared) : functions_(declared) {
+ModuleMemory::ModuleMemory(const StateDescriptor& declared) : declared_(true), functions_(declared) {
   missing_ = declared.missing != nullptr ? declared.missing : "";
   const auto* at = reinterpret_cast<const std::byte*>(declared.items);
   for (std::uint32_t i = 0; i < declared.item_count; ++i, at += declared.item_size) {
@@ -64,6 +64,9 @@ ModuleMemory::ModuleMemory(const StateDescriptor& declared) : functions_(declare
     items_.push_back({{item.name, item.name_length}, {item.type, item.type_length}, item.address, item.size});
     form_ += fmt::format("{}\t{}\t{}\n", items_.back().name, items_.back().type, item.size);
     most_ += item.size;
+    if (item.size == 0) {
+      missing_ += (missing_.empty() ? "" : ", ") + items_.back().name;
+    }
   }
   if (declared.save != nullptr && declared.restore != nullptr) {
     form_ += fmt::format("\t{}\t{}\n", kByFunctions, declared.most);

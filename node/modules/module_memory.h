@@ -22,6 +22,8 @@ class ModuleMemory {
 
   // Returns true if all that the module keeps can be taken.
   [[nodiscard]] bool is_whole() const noexcept { return most_ > 0 && missing_.empty(); }
+  // Returns true if the module says that it keeps nothing.
+  [[nodiscard]] bool is_empty() const noexcept { return declared_ && most_ == 0 && missing_.empty(); }
   // What the module itself says cannot be taken; empty: nothing.
   [[nodiscard]] const std::string& missing() const noexcept { return missing_; }
   [[nodiscard]] std::uint64_t most() const noexcept { return most_; }
@@ -45,6 +47,7 @@ class ModuleMemory {
   };
   [[nodiscard]] std::size_t save_by_function(std::span<std::byte> to) const;
 
+  bool declared_ = false;
   std::vector<Item> items_;
   StateDescriptor functions_;
   std::uint64_t most_ = 0;

@@ -23,7 +23,7 @@ ReplayedMemory::Next ReplayedMemory::next(std::uint64_t run, bool restarted, boo
     ++missing_;
     return Next::Wait;
   }
-  if (missing_ == 0 || restarted) {
+  if (missing_ == 0 || restarted || memory_->is_empty()) {
     missing_ = 0;
     return Next::Run;
   }

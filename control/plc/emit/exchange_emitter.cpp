@@ -176,10 +176,10 @@ class Emitter {
       return;
     }
     out_.line();
+    out_.line("bool restore_done = false;");
     out_.open("void restore([[maybe_unused]] const iec::Scan& scan)");
-    out_.line("static bool done = false;");
-    out_.line("if (done) { return; }");
-    out_.line("done = true;");
+    out_.line("if (restore_done) { return; }");
+    out_.line("restore_done = true;");
     for (const std::string& one : use_.restored) {
       out_.line(one);
     }

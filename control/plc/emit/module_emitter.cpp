@@ -11,6 +11,7 @@
 #include "control/plc/emit/access_emitter.h"
 #include "control/plc/emit/cpp_text.h"
 #include "control/plc/emit/exchange_emitter.h"
+#include "control/plc/emit/kept_emitter.h"
 #include "control/plc/emit/object_emitter.h"
 #include "control/plc/emit/pou_emitter.h"
 #include "control/plc/emit/task_use.h"
@@ -84,6 +85,7 @@ class ModuleEmitter {
  private:
   void includes() {
     out_.line("#include <indurop/indurop.h>");
+    out_.line("#include <indurop/plc/keep.h>");
     out_.line("#include <indurop/plc/library.h>");
     out_.line("#include <indurop/plc/program.h>");
     if (options_.watch) {
@@ -273,10 +275,11 @@ class ModuleEmitter {
       return;
     }
     out_.line("// Before the first scan: FB_Init, and initial values that are computed.");
+    out_.line("bool start_done = false;");
     out_.open("void start()");
-    out_.line("static bool done = false;");
-    out_.line("if (done) { return; }");
-    out_.line("done = true;");
+    out_.line("if (start_done) { return; }");
+    out_.line("start_done = true;");
+    own_.emplace_back("start_done");
     for (const std::string& one : start_) {
       out_.line(one);
     }
@@ -284,14 +287,15 @@ class ModuleEmitter {
     out_.line();
   }
 
+  [[nodiscard]] bool is_gated() const noexcept { return task_.single != nullptr && task_.periodic; }
+
   void run_programs() {
     const bool debug = options_.probes.debug != nullptr;
     if (debug) {
       out_.open("try");
     }
-    const bool gated = task_.single != nullptr && task_.periodic;
+    const bool gated = is_gated();
     if (gated) {
-      out_.line("static bool single_before = false;");
       out_.line(fmt::format("const bool single = shared.{0} != 0;", cpp_name(*task_.single)));
       out_.line("const bool runs = !single || !single_before;  // periodic while SINGLE is FALSE, once when it rises");
       out_.line("single_before = single;");
@@ -313,6 +317,10 @@ class ModuleEmitter {
 
   // Written outside of the namespaces of shared variables, one of which may be named plc.
   void scan() {
+    if (is_gated()) {
+      out_.line("bool single_before = false;");
+      own_.emplace_back("single_before");
+    }
     out_.line("// One scan: all variables it sees are from its beginning, what it changed is there at its end.");
     out_.open("void one_scan()");
     out_.line("const iec::Scan scan{irp::release_ns()};");
@@ -342,17 +350,22 @@ class ModuleEmitter {
     if (!task_.periodic) {
       condition();
     }
+    if (!use_.restored.empty()) {
+      own_.emplace_back("restore_done");
+    }
+    emit_kept(task_, use_, globals_, own_, out_);
     out_.line(fmt::format("INDUROP_MODULE(run = &::run, {}name = {})",
                           task_.periodic ? "" : "condition = &::condition, ", quoted(options_.name)));
   }
 
   void condition() {
     out_.line("// SINGLE: the event is its rising edge.");
+    out_.line("static bool event_before = false;");
+    own_.emplace_back("event_before");
     out_.open("bool condition()");
-    out_.line("static bool before = false;");
     out_.line(fmt::format("const bool now = {}.get() != 0;", proxy_of(*task_.single)));
-    out_.line("const bool rises = now && !before;");
-    out_.line("before = now;");
+    out_.line("const bool rises = now && !event_before;");
+    out_.line("event_before = now;");
     out_.line("return rises;");
     out_.close();
     out_.line();
@@ -364,6 +377,7 @@ class ModuleEmitter {
   TaskUse use_;
   std::vector<const Global*> globals_;
   std::vector<std::string> start_;
+  std::vector<std::string> own_;  // variables of the module that are none of the program
   TextWriter out_;
 };
 

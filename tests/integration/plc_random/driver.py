@@ -15,7 +15,9 @@ FLAGS = ["-std=c++20", "-g0", "-w"] + [f"-fno-builtin-{name}{end}" for end in ("
     "sqrt", "log", "log10", "exp", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "pow")]
 
 HEAD = """#include "{module}.cpp"
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <string>
@@ -50,9 +52,13 @@ template <class T, std::size_t N> std::string show(const std::array<T, N>& v) {{
   for (const T& one : v) out += show(one) + " ";
   return out + "]";
 }}
+// Scans before this one are not run, and those from the other one on.
+std::size_t first_scan = 0;
+std::size_t end_scan = SIZE_MAX;
 template <class Program, class Show> void run_scans(const char* name, Program& program, Show shown) {{
   const std::int64_t times[] = {{{times}}};
-  for (const std::int64_t at : times) {{
+  for (std::size_t i = first_scan; i < std::size(times) && i < end_scan; ++i) {{
+    const std::int64_t at = times[i];
     std::string fault;
     time_of_test = at;
     try {{ program(iec::Scan{{at}}); }} catch (const std::exception& e) {{ fault = e.what(); }}
@@ -63,11 +69,31 @@ template <class Program, class Show> void run_scans(const char* name, Program& p
   }}
 }}
 void put(const std::string& value) {{ std::printf("\\t%s", value.c_str()); }}
+// What the module keeps: to a file and back, in another process. So are globals, which a node keeps in its store.
+void keep(const char* path, bool back) {{
+  indurop::StateDescriptor kept;
+  indurop_module_state(&kept);
+  if (kept.missing != nullptr) std::printf("missing\\t%s\\n", kept.missing);
+  std::FILE* const file = std::fopen(path, back ? "r" : "w");
+  for (std::uint32_t i = 0; i < kept.item_count; ++i) {{
+    const auto& [name, name_length, type_length, type, address, size] = kept.items[i];
+    if ((back ? std::fread(address, 1, size, file) : std::fwrite(address, 1, size, file)) != size || size == 0) std::abort();
+  }}
+{image}  std::fclose(file);
+}}
 }}  // namespace
 
-int main() {{
-{runs}}}
+// Nothing: all scans. SCAN FILE: those before, and what is kept then goes into the file. FILE SCAN: the others, with that.
+int main(int argc, char** argv) {{
+  const bool back = argc > 2 && std::atoi(argv[1]) == 0;
+  if (argc > 2) (back ? first_scan : end_scan) = static_cast<std::size_t>(std::atoi(argv[back ? 2 : 1]));
+  if (back) keep(argv[1], true);
+{runs}  if (argc > 2 && !back) keep(argv[2], false);
+}}
 """
+
+
+IMAGE = "  if ((back ? std::fread(&shared, 1, sizeof shared, file) : std::fwrite(&shared, 1, sizeof shared, file)) != sizeof shared) std::abort();\n"
 
 
 def shown(type_, value):
@@ -101,7 +127,7 @@ def observed(program):
     return out
 
 
-def driver_text(module, programs, starts):
+def driver_text(module, programs, starts, image):
     structs = []
     runs = [f"  time_of_test = {TIMES[0]};\n  start();\n"] if starts else []
     for program in programs:
@@ -111,7 +137,7 @@ def driver_text(module, programs, starts):
                 structs.append(f'[[maybe_unused]] std::string show(const plc::{type_.name}& v) {{ return "{{" + {fields} + "}}"; }}')
         puts = " ".join(f"put(show(instance_{program.prefix}.{member}));" for _, member, _ in observed(program))
         runs.append(f'  run_scans("{program.prefix}", instance_{program.prefix}, [] {{ {puts} }});\n')
-    return HEAD.format(module=module, structs="\n".join(structs), times=", ".join(map(str, TIMES)), runs="".join(runs))
+    return HEAD.format(module=module, structs="\n".join(structs), times=", ".join(map(str, TIMES)), image=IMAGE if image else "", runs="".join(runs))
 
 
 class Failed(Exception):
@@ -156,18 +182,18 @@ def compile_batch(build, folder, programs, optimize, coverage=False):
     checked_call([os.path.join(build, "bin/glb2idl"), "--out-dir", ".", "batch.glb"], folder)
     with open(os.path.join(folder, "driver.cpp"), "w", encoding="utf-8") as file:
         with open(os.path.join(folder, "batch.cpp"), encoding="utf-8") as code:
-            starts = "void start() {" in code.read()
-        file.write(driver_text("batch", programs, starts))
+            text = code.read()
+        file.write(driver_text("batch", programs, "void start() {" in text, "Image shared;" in text))
     compiler = os.environ.get("CXX") or "g++"
     checked_call([compiler, *FLAGS, optimize, f"-isystem{build}/include", "-isystem.", "driver.cpp", "-o", "driver",
                   f"-L{build}/lib", "-lindurop", f"-Wl,-rpath,{build}/lib"], folder)
     return os.path.join(folder, "driver")
 
 
-def results(path, folder):
+def results(path, folder, *arguments):
     """By program: [(fault, [values])] of its scans."""
     environment = dict(os.environ, INDUROP_NODE="plcrandom-none", INDUROP_PLC_COVERAGE=folder)
-    done = subprocess.run([path], cwd=folder, capture_output=True, text=True, env=environment, timeout=300)
+    done = subprocess.run([path, *arguments], cwd=folder, capture_output=True, text=True, env=environment, timeout=300)
     if done.returncode != 0:
         raise Failed(f"the programs ended with {done.returncode}: {done.stderr[:2000]}")
     out = {}
@@ -175,6 +201,17 @@ def results(path, folder):
         name, fault, *values = line.split("\t")
         out.setdefault(name, []).append((fault, values))
     return out
+
+
+def resumed(path, folder, scan):
+    """As results(), but what the programs keep goes to another process before this scan. Without those that say that
+    not all of it can be taken: they hold pointers."""
+    out = results(path, folder, str(scan), "kept")
+    missing = set(re.findall(r"(P\d+)\.", out.pop("missing", [("", [])])[0][0]))
+    for name, scans in results(path, folder, "kept", str(scan)).items():
+        if name in out and out[name][-1][0] == "":
+            out[name] += scans
+    return {name: scans for name, scans in out.items() if name not in missing}
 
 
 def counted_lines(build, folder):

@@ -8,13 +8,14 @@ where that is set. A difference is printed with its program; --only SEED makes t
 import argparse
 import concurrent.futures
 import os
+import random
 import re
 import sys
 import tempfile
 
 import tree
-from driver import Failed, compile_batch, counted_lines, observed, results, shown
-from program import Program
+from driver import Failed, compile_batch, counted_lines, observed, results, resumed, shown
+from program import Program, TIMES
 
 
 def differences(program, scans):
@@ -45,13 +46,21 @@ def check_batch(build, folder, seeds, optimize):
     if not programs:
         return []
     try:
-        found = results(compile_batch(build, folder, programs, optimize), folder)
+        driver = compile_batch(build, folder, programs, optimize)
+        found = results(driver, folder)
+        scan = random.Random(seeds[0]).randrange(1, len(TIMES))
+        continued = resumed(driver, folder, scan)
     except Failed as error:
         if len(seeds) == 1:
             return [(seeds[0], programs[0].text(), [str(error)])]
         half = len(seeds) // 2  # which of them is it?
         return check_batch(build, folder + "a", seeds[:half], optimize) + check_batch(build, folder + "b", seeds[half:], optimize)
     all_found = [(one.seed, one.text(), differences(one, found.get(one.prefix, []))) for one in programs]
+    for one, (_, _, what) in zip(programs, all_found):
+        if not what and continued.get(one.prefix, found.get(one.prefix)) != found.get(one.prefix):
+            what.append(f"continued in another process before scan {scan}, it differs")
+    if len(programs) > 20 and len(continued) < len(programs) / 4:
+        all_found.append((0, [], [f"only {len(continued)} of {len(programs)} could be continued in another process"]))
     return [one for one in all_found if one[2]]
 
 

@@ -1,5 +1,6 @@
 // Written by indurop plc from in.st: change that, not this.
 #include <indurop/indurop.h>
+#include <indurop/plc/keep.h>
 #include <indurop/plc/library.h>
 #include <indurop/plc/program.h>
 #define INDUROP_LEAF ::indurop::iec::SharedNumber
@@ -156,5 +157,20 @@ void one_scan() {
 
 void POU_PROGRAM() { one_scan(); }
 void run() { POU_PROGRAM(); }
+
+// What it keeps between its scans.
+extern "C" void indurop_module_state(indurop::StateDescriptor* to) {
+  static constexpr std::array<indurop::StateItem, 8> items{
+      iec::kept("MAIN.delay", "TON", instance_MAIN.delay),
+      iec::kept("MAIN.ramp.enable", "BOOL", instance_MAIN.ramp.enable),
+      iec::kept("MAIN.ramp.step", "INT", instance_MAIN.ramp.step),
+      iec::kept("MAIN.ramp.value", "INT", instance_MAIN.ramp.value),
+      iec::kept("MAIN.ramp.count", "UDINT", instance_MAIN.ramp.count),
+      iec::kept("MAIN.i", "INT", instance_MAIN.i),
+      iec::kept("MAIN.sum", "DINT", instance_MAIN.sum),
+      iec::kept("MAIN.r", "REAL", instance_MAIN.r),
+  };
+  iec::declare_kept(items, nullptr, to);
+}
 
 INDUROP_MODULE(run = &::run, name = "golden")

@@ -1,5 +1,6 @@
 // Written by indurop plc from in.st: change that, not this.
 #include <indurop/indurop.h>
+#include <indurop/plc/keep.h>
 #include <indurop/plc/library.h>
 #include <indurop/plc/program.h>
 #define INDUROP_LEAF ::indurop::iec::SharedNumber
@@ -67,5 +68,12 @@ void one_scan() {
 
 void POU_PROGRAM() { one_scan(); }
 void run() { POU_PROGRAM(); }
+
+// What it keeps between its scans.
+extern "C" void indurop_module_state(indurop::StateDescriptor* to) {
+  static constexpr std::array<indurop::StateItem, 0> items{
+  };
+  iec::declare_kept(items, nullptr, to);
+}
 
 INDUROP_MODULE(run = &::run, name = "golden")

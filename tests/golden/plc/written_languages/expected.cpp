@@ -1,5 +1,6 @@
 // Written by indurop plc from in.st: change that, not this.
 #include <indurop/indurop.h>
+#include <indurop/plc/keep.h>
 #include <indurop/plc/library.h>
 #include <indurop/plc/program.h>
 #define INDUROP_LEAF ::indurop::iec::SharedNumber
@@ -196,5 +197,38 @@ void one_scan() {
 
 void POU_PROGRAM() { one_scan(); }
 void run() { POU_PROGRAM(); }
+
+// What it keeps between its scans.
+extern "C" void indurop_module_state(indurop::StateDescriptor* to) {
+  static constexpr std::array<indurop::StateItem, 26> items{
+      iec::kept("press.go", "BOOL", instance_press.go),
+      iec::kept("press.down", "BOOL", instance_press.down),
+      iec::kept("press.clamped", "BOOL", instance_press.clamped),
+      iec::kept("press.fault", "BOOL", instance_press.fault),
+      iec::kept("press.horn", "BOOL", instance_press.horn),
+      iec::kept("press.count", "INT", instance_press.count),
+      iec::kept("press.Ready", "SFC_STEP #5e1767297c4aa84b", instance_press.Ready),
+      iec::kept("press._st0", "TON", instance_press._st0),
+      iec::kept("press._sx0", "BOOL", instance_press._sx0),
+      iec::kept("press.Lower", "SFC_STEP #5e1767297c4aa84b", instance_press.Lower),
+      iec::kept("press._st1", "TON", instance_press._st1),
+      iec::kept("press._sx1", "BOOL", instance_press._sx1),
+      iec::kept("press.Clamp", "SFC_STEP #5e1767297c4aa84b", instance_press.Clamp),
+      iec::kept("press._st2", "TON", instance_press._st2),
+      iec::kept("press._sx2", "BOOL", instance_press._sx2),
+      iec::kept("press.Alarm", "SFC_STEP #5e1767297c4aa84b", instance_press.Alarm),
+      iec::kept("press._st3", "TON", instance_press._st3),
+      iec::kept("press._sx3", "BOOL", instance_press._sx3),
+      iec::kept("press._running", "BOOL", instance_press._running),
+      iec::kept("press._aq1", "BOOL", instance_press._aq1),
+      iec::kept("press._at2", "TON", instance_press._at2),
+      iec::kept("press._aq2", "BOOL", instance_press._aq2),
+      iec::kept("press._aq3", "BOOL", instance_press._aq3),
+      iec::kept("list.a", "BOOL", instance_list.a),
+      iec::kept("list.b", "BOOL", instance_list.b),
+      iec::kept("list.c", "BOOL", instance_list.c),
+  };
+  iec::declare_kept(items, nullptr, to);
+}
 
 INDUROP_MODULE(run = &::run, name = "golden")
