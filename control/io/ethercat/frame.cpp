@@ -93,6 +93,11 @@ std::optional<std::size_t> FrameBuilder::add(Command command, std::uint8_t index
   return at + kDatagramHeader;
 }
 
+void FrameBuilder::fill(std::size_t data_at, Bytes data) noexcept {
+  std::copy_n(data.begin(), std::min(data.size(), end_ - data_at),
+              bytes_.begin() + static_cast<std::ptrdiff_t>(data_at));
+}
+
 Bytes FrameBuilder::finish() noexcept {
   store<std::uint16_t>(bytes_, kEthernetHeader,
                        static_cast<std::uint16_t>((end_ - kFrameHeader) | kTypeCommands << kTypeShift));

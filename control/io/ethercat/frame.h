@@ -85,6 +85,8 @@ class FrameBuilder {
   std::optional<std::size_t> add(Command command, std::uint8_t index, std::uint32_t address, Bytes data) noexcept;
   std::optional<std::size_t> add(Command command, std::uint8_t index, std::uint32_t address,
                                  std::size_t length) noexcept;
+  // Replaces data of a datagram, from where add() said it begins.
+  void fill(std::size_t data_at, Bytes data) noexcept;
   [[nodiscard]] bool is_empty() const noexcept { return end_ == kFrameHeader; }
   // The bytes to send, padded to what Ethernet needs.
   [[nodiscard]] Bytes finish() noexcept;

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/io/ethercat/master/master.h"
+
+#include <algorithm>
+
+namespace indurop::io::ethercat {
+
+namespace {
+
+constexpr std::size_t kSourceAt = 6;
+constexpr unsigned kMaxReceived = 64;     // frames in one cycle
+constexpr unsigned kServicePatience = 3;  // cycles
+constexpr std::size_t kStatusWord = 2;    // of the broadcast that counts the slaves
+
+std::size_t process_size(const SlavePlan& plan) noexcept {
+  return plan.output_bytes + plan.input_bytes;
+}
+
+// The same datagrams, but for what slaves change.
+bool are_same(Bytes sent, Bytes received) noexcept {
+  FrameReader ours(sent);
+  FrameReader theirs(received);
+  Datagram a;
+  Datagram b;
+  while (ours.next(a)) {
+    if (!theirs.next(b) || a.command != b.command || a.index != b.index || a.length != b.length ||
+        (is_logical(a.command) ? a.address != b.address : a.address >> 16U != b.address >> 16U)) {
+      return false;
+    }
+  }
+  return !theirs.next(b);
+}
+
+}  // namespace
+
+Master::Master(Link& link, std::vector<SlavePlan> plans) : link_(link), plans_(std::move(plans)) {
+  for (std::size_t i = 0; i < plans_.size(); ++i) {
+    slaves_.emplace_back(plans_[i], i, events_);
+    data_.push_back({plans_[i].safe_outputs, std::vector<std::uint8_t>(plans_[i].input_bytes), false, false});
+  }
+  plan_frames();
+  service_.items.reserve(plans_.size());
+}
+
+void Master::plan_frames() {
+  std::size_t room = 0;
+  for (std::size_t i = 0; i < plans_.size(); ++i) {
+    const std::size_t size = process_size(plans_[i]);
+    if (process_.empty() || size + kDatagramOverhead > room) {
+      process_.emplace_back();
+      room = kMaxFrame - kFrameHeader - kDatagramOverhead - kStatusWord;
+    }
+    if (size > 0) {
+      process_.back().items.push_back({static_cast<std::uint16_t>(i), 0, size});
+      room -= size + kDatagramOverhead;
+    }
+  }
+}
+
+void Master::cycle(Clock now) noexcept {
+  for (Data& data : data_) {
+    data.fresh = false;
+  }
+  receive(now);
+  expire(now);
+  send_process();
+  if (!service_.is_out) {
+    send_service(now);
+  }
+}
+
+void Master::receive(Clock now) noexcept {
+  std::array<std::uint8_t, kMaxFrame + 8> buffer{};
+  for (unsigned i = 0; i < kMaxReceived; ++i) {
+    const std::size_t size = link_.receive(buffer);
+    if (size == 0) {
+      return;
+    }
+    take_frame(Bytes(buffer).first(std::min(size, buffer.size())), now);
+  }
+}
+
+Master::Frame* Master::frame_of(std::uint8_t index) noexcept {
+  if (service_.is_out && service_.index == index) {
+    return &service_;
+  }
+  const auto found = std::find_if(process_.begin(), process_.end(),
+                                  [index](const Frame& frame) { return frame.is_out && frame.index == index; });
+  return found == process_.end() ? nullptr : &*found;
+}
+
+void Master::take_frame(Bytes bytes, Clock now) noexcept {
+  FrameReader reader(bytes);
+  Datagram first;
+  if (!reader.next(first)) {
+    ++counters_.foreign;
+    return;
+  }
+  const bool is_ours = std::equal(kMasterMac.begin(), kMasterMac.end(), bytes.begin() + kSourceAt);
+  if (!is_ours || slots_[first.index] == Slot::Free) {
+    ++counters_.foreign;
+    return;
+  }
+  auto& slot = slots_[first.index];
+  if (slot != Slot::Out) {
+    ++(slot == Slot::Lost ? counters_.late : counters_.duplicates);
+    slot = Slot::Back;
+    return;
+  }
+  Frame* const frame = frame_of(first.index);
+  if (frame == nullptr || !are_same(frame->builder.finish(), bytes)) {
+    ++counters_.foreign;
+    return;
+  }
+  slot = Slot::Back;
+  frame->is_out = false;
+  if (frame == &service_) {
+    take_service(*frame, bytes, now);
+  } else {
+    take_process(*frame, bytes, now);
+  }
+}
+
+void Master::take_process(const Frame& frame, Bytes bytes, Clock now) noexcept {
+  slaves_seen_ = load<std::uint16_t>(bytes, kFrameHeader + kDatagramHeader + kStatusWord);
+  for (const Item& item : frame.items) {
+    SlaveControl& slave = slaves_[item.place];
+    Data& data = data_[item.place];
+    const auto wkc = load<std::uint16_t>(bytes, item.data_at + item.size);
+    slave.check_counter(wkc, now);
+    data.fresh = slave.operates() && wkc == slave.expected_counter();
+    if (data.fresh) {
+      const auto from = bytes.subspan(item.data_at + data.outputs.size(), data.inputs.size());
+      std::copy(from.begin(), from.end(), data.inputs.begin());
+    }
+  }
+}
+
+void Master::take_service(const Frame& frame, Bytes bytes, Clock now) noexcept {
+  for (const Item& item : frame.items) {
+    const bool is_answered = load<std::uint16_t>(bytes, item.data_at + item.size) > 0;
+    slaves_[item.place].answer(bytes.subspan(item.data_at, item.size), is_answered, now);
+  }
+}
+
+void Master::expire(Clock now) noexcept {
+  for (Frame& frame : process_) {
+    if (frame.is_out) {
+      frame.is_out = false;
+      slots_[frame.index] = Slot::Lost;
+      ++counters_.lost;
+    }
+  }
+  if (service_.is_out && ++service_.age >= kServicePatience) {
+    service_.is_out = false;
+    slots_[service_.index] = Slot::Lost;
+    ++counters_.lost;
+    for (const Item& item : service_.items) {
+      slaves_[item.place].lost(now);
+    }
+  }
+}
+
+void Master::send(Frame& frame) noexcept {
+  if (!link_.send(frame.builder.finish())) {
+    ++counters_.not_sent;
+    slots_[frame.index] = Slot::Free;
+    return;
+  }
+  ++counters_.sent;
+  slots_[frame.index] = Slot::Out;
+  frame.is_out = true;
+  frame.age = 0;
+}
+
+void Master::send_process() noexcept {
+  for (Frame& frame : process_) {
+    frame.index = next_index_++;
+    frame.builder.clear();
+    frame.builder.add(Command::Brd, frame.index, address_of(0, reg::kAlStatus), kStatusWord);
+    for (Item& item : frame.items) {
+      const SlavePlan& plan = plans_[item.place];
+      const Data& data = data_[item.place];
+      const auto at = frame.builder.add(Command::Lrw, frame.index, plan.logical, item.size);
+      item.data_at = at.value_or(0);
+      if (at) {
+        const bool live = data.outputs_good && slaves_[item.place].operates();
+        frame.builder.fill(*at, live ? data.outputs : plan.safe_outputs);
+      }
+    }
+    send(frame);
+  }
+}
+
+void Master::send_service(Clock now) noexcept {
+  service_.builder.clear();
+  service_.items.clear();
+  service_.index = next_index_;
+  for (std::size_t i = 0; i < slaves_.size(); ++i) {
+    const std::size_t place = (next_service_ + i) % slaves_.size();
+    const auto query = slaves_[place].query(now);
+    if (!query) {
+      continue;
+    }
+    const std::size_t size = query->data.empty() ? query->length : query->data.size();
+    const auto at = query->data.empty()
+                        ? service_.builder.add(query->command, service_.index, query->address, size)
+                        : service_.builder.add(query->command, service_.index, query->address, query->data);
+    if (!at) {
+      next_service_ = place;  // it is first in the next frame
+      break;
+    }
+    service_.items.push_back({static_cast<std::uint16_t>(place), *at, size});
+  }
+  if (!service_.items.empty()) {
+    ++next_index_;
+    send(service_);
+    if (!service_.is_out) {
+      for (const Item& item : service_.items) {
+        slaves_[item.place].lost(now);
+      }
+    }
+  }
+}
+
+}  // namespace indurop::io::ethercat

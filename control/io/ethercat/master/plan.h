@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the master does with one slave, worked out before the bus starts: registers to write, objects to set, where its
+// process data is. Not real-time safe.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "control/io/ethercat/sii.h"
+
+namespace indurop::io::ethercat {
+
+struct StartObject {  // set in PREOP, each time the slave comes up
+  std::uint16_t index = 0;
+  std::uint8_t subindex = 0;
+  bool complete = false;
+  std::vector<std::uint8_t> value;
+};
+
+struct SlavePlan {
+  std::string name;
+  Identity identity;          // revision and serial 0: any
+  std::uint32_t logical = 0;  // address of its process data
+  MailboxArea mailbox;
+  std::vector<std::uint8_t> mailbox_managers;  // register bytes; empty without a mailbox
+  std::uint16_t process_managers_at = 0;
+  std::vector<std::uint8_t> process_managers;
+  std::vector<std::uint8_t> fmmus;  // logical addresses from 0 on: outputs, then inputs
+  std::size_t output_bytes = 0;
+  std::size_t input_bytes = 0;
+  std::vector<std::uint8_t> safe_outputs;  // sent while the application gives none
+  std::vector<StartObject> start_objects;
+};
+
+// The plan for a slave with its own mapping, at this logical address. Its safe outputs are zeros.
+SlavePlan plan_of(const Sii& sii, std::uint32_t logical);
+
+}  // namespace indurop::io::ethercat

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// One datagram that a part of the master wants to send outside of the process data, and the wire under the master.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "control/io/ethercat/frame.h"
+#include "control/io/ethercat/registers.h"
+
+namespace indurop::io::ethercat {
+
+using Clock = std::chrono::nanoseconds;  // monotonic, real or virtual
+
+struct Query {
+  Command command = Command::Nop;
+  std::uint32_t address = 0;
+  Bytes data;              // to write; lives until the answer
+  std::size_t length = 0;  // to read, without data
+};
+
+// The wire: sends and receives whole Ethernet frames, never waits.
+class Link {
+ public:
+  Link() = default;
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+  virtual ~Link() = default;
+  virtual bool send(Bytes frame) noexcept = 0;
+  // Returns the size of a frame that arrived, 0 if there is none.
+  virtual std::size_t receive(std::span<std::uint8_t> to) noexcept = 0;
+};
+
+// What can happen to a slave. The number after it in an Event says more.
+enum class Problem : std::uint8_t {
+  None,
+  Missing,        // no answer at its position
+  Moved,          // another slave of the configuration answers there
+  WrongIdentity,  // product code that was found
+  EepromBusy,
+  StateRefused,  // AL status code
+  StateTimeout,  // requested state
+  StateLost,     // left OP on its own: AL status code
+  SdoAborted,    // abort code
+  SdoTimeout,    // index of the object
+  WrongCounter,  // working counter that came
+  EmergencySent  // error code
+};
+
+struct Event {
+  Clock time{0};
+  std::uint16_t slave = 0;  // its place in the configuration
+  Problem problem = Problem::None;
+  std::uint32_t detail = 0;
+};
+
+}  // namespace indurop::io::ethercat

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/io/ethercat/master/slave_control.h"
+
+namespace indurop::io::ethercat {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr Clock kAnswerLimit = milliseconds(50);  // without an answer, the slave is missing
+constexpr Clock kFindAgain = milliseconds(20);
+constexpr Clock kRefusedPause = milliseconds(200);  // for what a new try hardly mends
+constexpr Clock kStateCheck = milliseconds(10);
+constexpr std::size_t kStateBytes = 6;  // AL status, two bytes, AL status code
+constexpr std::size_t kCodeAt = 4;
+
+// How long a slave may take to a state, as the standard's defaults are.
+constexpr Clock limit_of(AlState state) noexcept {
+  return state == AlState::Init || state == AlState::PreOp ? milliseconds(3000) : milliseconds(10'000);
+}
+
+}  // namespace
+
+SlaveControl::SlaveControl(const SlavePlan& plan, std::size_t place, Events& events)
+    : plan_(plan),
+      place_(static_cast<std::uint16_t>(place)),
+      events_(events),
+      expected_(static_cast<std::uint16_t>((plan.output_bytes > 0 ? 2 : 0) + (plan.input_bytes > 0 ? 1 : 0))) {
+  if (!plan.mailbox_managers.empty()) {
+    mailbox_.open(station_of(place), plan.mailbox);
+  }
+}
+
+void SlaveControl::enter(Step step, Clock now) noexcept {
+  step_ = step;
+  since_ = now;
+}
+
+void SlaveControl::request(AlState state, Clock now) noexcept {
+  target_ = state;
+  const unsigned acknowledge = state == AlState::Init ? kAlError : 0U;
+  store<std::uint16_t>(word_, 0, static_cast<std::uint16_t>(static_cast<unsigned>(state) | acknowledge));
+  enter(Step::Request, now);
+}
+
+void SlaveControl::fail(Problem problem, std::uint32_t detail, Clock pause, Clock now) noexcept {
+  if (problem_ != problem || detail_ != detail) {
+    events_.push({now, place_, problem, detail});
+  }
+  problem_ = problem;
+  detail_ = detail;
+  resume_at_ = now + pause;
+  mailbox_.reset();
+  enter(Step::Pause, now);
+}
+
+bool SlaveControl::start(SdoTransfer& transfer, Clock now) noexcept {
+  if (!operates() || !mailbox_.is_open() || !mailbox_.is_idle()) {
+    return false;
+  }
+  mailbox_.start(transfer, now);
+  return true;
+}
+
+Query SlaveControl::state_query() const noexcept {
+  return {Command::Fprd, address_of(station_of(place_), reg::kAlStatus), {}, kStateBytes};
+}
+
+std::optional<Query> SlaveControl::query(Clock now) noexcept {
+  const std::uint16_t station = station_of(place_);
+  if (step_ == Step::Pause && now >= resume_at_) {
+    answered_at_ = now;
+    enter(Step::Find, now);
+  }
+  switch (step_) {
+    case Step::Pause:
+      return std::nullopt;
+    case Step::Find:
+      return Query{Command::Aprd, address_of(position(place_), reg::kStation), {}, 2};
+    case Step::Address:
+      store<std::uint16_t>(word_, 0, station);
+      return Query{Command::Apwr, address_of(position(place_), reg::kStation), word_, 0};
+    case Step::Identity:
+      return eeprom_.query();
+    case Step::Request:
+      return Query{Command::Fpwr, address_of(station, reg::kAlControl), word_, 0};
+    case Step::Wait:
+      return state_query();
+    case Step::Mailbox:
+      return Query{Command::Fpwr, address_of(station, reg::kSyncManager), plan_.mailbox_managers, 0};
+    case Step::Objects: {
+      auto asked = mailbox_.query(now);
+      judge_object(now);
+      return step_ == Step::Objects ? asked : std::nullopt;
+    }
+    case Step::Managers:
+      return Query{Command::Fpwr, address_of(station, plan_.process_managers_at), plan_.process_managers, 0};
+    case Step::Fmmus:
+      return Query{Command::Fpwr, address_of(station, reg::kFmmu), plan_.fmmus, 0};
+    case Step::Operate:
+      break;
+  }
+  asks_state_ = is_suspect_ || now >= check_at_;
+  if (asks_state_) {
+    return state_query();
+  }
+  return mailbox_.is_open() ? mailbox_.query(now) : std::nullopt;
+}
+
+void SlaveControl::lost(Clock now) noexcept {
+  if (step_ == Step::Objects || (step_ == Step::Operate && !asks_state_)) {
+    mailbox_.lost(now);
+  }
+  if (step_ != Step::Pause && now - answered_at_ > kAnswerLimit) {
+    fail(Problem::Missing, 0, kFindAgain, now);
+  }
+}
+
+void SlaveControl::answer(Bytes data, bool is_answered, Clock now) noexcept {
+  answered_at_ = now;
+  if (step_ == Step::Operate) {
+    monitor(data, is_answered, now);
+    return;
+  }
+  if (step_ == Step::Objects) {
+    mailbox_.answer(data, is_answered, now);
+    judge_object(now);
+    return;
+  }
+  if (step_ == Step::Identity) {
+    check_identity(data, is_answered, now);
+    return;
+  }
+  if (!is_answered) {
+    if (step_ == Step::Find || now - since_ > kAnswerLimit) {
+      fail(Problem::Missing, 0, kFindAgain, now);
+    }
+    return;
+  }
+  switch (step_) {
+    case Step::Find:
+      found(load<std::uint16_t>(data, 0), now);
+      return;
+    case Step::Address:
+      request(AlState::Init, now);
+      return;
+    case Step::Request:
+      enter(Step::Wait, now);
+      return;
+    case Step::Wait:
+      check_state(data, now);
+      return;
+    case Step::Mailbox:
+      request(AlState::PreOp, now);
+      return;
+    case Step::Managers:
+      if (!plan_.fmmus.empty()) {
+        enter(Step::Fmmus, now);
+        return;
+      }
+      [[fallthrough]];
+    case Step::Fmmus:
+      request(AlState::SafeOp, now);
+      return;
+    default:
+      return;
+  }
+}
+
+void SlaveControl::found(std::uint16_t station, Clock now) noexcept {
+  // A slave that has one of our names already, but not this one's, is elsewhere in the configuration: giving it a
+  // second name would hide it.
+  if (station != station_of(place_) && station >= station_of(0) && station < 0x2000) {
+    fail(Problem::Moved, station, kFindAgain, now);
+    return;
+  }
+  enter(Step::Address, now);
+}
+
+void SlaveControl::check_identity(Bytes data, bool is_answered, Clock now) noexcept {
+  const auto outcome = eeprom_.answer(data, is_answered, now);
+  if (outcome == EepromReader::Outcome::Busy) {
+    fail(is_answered ? Problem::EepromBusy : Problem::Missing, 0, kFindAgain, now);
+    return;
+  }
+  if (outcome == EepromReader::Outcome::Running) {
+    return;
+  }
+  const auto low = load<std::uint32_t>(eeprom_.bytes(), 0);
+  const auto high = load<std::uint32_t>(eeprom_.bytes(), 4);
+  if (eeprom_word_ == kSiiIdentity) {
+    identity_.vendor = low;
+    identity_.product = high;
+    eeprom_word_ = kSiiIdentity + 4;
+    eeprom_.start(station_of(place_), eeprom_word_, now);
+    return;
+  }
+  identity_.revision = low;
+  identity_.serial = high;
+  const Identity& wanted = plan_.identity;
+  if (identity_.vendor != wanted.vendor || identity_.product != wanted.product ||
+      (wanted.revision != 0 && identity_.revision != wanted.revision) ||
+      (wanted.serial != 0 && identity_.serial != wanted.serial)) {
+    fail(Problem::WrongIdentity, identity_.product, kRefusedPause, now);
+  } else if (plan_.mailbox_managers.empty()) {
+    request(AlState::PreOp, now);
+  } else {
+    enter(Step::Mailbox, now);
+  }
+}
+
+void SlaveControl::check_state(Bytes data, Clock now) noexcept {
+  const auto status = data[0];
+  if ((status & kAlStateMask) == static_cast<unsigned>(target_) && (status & kAlError) == 0) {
+    reached(now);
+  } else if ((status & kAlError) != 0 && target_ != AlState::Init) {
+    fail(Problem::StateRefused, load<std::uint16_t>(data, kCodeAt), kRefusedPause, now);
+  } else if (now - since_ > limit_of(target_)) {
+    fail(Problem::StateTimeout, static_cast<std::uint32_t>(target_), kRefusedPause, now);
+  }
+}
+
+void SlaveControl::reached(Clock now) noexcept {
+  switch (target_) {
+    case AlState::Init:
+      eeprom_word_ = kSiiIdentity;
+      eeprom_.start(station_of(place_), eeprom_word_, now);
+      mailbox_.reset();
+      enter(Step::Identity, now);
+      return;
+    case AlState::PreOp:
+      object_ = 0;
+      next_object(now);
+      return;
+    case AlState::SafeOp:
+      request(AlState::Op, now);
+      return;
+    default:
+      events_.push({now, place_, Problem::None, 0});
+      problem_ = Problem::None;
+      detail_ = 0;
+      is_suspect_ = false;
+      check_at_ = now + kStateCheck;
+      enter(Step::Operate, now);
+      return;
+  }
+}
+
+void SlaveControl::next_object(Clock now) noexcept {
+  if (object_ == plan_.start_objects.size()) {
+    if (plan_.process_managers.empty()) {
+      request(AlState::SafeOp, now);
+    } else {
+      enter(Step::Managers, now);
+    }
+    return;
+  }
+  const StartObject& object = plan_.start_objects[object_];
+  transfer_ = {};
+  transfer_.index = object.index;
+  transfer_.subindex = object.subindex;
+  transfer_.complete = object.complete;
+  transfer_.sent = object.value;
+  enter(Step::Objects, now);
+  mailbox_.start(transfer_, now);
+}
+
+void SlaveControl::judge_object(Clock now) noexcept {
+  switch (transfer_.state) {
+    case SdoTransfer::State::Waiting:
+      return;
+    case SdoTransfer::State::Done:
+      ++object_;
+      next_object(now);
+      return;
+    case SdoTransfer::State::Aborted:
+      fail(Problem::SdoAborted, transfer_.abort_code, kRefusedPause, now);
+      return;
+    case SdoTransfer::State::TimedOut:
+      fail(Problem::SdoTimeout, transfer_.index, kFindAgain, now);
+      return;
+  }
+}
+
+void SlaveControl::monitor(Bytes data, bool is_answered, Clock now) noexcept {
+  if (!asks_state_) {
+    mailbox_.answer(data, is_answered, now);
+    if (const auto emergency = mailbox_.take_emergency()) {
+      events_.push({now, place_, Problem::EmergencySent, emergency->code});
+    }
+    return;
+  }
+  check_at_ = now + kStateCheck;
+  is_suspect_ = false;
+  if (!is_answered) {
+    fail(Problem::Missing, 0, Clock(0), now);
+  } else if (data[0] != static_cast<unsigned>(AlState::Op)) {
+    fail(Problem::StateLost, load<std::uint16_t>(data, kCodeAt), Clock(0), now);
+  }
+}
+
+void SlaveControl::check_counter(std::uint16_t wkc, Clock now) noexcept {
+  if (!operates() || wkc == expected_) {
+    return;
+  }
+  ++wrong_counters_;
+  if (!is_suspect_) {
+    events_.push({now, place_, Problem::WrongCounter, wkc});
+  }
+  is_suspect_ = true;
+}
+
+}  // namespace indurop::io::ethercat

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/io/ethercat/simulator/bus.h"
+
+#include <algorithm>
+
+namespace indurop::io::ethercat {
+
+namespace {
+constexpr std::size_t kProductAt = 0x14;  // in the EEPROM
+constexpr std::size_t kFmmuLogical = reg::kFmmu;
+}  // namespace
+
+void SimulatedBus::advance(Time now) {
+  now_ = now;
+  for (Planned& planned : faults_) {
+    if (!planned.has_begun && planned.fault.at <= now) {
+      planned.has_begun = true;
+      begin(planned.fault);
+    }
+    if (planned.has_begun && !planned.has_ended && planned.fault.at + planned.fault.duration <= now) {
+      planned.has_ended = true;
+      end(planned.fault);
+    }
+  }
+}
+
+void SimulatedBus::restart(std::size_t slave) {
+  segment_.set_power(slave, false);
+  segment_.set_power(slave, true);
+}
+
+void SimulatedBus::add_to_product(std::size_t slave, std::uint32_t number) {
+  auto& image = segment_.slave(slave).esc().eeprom();
+  store<std::uint32_t>(image, kProductAt, load<std::uint32_t>(image, kProductAt) + number);
+}
+
+void SimulatedBus::begin(const Fault& fault) {
+  if (fault.slave >= segment_.size()) {
+    return;
+  }
+  Slave& slave = segment_.slave(fault.slave);
+  switch (fault.kind) {
+    case FaultKind::PowerOff:
+      segment_.set_power(fault.slave, false);
+      return;
+    case FaultKind::StateRefused:
+      slave.refuse_state(AlState::Op, static_cast<std::uint16_t>(fault.value), 1);
+      slave.fall_to(AlState::SafeOp, static_cast<std::uint16_t>(fault.value));
+      return;
+    case FaultKind::StateLost:
+      slave.fall_to(AlState::SafeOp, static_cast<std::uint16_t>(fault.value));
+      return;
+    case FaultKind::SdoAborted:
+      restart(fault.slave);
+      slave.sdo().refuse_next(fault.value);
+      return;
+    case FaultKind::SdoSilence:
+      restart(fault.slave);
+      slave.sdo().refuse_next(0);
+      return;
+    case FaultKind::OtherIdentity:
+      add_to_product(fault.slave, 1);
+      restart(fault.slave);
+      return;
+    case FaultKind::EepromBusy:
+      restart(fault.slave);
+      slave.esc().hold_eeprom_busy(fault.at + fault.duration);
+      return;
+    case FaultKind::Emergency:
+      slave.send_emergency({static_cast<std::uint16_t>(fault.value), 1, {}});
+      return;
+    case FaultKind::ForeignFrame: {
+      FrameBuilder builder({2, 9, 9, 9, 9, 9});
+      builder.add(Command::Brd, 0, address_of(0, 0xFFFF), 1);
+      arrive(now_, builder.finish());
+      return;
+    }
+    default:
+      return;  // concerns frames while it lasts
+  }
+}
+
+void SimulatedBus::end(const Fault& fault) {
+  if (fault.slave >= segment_.size()) {
+    return;
+  }
+  if (fault.kind == FaultKind::PowerOff) {
+    segment_.set_power(fault.slave, true);
+  } else if (fault.kind == FaultKind::OtherIdentity) {
+    add_to_product(fault.slave, 0U - 1U);
+  }
+}
+
+const Fault* SimulatedBus::active(FaultKind kind) const noexcept {
+  const auto found = std::find_if(faults_.begin(), faults_.end(), [kind](const Planned& planned) {
+    return planned.fault.kind == kind && planned.has_begun && !planned.has_ended;
+  });
+  return found == faults_.end() ? nullptr : &found->fault;
+}
+
+void SimulatedBus::arrive(Time at, Bytes frame) {
+  Arrival arrival;
+  arrival.at = at;
+  arrival.size = std::min(frame.size(), arrival.bytes.size());
+  std::copy_n(frame.begin(), arrival.size, arrival.bytes.begin());
+  arrivals_.push_back(arrival);
+}
+
+void SimulatedBus::spoil_counter(std::span<std::uint8_t> frame, std::size_t slave) noexcept {
+  const auto logical = segment_.slave(slave).esc().value<std::uint32_t>(kFmmuLogical);
+  FrameReader reader(frame);
+  Datagram datagram;
+  while (reader.next(datagram)) {
+    if (datagram.command == Command::Lrw && datagram.address == logical && datagram.wkc > 0) {
+      store<std::uint16_t>(frame, datagram.wkc_at(), static_cast<std::uint16_t>(datagram.wkc - 1));
+    }
+  }
+}
+
+bool SimulatedBus::send(Bytes frame) noexcept {
+  std::array<std::uint8_t, kMaxFrame> copy{};
+  const auto bytes = std::span(copy).first(std::min(frame.size(), copy.size()));
+  std::copy_n(frame.begin(), bytes.size(), bytes.begin());
+  if (active(FaultKind::FramesLost) != nullptr) {
+    return true;
+  }
+  if (const Fault* const broken = active(FaultKind::FramesBroken);
+      broken != nullptr && broken->slave < segment_.size()) {
+    segment_.break_frame_at(broken->slave);
+    return true;
+  }
+  auto back = segment_.process(bytes, now_);
+  if (!back) {
+    return true;
+  }
+  if (const Fault* const wrong = active(FaultKind::WrongCounter); wrong != nullptr && wrong->slave < segment_.size()) {
+    spoil_counter(bytes, wrong->slave);
+  }
+  if (const Fault* const late = active(FaultKind::FramesLate)) {
+    *back += Time(late->value);
+  }
+  arrive(*back, bytes);
+  if (active(FaultKind::FramesDoubled) != nullptr) {
+    arrive(*back, bytes);
+  }
+  return true;
+}
+
+std::size_t SimulatedBus::receive(std::span<std::uint8_t> to) noexcept {
+  const auto next =
+      std::find_if(arrivals_.begin(), arrivals_.end(), [this](const Arrival& arrival) { return arrival.at <= now_; });
+  if (next == arrivals_.end()) {
+    return 0;
+  }
+  const std::size_t size = next->size;
+  std::copy_n(next->bytes.begin(), std::min(size, to.size()), to.begin());
+  arrivals_.erase(next);
+  return size;
+}
+
+}  // namespace indurop::io::ethercat

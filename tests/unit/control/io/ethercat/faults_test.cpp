@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faults of the bus: each is named, everything recovers, and no slave in OP gets an output beyond its limits.
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "simulated_plant.h"
+
+namespace indurop::io::ethercat {
+namespace {
+
+constexpr std::int32_t kLimit = 1000;
+
+// A plant whose application moves targets within their limits.
+class FaultyPlant {
+ public:
+  explicit FaultyPlant(std::size_t count) : plant(count) {
+    plant.run_until_all_operate(2000);
+    plant.run(20);
+    plant.events().clear();
+    before = plant.master().counters();
+  }
+  void run(unsigned ticks) {
+    for (unsigned i = 0; i < ticks; ++i) {
+      for (std::size_t k = 0; k < plant.master().size(); ++k) {
+        const auto target = static_cast<std::int32_t>((tick_ * 7 + k * 100) % (2 * kLimit + 1)) - kLimit;
+        store<std::uint16_t>(plant.master().outputs(k), 0, 0x0F);
+        store<std::int32_t>(plant.master().outputs(k), 2, target);
+        plant.master().set_outputs_good(k, plant.master().is_fresh(k));
+      }
+      ++tick_;
+      plant.tick();
+      check_outputs();
+    }
+  }
+  // Returns whether the fault has left its own trace, not just any.
+  [[nodiscard]] bool is_named(const Fault& fault) const {
+    const BusCounters& now = plant.master().counters();
+    switch (fault.kind) {
+      case FaultKind::FramesLost:
+        return now.lost > before.lost;
+      case FaultKind::FramesLate:
+        return now.late > before.late;
+      case FaultKind::FramesDoubled:
+        return now.duplicates > before.duplicates;
+      case FaultKind::FramesBroken:
+        return now.lost > before.lost && plant.slave(fault.slave).esc().at(reg::kRxErrors) > 0;
+      case FaultKind::ForeignFrame:
+        return now.foreign > before.foreign;
+      case FaultKind::WrongCounter:
+        return plant.happened(fault.slave, Problem::WrongCounter);
+      case FaultKind::PowerOff:
+        return plant.happened(fault.slave, Problem::Missing);
+      case FaultKind::StateRefused:
+        return has(fault.slave, Problem::StateLost, fault.value) &&
+               has(fault.slave, Problem::StateRefused, fault.value);
+      case FaultKind::StateLost:
+        return has(fault.slave, Problem::StateLost, fault.value);
+      case FaultKind::SdoAborted:
+        return has(fault.slave, Problem::SdoAborted, fault.value);
+      case FaultKind::SdoSilence:
+        return plant.happened(fault.slave, Problem::SdoTimeout);
+      case FaultKind::OtherIdentity:
+        return plant.happened(fault.slave, Problem::WrongIdentity);
+      case FaultKind::EepromBusy:
+        return plant.happened(fault.slave, Problem::EepromBusy);
+      case FaultKind::Emergency:
+        return has(fault.slave, Problem::EmergencySent, fault.value);
+    }
+    return false;
+  }
+
+  mutable Plant plant;
+  BusCounters before;
+
+ private:
+  [[nodiscard]] bool has(std::size_t slave, Problem problem, std::uint32_t detail) const {
+    for (const Event& event : plant.events()) {
+      if (event.slave == slave && event.problem == problem && event.detail == detail) {
+        return true;
+      }
+    }
+    return false;
+  }
+  void check_outputs() {
+    for (std::size_t k = 0; k < plant.master().size(); ++k) {
+      const auto& applied = plant.applied(k);
+      if (plant.slave(k).state() != AlState::Op || applied.empty()) {
+        continue;
+      }
+      const auto control = load<std::uint16_t>(applied, 0);
+      const auto target = load<std::int32_t>(applied, 2);
+      ASSERT_TRUE((control == 0x0F && std::abs(target) <= kLimit) || (control == 0x06 && target == 0))
+          << "slave " << k << ": control " << control << ", target " << target;
+    }
+  }
+
+  std::size_t tick_ = 0;
+};
+
+Fault random_fault(std::mt19937& random, std::size_t slaves, FaultKind kind, Time at) {
+  Fault fault;
+  fault.kind = kind;
+  fault.at = at;
+  fault.slave = random() % slaves;
+  fault.duration = std::chrono::milliseconds(1 + random() % 5);
+  switch (kind) {
+    case FaultKind::FramesLate:
+      fault.value = static_cast<std::uint32_t>(1'200'000 + random() % 3'000'000);
+      break;
+    case FaultKind::PowerOff:
+      fault.duration = std::chrono::milliseconds(10 + random() % 400);
+      break;
+    case FaultKind::EepromBusy:
+    case FaultKind::OtherIdentity:
+      fault.duration = std::chrono::milliseconds(300 + random() % 300);
+      break;
+    case FaultKind::StateRefused:
+    case FaultKind::StateLost:
+      fault.value = 0x8001U + static_cast<std::uint32_t>(random() % 100);
+      break;
+    case FaultKind::SdoAborted:
+      fault.value = kAbortState;
+      break;
+    case FaultKind::Emergency:
+      fault.value = static_cast<std::uint32_t>(0x2310 + random() % 16);
+      break;
+    default:
+      break;
+  }
+  return fault;
+}
+
+TEST(Faults, Each_kind_is_named_and_everything_recovers) {
+  std::mt19937 random(3);
+  for (std::uint8_t kind = 0; kind < kFaultKinds; ++kind) {
+    FaultyPlant sut(3);
+    const Fault fault =
+        random_fault(random, 3, static_cast<FaultKind>(kind), sut.plant.now() + std::chrono::milliseconds(5));
+    sut.plant.bus().add_fault(fault);
+    sut.run(2600);
+    EXPECT_TRUE(sut.is_named(fault)) << "kind " << int{kind} << ", slave " << fault.slave << "\n" << sut.plant.story();
+    EXPECT_TRUE(sut.plant.all_operate()) << "kind " << int{kind} << "\n" << sut.plant.story();
+  }
+}
+
+TEST(Faults, Random_scripts_recover_without_an_output_beyond_its_limits) {
+  for (unsigned seed = 0; seed < 500 && !testing::Test::HasFailure(); ++seed) {
+    std::mt19937 random(seed);
+    const std::size_t slaves = 1 + random() % 4;
+    FaultyPlant sut(slaves);
+    const unsigned count = 1 + static_cast<unsigned>(random() % 3);
+    std::vector<Fault> faults;
+    for (unsigned i = 0; i < count; ++i) {
+      // One after the other has recovered, so that each has to leave its own trace.
+      const Fault fault = random_fault(random, slaves, static_cast<FaultKind>(random() % kFaultKinds),
+                                       sut.plant.now() + std::chrono::milliseconds(1 + random() % 20));
+      sut.plant.events().clear();
+      sut.before = sut.plant.master().counters();
+      sut.plant.bus().add_fault(fault);
+      unsigned ticks = 30;
+      sut.run(ticks);
+      const Time settled = fault.at + fault.duration + std::chrono::milliseconds(60);
+      for (; ticks < 4000 && (!sut.plant.all_operate() || settled > sut.plant.now()); ++ticks) {
+        sut.run(1);
+      }
+      EXPECT_TRUE(sut.is_named(fault)) << "seed " << seed << ", kind " << static_cast<int>(fault.kind) << ", slave "
+                                       << fault.slave << " of " << slaves << "\n"
+                                       << sut.plant.story();
+      ASSERT_TRUE(sut.plant.all_operate()) << "seed " << seed << "\n" << sut.plant.story();
+    }
+  }
+}
+
+TEST(Faults, Scripts_that_overlap_recover_too) {
+  for (unsigned seed = 0; seed < 100 && !testing::Test::HasFailure(); ++seed) {
+    std::mt19937 random(seed + 1000);
+    FaultyPlant sut(3);
+    for (unsigned i = 0; i < 6; ++i) {
+      sut.plant.bus().add_fault(random_fault(random, 3, static_cast<FaultKind>(random() % kFaultKinds),
+                                             sut.plant.now() + std::chrono::milliseconds(1 + random() % 200)));
+    }
+    unsigned ticks = 900;
+    sut.run(ticks);
+    for (; ticks < 8000 && !sut.plant.all_operate(); ++ticks) {
+      sut.run(1);
+    }
+    ASSERT_TRUE(sut.plant.all_operate()) << "seed " << seed << "\n" << sut.plant.story();
+  }
+}
+
+TEST(Faults, The_same_script_gives_the_same_story) {
+  const auto story = [] {
+    std::mt19937 random(7);
+    FaultyPlant sut(3);
+    for (unsigned i = 0; i < 6; ++i) {
+      sut.plant.bus().add_fault(random_fault(random, 3, static_cast<FaultKind>(random() % kFaultKinds),
+                                             sut.plant.now() + std::chrono::milliseconds(1 + random() % 200)));
+    }
+    sut.run(3000);
+    return sut.plant.story();
+  };
+  const std::string first = story();
+  EXPECT_FALSE(first.empty());
+  EXPECT_EQ(first, story());
+}
+
+}  // namespace
+}  // namespace indurop::io::ethercat

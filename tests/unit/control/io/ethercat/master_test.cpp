@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// The master over simulated slaves: from nothing to OP, process data, objects, and slaves that come and go.
+#include "control/io/ethercat/master/master.h"
+
+#include <gmock/gmock.h>
+
+#include "simulated_plant.h"
+#include "tests/unit/allocations.h"
+
+namespace indurop::io::ethercat {
+namespace {
+
+TEST(Master, Brings_slaves_to_op_and_exchanges_data) {
+  Plant plant(3);
+  EXPECT_LT(plant.run_until_all_operate(2000), 500U) << plant.story();
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(plant.slave(i).state(), AlState::Op);
+    EXPECT_EQ(plant.slave(i).objects().number(0x6060, 0), 8U);
+    std::vector<std::uint8_t> value;
+    EXPECT_FALSE(plant.slave(i).objects().read(0x2000, 0, false, value));
+    EXPECT_EQ(value, std::vector<std::uint8_t>(150, static_cast<std::uint8_t>(i)));  // came in segments
+    EXPECT_EQ(plant.applied(i), (std::vector<std::uint8_t>{6, 0, 0, 0, 0, 0}));      // its safe outputs
+    plant.master().outputs(i)[0] = 15;
+    plant.master().outputs(i)[2] = static_cast<std::uint8_t>(i + 1);
+    plant.master().set_outputs_good(i, true);
+  }
+  plant.run(3);  // there, into the inputs, and back
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(plant.master().is_fresh(i));
+    EXPECT_THAT(plant.master().inputs(i), testing::ElementsAre(15, 0, i + 1, 0, 0, 0));
+  }
+  EXPECT_EQ(plant.master().slaves_seen(), 3);
+  EXPECT_EQ(plant.master().counters().lost, 0U);
+  EXPECT_EQ(plant.master().counters().foreign, 0U);
+  plant.master().set_outputs_good(1, false);
+  plant.run(2);
+  EXPECT_EQ(plant.applied(1)[0], 6);
+  EXPECT_EQ(plant.applied(2)[0], 15);
+}
+
+TEST(Master, A_pulled_slave_is_named_in_the_next_tick_and_others_keep_their_data) {
+  Plant plant(4);
+  plant.run_until_all_operate(2000);
+  plant.run(10);
+  plant.events().clear();
+  plant.bus().segment().set_power(2, false);
+  plant.tick();                             // sends into the gap
+  EXPECT_TRUE(plant.master().is_fresh(2));  // that of the frame before
+  plant.tick();
+  EXPECT_FALSE(plant.master().is_fresh(2));
+  EXPECT_FALSE(plant.master().is_fresh(3));
+  EXPECT_TRUE(plant.master().is_fresh(0));
+  EXPECT_TRUE(plant.master().is_fresh(1));
+  EXPECT_TRUE(plant.happened(2, Problem::WrongCounter));
+  EXPECT_EQ(plant.master().slaves_seen(), 2);
+  plant.run(2);
+  EXPECT_TRUE(plant.happened(2, Problem::Missing)) << plant.story();
+  for (int i = 0; i < 1000; ++i) {
+    plant.tick();
+    ASSERT_TRUE(plant.master().is_fresh(0));
+  }
+  const auto before = plant.slave(2).sdo().downloads();
+  plant.bus().segment().set_power(2, true);
+  EXPECT_LT(plant.run_until_all_operate(2000), 2000U) << plant.story();
+  EXPECT_EQ(plant.slave(2).sdo().downloads(), before + 2);  // everything was applied again
+  plant.run(2);
+  EXPECT_TRUE(plant.master().is_fresh(2));
+  EXPECT_TRUE(plant.master().is_fresh(3));
+}
+
+TEST(Master, A_cut_cable_at_the_master_is_named) {
+  Plant plant(2);
+  plant.run_until_all_operate(2000);
+  plant.events().clear();
+  plant.bus().segment().set_power(0, false);
+  plant.run(100);
+  EXPECT_TRUE(plant.happened(0, Problem::Missing));
+  EXPECT_TRUE(plant.happened(1, Problem::Missing));
+  EXPECT_FALSE(plant.master().is_fresh(1));
+}
+
+TEST(Master, A_swapped_slave_is_refused) {
+  auto plans = drive_plans(2);
+  plans[1].identity.product = 0x999;
+  Plant plant(2, plans);
+  plant.run(1000);
+  EXPECT_TRUE(plant.master().slave(0).operates());
+  EXPECT_EQ(plant.master().slave(1).problem(), Problem::WrongIdentity);
+  EXPECT_EQ(plant.slave(1).state(), AlState::Init);
+  EXPECT_THAT(plant.story(), testing::HasSubstr("slave 1 (drive): another device is at its position: product code "
+                                                "00000402h"));
+}
+
+TEST(Master, Objects_are_read_in_one_piece_and_in_segments) {
+  Plant plant(1);
+  plant.run_until_all_operate(2000);
+  const auto read = [&plant](std::uint16_t index, std::uint8_t subindex, bool complete,
+                             std::vector<std::uint8_t>& room) {
+    SdoTransfer transfer;
+    transfer.index = index;
+    transfer.subindex = subindex;
+    transfer.complete = complete;
+    transfer.upload = true;
+    transfer.room = room;
+    for (int i = 0; i < 100 && !plant.master().start(0, transfer, plant.now()); ++i) {
+      plant.tick();
+    }
+    for (int i = 0; i < 2000 && transfer.state == SdoTransfer::State::Waiting; ++i) {
+      plant.tick();
+    }
+    room.resize(transfer.size);
+    return transfer;
+  };
+  std::vector<std::uint8_t> room(200);
+  EXPECT_EQ(read(0x1000, 0, false, room).state, SdoTransfer::State::Done);
+  EXPECT_THAT(room, testing::ElementsAre(0x92, 0x01, 0x02, 0x00));
+  room.resize(200);
+  EXPECT_EQ(read(0x1008, 0, false, room).state, SdoTransfer::State::Done);
+  EXPECT_EQ(std::string(room.begin(), room.end()),
+            "A drive whose name is longer than its mailbox, so that it comes in three segments or in more than that");
+  room.resize(200);
+  EXPECT_EQ(read(0x1018, 0, true, room).state, SdoTransfer::State::Done);
+  EXPECT_EQ(room.size(), 18U);
+  EXPECT_EQ(load<std::uint32_t>(room, 6), 0x402U);
+  room.resize(200);
+  const auto missing = read(0x3000, 0, false, room);
+  EXPECT_EQ(missing.state, SdoTransfer::State::Aborted);
+  EXPECT_EQ(sdo_abort_text(missing.abort_code), "there is no such object");
+  room.resize(3);
+  EXPECT_EQ(read(0x1008, 0, false, room).abort_code, kAbortMemory);
+}
+
+TEST(Master, The_exchange_allocates_nothing) {
+  Plant plant(8);
+  plant.run_until_all_operate(2000);
+  class Silent final : public Link {
+   public:
+    bool send(Bytes frame) noexcept override {
+      std::copy(frame.begin(), frame.end(), last_.begin());
+      size_ = frame.size();
+      return true;
+    }
+    std::size_t receive(std::span<std::uint8_t> to) noexcept override {
+      std::copy_n(last_.begin(), size_, to.begin());
+      return std::exchange(size_, 0);
+    }
+
+   private:
+    std::array<std::uint8_t, kMaxFrame> last_{};
+    std::size_t size_ = 0;
+  } link;
+  Master master(link, drive_plans(8));
+  const auto before = g_allocations.load();
+  for (int i = 1; i < 2000; ++i) {
+    master.cycle(kTick * i);
+  }
+  EXPECT_EQ(g_allocations.load(), before);
+  EXPECT_GT(master.counters().sent, 2000U);
+}
+
+TEST(Master, Data_of_many_slaves_goes_in_several_frames) {
+  Plant plant(80);
+  plant.run_until_all_operate(4000);
+  EXPECT_TRUE(plant.all_operate());
+  const auto before = plant.master().counters().sent;
+  plant.run(1);
+  EXPECT_GE(plant.master().counters().sent - before, 2U);
+  plant.run(2);
+  EXPECT_TRUE(plant.master().is_fresh(0));
+  EXPECT_TRUE(plant.master().is_fresh(79));
+}
+
+}  // namespace
+}  // namespace indurop::io::ethercat

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// A master and simulated drives on one wire, in virtual time, and what happened on it.
+
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "control/io/ethercat/master/master.h"
+#include "control/io/ethercat/simulator/bus.h"
+#include "slaves.h"
+
+namespace indurop::io::ethercat {
+
+inline constexpr Clock kTick = std::chrono::milliseconds(1);
+
+inline std::vector<SlavePlan> drive_plans(std::size_t count) {
+  std::vector<SlavePlan> plans;
+  for (std::size_t i = 0; i < count; ++i) {
+    plans.push_back(plan_of(drive_sii(), static_cast<std::uint32_t>(0x10000 + 0x100 * i)));
+    plans.back().start_objects.push_back({0x6060, 0, false, {8}});
+    plans.back().start_objects.push_back(
+        {0x2000, 0, false, std::vector<std::uint8_t>(150, static_cast<std::uint8_t>(i))});
+    plans.back().safe_outputs = {0x06, 0, 0, 0, 0, 0};
+  }
+  return plans;
+}
+
+class Plant {
+ public:
+  explicit Plant(std::size_t count, std::vector<SlavePlan> plans) : applied_(count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      bus_.segment().add(drive_config(), [this, i](Bytes outputs, std::span<std::uint8_t> inputs) {
+        if (!outputs.empty()) {
+          applied_[i].assign(outputs.begin(), outputs.end());
+          reflect(outputs, inputs);
+        }
+      });
+    }
+    master_ = std::make_unique<Master>(bus_, std::move(plans));
+  }
+  explicit Plant(std::size_t count) : Plant(count, drive_plans(count)) {}
+
+  void tick() {
+    now_ += kTick;
+    bus_.advance(now_);
+    master_->cycle(now_);
+    Event event;
+    while (master_->next_event(event)) {
+      events_.push_back(event);
+    }
+  }
+  void run(unsigned ticks) {
+    for (unsigned i = 0; i < ticks; ++i) {
+      tick();
+    }
+  }
+  [[nodiscard]] bool all_operate() const {
+    for (std::size_t i = 0; i < master_->size(); ++i) {
+      if (!master_->slave(i).operates()) {
+        return false;
+      }
+    }
+    return true;
+  }
+  // Ticks until all slaves operate; `limit` if they do not.
+  unsigned run_until_all_operate(unsigned limit) {
+    unsigned ticks = 0;
+    for (; ticks < limit && !all_operate(); ++ticks) {
+      tick();
+    }
+    return ticks;
+  }
+  [[nodiscard]] bool happened(std::size_t slave, Problem problem) const {
+    for (const Event& event : events_) {
+      if (event.slave == slave && event.problem == problem) {
+        return true;
+      }
+    }
+    return false;
+  }
+  [[nodiscard]] std::string story() const {
+    std::string text;
+    for (const Event& event : events_) {
+      text += std::to_string(event.time.count() / 1'000'000) + " ms: " + describe(event, "drive") + "\n";
+    }
+    return text;
+  }
+
+  SimulatedBus& bus() { return bus_; }
+  Slave& slave(std::size_t index) { return bus_.segment().slave(index); }
+  Master& master() { return *master_; }
+  [[nodiscard]] Clock now() const { return now_; }
+  std::vector<Event>& events() { return events_; }
+  // What the slave did with outputs in OP.
+  std::vector<std::uint8_t>& applied(std::size_t index) { return applied_[index]; }
+
+ private:
+  SimulatedBus bus_;
+  std::unique_ptr<Master> master_;
+  Clock now_{0};
+  std::vector<Event> events_;
+  std::vector<std::vector<std::uint8_t>> applied_;
+};
+
+}  // namespace indurop::io::ethercat
