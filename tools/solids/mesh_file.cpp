@@ -26,6 +26,9 @@ Result<fs::path, base::Problem> in_package(const std::string& package, const std
     }
     return base::Problem{fmt::format("there is no {}", file.string())};
   }
+  if (package.empty() || package == "." || package == "..") {
+    return base::Problem{fmt::format("'{}' is not the name of a package; write package://NAME/FILE", package)};
+  }
   std::error_code none;
   const fs::path from = fs::absolute(urdf, none).lexically_normal().parent_path();
   for (fs::path folder = from;; folder = folder.parent_path()) {

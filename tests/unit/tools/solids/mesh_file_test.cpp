@@ -57,6 +57,7 @@ TEST_F(MeshFiles, Without_a_package_are_beside_the_file) {
 }
 
 TEST_F(MeshFiles, With_odd_names_lead_nowhere) {
+  std::ofstream(folder_.path() / "ws/x") << "in a folder above that of the file";
   for (const char* uri :
        {"package://", "package:///", "package://arm", "package://arm/", "package://../x", "file://"}) {
     SCOPED_TRACE(uri);
