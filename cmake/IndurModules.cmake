@@ -100,6 +100,7 @@ function(indurop_add_module name)
     target_compile_options(${name} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
   endif()
   set_target_properties(${name} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+  indurop_without_folders(${name})
   target_link_libraries(${name} PRIVATE indurop::indurop ${arg_GLB} ${arg_LIBRARIES})
 endfunction()
 

@@ -1,6 +1,13 @@
 # Rules that turn OMG IDL into a library of DDS types. Part of the installed package.
 include_guard(GLOBAL)
 
+# Keeps the names of folders out of what a target builds: equal sources give equal files, wherever they lie.
+function(indurop_without_folders target)
+  target_compile_options(${target} PRIVATE
+    -ffile-prefix-map=${PROJECT_SOURCE_DIR}=. -ffile-prefix-map=${PROJECT_BINARY_DIR}=./build)
+  set_target_properties(${target} PROPERTIES BUILD_RPATH_USE_ORIGIN ON)
+endfunction()
+
 # indurop_idlc(<target> [STATIC] FILES a.idl ... [INCLUDES folder ...] [PREFIX folder])
 # Runs Cyclone DDS's idlc on each file and builds the library <target> (shared, unless STATIC) of the C
 # types and topic descriptors.
@@ -44,4 +51,5 @@ function(indurop_idlc target)
   set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
   target_include_directories(${target} PUBLIC ${root})
   target_link_libraries(${target} PUBLIC CycloneDDS::ddsc)
+  indurop_without_folders(${target})
 endfunction()

@@ -56,3 +56,14 @@ make test || fail "the tests of a fresh project with a PLC program"
 indurop check plant.xml || fail "check of a fresh plant"
 indurop run plant.xml --sim --until 2s || fail "the fresh plant in virtual time"
 [ "$(grep -c '<board' plant.xml)" = 3 ] || fail "not three boards"
+
+# Whoever gets the sources elsewhere builds the same modules, byte by byte.
+digests() { (cd "$1" && sha256sum ./*.so ./*.exe | sort); }
+[ "$(digests build | wc -l)" -ge 4 ] || fail "not all modules are there: $(digests build)"
+mkdir -p "$folder/pulled/by somebody"
+cp -r . "$folder/pulled/by somebody/line"
+cd "$folder/pulled/by somebody/line"
+rm -rf build
+make
+[ "$(digests build)" = "$(digests "$folder/line/build")" ] ||
+  fail "another folder, other modules: $(digests build) instead of $(digests "$folder/line/build")"
