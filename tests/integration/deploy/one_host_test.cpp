@@ -84,6 +84,30 @@ TEST_F(Deploying, A_bundle_is_deployed_where_its_sources_are_not) {
   EXPECT_TRUE(runs("a", id) && runs("b", id));
 }
 
+TEST_F(Deploying, A_bundle_that_is_older_than_what_runs_is_refused_without_older) {
+  start_both();
+  const auto packed = [&](const char* name, const char* module) {
+    const std::string bundle = path(std::string(name) + ".bundle");
+    const std::string file = manifest(std::string(name) + ".xml", {{"a", module}, {"b", "steady"}});
+    EXPECT_EQ(indurop_here({"pack", file, "-o", bundle}).code, 0);
+    return bundle;
+  };
+  const std::string first = packed("v1", "steady");
+  const std::string second = packed("v2", "other");
+  const std::string old_id = deployed(first);
+  const std::string id = deployed(second);
+  EXPECT_EQ(deploy(second).code, 0) << "what runs may be deployed again";
+  const Outcome refused = deploy(first);
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("v1.bundle: deployment " + old_id.substr(0, 12) + " was committed on board "));
+  EXPECT_THAT(refused.err, HasSubstr("before " + id.substr(0, 12)));
+  EXPECT_THAT(refused.err, HasSubstr("add --older"));
+  EXPECT_TRUE(runs("a", id) && runs("b", id));
+  EXPECT_EQ(deploy(first, {"--older"}).code, 0);
+  EXPECT_TRUE(runs("a", old_id) && runs("b", old_id));
+  EXPECT_EQ(deploy(second).code, 0) << "the newer one needs no word";
+}
+
 TEST_F(Deploying, The_sources_come_back_from_a_board) {
   start_both();
   const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});

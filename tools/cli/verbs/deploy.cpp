@@ -8,6 +8,7 @@
 #include "core/rt/clock.h"
 #include "deploy/link/link_keys.h"
 #include "deploy/transaction/package.h"
+#include "tools/cli/plant/older_bundle.h"
 #include "tools/cli/plant/plant_source.h"
 #include "tools/cli/plant/run_deployment.h"
 #include "tools/cli/verbs/package_options.h"
@@ -27,6 +28,7 @@ struct Options {
   std::vector<std::string> also;  // folders
   std::string comment;
   bool allow_missing = false;
+  bool older = false;
 };
 
 std::vector<std::string> addresses(const config::Plant& plant) {
@@ -77,6 +79,31 @@ void add_left_out(Context& context, deploy::DeployLink& link, BoardRoster& roste
         fmt::format("board {} is not part of the plant any more and was not heard: its node ends when it comes back",
                     printable(board)));
   }
+}
+
+// Returns why the bundle must not be deployed without --older; empty if none of the boards runs something newer.
+std::string older_refusal(deploy::DeployLink& link, const BoardRoster& roster, const std::vector<std::string>& boards,
+                          const std::string& id, const Options& options) {
+  std::vector<std::uint64_t> agents;
+  for (const std::string& board : boards) {
+    agents.push_back(roster.find(board)->report.agent);
+  }
+  const auto histories = fetch_histories(link, options.link.self, agents);
+  for (const std::string& board : boards) {
+    const deploy::BoardReport& report = roster.find(board)->report;
+    const auto history = histories.find(report.agent);
+    if (history == histories.end()) {
+      continue;
+    }
+    if (const auto older = older_bundle(history->second, report.current, id)) {
+      return fmt::format(
+          "{}: deployment {} was committed on board {} on {}, before {}, which it runs since {}; nothing was "
+          "deployed. If the plant is to go back, add --older",
+          options.file, deploy::shown_id(id), board, local_time(older->bundle.wall_ns),
+          deploy::shown_id(report.current), local_time(older->current.wall_ns));
+    }
+  }
+  return {};
 }
 
 // Returns what a board requests by name: the package itself, or a file in it.
@@ -141,6 +168,12 @@ int deploy_plant(Context& context, Options& options) {
   if (!present) {
     return report(context.out, with_keys_hint(present.error(), options.link));
   }
+  if (source.signature && !options.older) {
+    if (const std::string refusal = older_refusal(*link, roster, *present, packed->id, options); !refusal.empty()) {
+      context.out.error(refusal);
+      return kFailed;
+    }
+  }
   deployment.key = std::move(key).value();
   deployment.order.boards = std::move(present).value();
   add_left_out(context, *link, roster, packed->package, deployment.order.boards);
@@ -172,6 +205,7 @@ Action declare(base::Options& app, Context& context) {
   add_also_option(app, options->also);
   app.flag("--allow-missing", options->allow_missing,
            "Deploy to the boards that are heard; the others take it over when they appear");
+  app.flag("--older", options->older, "Deploy a bundle although boards have replaced it by what they run now");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return deploy_plant(c, *options); };
 }
@@ -183,9 +217,9 @@ const Verb kDeployVerb{
     "Checks the plant, sends what the boards lack, lets every board check its own copy, switches all of them at\n"
     "one instant, watches them for a while and commits. If anything goes wrong on any board, all of them go back.\n"
     "Every board needs a running agent: indurop-agent --board NAME.\n"
-    "Exit codes: 0 committed, 1 not deployed (another deployment is under way, a board could not fetch it), 4 the\n"
-    "check found errors, 5 rolled back, 6 boards are missing. Keys are those of --keys, else <security> of the "
-    "manifest.\n"
+    "Exit codes: 0 committed, 1 not deployed (another deployment is under way, a board could not fetch it, the\n"
+    "bundle is older than what runs), 4 the check found errors, 5 rolled back, 6 boards are missing. Keys are those\n"
+    "of --keys, else <security> of the manifest.\n"
     "Examples:\n"
     "  indurop deploy plant.xml\n"
     "  indurop deploy plant.xml --keys keys --health 5s\n"
