@@ -125,7 +125,7 @@ FrameReader::FrameReader(Bytes frame) noexcept : frame_(frame), fault_(FrameFaul
   }
 }
 
-FrameFault FrameReader::walk() const noexcept {
+FrameFault FrameReader::walk() noexcept {
   if (end_ == kFrameHeader) {
     return FrameFault::NoDatagram;
   }
@@ -142,7 +142,8 @@ FrameFault FrameReader::walk() const noexcept {
     }
     more = (flags & kMore) != 0;
   }
-  return at == end_ ? FrameFault::None : FrameFault::BrokenDatagram;
+  end_ = at;  // some masters count bytes after the last datagram, too
+  return FrameFault::None;
 }
 
 bool FrameReader::next(Datagram& datagram) noexcept {

@@ -103,7 +103,7 @@ enum class FrameFault {
   NoCommands,   // the type is that of network variables or of a mailbox gateway
   TooShort,     // the header promises more bytes than there are
   NoDatagram,
-  BrokenDatagram  // a length beyond the frame, an unknown command, a chain that does not end with the frame
+  BrokenDatagram  // a length beyond the frame, an unknown command, a chain without an end
 };
 
 std::string_view to_string(FrameFault fault) noexcept;
@@ -116,10 +116,10 @@ class FrameReader {
   bool next(Datagram& datagram) noexcept;
 
  private:
-  [[nodiscard]] FrameFault walk() const noexcept;
+  [[nodiscard]] FrameFault walk() noexcept;
 
   Bytes frame_;
-  std::size_t end_ = 0;
+  std::size_t end_ = 0;  // of the last datagram
   std::size_t at_ = kFrameHeader;
   FrameFault fault_ = FrameFault::None;
 };

@@ -29,7 +29,7 @@ struct SdoTransfer {
 class SdoClient {
  public:
   void open(std::uint16_t station, const MailboxArea& area);
-  // The slave begins from INIT: nothing of before is true.
+  // The slave begins from INIT: nothing of an earlier start is valid.
   void reset() noexcept;
   [[nodiscard]] bool is_open() const noexcept { return area_.receive_size >= kSdoHeader; }
   [[nodiscard]] bool is_idle() const noexcept { return transfer_ == nullptr; }

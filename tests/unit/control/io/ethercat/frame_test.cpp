@@ -81,9 +81,21 @@ TEST(Frame, Broken_frames_have_no_datagrams) {
   EXPECT_EQ(fault(14, 0), FrameFault::NoDatagram);
   EXPECT_EQ(fault(16, 15), FrameFault::BrokenDatagram);
   EXPECT_EQ(fault(22, 3), FrameFault::BrokenDatagram);     // longer than the frame
-  EXPECT_EQ(fault(22, 1), FrameFault::BrokenDatagram);     // shorter
   EXPECT_EQ(fault(23, 0x80), FrameFault::BrokenDatagram);  // promises another one
   EXPECT_EQ(FrameReader(Bytes(good).first(15)).fault(), FrameFault::NotEtherCat);
+}
+
+TEST(Frame, Bytes_after_the_last_datagram_are_not_read) {
+  FrameBuilder builder(kSource);
+  builder.add(Command::Brd, 7, 0, 1);
+  auto frame = bytes_of(builder);
+  frame[14] = 14;  // as TwinCAT sends it: the length counts a byte more
+  FrameReader reader(frame);
+  Datagram datagram;
+  ASSERT_EQ(reader.fault(), FrameFault::None);
+  ASSERT_TRUE(reader.next(datagram));
+  EXPECT_EQ(datagram.length, 1);
+  EXPECT_FALSE(reader.next(datagram));
 }
 
 TEST(Frame, No_bytes_lead_the_reader_astray) {
