@@ -35,6 +35,9 @@ struct Replay {
   std::string board;              // board to replay, if the file joins several recordings; else empty
   std::vector<std::string> with;  // module files that replace those of the configuration
   std::filesystem::path output;   // recording of the values that modules write in the replay; empty: none
+  std::uint64_t from_tick = 0;    // the runs of these ticks are compared
+  std::uint64_t to_tick = kLastTick;
+  static constexpr std::uint64_t kLastTick = UINT64_MAX;
 };
 
 struct RunOptions {

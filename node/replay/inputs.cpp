@@ -63,6 +63,32 @@ void Replay::look_ahead() {
   }
 }
 
+// Each module begins at its last keyframe that comes before the first run that is wanted.
+void Replay::find_keyframes_to_begin_at() {
+  auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, *prepared_.store);
+  std::vector<std::uint64_t> newest(modules_.size(), 0);  // number of the run that begins with it
+  while (recorded && options_.replay.from_tick > 0) {
+    auto item = recorded->next();
+    if (!item) {
+      continue;  // known when it is replayed
+    }
+    if (!*item) {
+      break;
+    }
+    if (const auto* keyframe = std::get_if<RecordedKeyframe>(&**item); keyframe != nullptr) {
+      if (const std::uint32_t index = configured(keyframe->module); index != kNoSuchModule) {
+        newest[index] = keyframe->words.run;
+      }
+    } else if (const auto* run = std::get_if<RecordedRun>(&**item); run != nullptr) {
+      const std::uint32_t index = configured(run->words.module);
+      if (index != kNoSuchModule && run->words.tail.number == newest[index] &&
+          run->words.tail.tick <= options_.replay.from_tick) {
+        modules_[index]->kept.begin_at(newest[index]);
+      }
+    }
+  }
+}
+
 // Returns true if the value is recorded for the first time.
 bool Replay::learn_early(const RecordedValue& value, Module& module, bool behind_a_gap) const {
   const auto place = module.place.find(value.variable);

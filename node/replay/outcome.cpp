@@ -19,6 +19,11 @@ std::string shortened(const std::string& value) {
   return value.size() <= kMost ? value : value.substr(0, kMost - 3) + "...";
 }
 
+std::string ticks_to_compare(const config::Replay& replay) {
+  const bool all = replay.from_tick == 0 && replay.to_tick == config::Replay::kLastTick;
+  return all ? "" : fmt::format(" that can be repeated between the ticks asked for");
+}
+
 }  // namespace
 
 // Reports each variable, in the order in which they began to differ.
@@ -101,15 +106,17 @@ Ending Replay::conclude() {
   const bool whole = tell_left_out() && !output_failed_ && !damaged_;
   if (runs_ == 0) {
     console_.error(
-        "{} holds no run of these modules: nothing was compared{}", options_.replay.file.string(),
+        "{} holds no run of these modules{}: nothing was compared{}", options_.replay.file.string(),
+        ticks_to_compare(options_.replay),
         closed_ ? "" : "; its recorder ended before it had written the first runs, which it does each second");
     return {kFailed, "the recording cannot be replayed"};
   }
+  const std::uint64_t ticks = ticks_ - std::min(ticks_, options_.replay.from_tick);
   if (differences_ == 0) {
-    fmt::print("{} ticks, {} runs, {} values: equal\n", ticks_, runs_, values_);
+    fmt::print("{} ticks, {} runs, {} values: equal\n", ticks, runs_, values_);
     return whole ? Ending{kOk, "end of the recording"} : Ending{kFailed, "the recording was not replayed as a whole"};
   }
-  fmt::print("{} ticks, {} runs, {} values: {} differ\n", ticks_, runs_, values_, differences_);
+  fmt::print("{} ticks, {} runs, {} values: {} differ\n", ticks, runs_, values_, differences_);
   tell_differences();
   return {kCheckFailed, "the replay differs from the recording"};
 }

@@ -143,6 +143,7 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
     }
   }
   look_ahead();
+  find_keyframes_to_begin_at();
   const bool any = std::any_of(modules_.begin(), modules_.end(), [](const auto& module) { return module->runs; });
   if (!any) {
     console_.error("no module of {} can run again", options_.replay.file.string());
@@ -205,6 +206,9 @@ bool Replay::can_repeat(Module& module, const recorder::RunWords& run) {
 }
 
 bool Replay::run_again(const recorder::RunWords& run) {
+  if (run.tail.tick > options_.replay.to_tick) {
+    return true;
+  }
   const std::uint32_t index = configured(run.module);
   ticks_ = std::max(ticks_, run.tail.tick + 1);
   if (index == kNoSuchModule && run.module < of_recording_.size()) {  // else values that no module reads or writes
@@ -226,7 +230,7 @@ bool Replay::run_again(const recorder::RunWords& run) {
   module.answers.clear();
   take_what_was_left(module);
   ++module.seen;
-  if (can && going_on) {
+  if (can && going_on && is_wanted(run.tail.tick)) {
     compare(module, index, run);
   }
   return going_on;
@@ -259,8 +263,8 @@ bool Replay::repeat(Module& module, std::uint32_t index, const recorder::RunWord
     runtime::set_clock_readings({});
     runtime::set_answers({});
   }
-  ++runs_;
-  ++module.repeated;
+  runs_ += is_wanted(run.tail.tick) ? 1U : 0U;
+  module.repeated += is_wanted(run.tail.tick) ? 1U : 0U;
   returned_.fetch_add(1, std::memory_order_relaxed);
   return true;
 }

@@ -111,6 +111,8 @@ class Replay {
   void tell_of_format(const RecordedRuns& recorded) const;
   void tell_of_schedule(const explain::Facts& facts) const;
   void look_ahead();
+  void find_keyframes_to_begin_at();
+  [[nodiscard]] bool is_wanted(std::uint64_t tick) const noexcept { return tick >= options_.replay.from_tick; }
   bool learn_early(const RecordedValue& value, Module& module, bool behind_a_gap) const;
   void leave_out_if_unknown(Module& module, const std::string& name);
   bool begin(const RecordedRuns& recorded);

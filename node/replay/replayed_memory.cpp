@@ -19,7 +19,6 @@ void ReplayedMemory::take(const recorder::KeyframeRecord& keyframe, const std::s
 ReplayedMemory::Next ReplayedMemory::next(std::uint64_t run, bool restarted, bool possible) noexcept {
   missing_ += run - std::exchange(next_run_, run + 1);
   if (run < first_ || !possible) {
-    waited_ += run < first_ ? 1U : 0U;
     ++missing_;
     return Next::Wait;
   }
@@ -37,6 +36,14 @@ ReplayedMemory::Next ReplayedMemory::next(std::uint64_t run, bool restarted, boo
     return Next::Wait;
   }
   return Next::Doubt;
+}
+
+std::string ReplayedMemory::why_none() const {
+  if (!memory_->missing().empty()) {
+    return "a keyframe cannot hold " + memory_->missing();
+  }
+  return memory_->is_whole() ? "the recording has no keyframe of it"
+                             : "it does not declare what it keeps (INDUROP_STATE)";
 }
 
 std::vector<std::string> ReplayedMemory::restore() const {

@@ -20,8 +20,8 @@ class ReplayedMemory {
  public:
   // `memory`: of the module as it is loaded now; borrowed. `recorded`: the recording has keyframes of it.
   void expect(const ModuleMemory& memory, bool recorded) noexcept;
-  // Repeat no run before the run `first`: a keyframe begins there.
-  void begin_at(std::uint64_t first) noexcept { first_ = first; }
+  // No run before the run `first` is repeated: a keyframe begins there. Does nothing if this keyframe is of no use.
+  void begin_at(std::uint64_t first) noexcept { first_ = has_keyframes() ? first : 0; }
 
   // The keyframe of a run that follows.
   void take(const recorder::KeyframeRecord& keyframe, const std::string& form);
@@ -43,7 +43,8 @@ class ReplayedMemory {
   // Doubt: how many runs it lacks. The next run is not in doubt for these.
   std::uint64_t take_missing() noexcept { return std::exchange(missing_, 0); }
   [[nodiscard]] bool has_keyframes() const noexcept { return recorded_ && memory_->is_whole(); }
-  [[nodiscard]] bool is_recorded() const noexcept { return recorded_; }
+  // Why there is no keyframe of a thread module that could help, for people.
+  [[nodiscard]] std::string why_none() const;
 
  private:
   const ModuleMemory* memory_ = nullptr;

@@ -98,9 +98,8 @@ void Replay::restore(Module& module) {
 
 // Runs before this one are missing, and nothing tells what the module kept inside.
 void Replay::doubt(Module& module, std::uint64_t tick) {
-  const char* const reason = module.state.task.type == scheduler::ModuleType::Process ? "it is a process"
-                             : module.kept.is_recorded() ? "its file declares no state any more"
-                                                         : "the recording has no keyframe of it";
+  const bool process = module.state.task.type == scheduler::ModuleType::Process;
+  const std::string reason = process ? "a process has no keyframes" : module.kept.why_none();
   console_.warning(
       "{} runs of {} before tick {} are not in the recording: what it keeps inside may differ from here on; {}",
       module.kept.take_missing(), module.state.record->name, tick, reason);

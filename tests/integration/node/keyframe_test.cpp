@@ -51,7 +51,7 @@ TEST_F(FromTheMiddle, A_live_recording_is_repeated_from_its_first_keyframes) {
   EXPECT_CONTAINS(again.out, " values: equal");
   EXPECT_CONTAINS(again.out, "runs of rambler were not repeated: they come before the first keyframe");
   EXPECT_CONTAINS(again.err, "runs of counter before tick ");
-  EXPECT_CONTAINS(again.err, "the recording has no keyframe of it");
+  EXPECT_CONTAINS(again.err, "it does not declare what it keeps (INDUROP_STATE)");
   EXPECT_FALSE(contains(again.err, "runs of rambler before tick ")) << again.err;
 }
 
@@ -92,6 +92,21 @@ TEST_F(FromTheMiddle, Simulations_make_the_same_keyframes_each_time) {
   const std::string one = bytes_of_file(folder() / "one.mcap");
   EXPECT_NE(one.find("indurop/keyframes/rambler"), std::string::npos);
   EXPECT_TRUE(one == bytes_of_file(folder() / "two.mcap"));
+}
+
+TEST_F(FromTheMiddle, Any_ticks_are_repeated_alone) {
+  ASSERT_EQ(run_to_end({kCounter, rambler()}, {"--sim", "--until", "3s", "--record", file()}).code, 0);
+  const Outcome second_half = replay(file(), {"--from", "1500"});
+  EXPECT_EQ(second_half.code, 0) << second_half.out << second_half.err;
+  EXPECT_CONTAINS(second_half.out, "1500 ticks, 2250 runs, 4500 values: equal");
+  const Outcome first_half = replay(file(), {"--to", "1499"});
+  EXPECT_CONTAINS(first_half.out, "1500 ticks, 2250 runs, 4500 values: equal");
+  EXPECT_CONTAINS(replay(file(), {"--at", "2222"}).out, "1 ticks, 2 runs, 4 values: equal");
+  EXPECT_CONTAINS(replay(file(), {"--from", "1000", "--to", "1099"}).out, "100 ticks, 150 runs, 300 values: equal");
+  EXPECT_EQ(replay(file(), {"--from", "2", "--to", "1"}).code, 2);
+  const Outcome none = replay(file(), {"--at", "99999"});
+  EXPECT_EQ(none.code, 1) << none.out;
+  EXPECT_CONTAINS(none.err, "holds no run of these modules that can be repeated between the ticks asked for");
 }
 
 // Each keyframe is of a moment between two runs, however short that is.

@@ -31,8 +31,8 @@ int cut(Context& context, const Options& options) {
   context.out.note(fmt::format("{}: {} messages, {} runs", options.to.string(), done->messages, done->runs));
   if (done->runs > 0 && !done->from_first_run) {
     context.out.note(
-        "it does not begin with the first run: a replay gives modules what they read, but does not know what they kept "
-        "inside. Cut from 0 if they keep something");
+        "it does not begin with the first run: a replay begins with each module at its first keyframe. Cut from 0 if a "
+        "module without keyframes keeps something inside");
   }
   return kOk;
 }

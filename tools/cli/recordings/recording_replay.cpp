@@ -102,6 +102,15 @@ int as_child(Context& context, const ReplayWish& wish, const std::filesystem::pa
 }  // namespace
 
 int replay_recording(Context& context, const ReplayWish& wish) {
+  const bool one_tick = wish.at != config::Replay::kLastTick;
+  if (one_tick && (wish.from != 0 || wish.to != config::Replay::kLastTick)) {
+    context.out.error("--at is one tick: leave out --from and --to");
+    return kUsage;
+  }
+  if (wish.from > wish.to) {
+    context.out.error("--from is later than --to");
+    return kUsage;
+  }
   const auto program = node_program(context);
   if (program.empty()) {
     return kFailed;
@@ -117,6 +126,8 @@ int replay_recording(Context& context, const ReplayWish& wish) {
   run.replay.board = wish.board;
   run.replay.with = wish.with;
   run.replay.output = wish.output;
+  run.replay.from_tick = one_tick ? wish.at : wish.from;
+  run.replay.to_tick = one_tick ? wish.at : wish.to;
   run.config = wish.config.empty() ? std::filesystem::path((*known)["config"]) : wish.config;
   run.board = (*known)["board"];
   run.node = wish.node;

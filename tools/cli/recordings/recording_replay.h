@@ -3,10 +3,12 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "config/run_options.h"
 #include "tools/cli/command/verb.h"
 
 namespace indurop::tools {
@@ -19,8 +21,11 @@ struct ReplayWish {
   std::vector<std::string> with;  // module files that replace those of the configuration
   std::filesystem::path output;   // output of the replayed modules; empty: not kept
   std::string svg;                // empty: no picture
-  bool comes_back = false;        // return afterwards; else this program becomes the node, if nothing is to be done
-                                  // after it
+  std::uint64_t from = 0;         // ticks to compare
+  std::uint64_t to = config::Replay::kLastTick;
+  std::uint64_t at = config::Replay::kLastTick;  // this one only, if it is another value
+  bool comes_back = false;  // return afterwards; else this program becomes the node, if nothing is to be done
+                            // after it
 };
 
 // Returns the exit code.

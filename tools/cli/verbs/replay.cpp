@@ -17,6 +17,9 @@ Action declare(base::Options& app, Context& /*context*/) {
           "Write what the modules leave now to this recording, to be laid over the other")
       .completes(base::Completion::File);
   app.add("--svg", "FILE", wish->svg, "Draw what differs, recorded and now, one over the other");
+  app.add("--from", "TICK", wish->from, "Compare the runs of this tick and later ones; begins at the keyframes before");
+  app.add("--to", "TICK", wish->to, "Compare the runs up to this tick");
+  app.add("--at", "TICK", wish->at, "Compare the runs of this tick only");
   app.add("--board", "NAME", wish->board, "The board whose runs are meant, if the recording is of several");
   app.add("--node", "NAME", wish->node, "Name of the replaying node (default: replay)");
   return [wish](Context& c) { return replay_recording(c, *wish); };
@@ -32,6 +35,7 @@ const Verb kReplayVerb{
     "Examples:\n"
     "  indurop run module.xml --duration 60s --record run.mcap\n"
     "  indurop replay run.mcap\n"
+    "  indurop replay run.mcap --from 90000 --to 91000\n"
     "  indurop replay run.mcap --with new/main.so\n"
     "  indurop replay run.mcap --with new/main.so --svg differs.svg\n",
     &declare};
