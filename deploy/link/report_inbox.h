@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reports of boards that have arrived and were not taken yet. DDS keeps the last samples of one name, whichever
-// participant wrote them, so a participant that reports under another board's name would displace the reports of that
-// board. Here each writer has a place of its own. Who may report as which board is decided by Speakers.
+// The reports of boards that have arrived and were not taken yet. DDS keeps the last samples of one name, of all
+// writers together, so a participant that reports under another board's name would displace the reports of that board.
+// Here each writer has a place of its own. Speakers decides which participant may report as which board.
 
 #pragma once
 

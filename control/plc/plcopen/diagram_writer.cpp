@@ -237,10 +237,8 @@ class Writer {
       step(one);
     } else if (one.kind == Kind::Transition) {
       condition(one);
-    } else if (one.kind == Kind::Contact || one.kind == Kind::Coil) {
-      out_.text("variable", one.text);
-    } else if (is_variable(one.kind)) {
-      out_.text("expression", one.text);
+    } else if (is_variable(one.kind) || one.kind == Kind::Contact || one.kind == Kind::Coil) {
+      out_.text(is_variable(one.kind) ? "expression" : "variable", one.text);
     }
   }
 
