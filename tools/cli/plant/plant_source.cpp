@@ -107,6 +107,22 @@ Failure not_done(const Failure& failure, const char* act) {
              : failure;
 }
 
+Result<void, base::Problem> write_signed_bundle(Context& context, const PlantSource& source, const std::string& keys,
+                                                const std::filesystem::path& file) {
+  const std::string from = keys.empty() ? source.plant.security.string() : keys;
+  deploy::BundleSignature signature;
+  if (from.empty()) {
+    context.out.note("not signed: no keys. Plants with keys do not accept this bundle; --keys signs it");
+  } else {
+    auto made = deploy::sign_package(source.packed.text, from);
+    if (!made) {
+      return std::move(made).error();
+    }
+    signature = std::move(made).value();
+  }
+  return deploy::write_bundle(source.packed, signature, file);
+}
+
 std::string bundle_refusal(const PlantSource& source, const std::filesystem::path& keys) {
   if (!source.signature || keys.empty()) {
     return {};

@@ -34,6 +34,11 @@ Result<PlantSource, Failure> read_plant_source(Context& context, const std::stri
 // Returns the failure of read_plant_source() with what was not done: "nothing was deployed".
 Failure not_done(const Failure& failure, const char* act);
 
+// Writes the bundle of a manifest, signed with the deployer's keys in `keys`, else in the folder of <security>; without
+// keys it is not signed, which a note says. Errors: keys that cannot sign, files that cannot be read or written.
+Result<void, base::Problem> write_signed_bundle(Context& context, const PlantSource& source, const std::string& keys,
+                                                const std::filesystem::path& file);
+
 // Returns why the bundle must not be deployed with the keys in `keys` (the folder of a deployer; empty: none); empty
 // if it may.
 std::string bundle_refusal(const PlantSource& source, const std::filesystem::path& keys);

@@ -35,20 +35,8 @@ int pack(Context& context, const Options& options) {
   if (!source) {
     return report(context.out, not_done(source.error(), "packed"));
   }
-  const std::string keys = options.keys.empty() ? source->plant.security.string() : options.keys;
-  deploy::BundleSignature signature;
-  if (keys.empty()) {
-    context.out.note("not signed: no keys. Plants with keys do not accept this bundle; --keys signs it");
-  } else {
-    auto made = deploy::sign_package(source->packed.text, keys);
-    if (!made) {
-      context.out.error(made.error().text);
-      return kFailed;
-    }
-    signature = std::move(made).value();
-  }
   const std::filesystem::path file = options.out.empty() ? source->plant.name + ".bundle" : options.out;
-  if (const auto written = deploy::write_bundle(source->packed, signature, file); !written) {
+  if (const auto written = write_signed_bundle(context, *source, options.keys, file); !written) {
     context.out.error(written.error().text);
     return kFailed;
   }

@@ -32,6 +32,7 @@ extern const Verb kNewVerb;
 extern const Verb kNodesVerb;
 extern const Verb kOverrunsVerb;
 extern const Verb kPackVerb;
+extern const Verb kPackageVerb;
 extern const Verb kPlanVerb;
 extern const Verb kPlcVerb;
 extern const Verb kPullVerb;

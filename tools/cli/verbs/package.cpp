@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop package: a plant as a Debian package.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "deploy/words/deployment_words.h"
+#include "tools/cli/command/temporary_folder.h"
+#include "tools/cli/command/units.h"
+#include "tools/cli/plant/plant_package.h"
+#include "tools/cli/plant/plant_source.h"
+#include "tools/cli/verbs/package_options.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::string file = "plant.xml";
+  std::string out;
+  std::string version;
+  std::string maintainer = "InduRoP maintainers <maintainers@indurop.invalid>";
+  std::vector<std::string> also;
+  std::string comment;
+  std::string keys;
+};
+
+// Puts the bundle where the package has it: a bundle as it is, of a manifest a new one.
+Result<void, base::Problem> place_bundle(Context& context, const PlantSource& source, const Options& options,
+                                         const std::filesystem::path& place) {
+  std::error_code error;
+  std::filesystem::create_directories(place.parent_path(), error);
+  if (!source.signature) {
+    return write_signed_bundle(context, source, options.keys, place);
+  }
+  std::filesystem::copy_file(options.file, place, error);
+  if (error) {
+    return base::Problem{fmt::format("cannot copy {} to {}: {}", options.file, place.string(), error.message())};
+  }
+  return {};
+}
+
+int package(Context& context, const Options& options) {
+  if (options.version.empty()) {
+    context.out.error("the package needs a version, by which apt knows the newer one: --package-version 1.0");
+    return kUsage;
+  }
+  auto source = read_plant_source(context, options.file, options.also, options.comment);
+  if (!source) {
+    return report(context.out, not_done(source.error(), "packed"));
+  }
+  const TemporaryFolder temporary;
+  if (temporary.path().empty()) {
+    context.out.error("cannot create a temporary folder; is TMPDIR a folder with room?");
+    return kFailed;
+  }
+  const PlantPackage about{source->plant.name, source->packed.id, source->packed.package.comment, options.version,
+                           options.maintainer};
+  const std::filesystem::path tree = temporary.path() / "tree";
+  const std::filesystem::path file =
+      options.out.empty() ? fmt::format("{}_{}_all.deb", package_name(about.plant), about.version) : options.out;
+  auto done = place_bundle(context, *source, options, tree / installed_bundle(about.plant));
+  if (done) {
+    done = write_plant_package(about, tree, file);
+  }
+  if (!done) {
+    context.out.error(done.error().text);
+    return kFailed;
+  }
+  context.out.line(fmt::format("{}: plant {}, deployment {}; once installed: indurop deploy /{}", file.string(),
+                               about.plant, deploy::shown_id(about.deployment),
+                               installed_bundle(about.plant).string()));
+  return kOk;
+}
+
+Action declare(base::Options& app, Context& /*context*/) {
+  auto options = std::make_shared<Options>();
+  app.add("file", "FILE", options->file, "Manifest of the plant, or a bundle of indurop pack (default: plant.xml)");
+  app.add("-o,--file", "FILE", options->out, "Package to write (default: indurop-plant-PLANT_VERSION_all.deb)");
+  app.add("--package-version", "VERSION", options->version, "Version of the package; apt takes the highest")
+      .check(version_problem);
+  app.add("--maintainer", "WHO", options->maintainer, "Who made it: NAME <ADDRESS>").check(maintainer_problem);
+  app.add("--keys", "DIR", options->keys,
+          "Of a manifest: sign with the deployer's keys in DIR (default: <security> of the manifest)")
+      .completes(base::Completion::Folder);
+  add_comment_option(app, options->comment);
+  add_also_option(app, options->also);
+  return [options](Context& c) { return package(c, *options); };
+}
+
+}  // namespace
+
+const Verb kPackageVerb{
+    "package", "Plants", "Make a Debian package of a plant or its bundle",
+    "The package installs the bundle as /usr/share/indurop/plants/PLANT.bundle and needs the package indurop. It asks\n"
+    "nothing and deploys nothing: indurop deploy takes that file when the plant may change. The same bundle gives the\n"
+    "same package, byte by byte. Needs dpkg-deb, which every Debian has.\n"
+    "Exit codes: 0 written, 1 a file cannot be read or written, 4 the check found errors.\n"
+    "Examples:\n"
+    "  indurop package cell.bundle --package-version 1.2\n"
+    "  indurop package plant.xml --package-version 1.2 --keys keys --maintainer 'Cell Team <cell@factory.example>'\n",
+    &declare};
+
+}  // namespace indurop::tools
