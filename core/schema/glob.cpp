@@ -34,6 +34,9 @@ bool glob_match(std::string_view pattern, std::string_view name) {
   if (match(full, name)) {
     return true;
   }
+  if (!is_glob(pattern)) {  // a name, without leading namespaces
+    return !full.empty() && name.ends_with("::" + full);
+  }
   const std::size_t last = name.rfind("::");
   return full.find("::") == std::string::npos && last != std::string_view::npos && match(full, name.substr(last + 2));
 }

@@ -189,15 +189,18 @@ Chains ChainPlant::chains() const {
   return {views_, *uses_, plant_ ? plant_->check.owners : std::map<std::string, std::size_t>(), std::move(every)};
 }
 
-std::string ChainPlant::unknown(const std::string& variable) const {
-  if (uses_->variables().contains(variable)) {
-    return {};
-  }
+Result<std::string, base::Problem> ChainPlant::variable(const std::string& typed) const {
   std::vector<std::string> names;
   for (const auto& [name, users] : uses_->variables()) {
     names.push_back(name);
   }
-  return fmt::format("no module reads or writes '{}'.{}", printable(variable), did_you_mean(variable, names));
+  const std::vector<std::string> meant = variables_named(typed, names);
+  if (meant.size() == 1) {
+    return meant.front();
+  }
+  return base::Problem{
+      meant.empty() ? fmt::format("no module reads or writes '{}'.{}", printable(typed), did_you_mean(typed, names))
+                    : which_variable(printable(typed), meant)};
 }
 
 }  // namespace indurop::tools

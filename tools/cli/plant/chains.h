@@ -15,6 +15,7 @@
 
 #include "config/check/chain_age.h"
 #include "config/check/uses.h"
+#include "core/base/problem.h"
 #include "tools/client/config/checked_config.h"
 
 namespace indurop::tools {
@@ -75,8 +76,8 @@ class ChainPlant {
   [[nodiscard]] std::span<const config::BoardView> boards() const noexcept { return views_; }
   [[nodiscard]] const config::Uses& uses() const noexcept { return *uses_; }  // if ok
   [[nodiscard]] Chains chains() const;
-  // Returns a message with a suggestion if no module has the variable; empty: it is known.
-  [[nodiscard]] std::string unknown(const std::string& variable) const;
+  // Returns the full name of a variable that a module reads or writes, else a message with a suggestion.
+  [[nodiscard]] Result<std::string, base::Problem> variable(const std::string& typed) const;
 
  private:
   std::unique_ptr<CheckedConfig> config_;

@@ -49,13 +49,15 @@ NetworkTime network_time(std::span<const config::BoardView> boards, const std::o
 
 std::optional<std::vector<Chain>> find_chains(Context& context, const ChainPlant& plant, const std::string& from,
                                               const std::string& to) {
-  for (const std::string& name : {from, to}) {
-    if (const std::string problem = plant.unknown(name); !problem.empty()) {
-      context.out.error(problem);
+  const auto begin = plant.variable(from);
+  const auto end = plant.variable(to);
+  for (const auto* const one : {&begin, &end}) {
+    if (!one->ok()) {
+      context.out.error(one->error().text);
       return std::nullopt;
     }
   }
-  std::vector<Chain> found = plant.chains().find(from, to);
+  std::vector<Chain> found = plant.chains().find(*begin, *end);
   if (found.empty()) {
     context.out.error(fmt::format("nothing leads from {} to {} through periodic modules", from, to));
     return std::nullopt;

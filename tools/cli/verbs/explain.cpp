@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop explain: why a module was late, a value is old or a board is gone, in plain words.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 #include <optional>
 
 #include "history/explain/facts_json.h"
 #include "history/explain/questions.h"
+#include "store/vars/node_lock.h"
 #include "tools/cli/explain/gather.h"
+#include "tools/cli/values/node_choice.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/text/suggest.h"
 
@@ -29,17 +33,50 @@ struct Asked {
   Answer answer;
 };
 
-std::string full_name(const std::vector<Facts>& plant, const std::string& what) {
-  std::vector<std::string> all;
+// Returns the variables that may be meant.
+std::vector<std::string> variables_meant(const std::vector<Facts>& plant, const std::string& what) {
+  std::vector<std::string> names;
   for (const Facts& facts : plant) {
     for (const explain::VariableFact& variable : facts.variables) {
-      const bool same = variable.name == what || variable.name.ends_with("::" + what);
-      if (same && std::find(all.begin(), all.end(), variable.name) == all.end()) {
-        all.push_back(variable.name);
+      if (std::find(names.begin(), names.end(), variable.name) == names.end()) {
+        names.push_back(variable.name);
       }
     }
   }
-  return all.size() == 1 ? all[0] : what;
+  return variables_named(what, names);
+}
+
+bool knows(const Facts& facts, const std::string& what) {
+  return facts.find_module(what) != nullptr || !variables_meant({facts}, what).empty() || facts.board == what ||
+         std::any_of(facts.boards.begin(), facts.boards.end(),
+                     [&](const explain::BoardFact& board) { return board.name == what; });
+}
+
+// Returns the node that is asked: a chosen one; else the usual one, if it runs and knows the subject; else the only one
+// that knows it, of those that run, and of those that ended if none runs.
+Result<ChosenRun, Failure> whom(const Context& context, const std::string& what) {
+  const char* const environment = std::getenv("INDUROP_NODE");
+  auto usual = open_run(context.node);
+  if (!context.node.empty() || (environment != nullptr && *environment != '\0')) {
+    return usual;
+  }
+  const std::vector<std::string> all = vars::list_nodes();
+  const bool any_runs =
+      std::any_of(all.begin(), all.end(), [](const std::string& node) { return vars::running_node(node) != 0; });
+  std::vector<std::string> knowing;
+  for (const std::string& node : all) {
+    auto run = RunView::open(node);
+    if (run && run->node_alive() == any_runs && knows(facts_here({node, std::move(run).value()}, ""), what)) {
+      knowing.push_back(node);
+    }
+  }
+  if (knowing.empty() ||
+      (any_runs && usual && std::find(knowing.begin(), knowing.end(), usual->node) != knowing.end())) {
+    return usual;
+  }
+  return knowing.size() == 1 ? open_run(knowing.front())
+                             : Failure{kUsage, fmt::format("several nodes know '{}'; say which with --node: {}", what,
+                                                           fmt::join(knowing, ", "))};
 }
 
 Result<std::vector<Facts>, Failure> gather(const Context& context, const Options& options,
@@ -59,7 +96,7 @@ Result<std::vector<Facts>, Failure> gather(const Context& context, const Options
     }
   }
   if (plant.empty()) {
-    const auto chosen = open_run(context.node);
+    const auto chosen = whom(context, options.what);
     if (!chosen) {
       return chosen.error();
     }
@@ -184,7 +221,8 @@ Result<std::vector<Asked>, Failure> ask(const std::vector<Facts>& plant, const O
                                       did_you_mean(options.what, names))};
 }
 
-void print(Context& context, const std::vector<Asked>& all) {
+// `node`: which one was asked; empty: recordings.
+void print(Context& context, const std::vector<Asked>& all, const std::string& node) {
   if (context.format == Format::Json) {
     JsonValue list = JsonValue::array();
     for (const Asked& one : all) {
@@ -193,6 +231,7 @@ void print(Context& context, const std::vector<Asked>& all) {
       list.push_back(std::move(json));
     }
     JsonValue whole = document();
+    whole["node"] = node.empty() ? JsonValue() : JsonValue(node);
     whole["answers"] = std::move(list);
     context.out.line(whole.dump(2));
     return;
@@ -212,7 +251,13 @@ int explain_it(Context& context, const Options& options) {
   if (!plant) {
     return report(context.out, plant.error());
   }
-  const std::string variable = full_name(*plant, options.what);
+  const auto meant = variables_meant(*plant, options.what);
+  const bool module = std::any_of(plant->begin(), plant->end(),
+                                  [&](const Facts& one) { return one.find_module(options.what) != nullptr; });
+  if (meant.size() > 1 && !module) {
+    return report(context.out, Failure{kFailed, which_variable(options.what, meant)});
+  }
+  const std::string variable = meant.size() == 1 ? meant.front() : options.what;
   if (variable != options.what) {
     plant = gather(context, options, variable);
     if (!plant) {
@@ -223,7 +268,11 @@ int explain_it(Context& context, const Options& options) {
   if (!answers) {
     return report(context.out, answers.error());
   }
-  print(context, *answers);
+  if (options.files.empty() && context.format == Format::Table) {
+    const Facts& facts = plant->front();
+    context.out.note(fmt::format("of node '{}'{}", facts.node, facts.alive ? "" : ", which does not run any more"));
+  }
+  print(context, *answers, options.files.empty() ? plant->front().node : "");
   return kOk;
 }
 

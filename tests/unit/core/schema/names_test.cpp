@@ -43,6 +43,12 @@ TEST(Glob, Pattern_without_namespace_matches_the_last_part_too) {
   EXPECT_FALSE(glob_match("Robot::joi*", "knu::Robot::joints"));
 }
 
+TEST(Glob, Name_may_lack_leading_namespaces) {
+  EXPECT_TRUE(glob_match("Robot::joints", "knu::Robot::joints"));
+  EXPECT_TRUE(glob_match("Robot.joints", "knu::Robot::joints"));
+  EXPECT_FALSE(glob_match("bot::joints", "knu::Robot::joints"));
+}
+
 TEST(Glob, Dots_separate_namespaces_as_colons_do) {
   EXPECT_TRUE(glob_match("knu.Robot.*", "knu::Robot::joints"));
   EXPECT_FALSE(glob_match("knu.Robot.*", "knu::Rob::joints"));
