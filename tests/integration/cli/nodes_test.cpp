@@ -149,6 +149,17 @@ TEST_F(CommandLine, A_module_that_is_stopped_is_something_wrong) {
   EXPECT_EQ(indurop({"status", "--check"}).code, 6);
 }
 
+TEST_F(WithNode, Alarms_that_no_process_evaluates_are_something_wrong) {
+  const auto unwatched = indurop({"status", "--check"});
+  EXPECT_EQ(unwatched.code, 4);
+  EXPECT_THAT(unwatched.out, HasSubstr("wrong     no process is evaluating the declared alarms: run indurop-agent"));
+  Program watching(indurop_command({"alarms", "watch"}), background());
+  ASSERT_TRUE(watching.prints("Ctrl-C")) << watching.out();
+  EXPECT_THAT(indurop({"status"}).out, Not(HasSubstr("no process is evaluating")));
+  watching.signal(SIGINT);
+  EXPECT_EQ(watching.wait(), 130);
+}
+
 TEST_F(CommandLine, Nodes_of_one_host_take_different_cores) {
   const std::string config = std::string(PLC_EXAMPLE) + "/module.xml";
   for (const char* name : {"left", "right"}) {

@@ -5,6 +5,7 @@
 #include "core/rt/clock.h"
 #include "history/alarms/alarm_journal.h"
 #include "history/alarms/alarm_list.h"
+#include "history/alarms/declared_alarms.h"
 #include "store/vars/retain.h"
 #include "tools/cli/command/repeat.h"
 #include "tools/cli/plant/board_run.h"
@@ -34,6 +35,15 @@ alarms::AlarmCounts alarms_here(const std::string& node) {
   return journal.book().counts();
 }
 
+// Returns a line if the node declares alarms whose conditions no process evaluates, else an empty text.
+std::string unwatched_alarms(const std::string& node) {
+  const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
+  const bool unwatched = store && !alarms::declared_alarms(*store).empty() && !alarms::AlarmJournal(node).watched();
+  return unwatched ? "no process is evaluating the declared alarms: run indurop-agent, indurop serve, or indurop "
+                     "alarms watch"
+                   : "";
+}
+
 int show_once(Context& context, const BoardRun& chosen, bool check) {
   const std::string& node = chosen.node;
   const RunView& run = chosen.run;
@@ -46,6 +56,9 @@ int show_once(Context& context, const BoardRun& chosen, bool check) {
   const auto forces = chosen.forces ? *chosen.forces : forces_here(node);
   const vars::LockNote lock = chosen.forces ? chosen.lock : vars::lock_of(node);
   std::vector<std::string> trouble = trouble_now(run, mirror);
+  if (const std::string text = run.here() && report.alive ? unwatched_alarms(node) : ""; !text.empty()) {
+    trouble.push_back(text);
+  }
   if (context.format == Format::Table) {
     for (const std::string& line : header_lines(report, context.out)) {
       context.out.line(line);
