@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in bytes, the low byte first, as everything behind the Ethernet header of EtherCAT is. The caller has checked
+// Numbers in bytes, the low byte first, as everything after the Ethernet header of EtherCAT is. The caller has checked
 // that the bytes are there.
 
 #pragma once

@@ -24,10 +24,10 @@ inline constexpr std::uint8_t kLastCounter = 7;  // they count from 1; 0 is "not
 struct Mailbox {
   MailboxType type = MailboxType::Error;
   std::uint8_t counter = 0;
-  Bytes data;  // behind its header
+  Bytes data;  // after its header
 };
 
-// Writes the header of a message with `size` bytes behind it.
+// Writes the header of a message with `size` bytes after it.
 void write_mailbox_header(std::span<std::uint8_t> to, std::size_t size, MailboxType type,
                           std::uint8_t counter) noexcept;
 void write_coe_header(std::span<std::uint8_t> to, CoeService service) noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EtherCAT frames: datagrams behind one Ethernet header. Built in a fixed buffer, read in place; bytes from the wire
+// EtherCAT frames: datagrams after one Ethernet header. Built in a fixed buffer, read in place; bytes from the wire
 // are trusted in nothing. Real-time safe.
 
 #pragma once

@@ -7,7 +7,7 @@ namespace indurop::io::ethercat {
 
 namespace {
 
-// Offsets behind the mailbox header.
+// Offsets after the mailbox header.
 constexpr std::size_t kAnswerCommand = 2;
 constexpr std::size_t kAnswerIndex = 3;
 constexpr std::size_t kAnswerSubindex = 5;

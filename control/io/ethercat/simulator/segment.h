@@ -20,7 +20,7 @@ class Segment {
   [[nodiscard]] std::size_t size() const noexcept { return slaves_.size(); }
   [[nodiscard]] Slave& slave(std::size_t index) noexcept { return slaves_[index]; }
 
-  // Cuts the power of a slave, and with it the cable to those behind it.
+  // Cuts the power of a slave, and with it the cable to those after it.
   void set_power(std::size_t index, bool on);
   // How many slaves a frame reaches now.
   [[nodiscard]] std::size_t reached() const noexcept;

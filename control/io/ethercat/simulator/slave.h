@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated slave: the device behind the controller chip. State machine with the checks of a real one, mailbox with
+// A simulated slave: the device after the controller chip. State machine with the checks of a real one, mailbox with
 // CoE, process data, and the faults that a script asks for. In virtual time: the same frames give the same bytes.
 
 #pragma once
@@ -37,7 +37,7 @@ class Slave {
   // A frame passes: `now` when it comes, `back` when it returns through the next port.
   void process(std::span<std::uint8_t> frame, Time now, Time back);
   void set_power(bool on);
-  void set_next_port(bool linked) noexcept;  // whether another slave answers behind it
+  void set_next_port(bool linked) noexcept;  // whether another slave answers after it
 
   void send_emergency(const Emergency& emergency);
   // Refuses the next requests for this state with this code.
