@@ -17,7 +17,7 @@
 #include "core/base/file_problem.h"
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
-#include "tools/cli/command/child.h"
+#include "tools/client/process/child.h"
 
 namespace indurop::tools {
 namespace {

@@ -12,8 +12,8 @@
 #include "history/explain/questions.h"
 #include "store/vars/node_lock.h"
 #include "tools/cli/explain/gather.h"
-#include "tools/cli/values/node_choice.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/node/node_choice.h"
 #include "tools/client/text/suggest.h"
 
 namespace indurop::tools {

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "deploy/words/deployment_words.h"
-#include "tools/cli/command/temporary_folder.h"
-#include "tools/cli/command/units.h"
 #include "tools/cli/plant/plant_package.h"
 #include "tools/cli/plant/plant_source.h"
 #include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/process/temporary_folder.h"
+#include "tools/client/text/units.h"
 
 namespace indurop::tools {
 namespace {
