@@ -2,6 +2,7 @@
 #include "control/io/ethercat/master/master.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace indurop::io::ethercat {
 

@@ -2,6 +2,7 @@
 #include "control/io/ethercat/master/sdo_client.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace indurop::io::ethercat {
 

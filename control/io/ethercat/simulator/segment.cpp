@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/io/ethercat/simulator/segment.h"
 
+#include <utility>
+
 namespace indurop::io::ethercat {
 
 namespace {

@@ -2,6 +2,8 @@
 #include "control/io/ethercat/simulator/slave.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace indurop::io::ethercat {
 
@@ -236,13 +238,19 @@ std::uint16_t Slave::check_change(AlState from, AlState to) const {
     return kAlNoError;
   }
   if (from == AlState::Init) {
-    return to != AlState::PreOp ? kAlInvalidChange : mailbox_fits() ? kAlNoError : kAlInvalidMailbox;
+    if (to != AlState::PreOp) {
+      return kAlInvalidChange;
+    }
+    return mailbox_fits() ? kAlNoError : kAlInvalidMailbox;
   }
   if (from == AlState::PreOp) {
-    return to != AlState::SafeOp                                   ? kAlInvalidChange
-           : !process_data_fits(SyncManagerUse::Outputs, kOutputs) ? kAlInvalidOutputs
-           : !process_data_fits(SyncManagerUse::Inputs, kInputs)   ? kAlInvalidInputs
-                                                                   : kAlNoError;
+    if (to != AlState::SafeOp) {
+      return kAlInvalidChange;
+    }
+    if (!process_data_fits(SyncManagerUse::Outputs, kOutputs)) {
+      return kAlInvalidOutputs;
+    }
+    return process_data_fits(SyncManagerUse::Inputs, kInputs) ? kAlNoError : kAlInvalidInputs;
   }
   return kAlNoError;
 }
