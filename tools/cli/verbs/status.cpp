@@ -44,68 +44,93 @@ std::string unwatched_alarms(const std::string& node) {
                    : "";
 }
 
-int show_once(Context& context, const BoardRun& chosen, bool check) {
+// What `indurop status` shows of a node besides the table of modules.
+struct StatusHead {
+  NodeReport report;
+  std::optional<MirrorView> mirror;
+  std::optional<ExternalView> external;
+  std::vector<std::string> retained;
+  alarms::AlarmCounts alarms;
+  std::vector<ForceView> forces;
+  vars::LockNote lock;
+  std::vector<std::string> trouble;
+};
+
+StatusHead read_head(const BoardRun& chosen) {
   const std::string& node = chosen.node;
   const RunView& run = chosen.run;
-  const NodeReport report = report_of(node, run);
-  const auto mirror = run.here() ? view_mirror(node) : std::nullopt;
-  const auto external = run.here() ? view_external(node) : std::nullopt;
-  const auto retained =
-      run.here() ? vars::RetainFile(vars::state_directory(node)).last_report() : std::vector<std::string>();
-  const alarms::AlarmCounts alarms = run.here() ? alarms_here(node) : alarms::AlarmCounts{};
-  const auto forces = chosen.forces ? *chosen.forces : forces_here(node);
-  const vars::LockNote lock = chosen.forces ? chosen.lock : vars::lock_of(node);
-  std::vector<std::string> trouble = trouble_now(run, mirror);
-  if (const std::string text = run.here() && report.alive ? unwatched_alarms(node) : ""; !text.empty()) {
-    trouble.push_back(text);
+  StatusHead head{report_of(node, run), {}, {}, {}, {}, {}, {}, {}};
+  if (run.here()) {
+    head.mirror = view_mirror(node);
+    head.external = view_external(node);
+    head.retained = vars::RetainFile(vars::state_directory(node)).last_report();
+    head.alarms = alarms_here(node);
   }
-  if (context.format == Format::Table) {
-    for (const std::string& line : header_lines(report, context.out)) {
+  head.forces = chosen.forces ? *chosen.forces : forces_here(node);
+  head.lock = chosen.forces ? chosen.lock : vars::lock_of(node);
+  head.trouble = trouble_now(run, head.mirror);
+  if (const std::string text = run.here() && head.report.alive ? unwatched_alarms(node) : ""; !text.empty()) {
+    head.trouble.push_back(text);
+  }
+  return head;
+}
+
+void print_head(Context& context, const StatusHead& head) {
+  const auto warn = [&context](const std::string& text) {
+    context.out.line(context.out.paint(Style::Warn, "  " + text));
+  };
+  for (const std::string& line : header_lines(head.report, context.out)) {
+    context.out.line(line);
+  }
+  for (const std::string& text : head.trouble) {
+    context.out.line(context.out.paint(Style::Bad, "  wrong     " + text));
+  }
+  if (!head.forces.empty()) {
+    warn("forced    " + force_line(head.forces));
+  }
+  if (const std::string text = lock_line(head.lock); !text.empty()) {
+    warn("locked    " + text);
+  }
+  if (const std::string text = alarms::sentence_of(head.alarms); !text.empty()) {
+    warn(fmt::format("alarms    {} (indurop alarms)", text));
+  }
+  for (const std::string& one : head.retained) {
+    warn("retained  " + one);
+  }
+  if (head.mirror) {
+    for (const std::string& line : mirror_lines(*head.mirror, context.out)) {
       context.out.line(line);
     }
-    for (const std::string& text : trouble) {
-      context.out.line(context.out.paint(Style::Bad, "  wrong     " + text));
-    }
-    if (!forces.empty()) {
-      context.out.line(context.out.paint(Style::Warn, "  forced    " + force_line(forces)));
-    }
-    if (const std::string text = lock_line(lock); !text.empty()) {
-      context.out.line(context.out.paint(Style::Warn, "  locked    " + text));
-    }
-    if (const std::string text = alarms::sentence_of(alarms); !text.empty()) {
-      context.out.line(context.out.paint(Style::Warn, fmt::format("  alarms    {} (indurop alarms)", text)));
-    }
-    for (const std::string& one : retained) {
-      context.out.line(context.out.paint(Style::Warn, "  retained  " + one));
-    }
-    if (mirror) {
-      for (const std::string& line : mirror_lines(*mirror, context.out)) {
-        context.out.line(line);
-      }
-    }
-    if (external) {
-      for (const std::string& line : external_lines(*external, context.out)) {
-        context.out.line(line);
-      }
-    }
-    context.out.line();
   }
-  if (alarms.active + alarms.unacknowledged > 0) {
-    trouble.push_back(alarms::sentence_of(alarms));
+  if (head.external) {
+    for (const std::string& line : external_lines(*head.external, context.out)) {
+      context.out.line(line);
+    }
   }
-  JsonValue head = json_of(report);
-  head["mirror"] = mirror ? json_of(*mirror) : JsonValue();
-  head["forces"] = json_of(forces);
-  head["lock"] = json_of(lock);
-  head["alarms"] = json_of(alarms);
-  head["trouble"] = JsonValue(trouble);
-  head["retain_lost"] = retained;
-  head["external"] = external ? json_of(*external) : JsonValue();
-  print_table(context, module_table(run, report.alive), head, "modules");
-  if (!report.alive && !chosen.kept) {
+  context.out.line();
+}
+
+int show_once(Context& context, const BoardRun& chosen, bool check) {
+  StatusHead head = read_head(chosen);
+  if (context.format == Format::Table) {
+    print_head(context, head);
+  }
+  if (head.alarms.active + head.alarms.unacknowledged > 0) {
+    head.trouble.push_back(alarms::sentence_of(head.alarms));
+  }
+  JsonValue json = json_of(head.report);
+  json["mirror"] = head.mirror ? json_of(*head.mirror) : JsonValue();
+  json["forces"] = json_of(head.forces);
+  json["lock"] = json_of(head.lock);
+  json["alarms"] = json_of(head.alarms);
+  json["trouble"] = JsonValue(head.trouble);
+  json["retain_lost"] = head.retained;
+  json["external"] = head.external ? json_of(*head.external) : JsonValue();
+  print_table(context, module_table(chosen.run, head.report.alive), json, "modules");
+  if (!head.report.alive && !chosen.kept) {
     return kUnreachable;
   }
-  return check && !trouble.empty() ? kCheckFailed : kOk;
+  return check && !head.trouble.empty() ? kCheckFailed : kOk;
 }
 
 Action declare(base::Options& app, Context& context) {
