@@ -12,13 +12,13 @@ namespace indurop::node {
 
 bool Replay::knows_inputs(const Module& module) noexcept {
   return std::all_of(module.known.begin(), module.known.end(),
-                     [](const Known& known) { return !known.read || known.told; });
+                     [](const Known& known) { return !known.read || known.has_value; });
 }
 
 // Values recorded before may have changed since.
 void Replay::forget(Module& module) noexcept {
   for (Known& known : module.known) {
-    known.told = known.told && known.told_run == module.seen;
+    known.has_value = known.has_value && known.recorded_run == module.seen;
   }
 }
 
@@ -31,12 +31,12 @@ void Replay::look_ahead() {
     std::uint64_t next = 0;
   };
   std::vector<Runs> runs(modules_.size());
-  std::size_t untold = 0;
+  std::size_t unrecorded = 0;
   for (const auto& module : modules_) {
-    untold += module->runs ? module->known.size() : 0;
+    unrecorded += module->runs ? module->known.size() : 0;
   }
   auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, *prepared_.store);
-  while (recorded && untold > 0) {
+  while (recorded && unrecorded > 0) {
     auto item = recorded->next();
     if (!item) {
       continue;  // known when it is replayed
@@ -53,7 +53,7 @@ void Replay::look_ahead() {
       }
     } else if (const auto* value = std::get_if<RecordedValue>(&**item); value != nullptr) {
       const std::uint32_t index = configured(value->words.module);
-      untold -= index != kNoSuchModule && learn_early(*value, *modules_[index], runs[index].gap) ? 1U : 0U;
+      unrecorded -= index != kNoSuchModule && learn_early(*value, *modules_[index], runs[index].gap) ? 1U : 0U;
     }
   }
   for (std::size_t i = 0; i < modules_.size(); ++i) {
@@ -90,17 +90,17 @@ void Replay::find_keyframes_to_begin_at() {
 }
 
 // Returns true if the value is recorded for the first time.
-bool Replay::learn_early(const RecordedValue& value, Module& module, bool behind_a_gap) const {
+bool Replay::learn_early(const RecordedValue& value, Module& module, bool after_a_gap) const {
   const auto place = module.place.find(value.variable);
   if (!module.runs || value.words.kind == tape::EntryKind::Run || place == module.place.end() ||
-      module.known[place->second].ever_told) {
+      module.known[place->second].ever_recorded) {
     return false;
   }
   Known& known = module.known[place->second];
-  known.ever_told = true;
-  if (value.words.kind == tape::EntryKind::Again && !behind_a_gap) {
+  known.ever_recorded = true;
+  if (value.words.kind == tape::EntryKind::Again && !after_a_gap) {
     known.bytes.resize(prepared_.store->directory()[value.variable].value_size);
-    known.told = recording::from_cdr(variable(value.variable).type, value.cdr, known.bytes).ok();
+    known.has_value = recording::from_cdr(variable(value.variable).type, value.cdr, known.bytes).ok();
     known.cdr.assign(value.cdr.begin(), value.cdr.end());
   }
   return true;
@@ -108,14 +108,14 @@ bool Replay::learn_early(const RecordedValue& value, Module& module, bool behind
 
 void Replay::leave_out_if_unknown(Module& module, const std::string& name) {
   for (const Known& known : module.known) {
-    if (module.runs && known.read && !known.ever_told) {
+    if (module.runs && known.read && !known.ever_recorded) {
       module.unknown_inputs += (module.unknown_inputs.empty() ? "" : ", ") + variable(known.variable).name;
     }
   }
   if (!module.unknown_inputs.empty()) {
     module.runs = false;
     console_.warning(
-        "module {} does not run: the recording does not tell what it reads, {}; what it wrote comes from "
+        "module {} does not run: the recording has no values of its inputs ({}); its outputs are taken from "
         "the recording",
         name, module.unknown_inputs);
   }

@@ -10,7 +10,7 @@
 namespace indurop::node {
 
 // The condition of another file could be true at other times.
-void Replay::tell_of_conditions() const {
+void Replay::warn_about_conditions() const {
   const auto& with = options_.replay.with;
   for (std::size_t i = 0; i < modules_.size(); ++i) {
     const config::Module& module = checked_.config.modules[i];
@@ -19,28 +19,29 @@ void Replay::tell_of_conditions() const {
     });
     if (other && modules_[i]->runs && module.operation == scheduler::Operation::Sporadic) {
       console_.warning(
-          "module {} runs when it ran in the recording: the condition of another file is not asked; to see when it is "
+          "module {} runs when it ran in the recording: the condition of the other file is not evaluated; to see when "
+          "it is "
           "true, simulate or run it",
           module.name);
     }
   }
 }
 
-void Replay::tell_of_format(const RecordedRuns& recorded) const {
+void Replay::warn_about_format(const RecordedRuns& recorded) const {
   if (recorded.format() < recorder::kRecordingFormat) {
     console_.warning(
         "the recording is of an older release: what snapshot(), valid(), age(), connected channels and "
         "stop_requested() "
-        "told the runs is not in it, so runs that asked may differ although their modules are the same");
+        "returned to the runs is not in it, so runs that called them may differ although their modules are the same");
   } else if (recorded.format() > recorder::kRecordingFormat) {
     console_.warning(
-        "the recording is of a newer release: what it tells and this one does not know is not repeated; replay it with "
+        "the recording is of a newer release: records that this release does not know are not replayed; replay it with "
         "the release that recorded it");
   }
 }
 
 // Runs are repeated at their recorded times: another period or priority has no effect.
-void Replay::tell_of_schedule(const explain::Facts& facts) const {
+void Replay::warn_about_schedule(const explain::Facts& facts) const {
   for (const explain::ModuleFact& then : facts.modules) {
     for (const config::Module& now : checked_.config.modules) {
       const bool periodic = now.operation == scheduler::Operation::Periodic;

@@ -16,8 +16,8 @@ Result<ReplayOutput, Problem> ReplayOutput::create(const std::filesystem::path& 
   if (!writer) {
     return std::move(writer).error();
   }
-  if (auto said = writer->metadata("indurop.replayed", {{"of", of}}); !said) {
-    return std::move(said).error();
+  if (auto written = writer->metadata("indurop.replayed", {{"of", of}}); !written) {
+    return std::move(written).error();
   }
   return ReplayOutput(std::move(writer).value());
 }
@@ -38,12 +38,12 @@ Result<std::uint16_t, Problem> ReplayOutput::channel_for(const schema::Variable&
 }
 
 Result<void, Problem> ReplayOutput::close(const std::map<std::string, std::uint64_t>& differing) {
-  recording::TextMap said;
+  recording::TextMap counts;
   for (const auto& [name, runs] : differing) {
-    said[name] = std::to_string(runs);
+    counts[name] = std::to_string(runs);
   }
-  auto told = writer_.metadata(recorder::kDifferingMetadata, said);
-  return told ? writer_.close() : told;
+  auto written = writer_.metadata(recorder::kDifferingMetadata, counts);
+  return written ? writer_.close() : written;
 }
 
 Result<void, Problem> ReplayOutput::take(std::uint32_t index, const schema::Variable& variable,

@@ -128,11 +128,11 @@ Result<std::optional<RecordedRuns::Item>, Problem> RecordedRuns::next() {
       return std::optional<Item>(RecordedClock{recorder::from_sequence(one.sequence).module, *clock});
     }
     if (one.channel == answer_channel_ && answer_channel_ != 0) {
-      auto told = recorder::answer_from_cdr(one.data.view);
-      if (!told) {
+      auto answer = recorder::answer_from_cdr(one.data.view);
+      if (!answer) {
         return Problem{"an input record of the recording is damaged"};
       }
-      return std::optional<Item>(RecordedTold{recorder::from_sequence(one.sequence).module, *told});
+      return std::optional<Item>(RecordedAnswer{recorder::from_sequence(one.sequence).module, *answer});
     }
     if (const auto known = keyframes_.find(one.channel); known != keyframes_.end()) {
       auto keyframe = recorder::keyframe_from_cdr(one.data.view);

@@ -38,7 +38,7 @@ struct RecordedClock {
   std::int64_t now_ns = 0;
 };
 
-struct RecordedTold {
+struct RecordedAnswer {
   std::uint32_t module = 0;
   recorder::AnswerRecord words;
 };
@@ -64,7 +64,7 @@ class RecordedRuns {
 
   // Returns the next item; nullopt after the last. Views in it are valid until the next call.
   // Errors: a part of the file is damaged; the next call continues after it.
-  using Item = std::variant<RecordedValue, RecordedRun, RecordedClock, RecordedTold, RecordedKeyframe>;
+  using Item = std::variant<RecordedValue, RecordedRun, RecordedClock, RecordedAnswer, RecordedKeyframe>;
   Result<std::optional<Item>, base::Problem> next();
 
   // Returns true if the recording has keyframes of the module of this name.
@@ -82,7 +82,7 @@ class RecordedRuns {
 
  private:
   explicit RecordedRuns(recording::McapReader reader) : reader_(std::move(reader)) {}
-  // Of those that hold no values.
+  // The channel of a kind that holds no values.
   std::uint16_t& channel_of(recorder::ChannelKind kind) noexcept;
   Result<void, Unfit> match(const vars::Store& store, const std::string& board, const std::string& name);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether a module of a replay keeps inside what it kept in the recording: from its first run on, after a restart, and
-// from each keyframe on. Between, as behind missing runs, only a keyframe makes it so again.
+// from each keyframe on. Between, as after missing runs, only a keyframe makes it so again.
 
 #pragma once
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::chrono::seconds kRestartPatience{10};
 constexpr std::chrono::milliseconds kRestartPoll{1};
-constexpr int kLooksBeforeSleep = 2000;
+constexpr int kPollsBeforeSleep = 2000;
 constexpr std::chrono::microseconds kShortPause{50};
 
 }  // namespace
@@ -31,15 +31,15 @@ bool Replay::call(std::uint32_t index, const char* phase, void (*function)()) {
 // A process has unlimited time, as long as it lives. One that dies stays dead until it is restarted.
 void Replay::run_process(Module& module, std::uint32_t index, const tape::RunTail& tail) {
   scheduler::ProcessSlot& slot = *module.state.slot;
-  retold_->give(module.clock, module.told());
+  replay_input_->give(module.clock, module.replayed_answers());
   const std::uint64_t release = slot.released.load() + 1;
   slot.release_ns.store(tail.release_ns);
   slot.release_tick.store(tail.tick);
   slot.released.store(release, std::memory_order_release);
   slot.wake.wake();
   const rt::MonoTime until = rt::MonoClock::now() + kRestartPatience;
-  for (int looks = 0; slot.done.load(std::memory_order_acquire) != release; ++looks) {
-    if (looks < kLooksBeforeSleep) {
+  for (int polls = 0; slot.done.load(std::memory_order_acquire) != release; ++polls) {
+    if (polls < kPollsBeforeSleep) {
       rt::relax();
       continue;
     }
@@ -72,7 +72,7 @@ bool Replay::restart_process(std::uint32_t index) {
   return false;
 }
 
-bool Replay::start_anew(Module& module, std::uint32_t index) {
+bool Replay::restart(Module& module, std::uint32_t index) {
   bool good = true;
   if (module.state.task.type == scheduler::ModuleType::Process) {
     module.died = false;
@@ -84,7 +84,8 @@ bool Replay::start_anew(Module& module, std::uint32_t index) {
     module.state.enabled.store(true);
   }
   if (!good) {
-    console_.error("module {} was started anew in the recording and could not be now", module.state.record->name);
+    console_.error("module {} was restarted in the recording and could not be restarted now",
+                   module.state.record->name);
   }
   return good;
 }
@@ -101,7 +102,7 @@ void Replay::doubt(Module& module, std::uint64_t tick) {
   const bool process = module.state.task.type == scheduler::ModuleType::Process;
   const std::string reason = process ? "a process has no keyframes" : module.kept.why_none();
   console_.warning(
-      "{} runs of {} before tick {} are not in the recording: what it keeps inside may differ from here on; {}",
+      "{} runs of {} before tick {} are not in the recording: its internal state may differ from here on; {}",
       module.kept.take_missing(), module.state.record->name, tick, reason);
 }
 

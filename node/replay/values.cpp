@@ -58,8 +58,8 @@ bool Replay::take(const RecordedValue& value) {
   }
   if (value.words.kind == tape::EntryKind::Before) {
     Known& known = module.known[place->second];
-    known.told = true;
-    known.told_run = module.seen;
+    known.has_value = true;
+    known.recorded_run = module.seen;
     known.cdr.assign(value.cdr.begin(), value.cdr.end());
     known.bytes = std::move(bytes);
   } else {
@@ -73,18 +73,18 @@ void Replay::give_inputs(Module& module) {
   for (const Known& known : module.known) {
     const vars::DirectoryEntry& entry = store.directory()[known.variable];
     std::vector<std::uint8_t> now(entry.value_size);
-    if (known.read && known.told && store.read(entry, 0, now).ok() && now != known.bytes) {
+    if (known.read && known.has_value && store.read(entry, 0, now).ok() && now != known.bytes) {
       (void)store.write(entry, 0, known.bytes);
     }
   }
 }
 
-void Replay::take_what_was_left(Module& module) {
+void Replay::take_recorded_outputs(Module& module) {
   module.disturbed = false;
   for (Left& left : module.left) {
     Known& known = module.known[left.place];
-    known.told = true;
-    known.told_run = module.seen;
+    known.has_value = true;
+    known.recorded_run = module.seen;
     known.cdr = std::move(left.cdr);
     known.bytes = std::move(left.bytes);
     module.disturbed = module.disturbed || left.kind == tape::EntryKind::During;
@@ -111,14 +111,14 @@ void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWor
   std::vector<std::uint8_t> now;
   std::vector<std::uint8_t> cdr;
   for (Known& known : module.known) {
-    if (!known.written || !known.told) {
+    if (!known.written || !known.has_value) {
       continue;
     }
     const vars::DirectoryEntry& entry = store.directory()[known.variable];
     const std::string& name = variable(known.variable).name;
     if (!forced_then_.empty() && forced_then_.any(name, run.tail.start_ns, run.tail.end_ns)) {
       ++forced_[name];
-      put_out(known.variable, known.cdr, run.tail.end_ns);
+      write_output(known.variable, known.cdr, run.tail.end_ns);
       (void)store.write(entry, 0, known.bytes);
       continue;
     }
@@ -129,15 +129,15 @@ void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWor
     // Padding between the parts of a value may differ.
     if (!store.read(entry, 0, now).ok() || now == known.bytes ||
         (recording::to_cdr(variable(known.variable).type, now, cdr).ok() && cdr == known.cdr)) {
-      put_out(known.variable, known.cdr, run.tail.end_ns);
+      write_output(known.variable, known.cdr, run.tail.end_ns);
       continue;
     }
-    put_out(known.variable, module.disturbed ? known.cdr : cdr, run.tail.end_ns);
+    write_output(known.variable, module.disturbed ? known.cdr : cdr, run.tail.end_ns);
     differs(module, index, known, run.tail.tick, now);
   }
 }
 
-void Replay::put_out(std::uint32_t index, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns) {
+void Replay::write_output(std::uint32_t index, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns) {
   if (!output_) {
     return;
   }

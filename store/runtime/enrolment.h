@@ -14,7 +14,7 @@
 #include "scheduler/run_block.h"
 #include "store/runtime/run_mapping.h"
 #include "store/tape/member.h"
-#include "store/tape/retold.h"
+#include "store/tape/replay_input.h"
 
 namespace indurop::runtime {
 

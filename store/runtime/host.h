@@ -20,7 +20,7 @@
 #include "scheduler/run_block.h"
 #include "store/runtime/message_ring.h"
 #include "store/tape/layout.h"
-#include "store/tape/retold.h"
+#include "store/tape/replay_input.h"
 #include "store/tape/track.h"
 #include "store/vars/store.h"
 

@@ -117,7 +117,7 @@ TEST_F(Recording, Says_that_the_condition_of_another_file_is_not_asked) {
   const std::string folder = std::string(MODULE_DIR) + "/";
   const Outcome sut = replay({"--with", folder + "event.so", "--with", folder + "counter.so"});
   EXPECT_EQ(sut.code, 0) << sut.err;
-  EXPECT_CONTAINS(sut.err, "warning: module event runs when it ran in the recording: the condition of another file");
+  EXPECT_CONTAINS(sut.err, "warning: module event runs when it ran in the recording: the condition of the other file");
   EXPECT_FALSE(contains(sut.err, "module counter runs")) << sut.err;
   EXPECT_FALSE(contains(replay().err, "module event runs when"));
 }
@@ -222,7 +222,7 @@ TEST_F(Recording, Of_a_node_that_runs_is_taken_by_record) {
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 0);
   const Outcome again = replay();
-  EXPECT_CONTAINS(again.err, "are not in the recording: what it keeps inside may differ");
+  EXPECT_CONTAINS(again.err, "are not in the recording: its internal state may differ");
   EXPECT_EQ(again.code, 4) << again.out;
   EXPECT_CONTAINS(again.err, "module walker: nt::pace was ");
 }

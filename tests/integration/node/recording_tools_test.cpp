@@ -85,7 +85,7 @@ TEST_F(RecordingTools, A_part_is_replayed_as_far_as_it_can_be) {
   EXPECT_CONTAINS(cut.err, "does not begin with the first run");
   const Outcome middle = indurop({"replay", path("middle.mcap"), "--node", node() + "-r"});
   EXPECT_EQ(middle.code, 4) << "walker keeps something inside";
-  EXPECT_CONTAINS(middle.err, "what it keeps inside may differ");
+  EXPECT_CONTAINS(middle.err, "its internal state may differ");
   EXPECT_CONTAINS(middle.err, "module walker: nt::pace was");
   const auto runs = recording({"info", path("middle.mcap"), "-o", "json"}).json()["modules"][1]["runs"].get<int>();
   EXPECT_CONTAINS(middle.out,

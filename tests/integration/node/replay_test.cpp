@@ -43,9 +43,9 @@ TEST_F(ReplayOfLess, Chosen_variables_are_compared_where_all_inputs_are_recorded
   const Outcome again = replay();
   EXPECT_EQ(again.code, 1) << again.out << again.err;
   EXPECT_CONTAINS(again.out, " values: equal");
-  EXPECT_CONTAINS(again.err, "module walker does not run: the recording does not tell what it reads, nt::walked;");
-  EXPECT_CONTAINS(again.err, "runs of walker could not be repeated: the recording does not tell what it reads");
-  EXPECT_CONTAINS(again.err, "runs of process could not be repeated: the recording does not tell what it reads");
+  EXPECT_CONTAINS(again.err, "module walker does not run: the recording has no values of its inputs (nt::walked);");
+  EXPECT_CONTAINS(again.err, "runs of walker could not be repeated: the recording has no values of its inputs");
+  EXPECT_CONTAINS(again.err, "runs of process could not be repeated: the recording has no values of its inputs");
   EXPECT_FALSE(contains(again.err, "of counter could not")) << again.err;
 }
 
@@ -58,11 +58,11 @@ TEST_F(ReplayOfLess, Nothing_that_a_module_wrote_is_no_comparison_of_it) {
   const Outcome again = replay();
   EXPECT_EQ(again.code, 1) << again.out << again.err;
   EXPECT_CONTAINS(again.err,
-                  "runs of keeper were repeated, but not compared: the recording does not tell what it wrote");
+                  "runs of keeper were repeated, but not compared: the recording has no values of its outputs");
 }
 
-// counter knows only what it reads: behind a gap it has to be given that anew.
-TEST_F(ReplayOfLess, Runs_behind_missing_ones_wait_for_what_they_read) {
+// counter knows only what it reads: after a gap it has to be given that anew.
+TEST_F(ReplayOfLess, Runs_after_missing_ones_wait_for_what_they_read) {
   Program& sut = start_and_wait({kCounter});
   Program recorder({INDUROP_PROGRAM, "record", "-o", file(), "--node", node()}, environment());
   ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(file()); }));
@@ -82,7 +82,7 @@ TEST_F(ReplayOfLess, Runs_behind_missing_ones_wait_for_what_they_read) {
   EXPECT_CONTAINS(again.err, "runs of counter before tick ");
 }
 
-// The releases behind a run that took too long are caught up; each is told its own tick, live and replayed.
+// The releases after a run that took too long are caught up; each is told its own tick, live and replayed.
 TEST_F(ReplayOfLess, Late_runs_are_told_their_own_release) {
   const Module late{
       .file = "late.so", .name = "late", .period = "2ms", .priority = 2, .more = "<overrun>catch-up</overrun>"};

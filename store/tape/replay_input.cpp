@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "store/tape/retold.h"
+#include "store/tape/replay_input.h"
 
 #include <algorithm>
 #include <cstring>

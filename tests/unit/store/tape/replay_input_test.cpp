@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a replay gives to a process: all of it arrives, or as much as there is room for, and only from its own node.
 
-#include "store/tape/retold.h"
+#include "store/tape/replay_input.h"
 
 #include <gmock/gmock.h>
 
@@ -30,7 +30,7 @@ class Retold : public testing::Test {
           std::equal(got[i].bytes.begin(), got[i].bytes.end(), answers[i].bytes.begin(), answers[i].bytes.end()));
     }
   }
-  vars::test::TestNode node_{"retold"};
+  vars::test::TestNode node_{"input"};
   ReplayInputWriter sut_ = ReplayInputWriter::create(node_.name(), 42).value();
   ReplayInputReader reader_ = ReplayInputReader::open(node_.name(), 42).value();
 };
