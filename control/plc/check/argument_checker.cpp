@@ -108,31 +108,31 @@ const Pou* ArgumentChecker::generic_function(Expression& call, const ast::Pou& t
         continue;
       }
       const std::string generic = generic_name(parameter->type);
-      Expression looked_at = *argument.value;  // the call itself is checked once its function is known
+      Expression checked = *argument.value;  // the call itself is checked once its function is known
       const Type*& known = types[generic];
       const bool asked = known == nullptr && bare && generic == of_result && wanted != nullptr;
-      const Type* type = expressions_.value(looked_at, asked ? wanted : known);
+      const Type* type = expressions_.value(checked, asked ? wanted : known);
       if (type == nullptr) {
         return nullptr;
       }
-      if (asked && looked_at.resolved->untyped && generic_takes(generic, *wanted) &&
-          adapts(*looked_at.resolved->constant, *wanted)) {
+      if (asked && checked.resolved->untyped && generic_takes(generic, *wanted) &&
+          adapts(*checked.resolved->constant, *wanted)) {
         known = wanted->range ? context_.elementary(wanted->elementary) : wanted;
       }
       const bool adapts_to =
-          known != nullptr && looked_at.resolved->untyped && adapts(*looked_at.resolved->constant, *known);
+          known != nullptr && checked.resolved->untyped && adapts(*checked.resolved->constant, *known);
       const Type* common = known == nullptr || adapts_to ? known : context_.common_type(*known, *type);
       if (!adapts_to && ((known != nullptr && common == nullptr) || !generic_takes(generic, *type))) {
         context_.error(argument.value->at,
                        fmt::format("{} is {} and does not take {}{}", parameter->name, generic, with_article(*type),
-                                   known != nullptr ? " beside " + with_article(*known) : ""));
+                                   known != nullptr ? " together with " + with_article(*known) : ""));
         return nullptr;
       }
       known = known == nullptr ? type : common;
-      if (looked_at.kind == Expression::Kind::Call && looked_at.resolved->pou != nullptr && looked_at.type == type &&
+      if (checked.kind == Expression::Kind::Call && checked.resolved->pou != nullptr && checked.type == type &&
           !type->is_reference()) {  // otherwise nested calls would be checked 2, 4, 8 times
-        looked_at.resolved->settled = true;
-        *argument.value = std::move(looked_at);
+        checked.resolved->settled = true;
+        *argument.value = std::move(checked);
       }
     }
   }

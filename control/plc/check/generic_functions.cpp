@@ -131,8 +131,8 @@ void warn_about_uncalled(Context& context) {
     const auto& made = context.program.made_functions;
     if (std::none_of(made.begin(), made.end(),
                      [&](const ast::Pou& one) { return upper(one.name).starts_with(begin); })) {
-      context.warning(tree->at, fmt::format("{} is never called, and what it does with inputs of any type was not "
-                                            "looked at",
+      context.warning(tree->at, fmt::format("{} is never called, so its body was not "
+                                            "checked",
                                             tree->name));
     }
   }

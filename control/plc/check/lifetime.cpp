@@ -42,7 +42,7 @@ bool ends_with_call(const ast::Expression& expression) {
                     root->variable->section != ast::Section::InOut && is_of_call(*root->variable));
 }
 
-void look_at_lifetime(Context& context, const ast::Statement& one) {
+void check_lifetime(Context& context, const ast::Statement& one) {
   const ast::Expression& value = *one.value;
   const bool address = value.resolved && value.resolved->intrinsic == Resolved::Intrinsic::Address;
   const bool instance = value.type != nullptr && value.type->kind == Type::Kind::Block;

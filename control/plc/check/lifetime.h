@@ -15,6 +15,6 @@ namespace indurop::plc {
 
 // Checks p := ADR(x), where p outlives x: a warning. For interfaces it is an error, because unlike pointers they do not
 // notice it when they are used.
-void look_at_lifetime(Context& context, const ast::Statement& one);
+void check_lifetime(Context& context, const ast::Statement& one);
 
 }  // namespace indurop::plc

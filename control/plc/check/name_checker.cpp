@@ -197,7 +197,7 @@ const Type* NameChecker::global(Expression& expression, Global& global) {
 
 const Type* NameChecker::direct(Expression& expression) {
   if (expression.address.numbers.empty()) {
-    context_.error(expression.at, fmt::format("{} says no place, write it behind AT in a declaration only",
+    context_.error(expression.at, fmt::format("{} is incomplete, which is allowed only after AT in a declaration",
                                               ast::to_string(expression.address)));
     return nullptr;
   }

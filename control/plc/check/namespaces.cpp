@@ -213,7 +213,7 @@ class Resolver {
     }
     if (const std::string* found = names_.find(path, *scope_)) {
       if (variables_.contains(upper(*found))) {
-        diagnostics_.error(one.at, fmt::format("'{}' and the variable '{}' cannot be told apart here, rename the "
+        diagnostics_.error(one.at, fmt::format("'{}' and the variable '{}' cannot be distinguished here, rename the "
                                                "variable",
                                                path, *found));
       }

@@ -16,7 +16,7 @@ std::string why_no_overlap(const Type& type) {
     return fmt::format("a UNION cannot contain {}, which would get values that lead nowhere", with_article(type));
   }
   if (type.range) {
-    return "a UNION has no subrange, whose values nobody would check; use its base type";
+    return "a UNION has no subrange, whose values nothing would check; use its base type";
   }
   std::string why;
   for (const Field& field : type.fields) {

@@ -130,7 +130,7 @@ std::optional<OverloadResolver::Inputs> OverloadResolver::positions(Expression& 
 
 // Returns the common type of numbers without a type, if one of them is computed: EQ(MAX(300, 1) * 300, 2.5). Null if
 // none is.
-const Type* OverloadResolver::widest_beside(const Inputs& inputs, const LibraryFunction& function, Generic generic) {
+const Type* OverloadResolver::widest_computed(const Inputs& inputs, const LibraryFunction& function, Generic generic) {
   std::optional<Elementary> widest;
   bool computed = false;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -149,7 +149,7 @@ const Type* OverloadResolver::widest_beside(const Inputs& inputs, const LibraryF
 bool OverloadResolver::input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads,
                                     const Type* wanted) {
   const LibraryFunction& first = *overloads.front();
-  std::map<Generic, const Type*> beside;
+  std::map<Generic, const Type*> known_types;
   bool fine = true;
   for (const bool bare : {false, true}) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -161,14 +161,14 @@ bool OverloadResolver::input_values(const Inputs& inputs, const std::vector<cons
       const auto* generic = std::get_if<Generic>(&type);
       const Type* hint = fixed != nullptr ? context_.elementary(*fixed) : type == first.result ? wanted : nullptr;
       if (hint == nullptr && generic != nullptr && bare) {
-        hint = beside[*generic] != nullptr ? beside[*generic] : widest_beside(inputs, first, *generic);
+        hint = known_types[*generic] != nullptr ? known_types[*generic] : widest_computed(inputs, first, *generic);
       }
       const Type* found = expressions_.value(*inputs[i], hint);
       fine = found != nullptr && fine;
       if (generic != nullptr && found != nullptr && found->kind == Type::Kind::Elementary &&
           is_num(found->elementary) && !untyped(*inputs[i])) {
         const Type* plain = context_.elementary(found->elementary);
-        const Type*& known = beside[*generic];
+        const Type*& known = known_types[*generic];
         known = known == nullptr ? plain : context_.common_type(*known, *plain);
       }
     }
@@ -258,14 +258,14 @@ std::optional<OverloadResolver::Choice> OverloadResolver::match(const LibraryFun
   out.function = &function;
   std::map<Generic, const Type*> groups;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const LibraryType wished = function.input(i).type;
+    const LibraryType input_type = function.input(i).type;
     const Type* type = nullptr;
-    if (const auto* fixed = std::get_if<Elementary>(&wished)) {
+    if (const auto* fixed = std::get_if<Elementary>(&input_type)) {
       type = context_.elementary(*fixed);
     } else {
       // The required type of the result applies to the inputs only if they have its type.
-      type = group_type(function, i, inputs, function.result == wished ? wanted : nullptr);
-      groups[std::get<Generic>(wished)] = type;
+      type = group_type(function, i, inputs, function.result == input_type ? wanted : nullptr);
+      groups[std::get<Generic>(input_type)] = type;
     }
     const auto cost = type != nullptr ? cost_of(*inputs[i], *type) : std::nullopt;
     if (!cost) {

@@ -33,7 +33,7 @@ class OverloadResolver {
   using Inputs = std::vector<ast::Expression*>;
 
   std::optional<Inputs> positions(ast::Expression& call, const LibraryFunction& first);
-  const Type* widest_beside(const Inputs& inputs, const LibraryFunction& function, Generic generic);
+  const Type* widest_computed(const Inputs& inputs, const LibraryFunction& function, Generic generic);
   bool input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads, const Type* wanted);
   const Type* choose(ast::Expression& at, const std::vector<const LibraryFunction*>& overloads, const Inputs& inputs,
                      const Type* wanted);

@@ -95,12 +95,12 @@ class StackChecker {
 
   void run() {
     for (const Pou* pou : context_.program.order) {  // called POUs come first
-      look_at(*pou);
+      check(*pou);
     }
   }
 
  private:
-  void look_at(const Pou& pou) {
+  void check(const Pou& pou) {
     std::vector<Part> parts = variables(pou);
     std::uint64_t own = temporaries(pou);
     for (const Part& one : parts) {

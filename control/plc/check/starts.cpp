@@ -63,7 +63,7 @@ class Starter {
     const Type& type = declared_type->kind == Type::Kind::Array ? *declared_type->element : *declared_type;
     if (type.pou == nullptr || type.kind != Type::Kind::Block || find_method(*type.pou, kInit) == nullptr) {
       context_.error(spec.at, fmt::format("{} has no METHOD FB_Init that takes values; to give values to inputs write "
-                                          ":= (x := 1) behind the type",
+                                          ":= (x := 1) after the type",
                                           to_string(type)));
     } else if (!takes) {
       context_.error(spec.at, "values for FB_Init are given to instances in VAR, VAR_OUTPUT, VAR_TEMP or VAR_GLOBAL");

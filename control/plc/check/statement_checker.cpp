@@ -203,7 +203,7 @@ void StatementChecker::bind(Statement& one) {
     context_.error(one.at, fmt::format("REF= sets a REFERENCE TO, not {}", with_article(*to)));
   } else if (to != nullptr) {
     if (expressions_.assigned(*one.value, *to)) {
-      look_at_lifetime(context_, one);
+      check_lifetime(context_, one);
     }
     const bool result = one.target->resolved->meaning == Resolved::Meaning::FunctionResult;
     context_.pou->result_assigned = context_.pou->result_assigned || result;
@@ -260,7 +260,7 @@ void StatementChecker::assign(Statement& one) {
                            std::move(arguments));
   }
   if (expressions_.assigned(*one.value, *to)) {
-    look_at_lifetime(context_, one);
+    check_lifetime(context_, one);
   }
 }
 

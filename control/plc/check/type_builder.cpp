@@ -85,7 +85,7 @@ class TypeBuilder {
   const Type* named(ast::TypeSpec& spec) {
     const auto found = context_.program.type_names.find(upper(spec.name));
     if (found != context_.program.type_names.end() && !spec.starts.empty() && found->second->pou == nullptr) {
-      context_.error(spec.at, fmt::format("{} is no function block that FB_Init gives values to; write := behind it",
+      context_.error(spec.at, fmt::format("{} is no function block that FB_Init gives values to; write := after it",
                                           to_string(*found->second)));
       return nullptr;
     }

@@ -36,7 +36,7 @@ class Columns {
   }
 
   // Items whose outputs go into variables as well as elsewhere: these get a column of their own.
-  std::vector<bool> beside_values() {
+  std::vector<bool> with_values_and_others() {
     std::vector<bool> found(graph_.items.size(), false);
     for (const Net& net : graph_.nets) {
       const bool end = std::any_of(net.targets.begin(), net.targets.end(),
@@ -62,7 +62,7 @@ class Columns {
         ++waits[static_cast<std::size_t>(end.item)];
       }
     }
-    const std::vector<bool> crowded = beside_values();
+    const std::vector<bool> crowded = with_values_and_others();
     std::vector<int> ready;
     for (std::size_t i = 0; i < graph_.items.size(); ++i) {
       item(static_cast<int>(i)).column = graph_.items[i].role == Role::LeftRail || !rails_ ? 0 : 1;

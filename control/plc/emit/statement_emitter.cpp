@@ -50,8 +50,8 @@ Type without_range(const Type& type) {
 
 void StatementEmitter::list(std::span<const Statement> body) {
   for (std::size_t i = 0; i < body.size();) {
-    if (const std::size_t told = flow(body.subspan(i)); told > 0) {
-      i += told;
+    if (const std::size_t emitted = flow(body.subspan(i)); emitted > 0) {
+      i += emitted;
       continue;
     }
     const Statement& one = body[i++];

@@ -136,7 +136,7 @@ void emit_frame(const Pou& pou, DebugTable& table, TextWriter& out) {
     const std::string name = cpp_name(std::string_view(one->name));
     emitter.value(one->section == ast::Section::InOut && !pou.is_callable() ? "(*" + name + ")" : name, *one->type);
   }
-  if (is_result_told(pou)) {
+  if (is_result_watchable(pou)) {
     emitter.value(ExpressionEmitter::result_name(pou), *pou.result);
   }
   out.close(";");
@@ -150,7 +150,7 @@ void emit_globals(const std::vector<const Global*>& globals, DebugTable& table, 
   out.open("void debug_globals([[maybe_unused]] iec::Watch& debug_out)");
   Emitter emitter(out, "debug_out");
   for (const Global* one : globals) {
-    if (is_global_told(*one)) {
+    if (is_global_watchable(*one)) {
       emitter.value((one->kind == Global::Kind::Private ? "plc::" : "shared.") + cpp_name(*one), *one->type);
     }
   }

@@ -12,19 +12,19 @@ namespace indurop::plc {
 namespace {
 
 constexpr std::size_t kMarkBytes = 8;
-constexpr std::size_t kMostBytes = 16384;  // of one variable: larger arrays are not reported
+constexpr std::size_t kMaxVariableBytes = 16384;  // of one variable: larger arrays are not reported
 
-bool is_told(const Type& type) {
+bool is_watchable(const Type& type) {
   switch (type.kind) {
     case Type::Kind::Elementary:
     case Type::Kind::Enum:
     case Type::Kind::Block:
       return true;
     case Type::Kind::Array:
-      return is_told(*type.element);
+      return is_watchable(*type.element);
     case Type::Kind::Struct:
-      return !type.overlaps &&
-             std::all_of(type.fields.begin(), type.fields.end(), [](const Field& one) { return is_told(*one.type); });
+      return !type.overlaps && std::all_of(type.fields.begin(), type.fields.end(),
+                                           [](const Field& one) { return is_watchable(*one.type); });
     case Type::Kind::Pointer:
     case Type::Kind::Interface:
       break;
@@ -65,7 +65,7 @@ class Layout {
     for (const Variable* one : variables_of_call(pou)) {
       variable(*one->type, one->name);
     }
-    if (is_result_told(pou)) {
+    if (is_result_watchable(pou)) {
       variable(*pou.result, pou.name);
     }
     return {out_.bytes, std::move(out_.variables)};
@@ -73,7 +73,7 @@ class Layout {
 
   FrameLayout globals(const std::vector<const Global*>& globals) {
     for (const Global* one : globals) {
-      if (is_global_told(*one)) {
+      if (is_global_watchable(*one)) {
         variable(*one->type, one->name);
       }
     }
@@ -158,8 +158,8 @@ bool is_watched(const Variable& variable) {
   using ast::Section;
   return variable.section != Section::External && variable.section != Section::Temp &&
          variable.section != Section::InOut && variable.global == nullptr && !variable.is_constant &&
-         !variable.declared->is_static && !variable.declared->of_instance && is_told(*variable.type) &&
-         packed_size(*variable.type) <= kMostBytes;
+         !variable.declared->is_static && !variable.declared->of_instance && is_watchable(*variable.type) &&
+         packed_size(*variable.type) <= kMaxVariableBytes;
 }
 
 std::size_t packed_size(const Type& type) {
@@ -173,8 +173,8 @@ std::size_t packed_size(const Type& type) {
     case Type::Kind::Enum:
       return std::max(bits_of(type.elementary), kBits) / kBits;
     case Type::Kind::Array: {
-      const std::uint64_t count = std::min<std::uint64_t>(count_of(type), kMostBytes + 1);
-      return std::min<std::size_t>(count * packed_size(*type.element), kMostBytes + 1);
+      const std::uint64_t count = std::min<std::uint64_t>(count_of(type), kMaxVariableBytes + 1);
+      return std::min<std::size_t>(count * packed_size(*type.element), kMaxVariableBytes + 1);
     }
     case Type::Kind::Struct: {
       std::size_t sum = 0;
@@ -215,20 +215,21 @@ std::vector<const Variable*> variables_of_call(const Pou& pou) {
     const bool of_call = pou.is_callable() || one.section == Section::Temp || one.section == Section::InOut;
     const bool elsewhere = one.section == Section::External || one.global != nullptr || one.is_constant ||
                            one.declared->of_instance || one.type->open;
-    if (of_call && !elsewhere && is_told(*one.type) && !holds_blocks(*one.type) &&
-        packed_size(*one.type) <= kMostBytes) {
+    if (of_call && !elsewhere && is_watchable(*one.type) && !holds_blocks(*one.type) &&
+        packed_size(*one.type) <= kMaxVariableBytes) {
       out.push_back(&one);
     }
   }
   return out;
 }
 
-bool is_result_told(const Pou& pou) {
-  return pou.result != nullptr && is_told(*pou.result) && packed_size(*pou.result) <= kMostBytes;
+bool is_result_watchable(const Pou& pou) {
+  return pou.result != nullptr && is_watchable(*pou.result) && packed_size(*pou.result) <= kMaxVariableBytes;
 }
 
-bool is_global_told(const Global& global) {
-  return global.kind != Global::Kind::Fixed && is_told(*global.type) && packed_size(*global.type) <= kMostBytes;
+bool is_global_watchable(const Global& global) {
+  return global.kind != Global::Kind::Fixed && is_watchable(*global.type) &&
+         packed_size(*global.type) <= kMaxVariableBytes;
 }
 
 }  // namespace indurop::plc

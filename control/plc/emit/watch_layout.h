@@ -55,8 +55,8 @@ struct FrameLayout {
 [[nodiscard]] const Pou* holder_of(const Pou& pou);
 // Returns the variables of a call: parameters, VAR_TEMP, VAR_IN_OUT.
 [[nodiscard]] std::vector<const Variable*> variables_of_call(const Pou& pou);
-[[nodiscard]] bool is_result_told(const Pou& pou);
+[[nodiscard]] bool is_result_watchable(const Pou& pou);
 // Returns whether a debugger sees the global: shared ones and instances.
-[[nodiscard]] bool is_global_told(const Global& global);
+[[nodiscard]] bool is_global_watchable(const Global& global);
 
 }  // namespace indurop::plc

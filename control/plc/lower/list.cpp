@@ -338,7 +338,7 @@ class ListLowering {
       in_.take();
       while (!in_.accept(")")) {
         if (!formal_argument(arguments) ||
-            (!in_.accept(",") && !in_.peek().is(")") && !in_.expect(")", "behind the arguments"))) {
+            (!in_.accept(",") && !in_.peek().is(")") && !in_.expect(")", "after the arguments"))) {
           return false;
         }
       }

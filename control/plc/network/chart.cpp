@@ -27,7 +27,7 @@ void each_source(const Element& element, const Index& index, Diagnostics& diagno
       } else {
         diagnostics.error(
             connection.at,
-            fmt::format("is connected to element {}, which does not exist; draw the line anew", connection.from));
+            fmt::format("is connected to element {}, which does not exist; draw the line again", connection.from));
       }
     }
   }
@@ -151,7 +151,7 @@ class Reader {
   bool enter(const Element& element) {
     constexpr std::size_t kMost = 500;
     if (depth_ >= kMost) {
-      diagnostics_.error(element.at, fmt::format("more than {} branches behind each other without a step", kMost));
+      diagnostics_.error(element.at, fmt::format("more than {} branches in a row without a step", kMost));
       return false;
     }
     return passed_.insert(&element).second;

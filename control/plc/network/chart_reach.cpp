@@ -39,7 +39,7 @@ class Walk {
       }
     }
     enter(first);
-    for (; !left_.empty() && seen_.size() < kMostSituations && looked_at_ < kMostSteps; left_.pop_front()) {
+    for (; !left_.empty() && seen_.size() < kMostSituations && steps_taken_ < kMostSteps; left_.pop_front()) {
       for (const std::size_t transition : candidates(left_.front())) {
         fire(chart_.transitions[transition], left_.front());
       }
@@ -58,7 +58,7 @@ class Walk {
       out.insert(out.end(), leaving_[step].begin(), leaving_[step].end());
     }
     std::sort(out.begin(), out.end());
-    looked_at_ += out.size();
+    steps_taken_ += out.size();
     return out;
   }
 
@@ -84,7 +84,7 @@ class Walk {
   }
 
   void enter(Active situation) {
-    looked_at_ += situation.size();
+    steps_taken_ += situation.size();
     for (const std::size_t step : situation) {
       reached_[step] = true;
     }
@@ -100,7 +100,7 @@ class Walk {
   std::vector<bool> twice_;
   std::set<Active> seen_;
   std::deque<Active> left_;
-  std::size_t looked_at_ = 0;
+  std::size_t steps_taken_ = 0;
 };
 
 }  // namespace

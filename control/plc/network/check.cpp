@@ -117,7 +117,7 @@ class Check {
     for (const Pin& pin : element.outputs) {
       if (pin.edge != ast::Edge::None || (pin.storage != Storage::None && pin.expression.empty())) {
         diagnostics_.error(pin.at,
-                           "an edge, set or reset at an output of a box is not supported; draw a coil behind it");
+                           "an edge, set or reset at an output of a box is not supported; draw a coil after it");
       }
     }
     for (const Pin& pin : element.inputs) {
@@ -133,7 +133,7 @@ class Check {
       const Source from = index_.source(connection);
       if (from.element == nullptr) {
         diagnostics_.error(connection.at, fmt::format("is connected to element {}, which does not exist; draw the line "
-                                                      "anew",
+                                                      "again",
                                                       connection.from));
         continue;
       }

@@ -228,7 +228,7 @@ class Reader {
       made.inputs.emplace_back().at = made.at;  // not connected: an error of the drawing
     }
     if (made.kind == Kind::InOutVariable && is_true(node, "negatedOut")) {
-      diagnostics_.error(made.at, "a negated output of a variable is not supported; negate the pins behind it");
+      diagnostics_.error(made.at, "a negated output of a variable is not supported; negate the pins after it");
     }
   }
 

@@ -183,9 +183,9 @@ class Placer {
       if (from == nullptr || from == &one) {
         continue;
       }
-      const bool beside = one.kind == Kind::ActionBlock;
-      one.x = beside ? from->x + from->width + kMargin : from->x + from->width / 2 - one.width / 2;
-      one.y = beside ? from->y : from->y + from->height + kMargin;
+      const bool to_the_right = one.kind == Kind::ActionBlock;
+      one.x = to_the_right ? from->x + from->width + kMargin : from->x + from->width / 2 - one.width / 2;
+      one.y = to_the_right ? from->y : from->y + from->height + kMargin;
     }
   }
 

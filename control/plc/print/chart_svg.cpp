@@ -77,9 +77,9 @@ class Drawing {
       const ChartSpot& spot = layout_.steps[i];
       const auto lines = actions_of(i);
       int qualifiers = 0;
-      const int beside = lines.empty() ? 0 : 24 + width_of_actions(lines, qualifiers);
+      const int actions_width = lines.empty() ? 0 : 24 + width_of_actions(lines, qualifiers);
       left[spot.column] = std::max(left[spot.column], half_step(i));
-      right[spot.column] = std::max(right[spot.column], half_step(i) + beside);
+      right[spot.column] = std::max(right[spot.column], half_step(i) + actions_width);
       height[spot.row] = std::max({height[spot.row], kStep, static_cast<int>(lines.size()) * kAction});
     }
     for (std::size_t i = 0; i < chart_.transitions.size(); ++i) {

@@ -74,7 +74,7 @@ std::optional<bool> LivePower::known(const network::Source& source) {
     return true;
   }
   if (const auto point = body_.power.find({source.element, source.pin}); point != body_.power.end()) {
-    return told_(point->second);
+    return power_(point->second);
   }
   if (const auto done = derived_.find(&element); done != derived_.end()) {
     return done->second;
@@ -151,7 +151,7 @@ std::optional<bool> LivePower::of_logic(const network::Element& element) {
 
 bool LivePower::closed(const network::Element& element) {
   const auto point = body_.closed.find(&element);
-  return point != body_.closed.end() ? told_(point->second) : powered({&element, nullptr});
+  return point != body_.closed.end() ? power_(point->second) : powered({&element, nullptr});
 }
 
 std::vector<LiveBody> live_bodies(plcopen::Document& document, const std::string& pou, Diagnostics& diagnostics) {

@@ -41,13 +41,13 @@ struct LiveBody {
 // The power in a drawn body: values reported by its module, and power derived from them.
 class LivePower {
  public:
-  using Told = std::function<bool(std::size_t)>;
+  using Power = std::function<bool(std::size_t)>;
   using Value = std::function<std::string(const std::string&)>;
-  // `told`: returns an element of the array of `body`, which must outlive this object. `value`: returns the value of a
+  // `power`: returns an element of the array of `body`, which must outlive this object. `value`: returns the value of a
   // variable, by its name in capitals, as ST writes it; "" if it is not known. In function block diagrams wires from
   // variables and logic functions have the power that follows from the values at the end of the scan.
-  LivePower(const LiveBody& body, Told told, Value value)
-      : body_(body), told_(std::move(told)), value_(std::move(value)) {}
+  LivePower(const LiveBody& body, Power power, Value value)
+      : body_(body), power_(std::move(power)), value_(std::move(value)) {}
 
   // Returns whether there is power after the source.
   [[nodiscard]] bool powered(const network::Source& source);
@@ -63,7 +63,7 @@ class LivePower {
   [[nodiscard]] std::optional<bool> of_logic(const network::Element& element);
 
   const LiveBody& body_;
-  Told told_;
+  Power power_;
   Value value_;
   std::unordered_map<const network::Element*, std::optional<bool>> derived_;
 };

@@ -56,7 +56,7 @@ WrittenBody ChartParser::statements(std::string_view end) {
   WrittenBody made = std::move(out_);
   actions(made);
   if (!in_.at_end() && !in_.peek().is(end)) {
-    in_.error(in_.peek(), "statements stand before and behind an ACTION, put them together");
+    in_.error(in_.peek(), "there are statements before and after an ACTION, put them together");
     while (!in_.at_end() && !in_.peek().is(end)) {
       in_.take();
     }
@@ -134,7 +134,7 @@ bool ChartParser::step(bool initial) {
   made.initial = initial;
   const std::uint64_t id = made.id;
   steps_.emplace(upper(name.text), out_.code.body.diagram.elements.size() - 1);
-  if (!in_.expect(":", "behind the name of the step")) {
+  if (!in_.expect(":", "after the name of the step")) {
     return false;
   }
   Element block;
@@ -165,7 +165,7 @@ bool ChartParser::action_line(Element& block) {
     }
     line.name += "." + std::string(in_.take().text);
   }
-  if (!in_.expect("(", "behind the name of the action")) {
+  if (!in_.expect("(", "after the name of the action")) {
     return false;
   }
   if (in_.peek().kind == TokenKind::Word) {
@@ -176,7 +176,7 @@ bool ChartParser::action_line(Element& block) {
     line.duration = first ? std::string(token.text) : line.duration;
   }
   block.actions.push_back(std::move(line));
-  return in_.expect(")", "behind the qualifier") && in_.expect(";", "behind the action");
+  return in_.expect(")", "after the qualifier") && in_.expect(";", "after the action");
 }
 
 bool ChartParser::action() {
@@ -206,10 +206,10 @@ bool ChartParser::transition() {
     in_.take();
   }
   if (in_.accept("(")) {
-    const bool fine = in_.expect("PRIORITY", "of the transition") && in_.expect(":=", "behind PRIORITY");
+    const bool fine = in_.expect("PRIORITY", "of the transition") && in_.expect(":=", "after PRIORITY");
     const std::string_view digits = fine ? in_.take().text : std::string_view();
     std::from_chars(digits.data(), digits.data() + digits.size(), made.priority);
-    if (!fine || !in_.expect(")", "behind the priority")) {
+    if (!fine || !in_.expect(")", "after the priority")) {
       return false;
     }
   }
@@ -234,7 +234,7 @@ bool ChartParser::steps(std::vector<const Token*>& into) {
     }
     into.push_back(&in_.take());
   } while (several && in_.accept(","));
-  return !several || in_.expect(")", "behind the steps");
+  return !several || in_.expect(")", "after the steps");
 }
 
 // Returns the text up to the word, or the other one.

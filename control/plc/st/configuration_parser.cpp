@@ -138,7 +138,7 @@ bool ConfigurationParser::task(Resource& out) {
   if (!name(one.name, "the task")) {
     return false;
   }
-  if (!in_brackets([&] { return task_property(one); }, "behind the task's properties")) {
+  if (!in_brackets([&] { return task_property(one); }, "after the task's properties")) {
     return false;
   }
   if (one.interval_ns == std::optional<std::int64_t>(0)) {
@@ -150,12 +150,12 @@ bool ConfigurationParser::task(Resource& out) {
     }
   }
   out.tasks.push_back(std::move(one));
-  return in_.expect(";", "behind the task");
+  return in_.expect(";", "after the task");
 }
 
 bool ConfigurationParser::task_property(Task& out) {
   const Token& word = in_.take();
-  if (!in_.expect(":=", "behind INTERVAL, PRIORITY or SINGLE")) {
+  if (!in_.expect(":=", "after INTERVAL, PRIORITY or SINGLE")) {
     return false;
   }
   const Token& at = in_.peek();
@@ -205,11 +205,11 @@ bool ConfigurationParser::program(Resource& out) {
   if (!in_.expect(":", "before the program's type") || !name(one.type, "the program")) {
     return false;
   }
-  if (!in_brackets([&] { return connection(one); }, "behind the connections of the program")) {
+  if (!in_brackets([&] { return connection(one); }, "after the connections of the program")) {
     return false;
   }
   out.programs.push_back(std::move(one));
-  return in_.expect(";", "behind the program");
+  return in_.expect(";", "after the program");
 }
 
 // input := variable or value, output => variable
@@ -262,7 +262,7 @@ void ConfigurationParser::accesses(const std::string& program, std::vector<Acces
 // pressure : plc.main.tank.pressure : REAL READ_WRITE;
 bool ConfigurationParser::access(Access& out) {
   out.at = in_.here();
-  if (!name(out.name, "the access path") || !in_.expect(":", "behind the name, before the variable")) {
+  if (!name(out.name, "the access path") || !in_.expect(":", "after the name, before the variable")) {
     return false;
   }
   auto to = path();
@@ -270,7 +270,7 @@ bool ConfigurationParser::access(Access& out) {
     return false;
   }
   out.to = std::move(*to);
-  auto spec = in_.expect(":", "behind the variable, before its type") ? declarations_.type() : std::nullopt;
+  auto spec = in_.expect(":", "after the variable, before its type") ? declarations_.type() : std::nullopt;
   if (!spec) {
     return false;
   }
@@ -279,7 +279,7 @@ bool ConfigurationParser::access(Access& out) {
   if (!out.writable) {
     in_.accept("READ_ONLY");
   }
-  return in_.expect_end("behind the access path");
+  return in_.expect_end("after the access path");
 }
 
 void ConfigurationParser::configured(std::vector<Configured>& to) {
@@ -307,7 +307,7 @@ bool ConfigurationParser::configured(Configured& out) {
     return false;
   }
   out.address = place.address;
-  auto spec = in_.expect(":", "behind the name, before the type") ? declarations_.type() : std::nullopt;
+  auto spec = in_.expect(":", "after the name, before the type") ? declarations_.type() : std::nullopt;
   if (!spec) {
     return false;
   }
@@ -318,7 +318,7 @@ bool ConfigurationParser::configured(Configured& out) {
       return false;
     }
   }
-  return in_.expect_end("behind the variable");
+  return in_.expect_end("after the variable");
 }
 
 }  // namespace indurop::plc::st

@@ -167,7 +167,7 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
   if (!names(block, found)) {
     return false;
   }
-  auto spec = in_.expect(":", "behind the name, before the type") ? type() : std::nullopt;
+  auto spec = in_.expect(":", "after the name, before the type") ? type() : std::nullopt;
   if (!spec) {
     return broken(found, to);
   }
@@ -189,7 +189,7 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
       return broken(found, to);
     }
   }
-  if (!in_.expect_end("behind the declaration")) {
+  if (!in_.expect_end("after the declaration")) {
     return broken(found, to);
   }
   const std::string text = comment(first, before);
@@ -207,7 +207,7 @@ bool DeclarationParser::address(ast::Variable& out) {
   out.address = in_.peek().kind == TokenKind::Address ? address_literal(in_.peek().text) : std::nullopt;
   if (!out.address) {
     in_.error(in_.peek(),
-              fmt::format("expected an address as %IX0.3 behind AT, found {}", TokenReader::spelled(in_.peek())));
+              fmt::format("expected an address as %IX0.3 after AT, found {}", TokenReader::spelled(in_.peek())));
     return false;
   }
   in_.take();
@@ -250,7 +250,7 @@ bool DeclarationParser::one_type(std::vector<ast::TypeDeclaration>& to) {
     }
     base = std::make_shared<ast::TypeSpec>(std::move(*named));
   }
-  if (!in_.expect(":", "behind the type's name")) {
+  if (!in_.expect(":", "after the type's name")) {
     return false;
   }
   auto spec = type();
@@ -269,7 +269,7 @@ bool DeclarationParser::one_type(std::vector<ast::TypeDeclaration>& to) {
     }
   }
   // After END_STRUCT the ';' is often omitted.
-  const bool closed = in_.accept(";") || spec->kind == ast::TypeSpec::Kind::Struct || in_.expect_end("behind the type");
+  const bool closed = in_.accept(";") || spec->kind == ast::TypeSpec::Kind::Struct || in_.expect_end("after the type");
   out.type = std::move(*spec);
   out.comment = comment(first, before);
   to.push_back(std::move(out));

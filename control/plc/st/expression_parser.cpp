@@ -173,7 +173,7 @@ std::optional<Expression> ExpressionParser::typed() {
     out.value_enum = token.text.substr(0, hash);
     out.name = token.text.substr(hash + 1);
     if (out.name.empty() || (out.name[0] >= '0' && out.name[0] <= '9')) {
-      in_.error(token, fmt::format("'{}' is not an elementary type, and no value of an enumeration stands behind '#'",
+      in_.error(token, fmt::format("'{}' is not an elementary type, and there is no value of an enumeration after '#'",
                                    out.value_enum));
       return std::nullopt;
     }
@@ -258,7 +258,7 @@ bool ExpressionParser::member(Expression& base) {
   unsigned bit = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), bit);
   if (error != std::errc() || end != digits.data() + digits.size()) {
-    in_.error(token, fmt::format("expected a name or a bit number behind '.', found {}", TokenReader::spelled(token)));
+    in_.error(token, fmt::format("expected a name or a bit number after '.', found {}", TokenReader::spelled(token)));
     return false;
   }
   base = make::wrapped(Expression::Kind::Bit, std::move(base));
@@ -304,7 +304,7 @@ bool ExpressionParser::argument_list(std::vector<ast::Argument>& to) {
   }
   do {
     if (!to.empty() && in_.peek().is(")")) {  // as TwinCAT lets it pass
-      in_.warning(in_.here(), "no value stands behind the last ','");
+      in_.warning(in_.here(), "there is no value after the last ','");
       break;
     }
     auto one = argument();

@@ -69,7 +69,7 @@ std::optional<ast::InitialElement> ExpressionParser::array_element() {
     }
   }
   auto value = initial(false);
-  if (!value || (counted && !in_.expect(")", "behind the repeated value"))) {
+  if (!value || (counted && !in_.expect(")", "after the repeated value"))) {
     return std::nullopt;
   }
   out.value = std::move(*value);
@@ -89,7 +89,7 @@ std::optional<ast::Initial> ExpressionParser::struct_initial() {
       return std::nullopt;
     }
     element.field = in_.take().text;
-    auto value = in_.expect(":=", "behind the field's name") ? initial(false) : std::nullopt;
+    auto value = in_.expect(":=", "after the field's name") ? initial(false) : std::nullopt;
     if (!value) {
       return std::nullopt;
     }

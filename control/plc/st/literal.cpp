@@ -90,7 +90,7 @@ Literal typed_number(Elementary type, std::string_view text, std::string_view wh
     text.remove_prefix(1);
   }
   if (text.empty() || !is_digit(text.front())) {
-    return wrong(fmt::format("'{}' is not a value of {}, write a number behind '#'", whole, name_of(type)));
+    return wrong(fmt::format("'{}' is not a value of {}, write a number after '#'", whole, name_of(type)));
   }
   Literal out = number_literal(text);
   if (!out.value) {

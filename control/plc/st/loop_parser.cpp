@@ -50,11 +50,11 @@ bool StatementParser::for_header(Statement& out) {
     return false;
   }
   out.target = expressions_.designator();
-  if (!out.target || !in_.expect(":=", "behind the loop's variable")) {
+  if (!out.target || !in_.expect(":=", "after the loop's variable")) {
     return false;
   }
   out.value = expressions_.expression();
-  if (!out.value || !in_.expect("TO", "behind the first value")) {
+  if (!out.value || !in_.expect("TO", "after the first value")) {
     return false;
   }
   out.to = expressions_.expression();
@@ -73,7 +73,7 @@ bool StatementParser::for_header(Statement& out) {
 bool StatementParser::while_statement(Statement& out) {
   out.kind = Statement::Kind::While;
   out.value = expressions_.expression();
-  if (!out.value || !in_.expect("DO", "behind the condition")) {
+  if (!out.value || !in_.expect("DO", "after the condition")) {
     return headless(out, "END_WHILE");
   }
   out.body = list({"END_WHILE"});

@@ -93,7 +93,7 @@ void ProjectParser::property(ast::Pou& to) {
   one.comment = word.comment;
   modifiers(one);
   one.at = in_.here();
-  bool ok = name(one.name, "a property") && in_.expect(":", "behind the name, before the type of the property");
+  bool ok = name(one.name, "a property") && in_.expect(":", "after the name, before the type of the property");
   if (ok) {
     one.result = declarations_.type();
     ok = one.result.has_value();
@@ -235,7 +235,7 @@ void ProjectParser::uses(ast::Pou& out) {
 void ProjectParser::using_directive(std::vector<ast::NameAt>& to) {
   constexpr std::size_t kMost = 100;
   const Token& word = in_.take();
-  static_cast<void>(names(to, "a namespace") && in_.expect_end("behind USING"));
+  static_cast<void>(names(to, "a namespace") && in_.expect_end("after USING"));
   if (to.size() > kMost) {
     in_.error(word,
               fmt::format("more than {} namespaces are used here, write their names where they are needed", kMost));

@@ -118,15 +118,15 @@ bool StatementParser::fill(Statement& out) {
   }
   if (in_.accept("EXIT")) {
     out.kind = Statement::Kind::Exit;
-    return in_.expect_end("behind EXIT");
+    return in_.expect_end("after EXIT");
   }
   if (in_.accept("CONTINUE")) {
     out.kind = Statement::Kind::Continue;
-    return in_.expect_end("behind CONTINUE");
+    return in_.expect_end("after CONTINUE");
   }
   if (in_.accept("RETURN")) {
     out.kind = Statement::Kind::Return;
-    return in_.expect_end("behind RETURN");
+    return in_.expect_end("after RETURN");
   }
   if (in_.accept("JMP")) {
     out.kind = Statement::Kind::Jump;
@@ -134,7 +134,7 @@ bool StatementParser::fill(Statement& out) {
       return false;
     }
     out.label = in_.take().text;
-    return in_.expect_end("behind the label");
+    return in_.expect_end("after the label");
   }
   return simple(out);
 }
@@ -159,7 +159,7 @@ bool StatementParser::simple(Statement& out) {
   if (target->kind == ast::Expression::Kind::Call) {
     out.kind = Statement::Kind::Call;
     out.value = std::move(target);
-    return in_.expect_end("behind the call");
+    return in_.expect_end("after the call");
   }
   if (in_.peek().is("=")) {
     in_.error(in_.peek(), "'=' compares, write ':=' to assign");
@@ -175,14 +175,14 @@ bool StatementParser::simple(Statement& out) {
     out.binds = true;
     out.target = std::move(target);
     out.value = expressions_.expression();
-    return out.value && in_.expect_end("behind the variable");
+    return out.value && in_.expect_end("after the variable");
   }
   if (in_.accept("?=")) {
     out.kind = Statement::Kind::Assign;
     out.attempts = true;
     out.target = std::move(target);
     out.value = expressions_.expression();
-    return out.value && in_.expect_end("behind the variable");
+    return out.value && in_.expect_end("after the variable");
   }
   const bool can_be_property =
       target->kind == ast::Expression::Kind::Name || target->kind == ast::Expression::Kind::Member;
@@ -214,7 +214,7 @@ bool StatementParser::set_or_reset(ast::Expression target, Statement& out) {
   made.at = out.at;
   made.comment = std::move(out.comment);
   out = std::move(made);
-  return in_.expect_end("behind the value");
+  return in_.expect_end("after the value");
 }
 
 // a := b := c; is b := c; a := b;
@@ -242,7 +242,7 @@ bool StatementParser::assignment(ast::Expression target, Statement& out) {
   out.kind = Statement::Kind::Assign;
   out.target = std::move(targets.front());
   out.value = std::move(value);
-  return in_.expect_end("behind the value");
+  return in_.expect_end("after the value");
 }
 
 bool StatementParser::if_statement(Statement& out) {
@@ -252,7 +252,7 @@ bool StatementParser::if_statement(Statement& out) {
     ast::Branch branch;
     branch.at = in_.here();
     branch.condition = expressions_.expression();
-    if (!branch.condition || !in_.expect("THEN", "behind the condition")) {
+    if (!branch.condition || !in_.expect("THEN", "after the condition")) {
       skip_header("THEN");
     }
     branch.body = list({"ELSIF", "ELSE", "END_IF"});
@@ -271,7 +271,7 @@ bool StatementParser::if_statement(Statement& out) {
 bool StatementParser::case_statement(Statement& out) {
   out.kind = Statement::Kind::Case;
   out.value = expressions_.expression();
-  if (!out.value || !in_.expect("OF", "behind the value")) {
+  if (!out.value || !in_.expect("OF", "after the value")) {
     return false;
   }
   while (!in_.next_is({"ELSE", "END_CASE"}) && !in_.at_end() && !TokenReader::is_end_word(in_.peek())) {
@@ -314,7 +314,7 @@ bool StatementParser::labels(ast::Branch& out) {
     }
     out.labels.push_back(std::move(label));
   } while (in_.accept(","));
-  return in_.expect(":", "behind the values of this case");
+  return in_.expect(":", "after the values of this case");
 }
 
 // Returns whether values and a ':' are next, not a statement: a statement has a ':=' or ends before the ':'.

@@ -70,7 +70,7 @@ bool DeclarationParser::named(ast::TypeSpec& out) {
   in_.take();
   out.kind = ast::TypeSpec::Kind::Subrange;
   out.range.emplace();
-  return dimension(*out.range) && in_.expect(")", "behind the range");
+  return dimension(*out.range) && in_.expect(")", "after the range");
 }
 
 // Motor(5, speed := 3); of elements of an array also Motor[(1), (2)]
@@ -90,7 +90,7 @@ bool DeclarationParser::starts(ast::TypeSpec& out) {
     }
     out.starts.push_back(std::move(*arguments));
   } while (several && in_.accept(","));
-  return !several || in_.expect("]", "behind what FB_Init is given");
+  return !several || in_.expect("]", "after what FB_Init is given");
 }
 
 bool DeclarationParser::string_length(ast::TypeSpec& out) {
@@ -101,7 +101,7 @@ bool DeclarationParser::string_length(ast::TypeSpec& out) {
   }
   in_.take();
   out.length = expressions_.expression();
-  return out.length && in_.expect(square ? "]" : ")", "behind the length");
+  return out.length && in_.expect(square ? "]" : ")", "after the length");
 }
 
 bool DeclarationParser::dimension(ast::Dimension& out) {
@@ -135,7 +135,7 @@ bool DeclarationParser::pointer(ast::TypeSpec& out) {
 
 bool DeclarationParser::array(ast::TypeSpec& out) {
   out.kind = ast::TypeSpec::Kind::Array;
-  if (!in_.expect("[", "behind ARRAY")) {
+  if (!in_.expect("[", "after ARRAY")) {
     return false;
   }
   do {
@@ -152,7 +152,7 @@ bool DeclarationParser::array(ast::TypeSpec& out) {
       return false;
     }
   } while (in_.accept(","));
-  if (!in_.expect("]", "behind the bounds") || !in_.expect("OF", "before the type of the elements")) {
+  if (!in_.expect("]", "after the bounds") || !in_.expect("OF", "before the type of the elements")) {
     return false;
   }
   auto element = type();
@@ -195,7 +195,7 @@ bool DeclarationParser::enumeration(ast::TypeSpec& out) {
     }
     out.values.push_back(std::move(one));
   } while (in_.accept(","));
-  if (!in_.expect(")", "behind the last value")) {
+  if (!in_.expect(")", "after the last value")) {
     return false;
   }
   // (A, B) INT, as written by some editors

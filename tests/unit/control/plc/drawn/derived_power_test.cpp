@@ -30,7 +30,7 @@ Element element(Kind kind, std::uint64_t id, const std::string& text, const std:
   return made;
 }
 
-// A rung of contacts and coils in a row; with `more` behind the last of them.
+// A rung of contacts and coils in a row; with `more` after the last of them.
 std::set<std::string> derived(const std::vector<std::pair<Kind, std::string>>& row,
                               const std::vector<Element>& more = {}) {
   network::Body body;
@@ -80,7 +80,7 @@ TEST(PlcDerivedPower, Nothing_is_derived_where_networks_are_jumped_over) {
   EXPECT_EQ(derived({{Kind::Contact, "a"}, {Kind::Coil, "d"}}, {element(Kind::Return, 9, "", {2})}), Names{});
 }
 
-TEST(PlcDerivedPower, Behind_an_edge_or_a_block_it_is_told) {
+TEST(PlcDerivedPower, After_an_edge_or_a_block_it_is_told) {
   Element edge = element(Kind::Contact, 9, "b", {2});
   edge.edge = ast::Edge::Rising;
   EXPECT_EQ(derived({{Kind::Contact, "a"}}, {edge, element(Kind::Coil, 10, "d", {9})}), (Names{"a", "d"}));

@@ -26,7 +26,7 @@ TEST(PlcMistakes, A_mistake_in_the_text_is_said_once) {
   };
   const std::string head = "PROGRAM Main VAR i : INT; s : STRING; END_VAR\n";
   for (const auto& [text, message] : {
-           Row{"FOR i = 1 TO 10 DO\ni := 3;\nEND_FOR;\n", "expected ':=' behind the loop's variable"},
+           Row{"FOR i = 1 TO 10 DO\ni := 3;\nEND_FOR;\n", "expected ':=' after the loop's variable"},
            Row{"FOR i := 1 TO 10\ni := 3;\nEND_FOR;\n", "expected 'DO'"},
            Row{"WHILE i < DO\ni := 3;\nEND_WHILE;\n", "expected a value"},
            Row{"IF i = THEN\ni := 3;\nELSE\ni := 4;\nEND_IF;\n", "expected a value"},
@@ -161,7 +161,7 @@ TEST(PlcMistakes, One_mistake_is_one_message) {
                "expected the name of a variable, found 'IF', which is a word of the language"},
            Row{"PROGRAM Main VAR a, b : INT; END_VAR\nIF a = 1 THAN\nb := 2;\nELSIF a = 2 THEN\nb := 3;\nEND_IF;\n"
                "b := 4;\nEND_PROGRAM",
-               "expected 'THEN' behind the condition, found 'THAN'"},
+               "expected 'THEN' after the condition, found 'THAN'"},
            Row{"TYPE U : UNION a : BOOL; b : INT; END_UNION END_TYPE PROGRAM Main VAR u : U; END_VAR u.b := 3; "
                "END_PROGRAM",
                "a UNION has no BOOL"},

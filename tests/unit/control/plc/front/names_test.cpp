@@ -135,7 +135,7 @@ TEST(PlcNames, What_is_in_a_namespace_is_not_hidden_by_a_variable_of_the_same_na
   }
   EXPECT_THAT(wrong("NAMESPACE Lib FUNCTION F : INT F := 1; END_FUNCTION END_NAMESPACE "
                     "PROGRAM Main VAR F : TON; x : INT; END_VAR F(); x := Lib.F(); END_PROGRAM"),
-              HasSubstr("'Lib.F' and the variable 'F' cannot be told apart here"));
+              HasSubstr("'Lib.F' and the variable 'F' cannot be distinguished here"));
 }
 
 }  // namespace

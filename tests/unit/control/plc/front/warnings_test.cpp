@@ -148,11 +148,11 @@ TEST(PlcWarnings, An_input_that_its_block_writes) {
       << "in a function it is one more variable";
 }
 
-TEST(PlcWarnings, A_comma_behind_the_last_value_of_a_call) {
+TEST(PlcWarnings, A_comma_after_the_last_value_of_a_call) {
   const Compiled sut =
       compiled("PROGRAM Main VAR t : TON; i : INT; END_VAR t(IN := TRUE, PT := T#1s,); i := ABS(i,); END_PROGRAM");
   EXPECT_TRUE(sut.ok) << messages(sut);
-  EXPECT_THAT(messages(sut), HasSubstr("no value stands behind the last ','"));
+  EXPECT_THAT(messages(sut), HasSubstr("there is no value after the last ','"));
 }
 
 TEST(PlcWarnings, An_empty_body) {

@@ -48,7 +48,7 @@ TEST(PlcWatch, Every_variable_that_stays_has_its_place_also_inside_of_instances)
   const WatchLayout& sut = plan.layouts.front();
   std::size_t next = 8;
   for (const WatchedVariable& one : sut.variables) {
-    EXPECT_EQ(one.offset, next) << one.path << ": without gaps, behind the mark";
+    EXPECT_EQ(one.offset, next) << one.path << ": without gaps, after the mark";
     next += packed_size(*one.type);
   }
   EXPECT_EQ(sut.bytes, next);

@@ -113,8 +113,8 @@ TEST(PlcText, Joined_texts_are_texts_for_every_function) {
   EXPECT_EQ(to<std::int32_t>(concat(WString<1>(u"4"), WString<1>(u"2"))), 42);
 }
 
-// The bytes behind a text are compared and recorded with it.
-TEST(PlcText, What_lies_behind_an_assigned_text_is_zero) {
+// The bytes after a text are compared and recorded with it.
+TEST(PlcText, What_lies_after_an_assigned_text_is_zero) {
   String<10> text("0123456789");
   text = String<10>(concat(String<3>("abc"), String<20>("")));
   for (std::size_t i = 3; i < sizeof text.data; ++i) {
