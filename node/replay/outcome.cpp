@@ -15,8 +15,8 @@ constexpr std::size_t kShown = 10;
 
 // Shortens the value of a struct or an array, so that a line holds two.
 std::string shortened(const std::string& value) {
-  constexpr std::size_t kMost = 40;
-  return value.size() <= kMost ? value : value.substr(0, kMost - 3) + "...";
+  constexpr std::size_t kMaxColumns = 40;
+  return value.size() <= kMaxColumns ? value : value.substr(0, kMaxColumns - 3) + "...";
 }
 
 std::string ticks_to_compare(const config::Replay& replay) {
@@ -27,7 +27,7 @@ std::string ticks_to_compare(const config::Replay& replay) {
 }  // namespace
 
 // Reports each variable, in the order in which they began to differ.
-void Replay::tell_differences() {
+void Replay::report_differences() {
   struct Line {
     const Known* known;
     std::string name;
@@ -57,7 +57,7 @@ void Replay::tell_differences() {
 }
 
 // Returns false if something could not be compared that ran in the recording.
-bool Replay::tell_left_out() {
+bool Replay::report_left_out() {
   bool whole = true;
   for (std::size_t i = 0; i < modules_.size(); ++i) {
     const Module& module = *modules_[i];
@@ -65,18 +65,18 @@ bool Replay::tell_left_out() {
     const auto written = [](const Known& known) { return known.written; };
     const auto compared = [](const Known& known) { return known.written && known.ever_compared; };
     if (module.left_out > 0) {
-      console_.error("{} runs of {} could not be repeated: the recording does not tell what it reads, {}",
+      console_.error("{} runs of {} could not be repeated: the recording has no values of its inputs ({})",
                      module.left_out, name, module.unknown_inputs);
       whole = false;
     } else if (module.repeated > 0 && !module.apart && !module.faulted_alike &&
                std::any_of(module.known.begin(), module.known.end(), written) &&
                std::none_of(module.known.begin(), module.known.end(), compared)) {
-      console_.error("{} runs of {} were repeated, but not compared: the recording does not tell what it wrote",
+      console_.error("{} runs of {} were repeated, but not compared: the recording has no values of its outputs",
                      module.repeated, name);
       whole = false;
     }
     if (module.too_early > 0) {
-      fmt::print("{} of {} runs of {} were not repeated: not all of what they began with is told before them\n",
+      fmt::print("{} of {} runs of {} were not repeated: not all of their inputs were recorded before them\n",
                  module.too_early, module.seen, name);
     }
     if (const std::uint64_t waited = module.kept.waited(); waited > 0) {
@@ -97,18 +97,18 @@ Ending Replay::conclude() {
     disturbed += module->disturbed_runs;
   }
   if (disturbed > 0) {
-    fmt::print("what {} of the runs read changed while they ran: {} of their values differ, which says nothing\n",
+    fmt::print("the inputs of {} runs changed while they ran: {} of their values differ, which proves nothing\n",
                disturbed, unclear_);
   }
   for (const auto& [name, values] : forced_) {
     fmt::print("{} values of {} were not compared: it was forced\n", values, name);
   }
-  const bool whole = tell_left_out() && !output_failed_ && !damaged_;
+  const bool whole = report_left_out() && !output_failed_ && !damaged_;
   if (runs_ == 0) {
     console_.error(
         "{} holds no run of these modules{}: nothing was compared{}", options_.replay.file.string(),
         ticks_to_compare(options_.replay),
-        closed_ ? "" : "; its recorder ended before it had written the first runs, which it does each second");
+        closed_ ? "" : "; its recorder ended before it had written the first runs, which it does once a second");
     return {kFailed, "the recording cannot be replayed"};
   }
   const std::uint64_t ticks = ticks_ - std::min(ticks_, options_.replay.from_tick);
@@ -117,7 +117,7 @@ Ending Replay::conclude() {
     return whole ? Ending{kOk, "end of the recording"} : Ending{kFailed, "the recording was not replayed as a whole"};
   }
   fmt::print("{} ticks, {} runs, {} values: {} differ\n", ticks, runs_, values_, differences_);
-  tell_differences();
+  report_differences();
   return {kCheckFailed, "the replay differs from the recording"};
 }
 

@@ -148,10 +148,10 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
   if (!any) {
     console_.error("no module of {} can run again", options_.replay.file.string());
   }
-  tell_of_conditions();
-  tell_of_format(recorded);
+  warn_about_conditions();
+  warn_about_format(recorded);
   const explain::Facts facts = recorded.facts();
-  tell_of_schedule(facts);
+  warn_about_schedule(facts);
   forced_then_ = ForcedThen(facts.orders);
   return any;
 }
@@ -164,12 +164,12 @@ bool Replay::begin(const RecordedRuns& recorded) {
     return module->runs && module->state.task.type == ModuleType::Process;
   });
   if (processes) {
-    auto retold = tape::ReplayInputWriter::create(options_.node, run_.node_pid.load());
-    if (!retold) {
-      console_.error("what runs of processes were told cannot be given to them: {}", describe(retold.error()));
+    auto input = tape::ReplayInputWriter::create(options_.node, run_.node_pid.load());
+    if (!input) {
+      console_.error("the recorded inputs cannot be passed to process modules: {}", describe(input.error()));
       return false;
     }
-    retold_.emplace(std::move(retold).value());
+    replay_input_.emplace(std::move(input).value());
   }
   for (const std::string& name : recorded.unknown_variables()) {
     console_.warning("{} of the recording is not in this configuration", name);
@@ -181,7 +181,7 @@ bool Replay::begin(const RecordedRuns& recorded) {
   return true;
 }
 
-std::vector<tape::ReplayedAnswer> Replay::Module::told() const {
+std::vector<tape::ReplayedAnswer> Replay::Module::replayed_answers() const {
   std::vector<tape::ReplayedAnswer> all;
   for (std::size_t i = 0; i < codes.size(); ++i) {
     all.push_back({codes[i], answers[i]});
@@ -205,7 +205,7 @@ bool Replay::can_repeat(Module& module, const recorder::RunWords& run) {
   return next != ReplayedMemory::Next::Wait;
 }
 
-bool Replay::run_again(const recorder::RunWords& run) {
+bool Replay::replay_run(const recorder::RunWords& run) {
   if (run.tail.tick > options_.replay.to_tick) {
     return true;
   }
@@ -222,18 +222,18 @@ bool Replay::run_again(const recorder::RunWords& run) {
     module.left_out += module.unknown_inputs.empty() ? 0U : 1U;
     return true;
   }
-  module.anew = module.anew || run.anew;
+  module.restart_due = module.restart_due || run.anew;
   const bool can = can_repeat(module, run);
-  const bool going_on = !can || repeat(module, index, run);
+  const bool can_continue = !can || repeat(module, index, run);
   module.clock.clear();
   module.codes.clear();
   module.answers.clear();
-  take_what_was_left(module);
+  take_recorded_outputs(module);
   ++module.seen;
-  if (can && going_on && is_wanted(run.tail.tick)) {
+  if (can && can_continue && is_wanted(run.tail.tick)) {
     compare(module, index, run);
   }
-  return going_on;
+  return can_continue;
 }
 
 // Returns false if the replay cannot continue.
@@ -243,8 +243,8 @@ bool Replay::repeat(Module& module, std::uint32_t index, const recorder::RunWord
   // A module that polls the clock waits for a time: after its recorded clock readings, that time has come.
   kernel_.set(module.clock.size() < std::size_t{tape::kMaxReadings} ? run.tail.start_ns : run.tail.end_ns);
   give_inputs(module);
-  if (std::exchange(module.anew, false)) {
-    if (!start_anew(module, index)) {
+  if (std::exchange(module.restart_due, false)) {
+    if (!restart(module, index)) {
       return false;
     }
     give_inputs(module);  // its start may have written variables
@@ -256,7 +256,7 @@ bool Replay::repeat(Module& module, std::uint32_t index, const recorder::RunWord
     run_process(module, index, run.tail);
   } else {
     scheduler::TaskState* state = &module.state;
-    const std::vector<tape::ReplayedAnswer> answers = module.told();
+    const std::vector<tape::ReplayedAnswer> answers = module.replayed_answers();
     runtime::set_clock_readings(module.clock);
     runtime::set_answers(answers);
     runner_.run({&state, 1}, run.tail.tick, rt::mono_time(run.tail.release_ns));
@@ -320,10 +320,10 @@ bool Replay::replay(RecordedRuns& recorded) {
       if (const std::uint32_t index = configured(clock->module); index != kNoSuchModule) {
         modules_[index]->clock.push_back(clock->now_ns);
       }
-    } else if (const auto* told = std::get_if<RecordedTold>(&**item); told != nullptr) {
-      if (const std::uint32_t index = configured(told->module); index != kNoSuchModule) {
-        modules_[index]->codes.push_back(told->words.code);
-        modules_[index]->answers.emplace_back(told->words.bytes.begin(), told->words.bytes.end());
+    } else if (const auto* answer = std::get_if<RecordedAnswer>(&**item); answer != nullptr) {
+      if (const std::uint32_t index = configured(answer->module); index != kNoSuchModule) {
+        modules_[index]->codes.push_back(answer->words.code);
+        modules_[index]->answers.emplace_back(answer->words.bytes.begin(), answer->words.bytes.end());
       }
     } else if (const auto* keyframe = std::get_if<RecordedKeyframe>(&**item); keyframe != nullptr) {
       if (const std::uint32_t index = configured(keyframe->module); index != kNoSuchModule) {
@@ -334,7 +334,7 @@ bool Replay::replay(RecordedRuns& recorded) {
       if (!(first || start()) || !take(*value)) {
         return false;
       }
-    } else if (!start() || !run_again(std::get<RecordedRun>(**item).words)) {
+    } else if (!start() || !replay_run(std::get<RecordedRun>(**item).words)) {
       return false;
     }
     console_.print_messages(rt::MonoClock::now());

@@ -22,7 +22,7 @@
 #include "node/run/phases.h"
 #include "node/run/prepared.h"
 #include "scheduler/runner.h"
-#include "store/tape/retold.h"
+#include "store/tape/replay_input.h"
 
 namespace indurop::node {
 
@@ -57,10 +57,10 @@ class Replay {
     std::uint32_t variable = 0;
     bool read = false;
     bool written = false;
-    bool told = false;
-    bool ever_told = false;  // anywhere in the recording
+    bool has_value = false;
+    bool ever_recorded = false;  // anywhere in the recording
     bool ever_compared = false;
-    std::uint64_t told_run = 0;  // run (Module::seen) in which it was recorded last
+    std::uint64_t recorded_run = 0;  // run (Module::seen) in which it was recorded last
     std::vector<std::uint8_t> cdr;
     std::vector<std::uint8_t> bytes;
     std::uint64_t compared = 0;   // runs whose value was compared because their inputs were the same
@@ -86,20 +86,20 @@ class Replay {
     std::uint64_t repeated = 0;
     std::uint64_t seen = 0;  // runs in the recording
     std::vector<Known> known;
-    std::vector<Left> left;           // of the run being read
+    std::vector<Left> left;           // outputs of the run being read
     std::vector<std::int64_t> clock;  // clock readings of that run
-    std::vector<std::int64_t> codes;  // by functions and channels, of that run
+    std::vector<std::int64_t> codes;  // returned by functions and channels in that run
     std::vector<std::vector<std::uint8_t>> answers;
-    [[nodiscard]] std::vector<tape::ReplayedAnswer> told() const;
+    [[nodiscard]] std::vector<tape::ReplayedAnswer> replayed_answers() const;
     std::map<std::uint32_t, std::size_t> place;  // of a variable in `known`
     scheduler::TaskState state;
     std::uint64_t count = 0;
     std::uint64_t next_number = 0;
     ReplayedMemory kept;
-    bool anew = false;       // it must be restarted before it runs again
-    bool restores = false;   // its keyframe is put back before this run
-    bool died = false;       // its process ended
-    bool disturbed = false;  // its inputs were changed while it ran
+    bool restart_due = false;  // it must be restarted before it runs again
+    bool restores = false;     // its keyframe is put back before this run
+    bool died = false;         // its process ended
+    bool disturbed = false;    // its inputs were changed while it ran
     std::uint64_t disturbed_runs = 0;
     bool faulted_alike = false;
     bool apart = false;  // it faulted only in the replay or only in the recording
@@ -107,39 +107,39 @@ class Replay {
 
   [[nodiscard]] std::uint32_t configured(std::uint32_t recorded) const noexcept;
   bool choose_modules(const RecordedRuns& recorded);
-  void tell_of_conditions() const;
-  void tell_of_format(const RecordedRuns& recorded) const;
-  void tell_of_schedule(const explain::Facts& facts) const;
+  void warn_about_conditions() const;
+  void warn_about_format(const RecordedRuns& recorded) const;
+  void warn_about_schedule(const explain::Facts& facts) const;
   void look_ahead();
   void find_keyframes_to_begin_at();
   [[nodiscard]] bool is_wanted(std::uint64_t tick) const noexcept { return tick >= options_.replay.from_tick; }
-  bool learn_early(const RecordedValue& value, Module& module, bool behind_a_gap) const;
+  bool learn_early(const RecordedValue& value, Module& module, bool after_a_gap) const;
   void leave_out_if_unknown(Module& module, const std::string& name);
   bool begin(const RecordedRuns& recorded);
   bool take(const RecordedValue& value);
   bool start_modules();
   bool replay(RecordedRuns& recorded);
-  bool run_again(const recorder::RunWords& run);
+  bool replay_run(const recorder::RunWords& run);
   bool can_repeat(Module& module, const recorder::RunWords& run);
   void doubt(Module& module, std::uint64_t tick);
   bool repeat(Module& module, std::uint32_t index, const recorder::RunWords& run);
   void restore(Module& module);
-  bool start_anew(Module& module, std::uint32_t index);
+  bool restart(Module& module, std::uint32_t index);
   bool restart_process(std::uint32_t index);
   bool call(std::uint32_t index, const char* phase, void (*function)());
   void run_process(Module& module, std::uint32_t index, const tape::RunTail& tail);
   [[nodiscard]] static bool knows_inputs(const Module& module) noexcept;
   static void forget(Module& module) noexcept;
   void give_inputs(Module& module);
-  void take_what_was_left(Module& module);
+  void take_recorded_outputs(Module& module);
   void compare(Module& module, std::uint32_t index, const recorder::RunWords& run);
   void differs(Module& module, std::uint32_t index, Known& known, std::uint64_t tick,
                const std::vector<std::uint8_t>& now);
   void close_output();
-  void put_out(std::uint32_t index, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns);
+  void write_output(std::uint32_t index, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns);
   Ending conclude();
-  bool tell_left_out();
-  void tell_differences();
+  bool report_left_out();
+  void report_differences();
   scheduler::Hooks hooks();
   scheduler::Hooks run_hooks();
   [[nodiscard]] const schema::Variable& variable(std::uint32_t index) const;
@@ -156,9 +156,9 @@ class Replay {
   scheduler::Runner runner_;
   Phases phases_;
   Processes processes_;
-  std::optional<tape::ReplayInputWriter> retold_;  // to processes, if there are any
-  std::vector<std::unique_ptr<Module>> modules_;   // as in the configuration
-  std::vector<std::uint32_t> of_recording_;        // index of each module of the recording; kNoSuchModule: none
+  std::optional<tape::ReplayInputWriter> replay_input_;  // for process modules, if there are any
+  std::vector<std::unique_ptr<Module>> modules_;         // as in the configuration
+  std::vector<std::uint32_t> of_recording_;              // index of each module of the recording; kNoSuchModule: none
   std::int64_t real_minus_node_ns_ = 0;
   std::optional<ReplayOutput> output_;
   bool output_failed_ = false;

@@ -288,7 +288,7 @@ class Functions(Sample):
 
     def test_retired_word_in_a_name_and_in_a_message(self):
         self.put("core/rt/a.cpp", HEAD + 'int let_go();\nint LetGo();\nauto text = "nobody reads";\nint outlet_gone;\n')
-        self.put("control/plc/a.cpp", HEAD + "int let_go();\n")  # a room that is not finished
+        self.put("tools/cli/a.cpp", HEAD + "int let_go();\n")  # a room that is not finished
         found = list(check_text.words(self.root))
         self.assertEqual([one.split(":")[0] for one in found], ["core/rt/a.cpp"] * 3)
 

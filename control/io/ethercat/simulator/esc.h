@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controller chip of a simulated slave: registers and memory as a master reaches them, with SyncManagers, FMMUs,
-// the EEPROM interface and the distributed clock. What the device after it does is in slave.h.
+// the EEPROM interface and the distributed clock. What its application does is in slave.h.
 
 #pragma once
 
@@ -50,7 +50,7 @@ class Esc {
   // A write to the receive times passed the processing unit, and came back through the next port.
   void latch_receive_times(Time in, Time back) noexcept;
 
-  // Access of the device after.
+  // Access by the application of the device.
   [[nodiscard]] std::uint8_t at(std::size_t offset) const noexcept { return memory_[offset]; }
   template <class T>
   [[nodiscard]] T value(std::size_t offset) const noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated slave: the device after the controller chip. State machine with the checks of a real one, mailbox with
+// A simulated slave: the application of the controller chip. State machine with the checks of a real one, mailbox with
 // CoE, process data, and the faults that a script asks for. In virtual time: the same frames give the same bytes.
 
 #pragma once
