@@ -13,7 +13,7 @@ namespace indurop::c {
 namespace {
 
 constexpr std::size_t kMaxText = 1024;
-thread_local std::array<char, kMaxText> last_error{};
+thread_local std::array<char, kMaxText> last_error{};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 void keep(std::string_view text) noexcept {
   const std::size_t length = std::min(text.size(), kMaxText - 1);

@@ -68,7 +68,7 @@ irp_node::irp_node(std::string name, irp_access access, vars::Store store)
   list_names();
 }
 
-Result<irp_node*, Failure> irp_node::open(std::string name, irp_access access) {
+Result<irp_node*, Failure> irp_node::open(const std::string& name, irp_access access) {
   auto which = chosen(name);
   if (!which) {
     return std::move(which).error();

@@ -29,7 +29,7 @@ struct Found {
 
 struct irp_node {
  public:
-  static indurop::Result<irp_node*, indurop::c::Failure> open(std::string name, irp_access access);
+  static indurop::Result<irp_node*, indurop::c::Failure> open(const std::string& name, irp_access access);
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] irp_access access() const noexcept { return access_; }

@@ -14,7 +14,6 @@
 
 using indurop::Result;
 using indurop::c::Failure;
-using indurop::c::Found;
 namespace rt = indurop::rt;
 namespace tape = indurop::tape;
 

@@ -9,6 +9,7 @@
  *
  * Structs that the library fills begin with their size: `irp_variable v = IRP_VARIABLE_INIT;`. A program that was built
  * with an older header works with a newer library. */
+/* NOLINTBEGIN: the names and types are those of C */
 #ifndef INDUROP_C_H
 #define INDUROP_C_H
 
@@ -193,3 +194,4 @@ IRP_API irp_code irp_release(irp_node* node, uint32_t id, const char* reason);
 #endif
 
 #endif /* INDUROP_C_H */
+/* NOLINTEND */

@@ -62,10 +62,11 @@ inline void hand_over(const StateDescriptor& from, StateDescriptor* to) noexcept
 // The name of a type as the compiler writes it: "[T = int [4]]" or "[with T = int [4]; ...]" ends this function's own.
 template <class T>
 constexpr std::string_view type_name() noexcept {
-  constexpr std::string_view text = __PRETTY_FUNCTION__;
-  constexpr std::size_t begin = text.find("T = ") + 4;
-  constexpr std::size_t end = text.find(';', begin) != text.npos ? text.find(';', begin) : text.rfind(']');
-  return text.substr(begin, end - begin);
+  constexpr std::string_view kText = __PRETTY_FUNCTION__;
+  constexpr std::size_t kBegin = kText.find("T = ") + 4;
+  constexpr std::size_t kSemicolon = kText.find(';', kBegin);
+  constexpr std::size_t kEnd = kSemicolon != std::string_view::npos ? kSemicolon : kText.rfind(']');
+  return kText.substr(kBegin, kEnd - kBegin);
 }
 
 // Takes the first name off a list that the preprocessor wrote: "counter, filters[0]".
@@ -94,12 +95,12 @@ constexpr StateItem state_item(std::string_view& names, T& variable) noexcept {
                 "INDUROP_STATE_BY(most = ..., save = ..., restore = ...)");
   static_assert(!std::is_const_v<T>, "INDUROP_STATE: a constant is no state; leave it out");
   const std::string_view name = next_name(names);
-  constexpr std::string_view type = type_name<T>();
+  constexpr std::string_view kType = type_name<T>();
   return {
       name.data(),
       static_cast<std::uint32_t>(name.size()),
-      static_cast<std::uint32_t>(type.size()),
-      type.data(),
+      static_cast<std::uint32_t>(kType.size()),
+      kType.data(),
       const_cast<void*>(static_cast<const volatile void*>(&variable)),  // NOLINT(cppcoreguidelines-pro-type-const-cast)
       sizeof(T)};
 }

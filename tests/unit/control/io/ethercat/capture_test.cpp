@@ -2,6 +2,8 @@
 // Captures of real buses: the reader understands every frame, and the builder makes the same bytes.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "capture.h"
 #include "control/io/ethercat/frame.h"
 

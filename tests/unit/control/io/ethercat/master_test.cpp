@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "simulated_plant.h"
 #include "tests/unit/allocations.h"
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -74,12 +75,8 @@ class Plant {
     return ticks;
   }
   [[nodiscard]] bool happened(std::size_t slave, Problem problem) const {
-    for (const Event& event : events_) {
-      if (event.slave == slave && event.problem == problem) {
-        return true;
-      }
-    }
-    return false;
+    return std::any_of(events_.begin(), events_.end(),
+                       [&](const Event& event) { return event.slave == slave && event.problem == problem; });
   }
   [[nodiscard]] std::string story() const {
     std::string text;
