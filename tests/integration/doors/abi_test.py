@@ -11,7 +11,8 @@ import tempfile
 def describe(options, to):
     """What programs can see: private types are left out, and what differs between two builds."""
     subprocess.run([options.abidw, "--exported-interfaces-only", "--headers-dir", options.headers,
-                    "--drop-private-types", "--no-show-locs", "--no-corpus-path", "--no-elf-needed", "--out-file", to,
+                    "--drop-private-types", "--no-show-locs", "--no-corpus-path", "--no-comp-dir-path", "--short-locs",
+                    "--no-elf-needed", "--out-file", to,
                     options.library], check=True)
 
 
