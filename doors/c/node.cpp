@@ -5,12 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <utility>
 
 #include "core/schema/schema.h"
-#include "store/vars/node_lock.h"
+#include "store/vars/nodes.h"
 #include "store/vars/shm_file.h"
 
 using indurop::Result;
@@ -22,22 +21,15 @@ namespace schema = indurop::schema;
 namespace {
 
 Result<std::string, Failure> chosen(const std::string& asked) {
-  const char* environment = std::getenv("INDUROP_NODE");
-  const std::string named = !asked.empty() || environment == nullptr ? asked : environment;
+  const std::string named = asked.empty() ? vars::node_of_environment() : asked;
   if (!named.empty()) {
     return vars::valid_node_name(named)
                ? Result<std::string, Failure>(named)
                : Failure{IRP_INVALID, fmt::format("'{}' is not a node name: 1 to 40 of A-Z a-z 0-9 _ -", named)};
   }
-  std::vector<std::string> running = vars::list_nodes();
-  std::erase_if(running, [](const std::string& name) { return vars::running_node(name) == 0; });
-  for (const std::string& usual : {vars::default_node(), std::string("local")}) {
-    if (std::find(running.begin(), running.end(), usual) != running.end()) {
-      return usual;
-    }
-  }
-  if (running.size() == 1) {
-    return running.front();
+  const std::vector<std::string> running = vars::running_nodes();
+  if (std::string usual = vars::usual_node(running); !usual.empty()) {
+    return usual;
   }
   return running.empty()
              ? Failure{IRP_NOT_FOUND, "no node runs on this machine. Start one: indurop run module.xml"}
@@ -88,9 +80,13 @@ void irp_node::list_names() {
   std::sort(names_.begin(), names_.end());
 }
 
+Failure irp_node::changed() const {
+  return {IRP_CHANGED, fmt::format("node '{}' has other variables now; call irp_refresh()", name_)};
+}
+
 Result<const Found*, Failure> irp_node::found(std::uint32_t id) const {
   if (store_.retired()) {
-    return Failure{IRP_CHANGED, fmt::format("node '{}' has other variables now; call irp_refresh()", name_)};
+    return changed();
   }
   if (id >= found_.size()) {
     return Failure{IRP_NOT_FOUND, fmt::format("{} is not an id that irp_find() returned", id)};
@@ -105,7 +101,7 @@ Result<const Found*, Failure> irp_node::found(std::uint32_t id) const {
 
 Result<std::uint32_t, Failure> irp_node::find(const std::string& name) {
   if (store_.retired()) {
-    return Failure{IRP_CHANGED, fmt::format("node '{}' has other variables now; call irp_refresh()", name_)};
+    return changed();
   }
   auto item = indurop::operate::find(store_, name);
   if (!item) {
@@ -144,10 +140,9 @@ Result<void, Failure> irp_node::refresh() {
 
 Result<void, Failure> irp_node::running() const {
   if (store_.retired()) {
-    return Failure{IRP_CHANGED, fmt::format("node '{}' has other variables now; call irp_refresh()", name_)};
+    return changed();
   }
-  const pid_t pid = vars::running_node(name_);
-  if (pid == 0 || pid != store_.header().node_pid.load(std::memory_order_relaxed)) {
+  if (!vars::is_running(name_, store_.header())) {
     return Failure{IRP_GONE, fmt::format("node '{}' has ended", name_)};
   }
   return {};

@@ -41,6 +41,8 @@ struct irp_node {
   indurop::Result<const indurop::c::Found*, indurop::c::Failure> found(std::uint32_t id) const;
   indurop::Result<std::uint32_t, indurop::c::Failure> find(const std::string& name);
   indurop::Result<void, indurop::c::Failure> refresh();
+  // IRP_CHANGED, as an error.
+  [[nodiscard]] indurop::c::Failure changed() const;
   // Errors: IRP_GONE, IRP_CHANGED.
   [[nodiscard]] indurop::Result<void, indurop::c::Failure> running() const;
 

@@ -41,7 +41,7 @@ Result<irp_stream*, Failure> irp_stream::open(const irp_node& node, std::span<co
   }
   std::unique_ptr<irp_stream> stream(new irp_stream(node, std::move(follower).value()));
   if (stream->follower_.variables().size() != node.store().directory().size()) {
-    return Failure{IRP_CHANGED, fmt::format("node '{}' has other variables now; call irp_refresh()", node.name())};
+    return node.changed();
   }
   for (const std::uint32_t id : ids) {
     if (auto added = stream->add_column(id); !added) {

@@ -50,9 +50,9 @@ Result<void, Failure> read(const irp_node& node, const Found& found, std::span<s
   return status ? Result<void, Failure>() : failure_of(status.error(), found.item.name);
 }
 
-Result<void, Failure> writable(const irp_node& node) {
-  return node.access() == IRP_WRITE
-             ? Result<void, Failure>()
+Result<const Found*, Failure> to_change(const irp_node& node, Result<const Found*, Failure> found) {
+  return !found || node.access() == IRP_WRITE
+             ? std::move(found)
              : Failure{IRP_DENIED, fmt::format("node '{}' was opened to read; use IRP_WRITE", node.name())};
 }
 
@@ -270,12 +270,9 @@ irp_code irp_write(irp_node* node, uint32_t id, const void* from, size_t size, c
     if (node == nullptr || from == nullptr) {
       return null_argument("irp_write");
     }
-    const auto found = sized(*node, id, size);
+    const auto found = to_change(*node, sized(*node, id, size));
     if (!found) {
       return found.error();
-    }
-    if (auto allowed = writable(*node); !allowed) {
-      return allowed;
     }
     return set(*node, assignment(*node, **found, {static_cast<const std::uint8_t*>(from), size}), reason);
   });
@@ -286,12 +283,9 @@ irp_code irp_set_text(irp_node* node, uint32_t id, const char* text, const char*
     if (node == nullptr || text == nullptr) {
       return null_argument("irp_set_text");
     }
-    const auto found = node->found(id);
+    const auto found = to_change(*node, node->found(id));
     if (!found) {
       return found.error();
-    }
-    if (auto allowed = writable(*node); !allowed) {
-      return allowed;
     }
     return set(*node, assignment(*node, **found, std::string(text)), reason);
   });
@@ -302,12 +296,9 @@ irp_code irp_force(irp_node* node, uint32_t id, const void* from, size_t size, i
     if (node == nullptr || from == nullptr || for_ns < 0) {
       return Failure{IRP_INVALID, "irp_force: an argument is null, or the time is negative"};
     }
-    const auto found = sized(*node, id, size);
+    const auto found = to_change(*node, sized(*node, id, size));
     if (!found) {
       return found.error();
-    }
-    if (auto allowed = writable(*node); !allowed) {
-      return allowed;
     }
     auto made = assignment(*node, **found, {static_cast<const std::uint8_t*>(from), size});
     if (!made) {
@@ -324,12 +315,9 @@ irp_code irp_release(irp_node* node, uint32_t id, const char* reason) {
     if (node == nullptr) {
       return null_argument("irp_release");
     }
-    const auto found = node->found(id);
+    const auto found = to_change(*node, node->found(id));
     if (!found) {
       return found.error();
-    }
-    if (auto allowed = writable(*node); !allowed) {
-      return allowed;
     }
     auto released = operate::release(node->name(), node->store(), {(*found)->item}, who(reason));
     if (!released) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -115,6 +116,31 @@ bool has_node(const std::string& node, Nodes which) {
   };
   return valid_node_name(node) &&
          (is_there(block_file(node)) || (is_there(lock_file(node)) && running_node(node) != 0));
+}
+
+std::vector<std::string> running_nodes() {
+  std::vector<std::string> names = list_nodes();
+  std::erase_if(names, [](const std::string& name) { return running_node(name) == 0; });
+  return names;
+}
+
+bool is_running(const std::string& node, const BlockHeader& header) {
+  const pid_t pid = running_node(node);
+  return pid != 0 && pid == header.node_pid.load(std::memory_order_relaxed);
+}
+
+std::string node_of_environment() {
+  const char* const node = std::getenv("INDUROP_NODE");
+  return node == nullptr ? "" : node;
+}
+
+std::string usual_node(const std::vector<std::string>& names) {
+  for (const std::string& usual : {default_node(), std::string("local")}) {
+    if (std::find(names.begin(), names.end(), usual) != names.end()) {
+      return usual;
+    }
+  }
+  return names.size() == 1 ? names.front() : "";
 }
 
 Status remove_node(const std::string& node) {

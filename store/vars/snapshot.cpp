@@ -39,14 +39,12 @@ Status read_snapshot(const Store& store, std::span<const PartToRead> parts) {
     piece.size = size;
     pieces.push_back(piece);
   }
+  const Together together = read_together_in(block_of(store), pieces);
   if (store.lost()) {
     return Error{Errc::Dead, 0, "the store was truncated by a process with write access"};
   }
-  if (read_together_in(block_of(store), pieces) != Together::Yes) {
+  if (together != Together::Yes) {
     return Error{Errc::Busy, 0, "read values as they were at one moment"};
-  }
-  if (store.lost()) {
-    return Error{Errc::Dead, 0, "the store was truncated by a process with write access"};
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto* value = reinterpret_cast<const std::uint8_t*>(values[i].get());

@@ -4,13 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
 #include <optional>
 
 #include "history/explain/facts_json.h"
 #include "history/explain/questions.h"
-#include "store/vars/node_lock.h"
+#include "store/vars/nodes.h"
 #include "tools/cli/explain/gather.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/node_choice.h"
@@ -55,14 +54,12 @@ bool knows(const Facts& facts, const std::string& what) {
 // Returns the node that is asked: a chosen one; else the usual one, if it runs and knows the subject; else the only one
 // that knows it, of those that run, and of those that ended if none runs.
 Result<ChosenRun, Failure> whom(const Context& context, const std::string& what) {
-  const char* const environment = std::getenv("INDUROP_NODE");
   auto usual = open_run(context.node);
-  if (!context.node.empty() || (environment != nullptr && *environment != '\0')) {
+  if (!context.node.empty() || !vars::node_of_environment().empty()) {
     return usual;
   }
   const std::vector<std::string> all = vars::list_nodes();
-  const bool any_runs =
-      std::any_of(all.begin(), all.end(), [](const std::string& node) { return vars::running_node(node) != 0; });
+  const bool any_runs = !vars::running_nodes().empty();
   std::vector<std::string> knowing;
   for (const std::string& node : all) {
     auto run = RunView::open(node);

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/rt/clock.h"
-#include "store/vars/node_lock.h"
+#include "store/vars/nodes.h"
 #include "store/vars/store.h"
 #include "tools/cli/top/top_page.h"
 #include "tools/cli/top/top_screen.h"
@@ -25,12 +25,6 @@ struct Options {
   double seconds = 1;
   std::uint64_t count = 0;  // 0: without end
 };
-
-std::vector<std::string> running_nodes() {
-  std::vector<std::string> names = vars::list_nodes();
-  std::erase_if(names, [](const std::string& name) { return vars::running_node(name) == 0; });
-  return names;
-}
 
 class Top {
  public:
@@ -84,7 +78,7 @@ class Top {
   [[nodiscard]] std::int64_t interval_ns() const { return static_cast<std::int64_t>(options_.seconds * 1e9); }
 
   void look() {
-    look_.nodes = running_nodes();
+    look_.nodes = vars::running_nodes();
     auto run = open_run(node_);
     if (!run) {
       why_ = run.error().text;

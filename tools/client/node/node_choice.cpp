@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
 
 #include "core/rt/clock.h"
 #include "store/vars/node_lock.h"
+#include "store/vars/nodes.h"
 #include "store/vars/shm_file.h"
 #include "tools/client/node/starting_node.h"
 #include "tools/client/text/suggest.h"
@@ -23,33 +23,17 @@
 namespace indurop::tools {
 namespace {
 
-// Returns true if the store belongs to the process that runs the node.
-bool store_alive(const std::string& node, const vars::BlockHeader& header) {
-  const pid_t pid = vars::running_node(node);
-  return pid != 0 && pid == header.node_pid.load(std::memory_order_relaxed);
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-std::vector<std::string> running_nodes() {
-  std::vector<std::string> names = vars::list_nodes();
-  std::erase_if(names, [](const std::string& name) { return vars::running_node(name) == 0; });
-  return names;
-}
-
 Result<std::string, Failure> named_node(const std::string& name, const char* origin) {
   if (!vars::valid_node_name(name)) {
     return Failure{
         kUsage, fmt::format("'{}' ({}) is not a valid node name: 1 to 40 of A-Z a-z 0-9 _ -", printable(name), origin)};
   }
   while_starting([&] { return vars::running_node(name) != 0; });
-  if (contains(vars::list_nodes(vars::Nodes::All), name)) {
+  if (vars::has_node(name, vars::Nodes::All)) {
     return name;
   }
   const auto names = vars::list_nodes();
-  const auto running = running_nodes();
+  const auto running = vars::running_nodes();
   return Failure{
       kUnreachable,
       running.empty()
@@ -91,23 +75,17 @@ Result<std::string, Failure> choose_node(const std::string& asked) {
   if (!asked.empty()) {
     return named_node(asked, "--node");
   }
-  const char* environment = std::getenv("INDUROP_NODE");
-  if (environment != nullptr && *environment != '\0') {
+  if (const std::string environment = vars::node_of_environment(); !environment.empty()) {
     return named_node(environment, "$INDUROP_NODE");
   }
   std::vector<std::string> names;
   while_starting([&] {
-    names = running_nodes();
+    names = vars::running_nodes();
     return !names.empty();
   });
   names = names.empty() ? vars::list_nodes() : names;
-  for (const std::string& usual : {vars::default_node(), std::string("local")}) {
-    if (contains(names, usual)) {
-      return usual;
-    }
-  }
-  if (names.size() == 1) {
-    return names.front();
+  if (std::string usual = vars::usual_node(names); !usual.empty()) {
+    return usual;
   }
   if (names.empty()) {
     return Failure{kUnreachable,
@@ -195,7 +173,7 @@ Result<vars::Store, Failure> open_store(Access& access, vars::Mode mode, const s
   auto store = access.values->attach();
   // A node that starts under a name that was used before shows the values of the former one until its own store exists.
   while_starting([&] {
-    if (store.ok() && store_alive(*node, store->header())) {
+    if (store.ok() && vars::is_running(*node, store->header())) {
       return true;
     }
     store = access.values->attach();
@@ -232,7 +210,7 @@ Result<ChosenRun, Failure> open_run(const std::string& asked) {
 }
 
 std::string store_absence(const std::string& node, const vars::BlockHeader& header) {
-  if (store_alive(node, header)) {
+  if (vars::is_running(node, header)) {
     return {};
   }
   const std::int64_t beat = header.heartbeat_ns.load(std::memory_order_relaxed);
