@@ -5,11 +5,11 @@
 #pragma once
 
 #include <indurop/detail/abi.h>
+#include <indurop/detail/hand_over.h>
 #include <indurop/detail/mark.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 namespace indurop {
 
@@ -56,12 +56,6 @@ extern "C" {
 // NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name): the macro's cannot clash with names of a module
 [[gnu::visibility("default")]] void indurop_module_describe(indurop::ModuleDescriptor* descriptor);
 }
-
-namespace indurop::detail {
-inline void hand_over(const ModuleDescriptor& from, ModuleDescriptor* to) noexcept {
-  std::memcpy(static_cast<void*>(to), &from, to->size < from.size ? to->size : from.size);
-}
-}  // namespace indurop::detail
 
 // INDUROP_MODULE(run = &::onRun, start = &::onStart, name = "gripper") goes on one line of one source file of a thread
 // module, with or without a semicolon. In any order and all optional: run, start, stop, condition (functions;

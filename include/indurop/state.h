@@ -5,11 +5,11 @@
 #pragma once
 
 #include <indurop/detail/abi.h>
+#include <indurop/detail/hand_over.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string_view>
 #include <type_traits>
 
@@ -54,10 +54,6 @@ extern "C" {
 }
 
 namespace indurop::detail {
-
-inline void hand_over(const StateDescriptor& from, StateDescriptor* to) noexcept {
-  std::memcpy(static_cast<void*>(to), &from, to->size < from.size ? to->size : from.size);
-}
 
 // The name of a type as the compiler writes it: "[T = int [4]]" or "[with T = int [4]; ...]" ends this function's own.
 template <class T>
