@@ -27,16 +27,12 @@ Result<std::uint16_t, Problem> Recorder::keyframe_channel_of(std::uint32_t modul
   if (channel != 0) {
     return channel;
   }
-  std::uint16_t& schema = schemas_[std::string(kKeyframeIdl)];
-  if (schema == 0) {
-    auto added = writer_->add_schema(kKeyframeSchema, "omgidl", kKeyframeIdl);
-    if (!added) {
-      return added;
-    }
-    schema = *added;
+  auto schema = schema_of(kKeyframeSchema, std::string(kKeyframeIdl));
+  if (!schema) {
+    return schema;
   }
   const std::string name = module < about_.modules.size() ? about_.modules[module] : std::to_string(module);
-  auto added = writer_->add_channel(schema, prefix_ + std::string(kKeyframeTopic) + name, "cdr",
+  auto added = writer_->add_channel(*schema, prefix_ + std::string(kKeyframeTopic) + name, "cdr",
                                     {{kKeyframeForm, keyframes_.form(module)}});
   if (added) {
     channel = *added;

@@ -172,21 +172,29 @@ Result<void, Problem> Recorder::add_own_channels() {
   return clock ? add(kAnswerSchema, kAnswerIdl, kAnswerTopic, answer_channel_) : clock;
 }
 
+Result<std::uint16_t, Problem> Recorder::schema_of(std::string_view name, const std::string& idl) {
+  std::uint16_t& schema = schemas_[idl];
+  if (schema == 0) {
+    auto added = writer_->add_schema(name, "omgidl", idl);
+    if (!added) {
+      return added;
+    }
+    schema = *added;
+  }
+  return schema;
+}
+
 Result<std::uint16_t, Problem> Recorder::channel_of(std::uint32_t index) {
   if (channels_[index] != 0) {
     return channels_[index];
   }
   const schema::Variable& known = variable(index);
   const recording::OmgIdl idl = recording::omg_idl(known.type);
-  std::uint16_t& schema = schemas_[idl.text];
-  if (schema == 0) {
-    auto added = writer_->add_schema(idl.name, "omgidl", idl.text);
-    if (!added) {
-      return added;
-    }
-    schema = *added;
+  auto schema = schema_of(idl.name, idl.text);
+  if (!schema) {
+    return schema;
   }
-  auto channel = writer_->add_channel(schema, prefix_ + known.name, "cdr", metadata_of(known));
+  auto channel = writer_->add_channel(*schema, prefix_ + known.name, "cdr", metadata_of(known));
   if (channel) {
     channels_[index] = *channel;
   }

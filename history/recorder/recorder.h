@@ -116,6 +116,7 @@ class Recorder {
   Result<void, base::Problem> write_part(const tape::Run& run, std::size_t part);
   Result<void, base::Problem> write_value(const tape::Value& value, std::uint32_t module, std::int64_t time_ns,
                                           std::int64_t release_ns);
+  Result<std::uint16_t, base::Problem> schema_of(std::string_view name, const std::string& idl);
   Result<std::uint16_t, base::Problem> channel_of(std::uint32_t index);
   [[nodiscard]] bool records_inputs(std::uint32_t module) const;
   Result<std::uint16_t, base::Problem> keyframe_channel_of(std::uint32_t module);

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
+#include <cstddef>
+#include <optional>
 
 namespace indurop::recorder {
 namespace {
@@ -14,6 +15,43 @@ constexpr std::size_t kTailBytes = sizeof(tape::RunTail);
 constexpr std::size_t kOldBytes = kLittleEndian.size() + kTailBytes + sizeof(std::uint32_t) + 1;
 constexpr std::size_t kMessageBytes = kOldBytes + 1;
 constexpr std::uint32_t kKindBits = 3;
+
+void begin(std::vector<std::uint8_t>& cdr) {
+  cdr.assign(kLittleEndian.begin(), kLittleEndian.end());
+}
+
+template <class T>
+void append(const T& value, std::vector<std::uint8_t>& cdr) {
+  const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(value);
+  cdr.insert(cdr.end(), bytes.begin(), bytes.end());
+}
+
+// A sequence<octet>.
+void append_bytes(std::span<const std::uint8_t> bytes, std::vector<std::uint8_t>& cdr) {
+  append(static_cast<std::uint32_t>(bytes.size()), cdr);
+  cdr.insert(cdr.end(), bytes.begin(), bytes.end());
+}
+
+bool is_little_endian(std::span<const std::uint8_t> cdr) {
+  return cdr.size() >= kLittleEndian.size() && std::equal(kLittleEndian.begin(), kLittleEndian.end(), cdr.begin());
+}
+
+// `cdr` reaches beyond the value.
+template <class T>
+T read_at(std::span<const std::uint8_t> cdr, std::size_t offset) {
+  std::array<std::uint8_t, sizeof(T)> bytes{};
+  std::copy_n(cdr.begin() + static_cast<std::ptrdiff_t>(offset), bytes.size(), bytes.begin());
+  return std::bit_cast<T>(bytes);
+}
+
+// Returns the sequence<octet> that fills the rest of a message; nullopt: it does not.
+std::optional<std::span<const std::uint8_t>> bytes_at(std::span<const std::uint8_t> cdr, std::size_t offset) {
+  const std::size_t begin = offset + sizeof(std::uint32_t);
+  if (cdr.size() < begin || cdr.size() - begin != read_at<std::uint32_t>(cdr, offset)) {
+    return std::nullopt;
+  }
+  return cdr.subspan(begin);
+}
 
 }  // namespace
 
@@ -61,92 +99,61 @@ const std::string_view kKeyframeIdl =
     "};\n";
 
 void to_cdr(std::int64_t clock_ns, std::vector<std::uint8_t>& cdr) {
-  cdr.assign(kLittleEndian.begin(), kLittleEndian.end());
-  const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof clock_ns>>(clock_ns);
-  cdr.insert(cdr.end(), bytes.begin(), bytes.end());
+  begin(cdr);
+  append(clock_ns, cdr);
 }
 
 Result<std::int64_t> clock_from_cdr(std::span<const std::uint8_t> cdr) {
-  std::array<std::uint8_t, sizeof(std::int64_t)> bytes{};
-  if (cdr.size() != kLittleEndian.size() + bytes.size() ||
-      !std::equal(kLittleEndian.begin(), kLittleEndian.end(), cdr.begin())) {
+  if (cdr.size() != kLittleEndian.size() + sizeof(std::int64_t) || !is_little_endian(cdr)) {
     return Error{Errc::Corrupt, 0, "a time of a recording"};
   }
-  std::copy_n(cdr.begin() + kLittleEndian.size(), bytes.size(), bytes.begin());
-  return std::bit_cast<std::int64_t>(bytes);
+  return read_at<std::int64_t>(cdr, kLittleEndian.size());
 }
 
 void to_cdr(const AnswerRecord& answer, std::vector<std::uint8_t>& cdr) {
-  to_cdr(answer.code, cdr);
-  const auto length =
-      std::bit_cast<std::array<std::uint8_t, sizeof(std::uint32_t)>>(static_cast<std::uint32_t>(answer.bytes.size()));
-  cdr.insert(cdr.end(), length.begin(), length.end());
-  cdr.insert(cdr.end(), answer.bytes.begin(), answer.bytes.end());
+  begin(cdr);
+  append(answer.code, cdr);
+  append_bytes(answer.bytes, cdr);
 }
 
 Result<AnswerRecord> answer_from_cdr(std::span<const std::uint8_t> cdr) {
-  constexpr std::size_t kCodeEnd = kLittleEndian.size() + sizeof(std::int64_t);
-  std::array<std::uint8_t, sizeof(std::uint32_t)> length{};
-  const Error damaged{Errc::Corrupt, 0, "an input record of a recording"};
-  if (cdr.size() < kCodeEnd + length.size()) {
-    return damaged;
+  const auto bytes = bytes_at(cdr, kLittleEndian.size() + sizeof(std::int64_t));
+  if (!bytes || !is_little_endian(cdr)) {
+    return Error{Errc::Corrupt, 0, "an input record of a recording"};
   }
-  const auto code = clock_from_cdr(cdr.first(kCodeEnd));
-  std::copy_n(cdr.begin() + kCodeEnd, length.size(), length.begin());
-  const auto bytes = cdr.subspan(kCodeEnd + length.size());
-  if (!code || bytes.size() != std::bit_cast<std::uint32_t>(length)) {
-    return damaged;
-  }
-  return AnswerRecord{*code, bytes};
+  return AnswerRecord{read_at<std::int64_t>(cdr, kLittleEndian.size()), *bytes};
 }
 
 void to_cdr(const KeyframeRecord& keyframe, std::vector<std::uint8_t>& cdr) {
-  cdr.assign(kLittleEndian.begin(), kLittleEndian.end());
-  const auto append = [&cdr](const auto& value) {
-    const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof value>>(value);
-    cdr.insert(cdr.end(), bytes.begin(), bytes.end());
-  };
-  append(keyframe.run);
-  append(keyframe.tick);
-  append(static_cast<std::uint32_t>(keyframe.bytes.size()));
-  cdr.insert(cdr.end(), keyframe.bytes.begin(), keyframe.bytes.end());
+  begin(cdr);
+  append(keyframe.run, cdr);
+  append(keyframe.tick, cdr);
+  append_bytes(keyframe.bytes, cdr);
 }
 
 Result<KeyframeRecord> keyframe_from_cdr(std::span<const std::uint8_t> cdr) {
-  std::array<std::uint64_t, 2> numbers{};
-  std::uint32_t length = 0;
-  constexpr std::size_t kHead = kLittleEndian.size() + sizeof numbers + sizeof length;
-  if (cdr.size() < kHead || !std::equal(kLittleEndian.begin(), kLittleEndian.end(), cdr.begin())) {
+  constexpr std::size_t kTick = kLittleEndian.size() + sizeof(std::uint64_t);
+  const auto bytes = bytes_at(cdr, kTick + sizeof(std::uint64_t));
+  if (!bytes || !is_little_endian(cdr)) {
     return Error{Errc::Corrupt, 0, "a keyframe of a recording"};
   }
-  std::memcpy(numbers.data(), cdr.data() + kLittleEndian.size(), sizeof numbers);
-  std::memcpy(&length, cdr.data() + kHead - sizeof length, sizeof length);
-  if (cdr.size() - kHead != length) {
-    return Error{Errc::Corrupt, 0, "a keyframe of a recording"};
-  }
-  return KeyframeRecord{numbers[0], numbers[1], cdr.subspan(kHead)};
+  return KeyframeRecord{read_at<std::uint64_t>(cdr, kLittleEndian.size()), read_at<std::uint64_t>(cdr, kTick), *bytes};
 }
 
 void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr) {
-  cdr.assign(kLittleEndian.begin(), kLittleEndian.end());
-  const auto tail = std::bit_cast<std::array<std::uint8_t, kTailBytes>>(run.tail);
-  cdr.insert(cdr.end(), tail.begin(), tail.end());
-  const auto module = std::bit_cast<std::array<std::uint8_t, sizeof run.module>>(run.module);
-  cdr.insert(cdr.end(), module.begin(), module.end());
+  begin(cdr);
+  append(run.tail, cdr);
+  append(run.module, cdr);
   cdr.push_back(run.faulted ? 1 : 0);
   cdr.push_back(run.anew ? 1 : 0);
 }
 
 Result<RunWords> run_from_cdr(std::span<const std::uint8_t> cdr) {
-  if ((cdr.size() != kMessageBytes && cdr.size() != kOldBytes) ||
-      !std::equal(kLittleEndian.begin(), kLittleEndian.end(), cdr.begin())) {
+  if ((cdr.size() != kMessageBytes && cdr.size() != kOldBytes) || !is_little_endian(cdr)) {
     return Error{Errc::Corrupt, 0, "a run of a recording"};
   }
-  std::array<std::uint8_t, kTailBytes> tail{};
-  std::copy_n(cdr.begin() + kLittleEndian.size(), kTailBytes, tail.begin());
-  std::array<std::uint8_t, sizeof(std::uint32_t)> module{};
-  std::copy_n(cdr.begin() + kLittleEndian.size() + kTailBytes, module.size(), module.begin());
-  return RunWords{std::bit_cast<tape::RunTail>(tail), std::bit_cast<std::uint32_t>(module), cdr[kOldBytes - 1] != 0,
+  return RunWords{read_at<tape::RunTail>(cdr, kLittleEndian.size()),
+                  read_at<std::uint32_t>(cdr, kLittleEndian.size() + kTailBytes), cdr[kOldBytes - 1] != 0,
                   cdr.size() == kMessageBytes && cdr.back() != 0};
 }
 

@@ -55,8 +55,8 @@ std::optional<FormLine> next_line(std::string_view& form) {
 
 }  // namespace
 
-ModuleMemory::ModuleMemory(const StateDescriptor& declared) : declared_(true), functions_(declared) {
-  missing_ = declared.missing != nullptr ? declared.missing : "";
+ModuleMemory::ModuleMemory(const StateDescriptor& declared)
+    : declared_(true), functions_(declared), missing_(declared.missing != nullptr ? declared.missing : "") {
   const auto* at = reinterpret_cast<const std::byte*>(declared.items);
   for (std::uint32_t i = 0; i < declared.item_count; ++i, at += declared.item_size) {
     StateItem item;
@@ -68,7 +68,7 @@ ModuleMemory::ModuleMemory(const StateDescriptor& declared) : declared_(true), f
       missing_ += (missing_.empty() ? "" : ", ") + items_.back().name;
     }
   }
-  if (declared.save != nullptr && declared.restore != nullptr) {
+  if (uses_functions()) {
     form_ += fmt::format("\t{}\t{}\n", kByFunctions, declared.most);
     most_ += declared.most;
   }
@@ -80,7 +80,7 @@ std::size_t ModuleMemory::save(std::span<std::byte> to) const {
     copy_racing(to.data() + at, item.address, item.size);
     at += item.size;
   }
-  if (functions_.save == nullptr) {
+  if (!uses_functions()) {
     return at;
   }
   const std::size_t by_function = save_by_function(to.subspan(at, functions_.most));
@@ -111,10 +111,10 @@ std::size_t ModuleMemory::save_by_function(std::span<std::byte> to) const {
 std::vector<std::string> ModuleMemory::restore(std::string_view form, std::span<const std::uint8_t> bytes) const {
   std::vector<std::string> differing;
   std::vector<bool> restored(items_.size(), false);
-  bool by_function = functions_.restore == nullptr;
+  bool by_function = !uses_functions();
   while (const auto line = next_line(form)) {
     if (line->type == kByFunctions) {
-      by_function = functions_.restore != nullptr && functions_.restore(bytes.data(), bytes.size());
+      by_function = uses_functions() && functions_.restore(bytes.data(), bytes.size());
       bytes = {};
       continue;
     }

@@ -45,6 +45,9 @@ class ModuleMemory {
     void* address = nullptr;
     std::size_t size = 0;
   };
+  [[nodiscard]] bool uses_functions() const noexcept {
+    return functions_.save != nullptr && functions_.restore != nullptr;
+  }
   [[nodiscard]] std::size_t save_by_function(std::span<std::byte> to) const;
 
   bool declared_ = false;

@@ -65,9 +65,12 @@ void Replay::look_ahead() {
 
 // Each module begins at its last keyframe that comes before the first run that is wanted.
 void Replay::find_keyframes_to_begin_at() {
+  if (options_.replay.from_tick == 0) {
+    return;
+  }
   auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, *prepared_.store);
   std::vector<std::uint64_t> newest(modules_.size(), 0);  // number of the run that begins with it
-  while (recorded && options_.replay.from_tick > 0) {
+  while (recorded) {
     auto item = recorded->next();
     if (!item) {
       continue;  // known when it is replayed

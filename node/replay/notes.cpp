@@ -20,8 +20,7 @@ void Replay::warn_about_conditions() const {
     if (other && modules_[i]->runs && module.operation == scheduler::Operation::Sporadic) {
       console_.warning(
           "module {} runs when it ran in the recording: the condition of the other file is not evaluated; to see when "
-          "it is "
-          "true, simulate or run it",
+          "it is true, simulate or run it",
           module.name);
     }
   }
@@ -31,8 +30,8 @@ void Replay::warn_about_format(const RecordedRuns& recorded) const {
   if (recorded.format() < recorder::kRecordingFormat) {
     console_.warning(
         "the recording is of an older release: what snapshot(), valid(), age(), connected channels and "
-        "stop_requested() "
-        "returned to the runs is not in it, so runs that called them may differ although their modules are the same");
+        "stop_requested() returned to the runs is not in it, so runs that called them may differ although their "
+        "modules are the same");
   } else if (recorded.format() > recorder::kRecordingFormat) {
     console_.warning(
         "the recording is of a newer release: records that this release does not know are not replayed; replay it with "

@@ -21,7 +21,7 @@ std::string shortened(const std::string& value) {
 
 std::string ticks_to_compare(const config::Replay& replay) {
   const bool all = replay.from_tick == 0 && replay.to_tick == config::Replay::kLastTick;
-  return all ? "" : fmt::format(" that can be repeated between the ticks asked for");
+  return all ? "" : " that can be repeated between the ticks asked for";
 }
 
 }  // namespace

@@ -131,9 +131,7 @@ void warn_about_uncalled(Context& context) {
     const auto& made = context.program.made_functions;
     if (std::none_of(made.begin(), made.end(),
                      [&](const ast::Pou& one) { return upper(one.name).starts_with(begin); })) {
-      context.warning(tree->at, fmt::format("{} is never called, so its body was not "
-                                            "checked",
-                                            tree->name));
+      context.warning(tree->at, fmt::format("{} is never called, so its body was not checked", tree->name));
     }
   }
 }
