@@ -55,18 +55,16 @@ inline constexpr std::uint8_t kSdoLast = 0x01;  // no segment follows
 inline constexpr std::size_t kMinSegment = 7;   // a shorter one says how many of the seven are unused
 
 // Reasons to abort that this tree itself gives; sdo_abort_text() knows all that are published.
-enum AbortCode : std::uint32_t {
-  kAbortToggle = 0x05030000,
-  kAbortTimeout = 0x05040000,
-  kAbortCommand = 0x05040001,
-  kAbortMemory = 0x05040005,
-  kAbortUnsupported = 0x06010000,
-  kAbortReadOnly = 0x06010002,
-  kAbortNoObject = 0x06020000,
-  kAbortLength = 0x06070010,
-  kAbortNoSubindex = 0x06090011,
-  kAbortState = 0x08000022
-};
+inline constexpr std::uint32_t kAbortToggle = 0x05030000;
+inline constexpr std::uint32_t kAbortTimeout = 0x05040000;
+inline constexpr std::uint32_t kAbortCommand = 0x05040001;
+inline constexpr std::uint32_t kAbortMemory = 0x05040005;
+inline constexpr std::uint32_t kAbortUnsupported = 0x06010000;
+inline constexpr std::uint32_t kAbortReadOnly = 0x06010002;
+inline constexpr std::uint32_t kAbortNoObject = 0x06020000;
+inline constexpr std::uint32_t kAbortLength = 0x06070010;
+inline constexpr std::uint32_t kAbortNoSubindex = 0x06090011;
+inline constexpr std::uint32_t kAbortState = 0x08000022;
 std::string_view sdo_abort_text(std::uint32_t code) noexcept;
 
 struct Emergency {

@@ -74,16 +74,14 @@ inline constexpr std::uint8_t kAlError = 0x10;  // in kAlStatus; in kAlControl: 
 std::string_view to_string(AlState state) noexcept;
 
 // AL status codes that this tree itself gives; al_status_text() knows all that are published.
-enum AlCode : std::uint16_t {
-  kAlNoError = 0x0000,
-  kAlInvalidChange = 0x0011,
-  kAlUnknownState = 0x0012,
-  kAlInvalidMailbox = 0x0016,
-  kAlSyncWatchdog = 0x001B,
-  kAlInvalidOutputs = 0x001D,
-  kAlInvalidInputs = 0x001E,
-  kAlInvalidDc = 0x0030
-};
+inline constexpr std::uint16_t kAlNoError = 0x0000;
+inline constexpr std::uint16_t kAlInvalidChange = 0x0011;
+inline constexpr std::uint16_t kAlUnknownState = 0x0012;
+inline constexpr std::uint16_t kAlInvalidMailbox = 0x0016;
+inline constexpr std::uint16_t kAlSyncWatchdog = 0x001B;
+inline constexpr std::uint16_t kAlInvalidOutputs = 0x001D;
+inline constexpr std::uint16_t kAlInvalidInputs = 0x001E;
+inline constexpr std::uint16_t kAlInvalidDc = 0x0030;
 // What the slave reports with this code.
 std::string_view al_status_text(std::uint16_t code) noexcept;
 

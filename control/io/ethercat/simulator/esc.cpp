@@ -38,6 +38,16 @@ bool overlaps(std::size_t offset, std::size_t size, std::size_t first, std::size
   return offset < first + length && first < offset + size;
 }
 
+void copy_bits(Bytes from, std::uint64_t from_bit, std::span<std::uint8_t> to, std::uint64_t to_bit,
+               std::uint64_t count) noexcept {
+  for (std::uint64_t bit = 0; bit < count; ++bit) {
+    const unsigned value = static_cast<unsigned>(from[(from_bit + bit) / 8]) >> ((from_bit + bit) % 8) & 1U;
+    const unsigned shift = (to_bit + bit) % 8;
+    std::uint8_t& byte = to[(to_bit + bit) / 8];
+    byte = static_cast<std::uint8_t>((byte & ~(1U << shift)) | value << shift);
+  }
+}
+
 std::size_t sync_manager_at(unsigned number) noexcept {
   return reg::kSyncManager + std::size_t{number} * kSyncManagerBytes;
 }
@@ -259,67 +269,47 @@ bool Esc::mapping(unsigned number, Mapping& found) const noexcept {
   return true;
 }
 
+std::optional<Esc::MappedPart> Esc::mapped(unsigned fmmu, std::uint32_t address, std::size_t bytes,
+                                           bool write) const noexcept {
+  Mapping map;
+  if (!mapping(fmmu, map) || !(write ? map.writes : map.reads)) {
+    return std::nullopt;
+  }
+  const std::uint64_t first = std::uint64_t{address} * 8;
+  const std::uint64_t begin = std::max(first, map.first_bit);
+  const std::uint64_t end = std::min(first + bytes * 8, map.end_bit);
+  if (begin >= end) {
+    return std::nullopt;
+  }
+  MappedPart part{begin - first, map.physical_bit + (begin - map.first_bit), end - begin, 0, 0};
+  part.offset = static_cast<std::uint16_t>(part.memory_bit / 8);
+  part.size = (part.memory_bit + part.bits + 7) / 8 - part.offset;
+  return is_there(part.offset, part.size) && may_access(part.offset, part.size, write) ? std::optional(part)
+                                                                                       : std::nullopt;
+}
+
 bool Esc::read_logical(std::uint32_t address, std::span<std::uint8_t> to, Time now) {
   bool any = false;
-  const std::uint64_t first = std::uint64_t{address} * 8;
   for (unsigned i = 0; i < config_.fmmus; ++i) {
-    Mapping map;
-    if (!mapping(i, map) || !map.reads) {
-      continue;
+    if (const auto part = mapped(i, address, to.size(), false)) {
+      refresh(part->offset, part->size, now);
+      copy_bits(memory_, part->memory_bit, to, part->data_bit, part->bits);
+      after_access(part->offset, part->size, false);
+      any = true;
     }
-    const std::uint64_t begin = std::max(first, map.first_bit);
-    const std::uint64_t end = std::min(first + to.size() * 8, map.end_bit);
-    if (begin >= end) {
-      continue;
-    }
-    const std::uint64_t from = map.physical_bit + (begin - map.first_bit);
-    const auto offset = static_cast<std::uint16_t>(from / 8);
-    const std::size_t size = (from + (end - begin) + 7) / 8 - offset;
-    if (!is_there(offset, size) || !may_access(offset, size, false)) {
-      continue;
-    }
-    refresh(offset, size, now);
-    for (std::uint64_t bit = 0; bit < end - begin; ++bit) {
-      const unsigned value = static_cast<unsigned>(memory_[(from + bit) / 8]) >> ((from + bit) % 8) & 1U;
-      auto& byte = to[(begin + bit - first) / 8];
-      const unsigned shift = (begin + bit) % 8;
-      byte = static_cast<std::uint8_t>((byte & ~(1U << shift)) | value << shift);
-    }
-    after_access(offset, size, false);
-    any = true;
   }
   return any;
 }
 
-bool Esc::write_logical(std::uint32_t address, Bytes from, Time now) {
+bool Esc::write_logical(std::uint32_t address, Bytes from) {
   bool any = false;
-  const std::uint64_t first = std::uint64_t{address} * 8;
   for (unsigned i = 0; i < config_.fmmus; ++i) {
-    Mapping map;
-    if (!mapping(i, map) || !map.writes) {
-      continue;
+    if (const auto part = mapped(i, address, from.size(), true)) {
+      copy_bits(from, part->data_bit, memory_, part->memory_bit, part->bits);
+      after_access(part->offset, part->size, true);
+      any = true;
     }
-    const std::uint64_t begin = std::max(first, map.first_bit);
-    const std::uint64_t end = std::min(first + from.size() * 8, map.end_bit);
-    if (begin >= end) {
-      continue;
-    }
-    const std::uint64_t to = map.physical_bit + (begin - map.first_bit);
-    const auto offset = static_cast<std::uint16_t>(to / 8);
-    const std::size_t size = (to + (end - begin) + 7) / 8 - offset;
-    if (!is_there(offset, size) || !may_access(offset, size, true)) {
-      continue;
-    }
-    for (std::uint64_t bit = 0; bit < end - begin; ++bit) {
-      const unsigned value = static_cast<unsigned>(from[(begin + bit - first) / 8]) >> ((begin + bit) % 8) & 1U;
-      auto& byte = memory_[(to + bit) / 8];
-      const unsigned shift = (to + bit) % 8;
-      byte = static_cast<std::uint8_t>((byte & ~(1U << shift)) | value << shift);
-    }
-    after_access(offset, size, true);
-    any = true;
   }
-  static_cast<void>(now);
   return any;
 }
 

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "control/io/ethercat/bytes.h"
@@ -46,7 +47,7 @@ class Esc {
   bool read(std::uint16_t offset, std::span<std::uint8_t> to, Time now);
   bool write(std::uint16_t offset, Bytes from, Time now);
   bool read_logical(std::uint32_t address, std::span<std::uint8_t> to, Time now);
-  bool write_logical(std::uint32_t address, Bytes from, Time now);
+  bool write_logical(std::uint32_t address, Bytes from);
   // A write to the receive times passed the processing unit, and came back through the next port.
   void latch_receive_times(Time in, Time back) noexcept;
 
@@ -91,6 +92,16 @@ class Esc {
     bool writes = false;
   };
   [[nodiscard]] bool mapping(unsigned number, Mapping& found) const noexcept;
+  struct MappedPart {              // of the data of a datagram
+    std::uint64_t data_bit = 0;    // first bit in the data
+    std::uint64_t memory_bit = 0;  // its place in the memory
+    std::uint64_t bits = 0;
+    std::uint16_t offset = 0;  // the bytes of the memory that have these bits
+    std::size_t size = 0;
+  };
+  // Returns what an FMMU maps of `bytes` bytes at a logical address, if the master may access it.
+  [[nodiscard]] std::optional<MappedPart> mapped(unsigned fmmu, std::uint32_t address, std::size_t bytes,
+                                                 bool write) const noexcept;
 
   EscConfig config_;
   std::vector<std::uint8_t> memory_;

@@ -51,8 +51,8 @@ bool ObjectDictionary::has(std::uint16_t index) const {
   return objects_.count({index, 0}) != 0;
 }
 
-std::optional<AbortCode> ObjectDictionary::read(std::uint16_t index, std::uint8_t subindex, bool complete,
-                                                std::vector<std::uint8_t>& value) const {
+std::optional<std::uint32_t> ObjectDictionary::read(std::uint16_t index, std::uint8_t subindex, bool complete,
+                                                    std::vector<std::uint8_t>& value) const {
   if (!has(index)) {
     return kAbortNoObject;
   }
@@ -74,8 +74,8 @@ std::optional<AbortCode> ObjectDictionary::read(std::uint16_t index, std::uint8_
   return std::nullopt;
 }
 
-std::optional<AbortCode> ObjectDictionary::write(std::uint16_t index, std::uint8_t subindex, bool complete,
-                                                 Bytes value) {
+std::optional<std::uint32_t> ObjectDictionary::write(std::uint16_t index, std::uint8_t subindex, bool complete,
+                                                     Bytes value) {
   if (!has(index)) {
     return kAbortNoObject;
   }

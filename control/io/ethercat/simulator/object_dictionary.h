@@ -27,9 +27,9 @@ class ObjectDictionary {
   [[nodiscard]] bool has(std::uint16_t index) const;
 
   // An object's value, or the reason why not. Complete: all subindices in a row, the first as 16 bits.
-  std::optional<AbortCode> read(std::uint16_t index, std::uint8_t subindex, bool complete,
-                                std::vector<std::uint8_t>& value) const;
-  std::optional<AbortCode> write(std::uint16_t index, std::uint8_t subindex, bool complete, Bytes value);
+  std::optional<std::uint32_t> read(std::uint16_t index, std::uint8_t subindex, bool complete,
+                                    std::vector<std::uint8_t>& value) const;
+  std::optional<std::uint32_t> write(std::uint16_t index, std::uint8_t subindex, bool complete, Bytes value);
 
  private:
   struct Object {

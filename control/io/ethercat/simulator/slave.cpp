@@ -153,7 +153,7 @@ void Slave::access_logical(const Datagram& datagram, std::span<std::uint8_t> fra
   if (datagram.command != Command::Lwr && esc_.read_logical(datagram.address, data, now)) {
     count += 1;
   }
-  if (datagram.command != Command::Lrd && esc_.write_logical(datagram.address, Bytes(copy).first(data.size()), now)) {
+  if (datagram.command != Command::Lrd && esc_.write_logical(datagram.address, Bytes(copy).first(data.size()))) {
     count += datagram.command == Command::Lrw ? 2 : 1;
   }
   store<std::uint16_t>(frame, datagram.wkc_at(),
