@@ -5,6 +5,7 @@ back. The grammar is in <indurop/c.h>."""
 from __future__ import annotations
 
 import enum
+import math
 import struct
 from dataclasses import dataclass, field
 from typing import Any, cast
@@ -50,15 +51,16 @@ class Layout:
 
     @property
     def size(self) -> int:
-        size = self.element_size
-        for dim in self.dims:
-            size *= dim
-        return size
+        return self.element_size * math.prod(self.dims)
 
     @property
     def code(self) -> str | None:
         """The code of the struct module, for a single number."""
         return None if self.dims else _CODES.get(self.base)
+
+    def _step(self, dims: list[int]) -> int:
+        """Bytes from one value of the outermost dimension to the next."""
+        return self.element_size * math.prod(dims[1:])
 
     def value(self, data: bytes | bytearray | memoryview, offset: int = 0) -> Any:
         return self._values(data, offset, self.dims)
@@ -66,9 +68,7 @@ class Layout:
     def _values(self, data: bytes | bytearray | memoryview, offset: int, dims: list[int]) -> Any:
         if not dims:
             return self._element(data, offset)
-        step = self.element_size
-        for dim in dims[1:]:
-            step *= dim
+        step = self._step(dims)
         return [self._values(data, offset + i * step, dims[1:]) for i in range(dims[0])]
 
     def _element(self, data: bytes | bytearray | memoryview, offset: int) -> Any:
@@ -96,9 +96,7 @@ class Layout:
             return
         if isinstance(value, (str, bytes)) or not hasattr(value, "__len__") or len(value) != dims[0]:
             raise OutOfRange(f"{value!r} is not a list of {dims[0]}")
-        step = self.element_size
-        for dim in dims[1:]:
-            step *= dim
+        step = self._step(dims)
         for i, one in enumerate(value):
             self._store(one, data, offset + i * step, dims[1:])
 

@@ -151,11 +151,12 @@ class Variable:
         while True:
             try:
                 # Not longer, so that Ctrl-C is noticed.
-                if self._changed(seen, 0.1 if timeout is None else timeout):
-                    if (now := bytes(self.read())) != last:  # what was noticed may be newer than what was read before
-                        last = now
-                        yield self.value_of(now)
-                elif timeout is not None:
+                changed = self._changed(seen, 0.1 if timeout is None else timeout)
+                # What was noticed may be newer than what was read before.
+                if changed and (now := bytes(self.read())) != last:
+                    last = now
+                    yield self.value_of(now)
+                elif not changed and timeout is not None:
                     raise Timeout(f"{self.name} did not change")
             except Gone:
                 return
