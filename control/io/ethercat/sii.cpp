@@ -22,18 +22,6 @@ constexpr std::size_t kBootstrapAt = 0x28;
 constexpr std::size_t kMailboxAt = 0x30;
 constexpr std::size_t kProtocolsAt = 0x38;
 
-enum Category : std::uint16_t {
-  kNop = 0,
-  kStrings = 10,
-  kGeneral = 30,
-  kFmmus = 40,
-  kSyncManagers = 41,
-  kTxPdos = 50,
-  kRxPdos = 51,
-  kClocks = 60,
-  kEnd = 0xFFFF
-};
-
 constexpr std::size_t kGeneralBytes = 14;  // as far as it is read
 constexpr std::size_t kPdoBytes = 8;
 constexpr std::size_t kClockBytes = 24;
@@ -134,19 +122,19 @@ class SiiReader {
 
   std::optional<std::string> read(std::uint16_t category, Bytes bytes) {
     switch (category) {
-      case kStrings:
+      case kSiiStrings:
         return read_strings(bytes);
-      case kGeneral:
+      case kSiiGeneral:
         return read_general(bytes);
-      case kFmmus:
+      case kSiiFmmus:
         return read_fmmus(bytes);
-      case kSyncManagers:
+      case kSiiSyncManagers:
         return read_sync_managers(bytes);
-      case kTxPdos:
+      case kSiiTxPdos:
         return read_pdos(bytes, sii_.inputs, input_names_);
-      case kRxPdos:
+      case kSiiRxPdos:
         return read_pdos(bytes, sii_.outputs, output_names_);
-      case kClocks:
+      case kSiiClocks:
         return read_clocks(bytes);
       default:
         return std::nullopt;  // the maker's own
@@ -238,10 +226,10 @@ Result<Sii, std::string> read_sii(Bytes image) {
   while (at + 2 * kWord <= image.size()) {
     const auto category = load<std::uint16_t>(image, at);
     const std::size_t size = kWord * load<std::uint16_t>(image, at + kWord);
-    if (category == kEnd || (category == kNop && size == 0 && at > kSiiCategories * kWord)) {
+    if (category == kSiiEnd || (category == kSiiNop && size == 0 && at > kSiiCategories * kWord)) {
       break;  // some images are filled up with zeros
     }
-    if (category == kNop && size == 0) {
+    if (category == kSiiNop && size == 0) {
       return std::string("the EEPROM has no categories, it is empty; write the maker's image to it");
     }
     const std::size_t begin = at + 2 * kWord;

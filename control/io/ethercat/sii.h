@@ -109,6 +109,16 @@ struct Sii {
 // Words of the fixed part, where the categories begin.
 inline constexpr std::uint16_t kSiiIdentity = 0x0008;
 inline constexpr std::uint16_t kSiiCategories = 0x0040;
+// Numbers of categories.
+inline constexpr std::uint16_t kSiiNop = 0;
+inline constexpr std::uint16_t kSiiStrings = 10;
+inline constexpr std::uint16_t kSiiGeneral = 30;
+inline constexpr std::uint16_t kSiiFmmus = 40;
+inline constexpr std::uint16_t kSiiSyncManagers = 41;
+inline constexpr std::uint16_t kSiiTxPdos = 50;
+inline constexpr std::uint16_t kSiiRxPdos = 51;
+inline constexpr std::uint16_t kSiiClocks = 60;
+inline constexpr std::uint16_t kSiiEnd = 0xFFFF;
 
 // The checksum that belongs into word 7 of an image.
 std::uint8_t sii_checksum(Bytes image) noexcept;

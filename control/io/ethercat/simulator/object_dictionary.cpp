@@ -48,7 +48,7 @@ std::uint64_t ObjectDictionary::number(std::uint16_t index, std::uint8_t subinde
 }
 
 bool ObjectDictionary::has(std::uint16_t index) const {
-  return objects_.count({index, 0}) != 0;
+  return objects_.contains({index, 0});
 }
 
 std::optional<std::uint32_t> ObjectDictionary::read(std::uint16_t index, std::uint8_t subindex, bool complete,

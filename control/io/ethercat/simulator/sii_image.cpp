@@ -40,7 +40,7 @@ class ImageWriter {
     store<std::uint16_t>(bytes_, first_ - 2, static_cast<std::uint16_t>((bytes_.size() - first_) / 2));
   }
   void put_texts() {
-    begin(10);
+    begin(kSiiStrings);
     put(static_cast<std::uint8_t>(texts_.size()));
     for (const std::string& text : texts_) {
       put(static_cast<std::uint8_t>(text.size()));
@@ -77,7 +77,7 @@ void put_fixed_part(ImageWriter& writer, const Sii& sii) {
   put_mailbox(writer, sii.bootstrap);
   put_mailbox(writer, sii.mailbox);
   writer.put(sii.protocols);
-  writer.put_zeros(2 * kSiiCategories - writer.bytes().size());
+  writer.put_zeros(std::size_t{2} * kSiiCategories - writer.bytes().size());
 }
 
 void put_pdos(ImageWriter& writer, std::uint16_t category, const std::vector<Pdo>& pdos) {
@@ -102,7 +102,7 @@ void put_pdos(ImageWriter& writer, std::uint16_t category, const std::vector<Pdo
 }
 
 void put_clocks(ImageWriter& writer, const std::vector<ClockMode>& clocks) {
-  writer.begin(60);
+  writer.begin(kSiiClocks);
   for (const ClockMode& mode : clocks) {
     writer.put(mode.cycle0);
     writer.put(mode.shift0);
@@ -121,7 +121,7 @@ void put_clocks(ImageWriter& writer, const std::vector<ClockMode>& clocks) {
 std::vector<std::uint8_t> sii_image(const Sii& sii) {
   ImageWriter writer;
   put_fixed_part(writer, sii);
-  writer.begin(30);
+  writer.begin(kSiiGeneral);
   writer.put_text(sii.group);
   writer.put_text(sii.image);
   writer.put_text(sii.order);
@@ -132,12 +132,12 @@ std::vector<std::uint8_t> sii_image(const Sii& sii) {
   writer.put(sii.ebus_milliamperes);
   writer.put_zeros(18);
   writer.end();
-  writer.begin(40);
+  writer.begin(kSiiFmmus);
   for (const FmmuUse use : sii.fmmus) {
     writer.put(static_cast<std::uint8_t>(use));
   }
   writer.end();
-  writer.begin(41);
+  writer.begin(kSiiSyncManagers);
   for (const SyncManagerEntry& entry : sii.sync_managers) {
     writer.put(entry.start);
     writer.put(entry.length);
@@ -147,8 +147,8 @@ std::vector<std::uint8_t> sii_image(const Sii& sii) {
     writer.put(static_cast<std::uint8_t>(entry.use));
   }
   writer.end();
-  put_pdos(writer, 50, sii.inputs);
-  put_pdos(writer, 51, sii.outputs);
+  put_pdos(writer, kSiiTxPdos, sii.inputs);
+  put_pdos(writer, kSiiRxPdos, sii.outputs);
   put_clocks(writer, sii.clocks);
   writer.put_texts();
   writer.put<std::uint16_t>(0xFFFF);
