@@ -11,14 +11,15 @@ say() { printf '\n\033[1m%s\033[0m\n' "$*"; }
 show() { say "\$ $*"; "$@"; }
 forget() { for node in cell plc motion $page; do indurop clean --node $node >/dev/null 2>&1 || true; done; }
 cleanup() {
-  for pid in $recorder $server $runner; do kill "$pid" 2>/dev/null || true; done
-  for pid in $recorder $server $runner; do wait "$pid" 2>/dev/null || true; done
+  for pid in $recorder $server $watchers $runner; do kill "$pid" 2>/dev/null || true; done
+  for pid in $recorder $server $watchers $runner; do wait "$pid" 2>/dev/null || true; done
   forget
 }
 page=
 recorder=
 runner=
 server=
+watchers=
 trap cleanup EXIT
 trap 'exit 130' INT TERM HUP
 
@@ -30,6 +31,15 @@ wait_for() {
     kill -0 "$runner" 2>/dev/null || { echo "node $1 has ended: its messages are above"; exit 1; }
     [ $tries -lt 100 ] || { echo "$2 of node $1 did not become $3"; exit 1; }
     sleep 0.1
+  done
+}
+
+# An agent or the server of the page evaluates alarms; this demo has neither.
+watch_alarms() {
+  for node in "$@"; do
+    wait_for "$node" EMERGENCY_STOP.bActive 0
+    indurop alarms watch --node "$node" -q &
+    watchers="$watchers $!"
   done
 }
 
@@ -117,12 +127,14 @@ say "The same cell on two boards: the PLC program and its points on one, the rob
 say "\$ indurop run plant.xml --local &"
 indurop run plant.xml --local -q &
 runner=$!
+watch_alarms motion plc
 tour motion plc cell_two_boards.csv
 show indurop status --node motion
 show indurop get --node plc CELL::world
 picture cell_two_boards.csv cell_two_boards.svg "Robot cell on two boards"
-kill $runner 2>/dev/null || true
-wait $runner || true
+kill $watchers $runner 2>/dev/null || true
+wait $watchers $runner || true
+watchers=
 runner=
 say "Pictures: $folder/cell.svg, cell_two_boards.svg, main.svg (ladder), schedule.svg"
 
