@@ -86,8 +86,8 @@ class JobSignals final : public indurop::robot::Signals {
     if constexpr (std::is_same_v<T, bool>) {
       return value != 0;
     } else if constexpr (std::is_floating_point_v<T>) {
-      constexpr auto kMost = static_cast<double>(std::numeric_limits<T>::max());
-      return static_cast<T>(std::clamp(value, -kMost, kMost));
+      constexpr auto kMaxValue = static_cast<double>(std::numeric_limits<T>::max());
+      return static_cast<T>(std::clamp(value, -kMaxValue, kMaxValue));
     } else {
       // The largest whole number may be none that a double can say; then the next one counts as too large.
       const double whole = std::round(value);

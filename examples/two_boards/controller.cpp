@@ -10,10 +10,10 @@ using namespace cell;
 
 namespace {
 
-constexpr double kGain = 0.8;      // Nm s
-constexpr double kIntegral = 4.0;  // Nm
-constexpr double kStep = 0.001;    // s
-constexpr double kMost = 5.0;      // Nm
+constexpr double kGain = 0.8;       // Nm s
+constexpr double kIntegral = 4.0;   // Nm
+constexpr double kStep = 0.001;     // s
+constexpr double kMaxTorque = 5.0;  // Nm
 
 double sum = 0;
 
@@ -27,8 +27,8 @@ void onRun() {
   }
   const Encoder now = encoder;
   const double error = target - now.speed;
-  sum = std::clamp(sum + kStep * kIntegral * error, -kMost, kMost);
-  torque = std::clamp(kGain * error + sum, -kMost, kMost);
+  sum = std::clamp(sum + kStep * kIntegral * error, -kMaxTorque, kMaxTorque);
+  torque = std::clamp(kGain * error + sum, -kMaxTorque, kMaxTorque);
   echo = now.count;
 }
 

@@ -14,7 +14,7 @@ namespace {
 using ast::Operator;
 
 // Larger numbers are never IEC values.
-constexpr Integer kMost = Integer{1} << 64U;
+constexpr Integer kMaxInteger = Integer{1} << 64U;
 
 template <class T>
 std::optional<Constant> compare(Operator op, const T& a, const T& b) {
@@ -42,14 +42,14 @@ bool is_time(Elementary type) noexcept {
 
 Integer product(Integer a, Integer b) noexcept {
   Integer out = 0;
-  return __builtin_mul_overflow(a, b, &out) ? kMost : out;
+  return __builtin_mul_overflow(a, b, &out) ? kMaxInteger : out;
 }
 
 std::optional<Integer> power(Integer base, Integer exponent) {
   Integer out = 1;
   for (; exponent > 0; --exponent) {
     out = product(out, base);
-    if (out > kMost || out < -kMost) {
+    if (out > kMaxInteger || out < -kMaxInteger) {
       return std::nullopt;
     }
     if (out == 0 || out == 1) {
@@ -86,7 +86,7 @@ std::optional<Constant> integers(Operator op, Integer a, Integer b, std::string&
       if (b < 0) {
         return std::nullopt;
       }
-      out = power(a, b).value_or(kMost);
+      out = power(a, b).value_or(kMaxInteger);
       break;
     case Operator::And:
       out = a & b;
@@ -100,7 +100,7 @@ std::optional<Constant> integers(Operator op, Integer a, Integer b, std::string&
     default:
       return compare(op, a, b);
   }
-  if (*out >= kMost || *out <= -kMost) {
+  if (*out >= kMaxInteger || *out <= -kMaxInteger) {
     why = "the result does not fit 64 bits, correct the numbers";
     return std::nullopt;
   }

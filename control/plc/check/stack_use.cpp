@@ -14,7 +14,7 @@ namespace indurop::plc {
 namespace {
 
 // A quarter of the stack: calls through interfaces are not visible here, and the compiler has temporaries of its own.
-constexpr std::uint64_t kMost = std::uint64_t{128} * 1024;
+constexpr std::uint64_t kMaxStackBytes = std::uint64_t{128} * 1024;
 
 // Sizes approximately as in C++.
 class Sizes {
@@ -115,9 +115,9 @@ class StackChecker {
       }
     }
     const std::uint64_t all = sum_of(own, below);
-    depth_[&pou] = std::min(all, kMost);  // reported once
-    if (all > kMost) {
-      complain(pou, parts, own > kMost ? nullptr : deepest, all);
+    depth_[&pou] = std::min(all, kMaxStackBytes);  // reported once
+    if (all > kMaxStackBytes) {
+      complain(pou, parts, own > kMaxStackBytes ? nullptr : deepest, all);
     }
   }
 
@@ -157,8 +157,8 @@ class StackChecker {
   void complain(const Pou& pou, const std::vector<Part>& parts, const Pou* called, std::uint64_t bytes) {
     const auto largest =
         std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.bytes < b.bytes; });
-    std::string what =
-        fmt::format("a call of {} needs {} bytes of the stack, at most {} are possible", pou.title(), bytes, kMost);
+    std::string what = fmt::format("a call of {} needs {} bytes of the stack, at most {} are possible", pou.title(),
+                                   bytes, kMaxStackBytes);
     if (largest != parts.end() && largest->bytes > 0) {
       what += fmt::format("; {} has {}", largest->name, largest->bytes);
     }

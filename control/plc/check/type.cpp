@@ -146,7 +146,7 @@ const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept 
 
 std::uint64_t parts_of(const Type& type) noexcept {
   std::uint64_t sum = 0;
-  constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
+  constexpr auto kMaxParts = std::numeric_limits<std::uint64_t>::max();
   switch (type.kind) {
     case Type::Kind::Elementary:
       return type.is_text() ? (type.length + 8) / 8 : 1;
@@ -158,7 +158,7 @@ std::uint64_t parts_of(const Type& type) noexcept {
     case Type::Kind::Struct:
       for (const Field& field : type.fields) {
         if (__builtin_add_overflow(sum, field.type->parts, &sum)) {
-          return kMost;
+          return kMaxParts;
         }
       }
       return sum;
@@ -166,7 +166,7 @@ std::uint64_t parts_of(const Type& type) noexcept {
       sum = type.element->parts;
       for (const Bounds& one : type.dimensions) {
         if (__builtin_mul_overflow(sum, one.count(), &sum)) {
-          return kMost;
+          return kMaxParts;
         }
       }
       return sum;

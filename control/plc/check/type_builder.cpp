@@ -210,8 +210,8 @@ class TypeBuilder {
     if (!low || !high) {
       return std::nullopt;
     }
-    constexpr auto kMost = std::numeric_limits<std::int32_t>::max();
-    if (*low > *high || *low < -kMost || *high > kMost) {
+    constexpr auto kMaxBound = std::numeric_limits<std::int32_t>::max();
+    if (*low > *high || *low < -kMaxBound || *high > kMaxBound) {
       context_.error(dimension.low.at,
                      fmt::format("{}..{} is not a range, write the smaller bound first", *low, *high));
       return std::nullopt;

@@ -21,12 +21,12 @@ bool count_fields(Context& context, const Place& at, const Type& type) {
 }
 
 bool count_values(Context& context, const Place& at, const Type& type, const ast::Initial* initial) {
-  constexpr std::uint64_t kMost = 1'000'000;
+  constexpr std::uint64_t kMaxInitialValues = 1'000'000;
   constexpr std::uint64_t kMostTogether = 4'000'000;
   const std::uint64_t own = values_of(type, initial);
   std::uint64_t& sum = context.program.values;
-  if (own > kMost) {
-    context.error(at, fmt::format("more than {} initial values, assign them in the body", kMost));
+  if (own > kMaxInitialValues) {
+    context.error(at, fmt::format("more than {} initial values, assign them in the body", kMaxInitialValues));
     return false;
   }
   const bool before = sum <= kMostTogether;

@@ -288,8 +288,8 @@ bool ExpressionEmitter::stays_within(const Expression& expression, Bounds bounds
                    (expression.op == Operator::Add || expression.op == Operator::Subtract);
   const Constant* offset = sum ? constant_of(expression.operands[1]) : nullptr;
   const auto number = offset != nullptr ? as_int64(*offset) : std::nullopt;
-  constexpr std::int64_t kMost = 1'000'000'000;
-  if (!number || *number > kMost || *number < -kMost) {
+  constexpr std::int64_t kMaxOffset = 1'000'000'000;
+  if (!number || *number > kMaxOffset || *number < -kMaxOffset) {
     return false;
   }
   const std::int64_t by = expression.op == Operator::Add ? *number : -*number;

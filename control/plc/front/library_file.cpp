@@ -95,8 +95,8 @@ bool is_version(std::string_view text) noexcept {
     dots += c == '.' ? 1 : 0;
     before = c;
   }
-  constexpr std::size_t kMost = 20;
-  return !text.empty() && before != '.' && dots <= 2 && text.size() <= kMost;
+  constexpr std::size_t kMaxLetters = 20;
+  return !text.empty() && before != '.' && dots <= 2 && text.size() <= kMaxLetters;
 }
 
 bool does_for(std::string_view version, std::string_view wanted) {

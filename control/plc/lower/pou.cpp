@@ -318,21 +318,21 @@ class PouLowering {
   // An action is copied to each of its calls.
   bool may_copy(const Body& body) {
     constexpr std::size_t kMostInside = 32;
-    constexpr std::size_t kMost = std::size_t{16} << 20U;
+    constexpr std::size_t kMaxCopiedBytes = std::size_t{16} << 20U;
     constexpr std::size_t kElement = 100;  // size of an element, in bytes
     if (depth_ >= kMostInside) {
       diagnostics_.error(
           body.at, fmt::format("more than {} actions call each other, make function blocks of some", kMostInside));
       return false;
     }
-    const bool before = project_.copied_actions <= kMost;
+    const bool before = project_.copied_actions <= kMaxCopiedBytes;
     project_.copied_actions += before ? kElement + body.text.size() + kElement * body.diagram.elements.size() : 0;
-    if (before && project_.copied_actions > kMost) {
+    if (before && project_.copied_actions > kMaxCopiedBytes) {
       diagnostics_.error(body.at,
                          "actions are copied to where they are called, and these copies become more than 16 MiB; "
                          "make function blocks of some");
     }
-    return project_.copied_actions <= kMost;
+    return project_.copied_actions <= kMaxCopiedBytes;
   }
 
   void stays_inside(const Lowered& code) {

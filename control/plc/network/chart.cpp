@@ -149,9 +149,9 @@ class Reader {
 
   // Returns whether the lines around the element still have to be followed.
   bool enter(const Element& element) {
-    constexpr std::size_t kMost = 500;
-    if (depth_ >= kMost) {
-      diagnostics_.error(element.at, fmt::format("more than {} branches in a row without a step", kMost));
+    constexpr std::size_t kMaxBranches = 500;
+    if (depth_ >= kMaxBranches) {
+      diagnostics_.error(element.at, fmt::format("more than {} branches in a row without a step", kMaxBranches));
       return false;
     }
     return passed_.insert(&element).second;

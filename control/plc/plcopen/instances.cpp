@@ -31,7 +31,7 @@ double seconds_of(char unit, bool of_day) {
 
 std::optional<std::int64_t> iso_ns(std::string_view text) {
   constexpr double kSecond = 1e9;
-  constexpr double kMost = 9e18;
+  constexpr double kMaxNanoseconds = 9e18;
   if (!text.starts_with('P') || text.size() < 3) {
     return std::nullopt;
   }
@@ -58,7 +58,7 @@ std::optional<std::int64_t> iso_ns(std::string_view text) {
     }
     total += number * seconds * kSecond;
   }
-  return total < kMost ? std::optional(std::llround(total)) : std::nullopt;
+  return total < kMaxNanoseconds ? std::optional(std::llround(total)) : std::nullopt;
 }
 
 std::optional<std::int64_t> literal_ns(std::string_view text) {
@@ -82,9 +82,9 @@ std::optional<std::int64_t> clock_ns(std::string_view text) {
     }
     text.remove_prefix(static_cast<std::size_t>(end - text.data()) + (i < 2 ? 1 : 0));
   }
-  constexpr double kMost = 9e9;  // seconds
+  constexpr double kMaxSeconds = 9e9;
   const double seconds = (parts[0] * 60 + parts[1]) * 60 + parts[2];
-  return seconds < kMost ? std::optional(std::llround(seconds * 1e9)) : std::nullopt;
+  return seconds < kMaxSeconds ? std::optional(std::llround(seconds * 1e9)) : std::nullopt;
 }
 
 class Reader {

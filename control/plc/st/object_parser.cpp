@@ -233,13 +233,13 @@ void ProjectParser::uses(ast::Pou& out) {
 }
 
 void ProjectParser::using_directive(std::vector<ast::NameAt>& to) {
-  constexpr std::size_t kMost = 100;
+  constexpr std::size_t kMaxNamespaces = 100;
   const Token& word = in_.take();
   static_cast<void>(names(to, "a namespace") && in_.expect_end("after USING"));
-  if (to.size() > kMost) {
-    in_.error(word,
-              fmt::format("more than {} namespaces are used here, write their names where they are needed", kMost));
-    to.resize(kMost);
+  if (to.size() > kMaxNamespaces) {
+    in_.error(word, fmt::format("more than {} namespaces are used here, write their names where they are needed",
+                                kMaxNamespaces));
+    to.resize(kMaxNamespaces);
   }
 }
 

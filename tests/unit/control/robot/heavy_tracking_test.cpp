@@ -15,7 +15,7 @@ Joints efforts(double second) {
 // Axis 2 holds the arm before it, and little more.
 class HeavyBelts : public Belts {
  protected:
-  HeavyBelts() : Belts(with_torques(), heavy_cell_arm(efforts(kMost)).urdf) {}
+  HeavyBelts() : Belts(with_torques(), heavy_cell_arm(efforts(kMaxTorque)).urdf) {}
   static Settings with_torques() {
     Settings settings = in_tick();
     settings.rated_torque = {400, 400, 250, 60, 50, 30};
@@ -36,10 +36,10 @@ class HeavyBelts : public Belts {
     return kdl_torques(arm_, {}, q, velocity, acceleration)[1];
   }
 
-  static constexpr double kMost = 85;
+  static constexpr double kMaxTorque = 85;
 
  private:
-  HeavyArm arm_ = heavy_cell_arm(efforts(kMost));
+  HeavyArm arm_ = heavy_cell_arm(efforts(kMaxTorque));
   std::array<Joints, 3> seen_{};
   int known_ = 0;
 };
@@ -59,8 +59,8 @@ TEST_F(HeavyBelts, It_falls_off_where_it_would_be_too_heavy) {
   EXPECT_TRUE(stands());
   EXPECT_EQ(cell.out.error, ErrorCode::Torque);
   EXPECT_EQ(cell.out.error_axis, 2U);
-  EXPECT_LE(most, 1.001 * kMost);
-  EXPECT_GT(most, 0.9 * kMost);
+  EXPECT_LE(most, 1.001 * kMaxTorque);
+  EXPECT_GT(most, 0.9 * kMaxTorque);
   EXPECT_NE(message().find("fell off belt 1"), std::string::npos) << message();
 }
 

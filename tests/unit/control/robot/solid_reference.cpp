@@ -74,11 +74,11 @@ std::string ReferenceSolid::xml() const {
 
 // To and fro between convex bodies ends at the nearest points of both; each step comes nearer.
 double reference_distance(const ReferencePlace& a, const ReferencePlace& b) {
-  constexpr int kMost = 3000;
+  constexpr int kMaxSteps = 3000;
   Vec3 on_a = a.frame.translation();
   Vec3 on_b = nearest_on(b, on_a);
   double distance = (on_a - on_b).norm();
-  for (int i = 0; i < kMost; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     on_a = nearest_on(a, on_b);
     on_b = nearest_on(b, on_a);
     const double now = (on_a - on_b).norm();

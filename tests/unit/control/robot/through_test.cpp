@@ -14,7 +14,7 @@
 namespace indurop::robot {
 namespace {
 
-constexpr LineLimits kMost{2, 8, 80};
+constexpr LineLimits kMaxLimits{2, 8, 80};
 constexpr double kEnd = 3;
 constexpr double kThroughPeriod = 0.001;
 
@@ -33,23 +33,23 @@ double change_way(double from, double to, const LineLimits& limits) {
 class Through : public testing::Test {
  protected:
   Through() {
-    sut.set_bounds(kMost, -HUGE_VAL, HUGE_VAL);
+    sut.set_bounds(kMaxLimits, -HUGE_VAL, HUGE_VAL);
     sut.reset({0, 0, 0});
   }
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
   double some(double most) { return most * std::pow(10, in(-1, 0)); }
-  LineLimits any_limits() { return {some(kMost.velocity), some(kMost.acceleration), some(kMost.jerk)}; }
+  LineLimits any_limits() { return {some(kMaxLimits.velocity), some(kMaxLimits.acceleration), some(kMaxLimits.jerk)}; }
   void step() {
     sut.step(kThroughPeriod);
     time += kThroughPeriod;
     const double v = (sut.state().position - last.position) / kThroughPeriod;
     const double a = (v - last.velocity) / kThroughPeriod;
-    EXPECT_LE(std::abs(v), kMost.velocity + 1e-6);
+    EXPECT_LE(std::abs(v), kMaxLimits.velocity + 1e-6);
     if (known >= 1) {
-      EXPECT_LE(std::abs(a), kMost.acceleration + 1e-5);
+      EXPECT_LE(std::abs(a), kMaxLimits.acceleration + 1e-5);
     }
     if (known >= 2) {
-      EXPECT_LE(std::abs(a - last.acceleration), kMost.jerk * kThroughPeriod * 1.001 + 1e-5);
+      EXPECT_LE(std::abs(a - last.acceleration), kMaxLimits.jerk * kThroughPeriod * 1.001 + 1e-5);
     }
     last = {sut.state().position, v, a};
     ++known;
@@ -85,8 +85,8 @@ class Through : public testing::Test {
 TEST_F(Through, From_rest_it_takes_as_long_as_the_textbook_says) {
   for (int i = 0; i < 300 && !HasFailure(); ++i) {
     const LineLimits limits = any_limits();
-    const LineLimits braking{limits.velocity, some(kMost.acceleration), limits.jerk};
-    const double end = i % 3 == 0 ? some(kMost.velocity) : in(0.1, 1) * limits.velocity;
+    const LineLimits braking{limits.velocity, some(kMaxLimits.acceleration), limits.jerk};
+    const double end = i % 3 == 0 ? some(kMaxLimits.velocity) : in(0.1, 1) * limits.velocity;
     const LineLimits& last_change = end > limits.velocity ? limits : braking;
     const double least = change_way(0, limits.velocity, limits) + change_way(limits.velocity, end, last_change);
     const double length = least + in(0, 3);
@@ -137,9 +137,9 @@ TEST_F(Through, From_whatever_it_does_limits_are_kept_and_place_and_velocity_met
       step();
     }
     const LineLimits limits = any_limits();
-    const double velocity = i % 7 == 0 ? 0 : (i % 2 == 0 ? 1 : -1) * some(kMost.velocity);
+    const double velocity = i % 7 == 0 ? 0 : (i % 2 == 0 ? 1 : -1) * some(kMaxLimits.velocity);
     const double place = sut.state().position + in(-kEnd, kEnd);
-    sut.move_through(place, velocity, limits, {limits.velocity, some(kMost.acceleration), limits.jerk});
+    sut.move_through(place, velocity, limits, {limits.velocity, some(kMaxLimits.acceleration), limits.jerk});
     pass(place, velocity);
   }
 }
@@ -153,7 +153,7 @@ TEST_F(Through, An_override_never_turns_it_back_on_its_last_way) {
     known = 0;
     const double place = in(1.5, kEnd);
     const double velocity = in(0.1, 2);
-    sut.move_through(place, velocity, kMost, kMost);  // there is room for it
+    sut.move_through(place, velocity, kMaxLimits, kMaxLimits);  // there is room for it
     double before = 0;
     for (int k = 0; k < 4000 && !HasFailure(); ++k) {
       if (random() % 80 == 0) {

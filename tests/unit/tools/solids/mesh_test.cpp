@@ -42,7 +42,7 @@ void expect_extent(const Result<Surface, base::Problem>& surface, const Vec3& le
 }
 
 const Pose kPlace{{0.1, 0.2, 0.5}, robot::Quat::Identity()};
-const Vec3 kLeast(0, 0.05, 0.3), kMost(0.2, 0.35, 0.7);
+const Vec3 kLowCorner(0, 0.05, 0.3), kHighCorner(0.2, 0.35, 0.7);
 
 Surface body() {
   return placed(box_surface({0.2, 0.3, 0.4}), kPlace);
@@ -124,7 +124,7 @@ TEST_F(Meshes, Of_each_kind_are_as_large_as_the_file_says) {
                                     std::pair("body.obj", obj(body())), std::pair("body.dae", collada(body()))}) {
     SCOPED_TRACE(name);
     const auto surface = read_mesh(write(name, bytes), Vec3::Ones());
-    expect_extent(surface, kLeast, kMost);
+    expect_extent(surface, kLowCorner, kHighCorner);
     EXPECT_EQ(surface->size(), body().size());
   }
 }
