@@ -58,17 +58,17 @@ int set_target(fast::DomainParticipant& participant, double wanted) {
     return listeners.current_count >= 2 && speakers.current_count >= 2;  // the axis, and we ourselves
   });
   if (!heard) {
-    std::fprintf(stderr, "nobody takes station/target: is the node running, in this domain?\n");
+    std::fprintf(stderr, "no node reads station/target: is the node running, in this domain?\n");
     return 1;
   }
   station::target_ value;
   const auto own = writer->get_instance_handle();
   const auto began = std::chrono::steady_clock::now();
   auto next = began;
-  bool told = false;
+  bool reported = false;
   double now = -1;
   (void)wait_until([&] {
-    // We may know the axis before it knows us, so what it does not show is said again.
+    // We may know the axis before it knows us, so the target is sent again until the axis reports it.
     if (const auto time = std::chrono::steady_clock::now(); time >= next) {
       value.value(wanted);
       writer->write(&value);
@@ -77,14 +77,14 @@ int set_target(fast::DomainParticipant& participant, double wanted) {
     fast::SampleInfo info;
     while (reader->take_next_sample(&value, &info) == ReturnCode_t::RETCODE_OK) {
       if (info.valid_data && info.publication_handle != own) {
-        told = true;
+        reported = true;
         now = value.value();
       }
     }
-    return told && (now == wanted || std::chrono::steady_clock::now() - began > kUnderWay);
+    return reported && (now == wanted || std::chrono::steady_clock::now() - began > kUnderWay);
   });
-  if (!told) {
-    std::fprintf(stderr, "the axis does not say what its target is now\n");
+  if (!reported) {
+    std::fprintf(stderr, "the axis does not report its target\n");
     return 1;
   }
   std::printf("target is %.3f mm\n", now);

@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     dds_subscription_matched_status_t nodes;
     if (dds_get_subscription_matched_status(reader, &nodes) == 0 && nodes.current_count_change < 0 &&
         nodes.current_count == 0) {
-      printf("nobody publishes station/state any more\n");
+      printf("no node publishes station/state any more\n");
       fflush(stdout);
     }
   }

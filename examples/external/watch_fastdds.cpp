@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
     fast::SubscriptionMatchedStatus nodes;
     reader->get_subscription_matched_status(nodes);
     if (nodes.current_count_change < 0 && nodes.current_count == 0) {
-      std::printf("nobody publishes station/state any more\n");
+      std::printf("no node publishes station/state any more\n");
       std::fflush(stdout);
     }
   }

@@ -29,7 +29,7 @@ void ask(OPCODE_ROBOT_SERVICE code) {
   service->nRequest = asked;
 }
 
-bool somebody_pushes() {
+bool is_pushed() {
   const auto pushed = CONTACT::pushed.get();
   return std::any_of(pushed.begin(), pushed.end(), [](double push) { return push != 0; });
 }
@@ -45,11 +45,11 @@ void note_contact() {
 }  // namespace
 
 void run() {
-  const bool pushes = somebody_pushes();
-  if (!pushes || push_began == 0) {
-    push_began = pushes ? irp::release_ns() : 0;
+  const bool pushed = is_pushed();
+  if (!pushed || push_began == 0) {
+    push_began = pushed ? irp::release_ns() : 0;
   }
-  calm = pushes ? 0 : calm + 1;
+  calm = pushed ? 0 : calm + 1;
   const bool contact = ROBOT_MODULE_STATE.nError == ROBOT_ERR_CONTACT;
   if (contact && !noted) {
     note_contact();

@@ -41,7 +41,7 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
           "Authority whose certificates count like a token (a plant's ca.pem)")
       .completes(base::Completion::File);
   app.add("--revoked", "FILE", options.revoked,
-          "Certificates of --client-ca that do not count any more (default: revoked.pem beside it)")
+          "Revoked certificates of --client-ca (default: revoked.pem in its folder)")
       .completes(base::Completion::File);
   app.add("--host", "NAME", options.hosts, "Another name under which clients may call this server").one_at_a_time();
   app.add("--origin", "URL", options.origins,
@@ -56,7 +56,7 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
       .completes(base::Completion::Folder);
   app.add("--audit", "FILE", options.audit, "Keep who wrote what here (default: in the state folder)")
       .completes(base::Completion::File);
-  app.add("--recordings", "DIR", options.recordings, "Show the recordings in this folder too, beside black boxes")
+  app.add("--recordings", "DIR", options.recordings, "Show the recordings in this folder in addition to black boxes")
       .completes(base::Completion::Folder);
   app.add("--clients", "COUNT", options.clients, "At most so many streams at a time (default 64)")
       .range(1, kMostClients);

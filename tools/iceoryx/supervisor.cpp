@@ -57,15 +57,15 @@ class Supervisor {
     }
     const Roudi now = find_roudi();
     if (now.state == Roudi::State::There) {
-      told_ = Roudi::State::There;
+      reported_ = Roudi::State::There;
       roudi_ = now;
       start_worker();
       return;
     }
-    if (told_ == now.state) {
+    if (reported_ == now.state) {
       return;
     }
-    told_ = now.state;
+    reported_ = now.state;
     context_.out.note(now.state == Roudi::State::Absent
                           ? "RouDi does not run on this machine; waiting for it. Start it: iox-roudi"
                           : "RouDi belongs to another user (/tmp/roudi); waiting. Run both as one user");
@@ -103,7 +103,7 @@ class Supervisor {
     waitpid(worker_, nullptr, 0);
     worker_ = -1;
     early_aborts_ = 0;
-    told_ = Roudi::State::Absent;
+    reported_ = Roudi::State::Absent;
     context_.out.note("RouDi has ended; waiting for it (programs that read have to be started again, too)");
   }
 
@@ -162,7 +162,7 @@ class Supervisor {
   int hz_;
   pid_t worker_ = -1;
   Roudi roudi_;  // the one that the worker uses
-  Roudi::State told_ = Roudi::State::There;
+  Roudi::State reported_ = Roudi::State::There;
   std::int64_t started_ns_ = 0;
   std::int64_t not_before_ = 0;
   int early_aborts_ = 0;

@@ -22,16 +22,16 @@ Result<ClientAuthority, base::Problem> ClientAuthority::open(const std::filesyst
   if (!facts) {
     return base::Problem{fmt::format("{} is not a certificate", authority.string())};
   }
-  const std::filesystem::path beside = authority.parent_path() / "revoked.pem";
+  const std::filesystem::path default_list = authority.parent_path() / "revoked.pem";
   std::error_code ignored;
   const bool of_plant = keys::is_plant_authority(*facts);
-  if (!revoked.empty() || of_plant || std::filesystem::exists(beside, ignored)) {
-    made.revoked_ = revoked.empty() ? beside : revoked;
+  if (!revoked.empty() || of_plant || std::filesystem::exists(default_list, ignored)) {
+    made.revoked_ = revoked.empty() ? default_list : revoked;
   }
   std::string list;
   if (std::string problem = made.read_list(list); !problem.empty()) {
-    return base::Problem{problem + "; copy the revoked.pem of the plant's keys beside " + authority.string() +
-                         ", or name it with --revoked"};
+    return base::Problem{problem + "; copy the revoked.pem of the plant's keys into the folder of " +
+                         authority.string() + ", or name it with --revoked"};
   }
   return made;
 }
@@ -54,7 +54,7 @@ std::string ClientAuthority::read_list(std::string& list) const {
 Client ClientAuthority::identify(const std::string& certificate) const {
   const auto facts = keys::read_certificate(certificate);
   if (authority_.empty() || !facts || facts->common_name.empty()) {
-    return {{}, Role::Unknown, "the certificate names nobody"};
+    return {{}, Role::Unknown, "the certificate names no user"};
   }
   std::string list;
   if (!read_list(list).empty()) {

@@ -143,7 +143,7 @@ std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticke
 
 std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {
   if (plant_ == nullptr) {
-    return refusal(status::kNotFound, "this server looks at its own host only; start it with --plant");
+    return refusal(status::kNotFound, "this server shows its own host only; start it with --plant");
   }
   match.call.plant = &plant_->watch;
   const auto request = std::make_shared<Request>(*match.call.request);
@@ -188,7 +188,7 @@ std::optional<Reply> Server::ask_remote(Match match, Ticket ticket) {
 
 std::optional<Reply> Server::order_plant(Match match, Ticket ticket) {
   if (plant_ == nullptr) {
-    return refusal(status::kNotFound, "this server looks at its own host only; start it with --plant");
+    return refusal(status::kNotFound, "this server shows its own host only; start it with --plant");
   }
   match.call.link = &options_.link;
   const auto request = std::make_shared<Request>(*match.call.request);
@@ -218,8 +218,8 @@ std::optional<Reply> Server::ask_plc(Match match, Ticket ticket) {
 }
 
 std::optional<Reply> Server::let_wait(const Match& match, Ticket ticket) {
-  constexpr std::size_t kMost = 4;
-  for (std::size_t i = 0; i < kMost; ++i) {
+  constexpr std::size_t kMaxScopes = 4;
+  for (std::size_t i = 0; i < kMaxScopes; ++i) {
     if (i == waiting_.size()) {
       waiting_.push_back(std::make_unique<Helper>(options_.node));
     }
@@ -228,7 +228,7 @@ std::optional<Reply> Server::let_wait(const Match& match, Ticket ticket) {
     }
   }
   return refusal(status::kUnavailable,
-                 fmt::format("{} scopes wait for their triggers already; try again later", kMost));
+                 fmt::format("{} scopes wait for their triggers already; try again later", kMaxScopes));
 }
 
 std::unique_ptr<Visitor> Server::receive(const Request& request, Line& line) {
@@ -238,9 +238,9 @@ std::unique_ptr<Visitor> Server::receive(const Request& request, Line& line) {
 void Server::announce() const {
   const GateSettings& gate = gate_.settings();
   // A token that is in no file can be obtained from this output only.
-  const bool told = !gate.tokens.empty() && options_.token_file.empty();
+  const bool shown = !gate.tokens.empty() && options_.token_file.empty();
   fmt::print("{}://{}:{}/{}\n", gate.tls ? "https" : "http", options_.bind, door_->port(),
-             told ? "#token=" + gate.tokens.front().value : "");
+             shown ? "#token=" + gate.tokens.front().value : "");
   (void)std::fflush(stdout);
 }
 

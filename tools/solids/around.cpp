@@ -23,8 +23,8 @@ struct Part {
 
 // Returns some of the triangles, to search for a cut; all of them count for the solids around the parts.
 Surface some_of(const Surface& surface) {
-  constexpr std::size_t kMost = 2000;
-  const std::size_t step = surface.size() / kMost + 1;
+  constexpr std::size_t kMaxTriangles = 2000;
+  const std::size_t step = surface.size() / kMaxTriangles + 1;
   Surface some;
   for (std::size_t i = 0; i < surface.size(); i += step) {
     some.push_back(surface[i]);

@@ -17,14 +17,14 @@
 namespace indurop::solids {
 namespace {
 
-constexpr const char* kDetails = R"(The robot looks at boxes, cylinders and balls when it looks for collisions, not at
-meshes. Every point of a mesh, and of what it encloses, is in one of its solids;
-BEYOND is how far they reach beyond it at most. More solids lie closer, and take
-longer to look at; 64 are possible for all links. Meshes: STL, DAE, OBJ and what
-else assimp reads. Look at the picture before the robot moves.
+constexpr const char* kDetails = R"(The robot checks boxes, cylinders and balls for collisions, not meshes. Every point
+of a mesh, and of what it encloses, is in one of its solids; BEYOND is the maximum
+distance by which they exceed it. More solids fit closer, and take longer to check;
+64 are possible for all links. Meshes: STL, DAE, OBJ and all others that assimp
+reads. Inspect the picture before the robot moves.
 
-Without a second file nothing is written. Then give that file to the robot
-module, and look at what 'indurop check' says of it.
+Without a second file nothing is written. Use that file in the robot module, and
+run 'indurop check'.
   indurop-solids arm.urdf arm_solids.urdf --svg arm_solids.svg
   indurop-solids arm.urdf --package arm_description=/opt/arm/description
 )";

@@ -168,7 +168,7 @@ struct Plant::Impl {
   void write(const Part& part, std::span<const std::uint8_t> from) const {
     const auto& boards = node.boards();
     if (boards.size() > 1 && vars::running_node(boards[part.board].node) == 0) {
-      throw std::runtime_error(fmt::format("board {} does not run: nobody would see {}", boards[part.board].name,
+      throw std::runtime_error(fmt::format("board {} does not run: no module would read {}", boards[part.board].name,
                                            part.place.variable->name));
     }
     if (!part.store->write(*part.entry, part.place.offset, from)) {

@@ -32,7 +32,7 @@ TEST_F(Live, A_killed_reader_disturbs_nobody) {
   EXPECT_EQ(module("axis").faults.load(), 0U);
   node.signal(SIGTERM);
   EXPECT_EQ(node.wait(), 0);
-  EXPECT_TRUE(second.prints("nobody publishes station/state any more"));
+  EXPECT_TRUE(second.prints("no node publishes station/state any more"));
 }
 
 TEST_F(Live, A_node_that_comes_back_is_heard_again) {

@@ -154,7 +154,7 @@ TEST_F(Remote, Hz_counts_what_comes_over_the_network) {
 TEST_F(Remote, Nobody_there_is_told_in_bounded_time) {
   const Outcome nobody = remote({"get", "station::target", "--wait", "300ms"});
   EXPECT_EQ(nobody.code, 6);
-  EXPECT_CONTAINS(nobody.err, "nobody shows variables in DDS domain " + domain());
+  EXPECT_CONTAINS(nobody.err, "no board shows variables in DDS domain " + domain());
   start_axis();
   const Outcome wrong = remote({"get", "station::targt"});
   EXPECT_EQ(wrong.code, 1);

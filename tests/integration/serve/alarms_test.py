@@ -170,7 +170,7 @@ def test_the_command_line_and_the_server_see_the_same(setting):
     press.run("alarms", "shelve", "press::*", "--for", "1h")
     press.becomes("press::door_open", "shelved")
     setting.end(press.server.child)
-    assert "nobody looks at the alarms" in press.run("alarms").stderr
+    assert "no process is evaluating the alarms" in press.run("alarms").stderr
 
 
 def test_a_module_that_is_stopped_is_an_alarm(setting):

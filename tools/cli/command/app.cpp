@@ -14,7 +14,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr const char* kPurpose = "check, run and look at InduRoP nodes";
+constexpr const char* kPurpose = "check, run and inspect InduRoP nodes";
 constexpr const char* kDescription =
     "A node runs the modules of a module.xml on one board, each with its own period, and holds the variables they\n"
     "share. indurop checks configurations before they run, starts and stops nodes, and shows and changes what a\n"

@@ -13,7 +13,7 @@ namespace indurop::tools {
 int become_server(Context& context, const ServeOptions& options) {
   const auto program = base::program_folder() / "indurop-serve";
   if (access(program.c_str(), X_OK) != 0) {
-    context.out.error(fmt::format("{} is not there; it belongs beside this program", program.string()));
+    context.out.error(fmt::format("{} is missing; it must be in the folder of this program", program.string()));
     return kFailed;
   }
   std::vector<std::string> words = words_of(options);

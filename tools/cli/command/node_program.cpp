@@ -50,7 +50,7 @@ std::filesystem::path find() {
 std::filesystem::path node_program(Context& context) {
   auto program = find();
   if (program.empty()) {
-    context.out.error(fmt::format("{} was found neither beside this program nor in PATH", kProgram));
+    context.out.error(fmt::format("{} was found neither in the folder of this program nor in PATH", kProgram));
   }
   return program;
 }

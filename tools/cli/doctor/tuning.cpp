@@ -109,7 +109,7 @@ class Examination {
     if (cores_.size() > 1) {
       keep_free();
     }
-    look_at_the_rest();
+    check_machine();
     return std::move(tuning_);
   }
 
@@ -175,7 +175,7 @@ class Examination {
     return (static_cast<unsigned>(value) >> static_cast<unsigned>(core_ % 4) & 1U) != 0;
   }
 
-  void look_at_the_rest() {
+  void check_machine() {
     const std::string runtime = setting_in(root_, "/proc/sys/kernel/sched_rt_runtime_us");
     if (!runtime.empty() && runtime != "-1" && runtime.size() < 6) {
       tuning_.settings.push_back({"/proc/sys/kernel/sched_rt_runtime_us", runtime, "950000",

@@ -97,7 +97,7 @@ int hold_on_board(Context& context, BoardForces& options, std::vector<std::strin
   if (const int code = orders.give(deploy::Action::Force, text_of(order)); code != kOk) {
     return code;
   }
-  context.out.note("held while this runs; Ctrl-C lets go");
+  context.out.note("held while this command runs; Ctrl-C releases");
   deploy::WriteOrder again;
   again.for_ns = kRemoteLeaseNs;
   again.renew = true;

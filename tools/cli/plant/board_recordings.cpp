@@ -119,7 +119,7 @@ std::vector<std::string> BoardRecordings::end() {
 std::string BoardRecordings::end(const One& one) {
   if (agent_of(one.board.board) != one.board.agent) {
     return agent_of(one.board.board) == 0 ? "it no longer reports"
-                                          : "its agent was started anew, and its recording ended with the one before";
+                                          : "its agent was restarted, and the recording ended with the previous agent";
   }
   const auto answered = give(one, deploy::Action::EndRecord, kLastWords);
   if (!answered) {

@@ -34,14 +34,14 @@ std::string microseconds(Nanos time) {
 
 std::string network_words(const NetworkTime& network) {
   return fmt::format("{} for each way through the network, {}", microseconds(network.most),
-                     network.told       ? "as told"
-                     : network.measured ? "as boards here measure it"
-                                        : "as nobody has measured it here; see --network");
+                     network.given      ? "as --network says"
+                     : network.measured ? "as measured by the boards of this host"
+                                        : "assumed, because no board of this host has measured it; see --network");
 }
 
-NetworkTime network_time(std::span<const config::BoardView> boards, const std::optional<Nanos>& told) {
-  if (told) {
-    return {*told, true, false};
+NetworkTime network_time(std::span<const config::BoardView> boards, const std::optional<Nanos>& given) {
+  if (given) {
+    return {*given, true, false};
   }
   const auto measured = measured_network(boards);
   return {measured.value_or(config::kNetworkHop), false, measured.has_value()};

@@ -27,10 +27,10 @@ struct ChainQuestion {
 // Maximum time from board to board, and its source.
 struct NetworkTime {
   base::Nanos most{};
-  bool told = false;
+  bool given = false;
   bool measured = false;
 };
-NetworkTime network_time(std::span<const config::BoardView> boards, const std::optional<base::Nanos>& told);
+NetworkTime network_time(std::span<const config::BoardView> boards, const std::optional<base::Nanos>& given);
 std::string network_words(const NetworkTime& network);
 // Returns the maximum time of a beacon between boards that run on this machine, including the uncertainty of their
 // clocks.

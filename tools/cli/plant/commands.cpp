@@ -49,12 +49,12 @@ void add_command_options(base::Options& app, Context& context, CommandOptions& o
   deploy::add_link_options(app, options.link);
 }
 
-Action declare_command(base::Options& app, Context& context, ModuleCommand command, const char* nobody) {
+Action declare_command(base::Options& app, Context& context, ModuleCommand command, const char* no_target) {
   auto options = std::make_shared<CommandOptions>();
   add_command_options(app, context, *options);
-  return [options, command, nobody](Context& c) {
+  return [options, command, no_target](Context& c) {
     if (options->targets.empty()) {
-      c.out.error(nobody);
+      c.out.error(no_target);
       return kUsage;
     }
     return carry_out(c, command, *options);

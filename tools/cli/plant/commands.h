@@ -29,8 +29,8 @@ struct CommandTarget {
 
 void add_command_options(base::Options& app, Context& context, CommandOptions& options);
 
-// Declares a verb that only takes modules and nodes on its command line; `nobody`: its message if there is none.
-Action declare_command(base::Options& app, Context& context, scheduler::ModuleCommand command, const char* nobody);
+// Declares a verb that only takes modules and nodes on its command line; `no_target`: the message if it takes none.
+Action declare_command(base::Options& app, Context& context, scheduler::ModuleCommand command, const char* no_target);
 
 // Executes them in the given order and ends at the first failure. Returns the exit code.
 int carry_out(Context& context, scheduler::ModuleCommand command, CommandOptions& options);

@@ -54,8 +54,8 @@ std::vector<std::string> trouble_of(deploy::DeployLink& link, std::uint64_t self
       all.push_back(fmt::format("board {}: its node is {}", board.board, deploy::to_text(board.node)));
     }
     const auto text = texts.find(key.second);
-    const JsonValue told = text != texts.end() ? JsonValue::parse(text->second).value_or(JsonValue()) : JsonValue();
-    for (const JsonValue& one : told["alarms"].values()) {
+    const JsonValue reported = text != texts.end() ? JsonValue::parse(text->second).value_or(JsonValue()) : JsonValue();
+    for (const JsonValue& one : reported["alarms"].values()) {
       const auto state = alarms::alarm_state_of(one["state"].text().value_or(""));
       if (state && (alarms::is_active(*state) || alarms::wants_attention(*state))) {
         all.push_back(fmt::format("board {}: {} ({})", board.board, one["text"].text().value_or(""), word_of(*state)));

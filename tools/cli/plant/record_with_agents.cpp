@@ -27,19 +27,19 @@ bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Removes from `nobody_has` the names that a board has.
-int begin(Context& context, const RemoteWish& wish, const deploy::LinkSettings& link, BoardRecordings& recordings,
-          std::vector<std::string>& nobody_has) {
+// Removes from `unmatched` the names that a board has.
+int begin(Context& context, const RecordRequest& request, const deploy::LinkSettings& link, BoardRecordings& recordings,
+          std::vector<std::string>& unmatched) {
   std::vector<std::string> boards;
-  for (const BoardElsewhere& board : wish.boards) {
+  for (const BoardElsewhere& board : request.boards) {
     boards.push_back(board.name);
   }
   recordings.hear(boards);
   int code = kOk;
-  for (const BoardElsewhere& board : wish.boards) {
-    const auto unknown = recordings.begin(board.name, wish.plant, wish.names, wish.past);
+  for (const BoardElsewhere& board : request.boards) {
+    const auto unknown = recordings.begin(board.name, request.plant, request.names, request.past);
     if (unknown) {
-      std::erase_if(nobody_has, [&](const std::string& name) { return !among(*unknown, name); });
+      std::erase_if(unmatched, [&](const std::string& name) { return !among(*unknown, name); });
       continue;
     }
     const Failure failure = with_keys_hint(unknown.error(), link);
@@ -65,7 +65,7 @@ void wait(std::int64_t duration_ns) {
   }
 }
 
-int join(Context& context, const RemoteWish& wish, BoardRecordings& recordings, const fs::path& parts) {
+int join(Context& context, const RecordRequest& request, BoardRecordings& recordings, const fs::path& parts) {
   const int interrupt = interrupted() ? interrupt_code() : kOk;
   take_interrupt();  // it ended the recording, and must not end what follows
   int code = tell(context, recordings.end());
@@ -79,31 +79,31 @@ int join(Context& context, const RemoteWish& wish, BoardRecordings& recordings, 
     fs::remove_all(parts, ignored);
     return code;
   }
-  const auto joined = recorder::join(files, wish.file);
+  const auto joined = recorder::join(files, request.file);
   if (!joined) {
     context.out.error(fmt::format("{}; what was recorded is in {}", joined.error().text, parts.string()));
     return kFailed;
   }
   fs::remove_all(parts, ignored);
   recordings.drop();
-  context.out.note(fmt::format("{}: {} messages of {}, {}", wish.file.string(), joined->messages,
-                               fmt::join(joined->names, ", "), human_bytes(fs::file_size(wish.file, ignored))));
+  context.out.note(fmt::format("{}: {} messages of {}, {}", request.file.string(), joined->messages,
+                               fmt::join(joined->names, ", "), human_bytes(fs::file_size(request.file, ignored))));
   return code == kOk ? interrupt : code;
 }
 
 }  // namespace
 
-int record_with_agents(Context& context, const RemoteWish& wish, deploy::LinkSettings& link,
-                       const std::vector<std::string>& nobody_has,
+int record_with_agents(Context& context, const RecordRequest& request, deploy::LinkSettings& link,
+                       const std::vector<std::string>& unmatched,
                        const std::function<int(const fs::path& file)>& here) {
   auto commander = BoardCommander::make(context.out, link.keys);
   if (!commander) {
     return report(context.out, commander.error());
   }
-  const fs::path parts = wish.file.string() + ".parts";
+  const fs::path parts = request.file.string() + ".parts";
   std::error_code error;
-  if (fs::exists(wish.file, error) || !fs::create_directories(parts, error)) {
-    const std::string what = fs::exists(wish.file, error) ? wish.file.string() : parts.string();
+  if (fs::exists(request.file, error) || !fs::create_directories(parts, error)) {
+    const std::string what = fs::exists(request.file, error) ? request.file.string() : parts.string();
     context.out.error(what + " exists already, or cannot be written; remove it, or give another name");
     return kFailed;
   }
@@ -113,8 +113,8 @@ int record_with_agents(Context& context, const RemoteWish& wish, deploy::LinkSet
     return kUnreachable;
   }
   BoardRecordings recordings(std::move(opened), link.self, std::move(*commander));
-  std::vector<std::string> missing = nobody_has;
-  int code = begin(context, wish, link, recordings, missing);
+  std::vector<std::string> missing = unmatched;
+  int code = begin(context, request, link, recordings, missing);
   if (code == kOk && !missing.empty()) {
     (void)recordings.end();
     recordings.drop();
@@ -131,9 +131,9 @@ int record_with_agents(Context& context, const RemoteWish& wish, deploy::LinkSet
   if (here) {
     recorded = here(parts / kHere);
   } else {
-    wait(wish.duration_ns);
+    wait(request.duration_ns);
   }
-  const int joined = join(context, wish, recordings, parts);
+  const int joined = join(context, request, recordings, parts);
   for (const int next : {recorded, joined}) {
     code = code == kOk ? next : code;
   }

@@ -19,7 +19,7 @@ struct BoardElsewhere {
   std::string name;
   std::string why;  // why it is not recorded locally, though it runs on this host; else empty
 };
-struct RemoteWish {
+struct RecordRequest {
   std::string plant;
   std::vector<BoardElsewhere> boards;
   std::vector<std::string> names;  // variables or globs to record; none: all
@@ -29,10 +29,10 @@ struct RemoteWish {
 };
 
 // Starts the recordings of the agents, calls `here` with a file for what this host records (empty: nothing), and when
-// that returns, ends the others and joins all. `nobody_has`: the requested names that no board of this host has.
+// that returns, ends the others and joins all. `unmatched`: the requested names that no board of this host has.
 // Returns the exit code of the first problem; boards that are missing in the file are named.
-int record_with_agents(Context& context, const RemoteWish& wish, deploy::LinkSettings& link,
-                       const std::vector<std::string>& nobody_has,
+int record_with_agents(Context& context, const RecordRequest& request, deploy::LinkSettings& link,
+                       const std::vector<std::string>& unmatched,
                        const std::function<int(const std::filesystem::path& file)>& here);
 
 }  // namespace indurop::tools

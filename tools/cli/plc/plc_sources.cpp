@@ -9,7 +9,7 @@ void add_plc_dialect(base::Options& app, std::optional<plc::Dialect>& dialect) {
     return std::string();
   };
   app.add("--dialect", "DIALECT", take,
-          "Whose rules convert values by themselves: iec or codesys (default: the editor's that wrote the files)")
+          "Rules of implicit conversions: iec or codesys (default: those of the editor that wrote the files)")
       .choices({"iec", "codesys"});
 }
 

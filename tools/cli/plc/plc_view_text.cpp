@@ -35,10 +35,10 @@ void text_lines(const PlcView& view, const Output& out, const PlcView::Shown& sh
       out.paint(Style::Dim, shown.title + (shown.body->action.empty() ? "" : ", action " + shown.body->action)));
   const auto text = plc::live_lines(first_indent(*shown.body) + shown.body->body->text,
                                     [&](const std::string& path) { return view.value(shown, path); });
-  constexpr int kMost = 60;
+  constexpr int kMaxWidth = 60;
   int width = 0;
   for (const plc::LiveLine& one : text) {
-    width = std::max(width, one.values.empty() ? 0 : std::min(kMost, plc::draw::text_width(one.text)));
+    width = std::max(width, one.values.empty() ? 0 : std::min(kMaxWidth, plc::draw::text_width(one.text)));
   }
   for (const plc::LiveLine& one : text) {
     const int room = std::max(0, width - plc::draw::text_width(one.text));

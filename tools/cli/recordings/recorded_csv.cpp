@@ -27,11 +27,11 @@ struct Columns {
 
 class Sheet {
  public:
-  explicit Sheet(const CsvWish& wish) : wish_(wish) {}
+  explicit Sheet(const CsvOptions& options) : options_(options) {}
 
   Result<void, Problem> choose(const recording::McapReader& reader) {
     const recorder::Sources sources = recorder::find_sources(reader);
-    std::vector<bool> found(wish_.names.size(), false);
+    std::vector<bool> found(options_.names.size(), false);
     for (const auto& [id, channel] : reader.contents().channels) {
       const auto place = sources.channels.find(id);
       const bool own = place != sources.channels.end() && place->second.kind != recorder::ChannelKind::Value;
@@ -47,7 +47,7 @@ class Sheet {
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (!found[i]) {
         return Problem{
-            fmt::format("there is no variable '{}' in the recording; see indurop recording info", wish_.names[i])};
+            fmt::format("there is no variable '{}' in the recording; see indurop recording info", options_.names[i])};
       }
     }
     cells_.resize(heading_.size());
@@ -89,9 +89,9 @@ class Sheet {
 
  private:
   bool wanted(const std::string& topic, std::vector<bool>& found) const {
-    bool any = wish_.names.empty();
-    for (std::size_t i = 0; i < wish_.names.size(); ++i) {
-      if (schema::glob_match(wish_.names[i], topic)) {
+    bool any = options_.names.empty();
+    for (std::size_t i = 0; i < options_.names.size(); ++i) {
+      if (schema::glob_match(options_.names[i], topic)) {
         found[i] = true;
         any = true;
       }
@@ -101,7 +101,7 @@ class Sheet {
 
   void add(std::uint16_t id, const recording::McapChannel& channel, std::vector<recording::IdlLeaf> layout) {
     const auto unit = channel.metadata.find("unit");
-    const bool shown = wish_.units && unit != channel.metadata.end();
+    const bool shown = options_.units && unit != channel.metadata.end();
     Columns columns{std::move(layout), heading_.size()};
     for (const recording::IdlLeaf& leaf : columns.layout) {
       const std::string name = channel.topic + leaf.name;
@@ -115,14 +115,14 @@ class Sheet {
     if (!time_ns_) {
       return;
     }
-    if (wish_.every_ns == 0) {
+    if (options_.every_ns == 0) {
       if (changed_ && changed_ns_ < time) {
         write_row(changed_ns_);
         changed_ = false;
       }
       return;
     }
-    for (; *time_ns_ < time; *time_ns_ += wish_.every_ns) {
+    for (; *time_ns_ < time; *time_ns_ += options_.every_ns) {
       write_row(*time_ns_);
     }
   }
@@ -136,7 +136,7 @@ class Sheet {
     ++out_.count;
   }
 
-  const CsvWish& wish_;
+  const CsvOptions& options_;
   std::map<std::uint16_t, Columns> columns_;
   std::vector<std::string> heading_;
   std::vector<std::string> cells_;
@@ -148,12 +148,12 @@ class Sheet {
 
 }  // namespace
 
-Result<Exported, Problem> recorded_csv(const std::filesystem::path& file, const CsvWish& wish) {
+Result<Exported, Problem> recorded_csv(const std::filesystem::path& file, const CsvOptions& options) {
   auto reader = recording::McapReader::open(file);
   if (!reader) {
     return std::move(reader).error();
   }
-  Sheet sheet(wish);
+  Sheet sheet(options);
   if (auto chosen = sheet.choose(*reader); !chosen) {
     return std::move(chosen).error();
   }

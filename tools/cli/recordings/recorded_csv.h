@@ -15,13 +15,13 @@
 
 namespace indurop::tools {
 
-struct CsvWish {
+struct CsvOptions {
   std::vector<std::string> names;  // globs of channels; none: all
   std::int64_t every_ns = 0;       // interval of the rows; 0: a row whenever a value changed
   bool units = false;
 };
 
 // Errors: not a recording; a name that is not in it.
-Result<Exported, base::Problem> recorded_csv(const std::filesystem::path& file, const CsvWish& wish);
+Result<Exported, base::Problem> recorded_csv(const std::filesystem::path& file, const CsvOptions& options);
 
 }  // namespace indurop::tools

@@ -49,9 +49,8 @@ void add_recording_cut(base::Options& app, const std::shared_ptr<Action>& chosen
   add_time_option(verb, "--from", options->from_ns, "Time since the begin of the recording (default: 0)");
   add_time_option(verb, "--to", options->to_ns, "Likewise (default: its end)");
   verb.details(
-      "Takes the runs that ended between these times, each with all it saw and wrote. Before them stands what was "
-      "known\n"
-      "then, so that the part can be drawn and replayed by itself.\n");
+      "Takes the runs that ended between these times, each with all it read and wrote, and before them the\n"
+      "values of that time, so that the part can be drawn and replayed on its own.\n");
 }
 
 }  // namespace indurop::tools

@@ -30,15 +30,15 @@ bool save(Context& context, const std::string& file, const Result<Exported, base
 
 }  // namespace
 
-int export_recording(Context& context, const ExportWish& options) {
+int export_recording(Context& context, const ExportOptions& options) {
   if (options.csv.empty() && options.trace.empty()) {
     context.out.error("what is to be made of it? --csv FILE, --trace FILE, or both");
     return kUsage;
   }
   bool good = true;
   if (!options.csv.empty()) {
-    const CsvWish wish{options.names, options.every_ns, options.units};
-    good = save(context, options.csv, recorded_csv(options.file, wish), "rows", "") && good;
+    const CsvOptions csv{options.names, options.every_ns, options.units};
+    good = save(context, options.csv, recorded_csv(options.file, csv), "rows", "") && good;
   }
   if (!options.trace.empty()) {
     good =
@@ -49,7 +49,7 @@ int export_recording(Context& context, const ExportWish& options) {
 }
 
 void add_recording_export(base::Options& app, const std::shared_ptr<Action>& chosen) {
-  auto options = std::make_shared<ExportWish>();
+  auto options = std::make_shared<ExportOptions>();
   base::Options& verb =
       app.command("export", "Write values as CSV, or runs as a trace for Perfetto",
                   [options, chosen] { *chosen = [options](Context& c) { return export_recording(c, *options); }; });

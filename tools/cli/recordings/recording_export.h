@@ -13,7 +13,7 @@
 
 namespace indurop::tools {
 
-struct ExportWish {
+struct ExportOptions {
   std::filesystem::path file;
   std::vector<std::string> names;  // with csv: variables, or globs; none: all
   std::string csv;                 // file names; empty: none
@@ -22,7 +22,7 @@ struct ExportWish {
   bool units = false;
 };
 // Returns the exit code.
-int export_recording(Context& context, const ExportWish& wish);
+int export_recording(Context& context, const ExportOptions& options);
 
 // Adds the subcommand; after it was parsed, `chosen` is the action to run.
 void add_recording_export(base::Options& app, const std::shared_ptr<Action>& chosen);

@@ -181,8 +181,8 @@ int play(Context& context, const Options& options) {
   }
   context.out.note(fmt::format("wrote {} values of {} variables", done->written, list->size()));
   if (done->refused > 0) {
-    context.out.error(
-        fmt::format("{} values could not be written: their variables were held by somebody", done->refused));
+    context.out.error(fmt::format(
+        "{} values could not be written: another process held the write lock of their variables", done->refused));
   }
   const auto forced = forced_of(*list, *store);
   if (!forced.empty()) {
@@ -195,8 +195,8 @@ int play(Context& context, const Options& options) {
 }  // namespace
 
 void add_recording_play(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen) {
-  constexpr double kLeast = 0.001;
-  constexpr double kMost = 1000;
+  constexpr double kMinSpeed = 0.001;
+  constexpr double kMaxSpeed = 1000;
   auto options = std::make_shared<Options>();
   base::Options& verb = app.command("play", "Write recorded values into a running node, in time", [options, chosen] {
     *chosen = [options](Context& c) { return play(c, *options); };
@@ -204,7 +204,7 @@ void add_recording_play(base::Options& app, Context& context, const std::shared_
   verb.add("file", "FILE.mcap", options->file, "The recording").required().completes(base::Completion::File);
   verb.add("names", "GLOB", options->names, "Variables, or globs; none: those that no module of the node writes");
   verb.add("--board", "NAME", options->board, "The board whose values are meant, if the recording is of several");
-  verb.add("--speed", "N", options->speed, "Times the speed of the recording (default: 1)").range(kLeast, kMost);
+  verb.add("--speed", "N", options->speed, "Times the speed of the recording (default: 1)").range(kMinSpeed, kMaxSpeed);
   add_node_option(verb, context);
   verb.details(
       "Inputs of yesterday for the modules of today, which run as ever: variables that no module of the node writes\n"

@@ -19,13 +19,13 @@ namespace indurop::tools {
 namespace {
 
 // Returns the recording's facts about its node.
-Result<recording::TextMap, base::Problem> about(const ReplayWish& wish) {
-  auto reader = recording::McapReader::open(wish.file);
+Result<recording::TextMap, base::Problem> about(const ReplayOptions& options) {
+  auto reader = recording::McapReader::open(options.file);
   if (!reader) {
     return std::move(reader).error();
   }
   const recorder::Sources sources = recorder::find_sources(*reader);
-  const auto source = recorder::choose_source(sources, wish.board, wish.file.string());
+  const auto source = recorder::choose_source(sources, options.board, options.file.string());
   if (!source) {
     return source.error();
   }
@@ -34,25 +34,25 @@ Result<recording::TextMap, base::Problem> about(const ReplayWish& wish) {
 
 // Draws the variables that differ according to the replay's recording: the replayed values over the recorded ones.
 // Returns the exit code.
-int draw(Context& context, const ReplayWish& wish, const std::filesystem::path& output, int code) {
+int draw(Context& context, const ReplayOptions& options, const std::filesystem::path& output, int code) {
   const auto reader = recording::McapReader::open(output);
   if (!reader) {
     context.out.error(reader.error().text);
     return kFailed;
   }
-  const std::string prefix = wish.board.empty() ? "" : wish.board + "/";
-  CsvWish now_wish;
-  CsvWish then_wish;
+  const std::string prefix = options.board.empty() ? "" : options.board + "/";
+  CsvOptions now_csv;
+  CsvOptions then_csv;
   for (const auto& [name, runs] : recorder::last_metadata(*reader, recorder::kDifferingMetadata)) {
-    now_wish.names.push_back(name);
-    then_wish.names.push_back(prefix + name);
+    now_csv.names.push_back(name);
+    then_csv.names.push_back(prefix + name);
   }
-  if (now_wish.names.empty()) {
+  if (now_csv.names.empty()) {
     context.out.note("no value differs: there is no picture");
     return code;
   }
-  const auto now = recorded_csv(output, now_wish);
-  const auto then = recorded_csv(wish.file, then_wish);
+  const auto now = recorded_csv(output, now_csv);
+  const auto then = recorded_csv(options.file, then_csv);
   if (!now || !then) {
     context.out.error(now ? then.error().text : now.error().text);
     return kFailed;
@@ -67,24 +67,25 @@ int draw(Context& context, const ReplayWish& wish, const std::filesystem::path& 
     context.out.note("no value that can be drawn differs: there is no picture");
     return code;
   }
-  const std::string heading = fmt::format("{}: recorded, and what is left now", wish.file.filename().string());
-  if (const auto saved = base::replace_file(wish.svg, chart_svg(heading, *both), base::Durable::No); !saved) {
-    context.out.error(base::cannot_write(wish.svg, saved.error()));
+  const std::string heading = fmt::format("{}: recorded, and what is left now", options.file.filename().string());
+  if (const auto saved = base::replace_file(options.svg, chart_svg(heading, *both), base::Durable::No); !saved) {
+    context.out.error(base::cannot_write(options.svg, saved.error()));
     return kFailed;
   }
-  context.out.note(fmt::format("drew what differs into {}{}", wish.svg,
+  context.out.note(fmt::format("drew what differs into {}{}", options.svg,
                                left_out > 0 ? fmt::format(", but for {} more columns", left_out) : ""));
   return code;
 }
 
 // Runs the node as a child process, because there is work to do afterwards.
-int as_child(Context& context, const ReplayWish& wish, const std::filesystem::path& program, config::RunOptions run) {
+int as_child(Context& context, const ReplayOptions& options, const std::filesystem::path& program,
+             config::RunOptions run) {
   const TemporaryFolder folder;
   if (folder.path().empty()) {
     context.out.error("no temporary folder can be made; is TMPDIR writable?");
     return kFailed;
   }
-  if (run.replay.output.empty() && !wish.svg.empty()) {
+  if (run.replay.output.empty() && !options.svg.empty()) {
     run.replay.output = folder.path() / "now.mcap";
   }
   std::vector<std::string> words = config::words_of(run);
@@ -95,19 +96,19 @@ int as_child(Context& context, const ReplayWish& wish, const std::filesystem::pa
     return kFailed;
   }
   std::error_code ignored;
-  const bool drawn = !wish.svg.empty() && std::filesystem::exists(run.replay.output, ignored);
-  return drawn ? draw(context, wish, run.replay.output, *code) : *code;
+  const bool drawn = !options.svg.empty() && std::filesystem::exists(run.replay.output, ignored);
+  return drawn ? draw(context, options, run.replay.output, *code) : *code;
 }
 
 }  // namespace
 
-int replay_recording(Context& context, const ReplayWish& wish) {
-  const bool one_tick = wish.at != config::Replay::kLastTick;
-  if (one_tick && (wish.from != 0 || wish.to != config::Replay::kLastTick)) {
+int replay_recording(Context& context, const ReplayOptions& options) {
+  const bool one_tick = options.at != config::Replay::kLastTick;
+  if (one_tick && (options.from != 0 || options.to != config::Replay::kLastTick)) {
     context.out.error("--at is one tick: leave out --from and --to");
     return kUsage;
   }
-  if (wish.from > wish.to) {
+  if (options.from > options.to) {
     context.out.error("--from is later than --to");
     return kUsage;
   }
@@ -115,30 +116,30 @@ int replay_recording(Context& context, const ReplayWish& wish) {
   if (program.empty()) {
     return kFailed;
   }
-  auto known = about(wish);
+  auto known = about(options);
   if (!known) {
     context.out.error(known.error().text);
     return kFailed;
   }
   config::RunOptions run;
   run.quiet = context.out.quiet();
-  run.replay.file = wish.file;
-  run.replay.board = wish.board;
-  run.replay.with = wish.with;
-  run.replay.output = wish.output;
-  run.replay.from_tick = one_tick ? wish.at : wish.from;
-  run.replay.to_tick = one_tick ? wish.at : wish.to;
-  run.config = wish.config.empty() ? std::filesystem::path((*known)["config"]) : wish.config;
+  run.replay.file = options.file;
+  run.replay.board = options.board;
+  run.replay.with = options.with;
+  run.replay.output = options.output;
+  run.replay.from_tick = one_tick ? options.at : options.from;
+  run.replay.to_tick = one_tick ? options.at : options.to;
+  run.config = options.config.empty() ? std::filesystem::path((*known)["config"]) : options.config;
   run.board = (*known)["board"];
-  run.node = wish.node;
+  run.node = options.node;
   std::error_code ignored;
   if (!std::filesystem::exists(run.config, ignored)) {
     context.out.error(fmt::format("{} was recorded with {}, which is not here; name the configuration with --config",
-                                  wish.file.string(), run.config.string()));
+                                  options.file.string(), run.config.string()));
     return kFailed;
   }
-  return wish.svg.empty() && !wish.comes_back ? become_node(context, program, run)
-                                              : as_child(context, wish, program, std::move(run));
+  return options.svg.empty() && !options.comes_back ? become_node(context, program, run)
+                                                    : as_child(context, options, program, std::move(run));
 }
 
 }  // namespace indurop::tools

@@ -13,7 +13,7 @@
 
 namespace indurop::tools {
 
-struct ReplayWish {
+struct ReplayOptions {
   std::filesystem::path file;
   std::filesystem::path config;  // empty: the configuration in the recording
   std::string node;
@@ -29,6 +29,6 @@ struct ReplayWish {
 };
 
 // Returns the exit code.
-int replay_recording(Context& context, const ReplayWish& wish);
+int replay_recording(Context& context, const ReplayOptions& options);
 
 }  // namespace indurop::tools

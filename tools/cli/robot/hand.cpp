@@ -67,7 +67,7 @@ int hold(Context& context, vars::Store& store, const Item& beat, const Hand& han
 
 // A lost client may have left the switch pressed: the robot requires it to be released before it accepts it again.
 // Returns the exit code.
-int let_go_before(Context& context, vars::Store& store, const Item& enable, const std::vector<Assignment>& rest) {
+int release_before(Context& context, vars::Store& store, const Item& enable, const std::vector<Assignment>& rest) {
   constexpr std::int64_t kPeriodsNs = 100'000'000;  // longer than the period of any robot
   const auto now = operate::read(store, enable);
   if (!now || std::all_of(now->begin(), now->end(), [](std::uint8_t byte) { return byte == 0; })) {
@@ -132,13 +132,13 @@ int jog(Context& context, const RobotChoice& choice, const Hand& hand) {
   if (!go || !rest || any_forced(context, *store, *go)) {
     return kFailed;
   }
-  if (const int code = let_go_before(context, *store, parts[2], *rest); code != kOk) {
+  if (const int code = release_before(context, *store, parts[2], *rest); code != kOk) {
     return code;
   }
   if (const int code = set_values(context, *store, *go); code != kOk) {
     return code;
   }
-  context.out.note(fmt::format("{} at {} % while this runs; Ctrl-C lets go", hand.direction, hand.percent));
+  context.out.note(fmt::format("{} at {} % while this command runs; Ctrl-C stops", hand.direction, hand.percent));
   const int code = hold(context, *store, parts[1], hand);
   const int ended = set_values(context, *store, *rest);
   return code != kOk ? code : ended;

@@ -86,13 +86,13 @@ int reload_jobs(Context& context, const RobotChoice& choice) {
   if (const int code = sut.ask(number); code != kOk) {
     return code;
   }
-  constexpr std::int64_t kMost = 30 * kSecond;
+  constexpr std::int64_t kMaxReadNs = 30 * kSecond;
   constexpr std::int64_t kLook = kSecond / 50;
   const std::int64_t began = rt::now_ns();
   while (answer.done != number) {
     const std::int64_t now = rt::now_ns();
     const bool heard = answer.acknowledged == number;
-    if (now - began > (heard ? kMost : 2 * kSecond)) {
+    if (now - began > (heard ? kMaxReadNs : 2 * kSecond)) {
       context.out.error(heard ? "the robot has not read its jobs within 30 s"
                               : fmt::format("the robot does not take the request; does it run, or does another program "
                                             "write {}::ROBOT_MODULE_SERVICE?",
@@ -113,7 +113,7 @@ int reload_jobs(Context& context, const RobotChoice& choice) {
                             : "the robot takes jobs only while it stands and nothing else is asked of it");
     return files ? kCheckFailed : kFailed;
   }
-  context.out.note("the robot has read its jobs anew");
+  context.out.note("the robot has read its jobs again");
   return kOk;
 }
 

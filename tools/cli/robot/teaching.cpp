@@ -58,7 +58,7 @@ int teach_point(Context& context, const RobotChoice& choice, const robot::TeachO
   const robot::ListedPoint& now = taught.now;
   context.out.note(fmt::format("{}:{}: POINT {} = {}", now.file, now.line, now.name, now.place));
   const bool by_tool = now.place.starts_with("POSE") && !place.tool.empty();
-  context.out.note(fmt::format("{}{}the robot knows it once it has read its files anew: indurop robot reload",
+  context.out.note(fmt::format("{}{}the robot knows it after it has read its files again: indurop robot reload",
                                taught.before.empty() ? "" : "it was " + taught.before + "; ",
                                by_tool ? "the tip is that of tool " + place.tool + "; " : ""));
   return kOk;

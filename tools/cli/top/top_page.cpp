@@ -23,7 +23,7 @@ constexpr std::size_t kMessages = 2;  // maximum messages among these: a module 
 constexpr std::size_t kTroubles = 3;
 constexpr const char* kKeys = "q Quit  n Node  s Sort  Space Pause  Up/Down Scroll";
 
-TopSample::Module look_at(const scheduler::ModuleRecord& record) {
+TopSample::Module sample_of(const scheduler::ModuleRecord& record) {
   const auto exec = scheduler::summarize(record.exec);
   const auto jitter = scheduler::summarize(record.jitter);
   const auto state = record.state.load(kRelaxed);
@@ -185,7 +185,7 @@ TopSample take_sample(const std::string& node, const RunView& run, const TopSamp
   sample.report = report_of(node, run);
   sample.at_ns = rt::now_ns();
   for (std::uint32_t i = 0; i < run.module_count(); ++i) {
-    sample.modules.push_back(look_at(run.module(i)));
+    sample.modules.push_back(sample_of(run.module(i)));
   }
   if (before != nullptr && before->report.pid == sample.report.pid) {
     set_loads(sample, *before);

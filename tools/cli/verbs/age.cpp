@@ -277,8 +277,8 @@ bool add_row(Context& context, const Measurement& measurement, const Chain& chai
   }
   if (measured.unclear > 0) {
     context.out.note(
-        fmt::format("{}: of {} runs nobody can tell: what they began with is not what the module before "
-                    "left, or does not change in every run",
+        fmt::format("{}: {} runs are unclear: their inputs are not what the previous module left, or do not "
+                    "change in every run",
                     way, measured.unclear));
   }
   if (!within) {
@@ -370,9 +370,10 @@ Action declare(base::Options& app, Context& context) {
       .completes(base::Completion::File);
   app.add("--config", "FILE", options->config, "The configuration (default: what the node or the recording names)")
       .completes(base::Completion::File);
-  add_time_option(app, "--network", options->network_ns,
-                  "What a way between boards takes at most, for what is predicted (default: as boards here measure "
-                  "it, else 1 ms)");
+  add_time_option(
+      app, "--network", options->network_ns,
+      "What a way between boards takes at most, for what is predicted (default: as measured by the boards of "
+      "this host, else 1 ms)");
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return age(c, *options); };

@@ -79,7 +79,8 @@ int show_list(Context& context, const Listed& listed, const Options& options) {
     }
     if (!watched && !declared.empty()) {
       context.out.note(fmt::format(
-          "nobody looks at the alarms of node {}: run indurop-agent, indurop serve, or indurop alarms watch", node));
+          "no process is evaluating the alarms of node {}: run indurop-agent, indurop serve, or indurop alarms watch",
+          node));
     }
   }
   print_table(context, table, {{"node", node}, {"watched", watched}, {"counts", json_of(journal.book().counts())}},
@@ -111,7 +112,7 @@ int watch(Context& context, const Listed& listed, const Options& /*options*/) {
   constexpr std::int64_t kEveryNs = 100'000'000;
   be_gentle(node);
   alarms::AlarmWatch watched(node);
-  context.out.note(fmt::format("looking at the alarms of node {}; Ctrl-C ends it", node));
+  context.out.note(fmt::format("evaluating the alarms of node {}; Ctrl-C ends it", node));
   static_cast<void>(context.out.flush());
   std::string before;
   while (!interrupted()) {
@@ -195,12 +196,12 @@ Action declare(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kAlarmsVerb{
-    "alarms", "A running node", "Show alarms, acknowledge and shelve them, and tell what happened",
+    "alarms", "A running node", "Show alarms, acknowledge and shelve them, and list what happened",
     "Alarms are declared in .glb files: bool open @alarm(\"the door is open\", high, 500ms). A module that does not\n"
-    "do its work for two seconds is one by itself: module Robot. One process on the node's machine looks at the\n"
-    "conditions: its agent, indurop serve, or indurop alarms watch. What happened is kept in the state folder of the\n"
-    "node, over restarts. An alarm that ended before it was acknowledged stays in the list as 'returned'. A shelved\n"
-    "one is not raised until its time is over or it is unshelved.\n"
+    "do its work for two seconds raises an alarm of its own: module Robot. One process on the node's machine\n"
+    "evaluates the conditions: its agent, indurop serve, or indurop alarms watch. The history is kept in the state\n"
+    "folder of the node, over restarts. An alarm that ended before it was acknowledged stays in the list as\n"
+    "'returned'. A shelved one is not raised until its time is over or it is unshelved.\n"
     "Examples:\n"
     "  indurop alarms\n"
     "  indurop alarms ack press::door_open --reason 'closed it'\n"

@@ -35,8 +35,8 @@ namespace {
 struct Options {
   std::string what;  // reason, or a file
   std::string when;
-  std::string at;  // name of a box; empty: the newest
-  ExportWish out;  // with export
+  std::string at;     // name of a box; empty: the newest
+  ExportOptions out;  // with export
   std::string svg;
   std::vector<std::string> with;
   bool remote = false;
@@ -220,14 +220,14 @@ int export_box(Context& context, Options& options) {
 
 int replay_box(Context& context, Options& options) {
   return use(context, options, [&](const std::filesystem::path& file) {
-    ReplayWish wish;
-    wish.file = file;
-    wish.board = options.board;
-    wish.node = context.node.empty() ? "" : context.node + "-replay";
-    wish.with = options.with;
-    wish.svg = options.svg;
-    wish.comes_back = true;
-    return replay_recording(context, wish);
+    ReplayOptions replay;
+    replay.file = file;
+    replay.board = options.board;
+    replay.node = context.node.empty() ? "" : context.node + "-replay";
+    replay.with = options.with;
+    replay.svg = options.svg;
+    replay.comes_back = true;
+    return replay_recording(context, replay);
   });
 }
 
@@ -269,8 +269,8 @@ int keep(Context& context, const std::string& why) {
     context.out.error(fmt::format("node '{}' does not run", *node));
     return kUnreachable;
   }
-  if (const Status wished = vars::request_box(*node, why.empty() ? "wanted by a user" : why); !wished) {
-    context.out.error(wished.error().code == Errc::Busy
+  if (const Status requested = vars::request_box(*node, why.empty() ? "wanted by a user" : why); !requested) {
+    context.out.error(requested.error().code == Errc::Busy
                           ? fmt::format("node '{}': {}", *node, vars::kBoxesTooClose)
                           : fmt::format("{} cannot be written", vars::state_directory(*node).string()));
     return kFailed;
@@ -341,7 +341,7 @@ Action declare(base::Options& app, Context& context) {
   base::Options& made = of_a_box("export", "Write the newest box as CSV or as a trace", &export_box);
   made.add("--csv", "FILE", options->out.csv, "Write the values, as indurop recording export");
   made.add("--trace", "FILE", options->out.trace, "Write when each module ran, for https://ui.perfetto.dev");
-  base::Options& again = of_a_box("replay", "Run what the newest box holds once more, and compare", &replay_box);
+  base::Options& again = of_a_box("replay", "Run the newest box again and compare the results", &replay_box);
   again.add("--with", "FILE.so", options->with, "Use this file for the module of its name")
       .completes(base::Completion::File);
   again.add("--svg", "FILE", options->svg, "Draw what differs");

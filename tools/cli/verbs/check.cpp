@@ -108,9 +108,9 @@ Action declare(base::Options& app, Context& context) {
   app.add("--chain", "NAME", options->chain,
           "Two variables: how old what one says is when it has become the other, over modules and boards")
       .completes(base::Completion::Variable);
-  add_time_option(
-      app, "--network", options->network_ns,
-      "With --chain: what a way between boards takes at most (default: as boards here measure it, else 1 ms)");
+  add_time_option(app, "--network", options->network_ns,
+                  "With --chain: what a way between boards takes at most (default: as measured by the boards of this "
+                  "host, else 1 ms)");
   config::add_times_option(app, options->times);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return check(c, *options); };

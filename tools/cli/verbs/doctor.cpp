@@ -243,8 +243,8 @@ Action declare(base::Options& app, Context& context) {
 
 const Verb kDoctorVerb{
     "doctor", "Before it runs", "Show whether this machine is fit for real time, and what to do if not",
-    "Looks at the kernel, clocks, cores, rights, memory and disk, then measures for two seconds how late a thread is\n"
-    "woken up every millisecond. What a running node was really granted is in `indurop status`.\n"
+    "Checks the kernel, clocks, cores, rights, memory and disk, then measures for two seconds how late a thread is\n"
+    "woken up every millisecond. `indurop status` shows what a running node was granted.\n"
     "--tune shows settings of the kernel instead, --apply makes them and measures before and after, --undo puts back\n"
     "what was there.\n"
     "Exit code 0 if nothing is marked FAIL, else 1.\n"

@@ -42,11 +42,11 @@ constexpr std::int64_t kLeaseNs = 2'000'000'000;
 // Holds until the user ends it, the node ends, or another user releases one of them.
 int keep_holding(Context& context, vars::Store& store, operate::Lease& lease) {
   constexpr std::int64_t kRenewNs = kLeaseNs / 4;
-  context.out.note("held while this runs; Ctrl-C lets go");
+  context.out.note("held while this command runs; Ctrl-C releases");
   int code = kOk;
   while (code == kOk && wait_until(rt::now_ns() + kRenewNs) != Woken::Signal) {
     if (const std::string absence = context.values->absence(&store); store.retired() || !absence.empty()) {
-      context.out.error(context.values->gone(absence.empty() ? "started anew" : absence) +
+      context.out.error(context.values->gone(absence.empty() ? "started again" : absence) +
                         ": nothing is held any more");
       code = kUnreachable;
     } else if (const auto renewed = operate::renew(lease, store, kLeaseNs); !renewed) {
@@ -173,8 +173,9 @@ Action declare_force(base::Options& app, Context& context) {
   app.add("assignment", "TEXT", options->words, "NAME VALUE, or NAME=VALUE ...")
       .required()
       .completes(base::Completion::Variable);
-  add_time_option(app, "--for", options->for_ns, "Let go by itself after this time (default: until unforce)");
-  app.flag("--lease", options->lease, "Stay, and let go when this command ends: by Ctrl-C, or 2 s after it was killed");
+  add_time_option(app, "--for", options->for_ns, "Release automatically after this time (default: until unforce)");
+  app.flag("--lease", options->lease,
+           "Stay, and release when this command ends: by Ctrl-C, or 2 s after it was killed");
   add_reason_option(app, context);
   add_node_option(app, context);
   add_board_force_options(app, options->board);
@@ -203,7 +204,7 @@ Action declare_forces(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kForceVerb{
-    "force", "Variables", "Hold values, whoever writes them",
+    "force", "Variables", "Hold values against all writers",
     "What modules, processes, drivers and other boards write to a forced number is dropped, so an\n"
     "input can be simulated and an output be held while the program runs. Programs see the forced\n"
     "value, and boards that mirror the variable do too: force on the board that owns it. Of a struct\n"

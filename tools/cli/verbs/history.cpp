@@ -87,12 +87,12 @@ int history(Context& context, Options& options) {
       continue;
     }
     heard = true;
-    const auto told = histories.find(key.second);
-    if (told == histories.end()) {
+    const auto reported = histories.find(key.second);
+    if (reported == histories.end()) {
       missing.push_back(key.first);
       continue;
     }
-    for (const PastDeployment& past : told->second) {
+    for (const PastDeployment& past : reported->second) {
       const bool current = past.deployment == entry.report.current && past.generation == entry.report.generation;
       merge(rows, key.first, past, current && past.outcome == "committed");
     }

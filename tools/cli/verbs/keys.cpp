@@ -215,8 +215,8 @@ Action declare(base::Options& app, Context& context) {
   made->add("boards", "BOARD", request->boards, "Names of the boards");
   made->add("--tool", "NAME", request->tool,
             "A program that takes part in <external secure=\"on\">, instead of boards");
-  made->add("--viewer", "NAME", request->viewer, "Somebody who looks, instead of boards");
-  made->add("--deployer", "NAME", request->deployer, "Somebody who deploys, instead of boards");
+  made->add("--viewer", "NAME", request->viewer, "A user who may read, instead of boards");
+  made->add("--deployer", "NAME", request->deployer, "A user who may deploy, instead of boards");
   add_patterns(*made, "--read", request->read, "Variables it may read: names and patterns, with commas between them");
   add_patterns(*made, "--write", request->write, "Variables it may set, and read");
   add_days(*made, *request);

@@ -74,7 +74,7 @@ const Verb kLockVerb{
     "(variables declared with a value) may be set, nothing else. all: nothing. The lock holds for every tool, the\n"
     "page and orders from the network, until it is changed; it outlives the node's restart, not that of the machine.\n"
     "Modules and boards of the plant write as ever, forces that are there go on, and a whole node can be stopped.\n"
-    "Whoever may write may also unlock: it is against slips, not against people.\n"
+    "Every user who may write may also unlock: it guards against slips, not against people.\n"
     "Examples:\n"
     "  indurop lock tune --reason production\n"
     "  indurop lock none --board control --keys keys\n"

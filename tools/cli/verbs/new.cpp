@@ -93,7 +93,7 @@ bool write_project(Context& context, const fs::path& folder, const std::string& 
   const fs::path package = package_folder(programs);
   if (package.empty()) {
     context.out.note(
-        "the CMake package of InduRoP was not found beside this program; if `make` does not find it either: "
+        "the CMake package of InduRoP was not found next to this program; if `make` does not find it either: "
         "make INDUROP_PACKAGE=<folder of InduRoPConfig.cmake>");
   }
   const auto modules = project_modules(options.plc());

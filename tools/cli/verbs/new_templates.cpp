@@ -18,10 +18,10 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 find_package(InduRoP @VERSION@ REQUIRED)
 
-# Shared variables: whoever names the target below can include <indurop/generated.h>.
+# Shared variables: targets that name the one below can include <indurop/generated.h>.
 indurop_add_glb(variables FILES @NAMESPACE@.glb)
 
-# Thread modules (.so) run inside the node, process modules (.exe) beside it.
+# Thread modules (.so) run inside the node, process modules (.exe) in processes of their own.
 indurop_add_module(wave SOURCES src/wave.cpp GLB variables)
 indurop_add_module(smooth SOURCES src/smooth.cpp GLB variables)
 indurop_add_module(monitor PROCESS SOURCES src/monitor.cpp GLB variables)

@@ -252,22 +252,22 @@ int record_plant(Context& context, Options& options) {
                       " does not run here");
     return kUsage;
   }
-  std::vector<std::string> nobody_has = names;
+  std::vector<std::string> unmatched = names;
   for (const auto& node : nodes) {
-    nobody_has = vars::unmatched_patterns(node->store, nobody_has);
+    unmatched = vars::unmatched_patterns(node->store, unmatched);
   }
   std::erase_if(names, [&](const std::string& name) {
-    return std::find(nobody_has.begin(), nobody_has.end(), name) != nobody_has.end();
+    return std::find(unmatched.begin(), unmatched.end(), name) != unmatched.end();
   });
-  const RemoteWish wish{read.plant.name, std::move(elsewhere), options.names,
-                        options.past,    options.duration_ns,  options.file};
+  const RecordRequest request{read.plant.name, std::move(elsewhere), options.names,
+                              options.past,    options.duration_ns,  options.file};
   std::function<int(const std::filesystem::path& file)> here;
   if (!nodes.empty() && names.empty() == options.names.empty()) {
     here = [&](const std::filesystem::path& file) {
       return record_here(context, options, file, nodes, std::move(taped), names);
     };
   }
-  return record_with_agents(context, wish, options.link, nobody_has, here);
+  return record_with_agents(context, request, options.link, unmatched, here);
 }
 
 int record(Context& context, Options& options) {

@@ -7,31 +7,32 @@ namespace indurop::tools {
 namespace {
 
 Action declare(base::Options& app, Context& /*context*/) {
-  auto wish = std::make_shared<ReplayWish>();
-  app.add("file", "FILE.mcap", wish->file, "The recording").required().completes(base::Completion::File);
-  app.add("--config", "FILE", wish->config, "module.xml or plant.xml (default: that of the recording)")
+  auto options = std::make_shared<ReplayOptions>();
+  app.add("file", "FILE.mcap", options->file, "The recording").required().completes(base::Completion::File);
+  app.add("--config", "FILE", options->config, "module.xml or plant.xml (default: that of the recording)")
       .completes(base::Completion::File);
-  app.add("--with", "FILE.so", wish->with, "Use this file for the module of its name; may be given several times")
+  app.add("--with", "FILE.so", options->with, "Use this file for the module of its name; may be given several times")
       .completes(base::Completion::File);
-  app.add("-o,--file", "FILE.mcap", wish->output,
+  app.add("-o,--file", "FILE.mcap", options->output,
           "Write what the modules leave now to this recording, to be laid over the other")
       .completes(base::Completion::File);
-  app.add("--svg", "FILE", wish->svg, "Draw what differs, recorded and now, one over the other");
-  app.add("--from", "TICK", wish->from, "Compare the runs of this tick and later ones; begins at the keyframes before");
-  app.add("--to", "TICK", wish->to, "Compare the runs up to this tick");
-  app.add("--at", "TICK", wish->at, "Compare the runs of this tick only");
-  app.add("--board", "NAME", wish->board, "The board whose runs are meant, if the recording is of several");
-  app.add("--node", "NAME", wish->node, "Name of the replaying node (default: replay)");
-  return [wish](Context& c) { return replay_recording(c, *wish); };
+  app.add("--svg", "FILE", options->svg, "Draw what differs, recorded and now, one over the other");
+  app.add("--from", "TICK", options->from,
+          "Compare the runs of this tick and later ones; begins at the keyframes before");
+  app.add("--to", "TICK", options->to, "Compare the runs up to this tick");
+  app.add("--at", "TICK", options->at, "Compare the runs of this tick only");
+  app.add("--board", "NAME", options->board, "The board whose runs are meant, if the recording is of several");
+  app.add("--node", "NAME", options->node, "Name of the replaying node (default: replay)");
+  return [options](Context& c) { return replay_recording(c, *options); };
 }
 
 }  // namespace
 
 const Verb kReplayVerb{
-    "replay", "Start and stop", "Run what was recorded once more, and compare",
+    "replay", "Start and stop", "Run a recording again and compare the results",
     "Each run of the recording is repeated by the real modules, with what it began with and at its time; then what it\n"
     "leaves is compared bit by bit. Modules that speak to devices or the network do not run. Exit code 0: all is\n"
-    "equal; 4: the first difference is told, with tick, module, variable, recorded and new value.\n"
+    "equal; 4: the first difference is reported with tick, module, variable, recorded and new value.\n"
     "Examples:\n"
     "  indurop run module.xml --duration 60s --record run.mcap\n"
     "  indurop replay run.mcap\n"

@@ -53,9 +53,9 @@ void declare_teach(base::Options& app, Context& context, Options& options) {
 }
 
 void declare_reload(base::Options& app, Context& context, Options& options) {
-  base::Options& command = app.command("reload", "Have it read its jobs and points anew, while it stands", [&options] {
-    options.chosen = [&options](Context& c) { return reload_jobs(c, options.choice); };
-  });
+  base::Options& command =
+      app.command("reload", "Read jobs and points again; the robot must be at standstill",
+                  [&options] { options.chosen = [&options](Context& c) { return reload_jobs(c, options.choice); }; });
   add_choice(command, context, options);
 }
 
@@ -68,7 +68,7 @@ void declare_jog(base::Options& app, Context& context, Options& options) {
       .required();
   command.add("--frame", "base|tool|FRAME", hand.frame, "Whose axes x to rz are: a work frame by name (default: base)");
   command.add("--speed", "PERCENT", hand.percent, "Of the fastest by hand, 250 mm/s (default: 10)").range(0.1, 100);
-  add_time_option(command, "--for", hand.for_ns, "Let go after this time (default: Ctrl-C)");
+  add_time_option(command, "--for", hand.for_ns, "Stop after this time (default: Ctrl-C)");
   add_choice(command, context, options);
   add_remote_options(command, context);
 }

@@ -99,8 +99,7 @@ class Show {
           return ended(fmt::format("node '{}' has ended", scope_.node()), kUnreachable);
         }
         if (options_.timeout_ns > 0 && rt::now_ns() - begin >= options_.timeout_ns) {
-          return ended(fmt::format("no trigger within {}: {} ticks were looked at", human_age(options_.timeout_ns),
-                                   scope_.ticks()),
+          return ended(fmt::format("no trigger within {}, in {} ticks", human_age(options_.timeout_ns), scope_.ticks()),
                        kUnreachable);
         }
         const Woken why = wait_until(rt::now_ns() + kPauseNs, screen_ ? screen_->key_file() : -1);
@@ -209,14 +208,14 @@ int scope(Context& context, Options& options) {
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  constexpr auto kMost = static_cast<double>(kMostScopeRows);
+  constexpr auto kMaxTicks = static_cast<double>(kMostScopeRows);
   app.add("names", "CHANNEL", options->order.channels, "Variables, parts of them, globs, or expressions")
       .required()
       .completes(base::Completion::Variable);
   app.add("--trigger", "WHEN", options->order.trigger,
           "What to wait for: 'NAME rises', 'NAME falls', 'NAME changes', or an expression that becomes true");
-  app.add("--pre", "TICKS", options->order.pre, "Ticks before the trigger (default 100)").range(0, kMost);
-  app.add("--post", "TICKS", options->order.post, "Ticks after it (default 400)").range(0, kMost);
+  app.add("--pre", "TICKS", options->order.pre, "Ticks before the trigger (default 100)").range(0, kMaxTicks);
+  app.add("--post", "TICKS", options->order.post, "Ticks after it (default 400)").range(0, kMaxTicks);
   app.add("--mode", "MODE", options->mode,
           "single: one picture (default); normal: one for each trigger; auto: also without one")
       .choices({"single", "normal", "auto"});

@@ -59,10 +59,10 @@ class Sender {
     if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
       host = host.substr(1, host.size() - 2);
     }
-    addrinfo wish{};
-    wish.ai_socktype = SOCK_DGRAM;
+    addrinfo hints{};
+    hints.ai_socktype = SOCK_DGRAM;
     addrinfo* found = nullptr;
-    if (const int code = ::getaddrinfo(host.c_str(), to.c_str() + colon + 1, &wish, &found); code != 0) {
+    if (const int code = ::getaddrinfo(host.c_str(), to.c_str() + colon + 1, &hints, &found); code != 0) {
       return Failure{kFailed, fmt::format("cannot send to '{}': {}", to, ::gai_strerror(code))};
     }
     const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> list(found, &::freeaddrinfo);
@@ -127,15 +127,15 @@ class Stream {
     return message;
   }
   void too_large(const std::string& name) {
-    if (!told_) {
+    if (!reported_) {
       context_.out.error(fmt::format("{} does not fit into a datagram and is left out; name parts of it", name));
-      told_ = true;
+      reported_ = true;
     }
   }
 
   Context& context_;
   Sender sender_;
-  bool told_ = false;
+  bool reported_ = false;
 };
 
 // Origins of Foxglove's own pages and programs; only they may connect, and programs that are not browsers.

@@ -78,11 +78,11 @@ void BoardRoster::gather_until(deploy::DeployLink& link, std::int64_t time_ns, b
 }
 
 bool BoardRoster::complete() const {
-  const bool nobody_missing = std::all_of(boards_.begin(), boards_.end(), [this](const auto& one) {
+  const bool none_missing = std::all_of(boards_.begin(), boards_.end(), [this](const auto& one) {
     const std::vector<std::string>& members = one.second.report.members;
     return std::all_of(members.begin(), members.end(), [this](const auto& name) { return find(name) != nullptr; });
   });
-  return !boards_.empty() && nobody_missing && rt::now_ns() - newest_ns_ > kQuietNs;
+  return !boards_.empty() && none_missing && rt::now_ns() - newest_ns_ > kQuietNs;
 }
 
 const BoardRoster::Entry* BoardRoster::find(const std::string& board) const {

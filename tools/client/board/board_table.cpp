@@ -112,8 +112,8 @@ Table board_table(const BoardRoster& roster, std::int64_t now, const VariablesRe
   for (const auto& [key, entry] : roster.all()) {
     std::vector<Cell> cells = row(roster, entry, now);
     if (read != nullptr) {
-      const auto told = read->find(key.second);
-      cells.insert(cells.end() - 1, told == read->end() ? Cell("", JsonValue()) : read_cell(told->second));
+      const auto reported = read->find(key.second);
+      cells.insert(cells.end() - 1, reported == read->end() ? Cell("", JsonValue()) : read_cell(reported->second));
     }
     table.add(std::move(cells));
   }

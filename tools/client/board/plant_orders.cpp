@@ -12,7 +12,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kToldNs = 1'200'000'000;  // boards report twice a second
+constexpr std::int64_t kReportedNs = 1'200'000'000;  // boards report twice a second
 constexpr std::int64_t kPatienceNs = 5'000'000'000;
 
 deploy::Action action_of(PlantWatch::RemoteOrder::What what) {
@@ -94,7 +94,7 @@ Result<std::string, Failure> PlantWatch::order(const std::string& board, const R
   const BoardRoster::Entry* entry = roster_.find(board);
   if (entry != nullptr && entry->report.plant.empty()) {
     // A command names the plant, and a recent deployment may not have been reported yet.
-    roster_.gather(*link_, kToldNs, [&] {
+    roster_.gather(*link_, kReportedNs, [&] {
       const BoardRoster::Entry* const now = roster_.find(board);
       return now == nullptr || !now->report.plant.empty();
     });

@@ -49,17 +49,17 @@ std::int64_t confirmed_by(std::int64_t freshness, std::int64_t now_ns) {
 }
 
 // Returns the forced names with their values, without the remaining times.
-std::string held_by(const base::Json& told) {
+std::string held_by(const base::Json& reported) {
   std::string all;
-  for (const base::Json& one : told.values()) {
+  for (const base::Json& one : reported.values()) {
     all += fmt::format("{} {} {}\n", one["name"].dump(), one["offset"].dump(), one["value"].dump());
   }
   return all;
 }
 
-base::Json shown_forces(const base::Json& told) {
+base::Json shown_forces(const base::Json& reported) {
   base::Json list = base::Json::array();
-  for (const base::Json& one : told.values()) {
+  for (const base::Json& one : reported.values()) {
     list.push_back({{"name", one["name"]},
                     {"value", one["raw"]},
                     {"left_ns", one["left_ns"]},
@@ -139,8 +139,8 @@ ReportedBoard::Taken ReportedBoard::take_values(std::string_view text, std::int6
   if (size != parts->second.size()) {
     return Taken::Nonsense;
   }
-  const base::Json& told = parts->first["forces"];
-  const std::string forced = held_by(told);
+  const base::Json& reported = parts->first["forces"];
+  const std::string forced = held_by(reported);
   if (forced != forced_) {
     for (const vars::Force& force : store_->forces()) {
       (void)store_->release(*force.variable, force.offset);
@@ -148,10 +148,10 @@ ReportedBoard::Taken ReportedBoard::take_values(std::string_view text, std::int6
   }
   write(parts->second, now_ns);
   if (forced != forced_) {
-    hold(told);
+    hold(reported);
     forced_ = forced;
   }
-  said_.forces = shown_forces(told);
+  said_.forces = shown_forces(reported);
   said_.lock = parts->first["lock"];
   said_.alarms = parts->first["alarms"];
   said_.values = true;
@@ -198,7 +198,7 @@ void ReportedBoard::write(std::string_view bytes, std::int64_t now_ns) {
   }
 }
 
-void ReportedBoard::look_at(const base::Json& row) {
+void ReportedBoard::update(const base::Json& row) {
   const std::lock_guard<std::mutex> guard(mutex_);
   said_.row = row;
   said_.heard = row["heard"].boolean().value_or(false);

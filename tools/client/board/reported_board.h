@@ -34,7 +34,7 @@ class ReportedBoard {
   enum class Taken : std::uint8_t { Yes, OtherVariables, Nonsense };
   Taken take_values(std::string_view text, std::int64_t now_ns);
   // `row`: the board's entry in the output of `indurop boards`; "heard" and "state" are evaluated.
-  void look_at(const base::Json& row);
+  void update(const base::Json& row);
   // Marks its values as not current.
   void silent();
   // Returns true if it is time to request values again: soon if a client requests them and they are not too many bytes,

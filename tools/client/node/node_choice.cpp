@@ -125,15 +125,14 @@ std::string explain_open_error(const Error& error, const std::string& node, bool
       return fmt::format("node '{}' is gone. Start it again: indurop run module.xml --node {}", node, node);
     case Errc::PermissionDenied:
       return fmt::format("no permission to {} node '{}': run as the user it belongs to (ls -l /dev/shm/indurop.{})",
-                         for_writing ? "change values of" : "look at", node, node);
+                         for_writing ? "change values of" : "read", node, node);
     case Errc::VersionMismatch:
       return fmt::format(
           "node '{}' was started by another version of InduRoP{}: use that version's `indurop`, or "
           "restart the node",
           node, formats_of(node));
     case Errc::Dead:
-      return fmt::format("the shared memory of node '{}' was cut by somebody who may write it: its values are lost",
-                         node);
+      return fmt::format("the shared memory of node '{}' was truncated by another process: its values are lost", node);
     case Errc::Corrupt:
       return fmt::format("the shared memory of node '{}' is damaged ({}). If it does not run: indurop clean --node {}",
                          node, error.where, node);

@@ -26,10 +26,10 @@ constexpr double kPatienceSeconds = 2;
 // Returns the begin of a file. A process may end between two calls: then the text is empty, without an exception of a
 // stream's buffer.
 std::string text_of(const std::filesystem::path& file) {
-  constexpr std::size_t kMost = 4096;
-  std::string text(kMost, '\0');
+  constexpr std::size_t kMaxBytes = 4096;
+  std::string text(kMaxBytes, '\0');
   std::ifstream stream(file);
-  stream.read(text.data(), kMost);
+  stream.read(text.data(), kMaxBytes);
   text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;
 }

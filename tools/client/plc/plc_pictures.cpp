@@ -136,7 +136,7 @@ PlcPictures::PlcPictures(const std::vector<PlcFiles>& programs) {
 
 PlcPictures::~PlcPictures() = default;
 
-Result<base::Json, Failure> PlcPictures::tell(const std::string& node, const std::string& program, bool anew,
+Result<base::Json, Failure> PlcPictures::tell(const std::string& node, const std::string& program, bool check_node,
                                               Tell what) {
   std::optional<Failure> failure;
   base::Json names = base::Json::array();
@@ -147,15 +147,15 @@ Result<base::Json, Failure> PlcPictures::tell(const std::string& node, const std
     if (!program.empty() && one->name != program) {
       continue;
     }
-    if (anew) {
+    if (check_node) {
       one->nodes.erase(node);  // checks again whether the node runs this program
     }
     auto view = one->view_of(node);
     if (view) {
-      base::Json told = ((*view)->*what)();
-      told["program"] = one->name;
-      told["programs"] = std::move(names);
-      return told;
+      base::Json out = ((*view)->*what)();
+      out["program"] = one->name;
+      out["programs"] = std::move(names);
+      return out;
     }
     if (!failure) {
       failure = std::move(view).error();

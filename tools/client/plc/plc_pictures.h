@@ -47,7 +47,7 @@ class PlcPictures {
  private:
   using Tell = base::Json (PlcView::*)() const;
   struct Program;
-  Result<base::Json, Failure> tell(const std::string& node, const std::string& program, bool anew, Tell what);
+  Result<base::Json, Failure> tell(const std::string& node, const std::string& program, bool check_node, Tell what);
 
   std::vector<std::unique_ptr<Program>> programs_;
 };

@@ -178,7 +178,7 @@ std::string PlcView::path_of(const Shown& shown, const std::string& path) const 
   return shown.inside.empty() ? path : shown.inside + "." + path;
 }
 
-std::span<const std::uint8_t> PlcView::told(const Shown& shown) const {
+std::span<const std::uint8_t> PlcView::bytes_of(const Shown& shown) const {
   return source_->values()[values_of_[shown.program]].bytes;
 }
 
@@ -190,12 +190,12 @@ const plc::WatchedVariable* PlcView::find(const Shown& shown, const std::string&
 
 bool PlcView::flag(const Shown& shown, const std::string& path, std::size_t index) const {
   const plc::WatchedVariable* found = find(shown, path);
-  const auto bytes = told(shown);
+  const auto bytes = bytes_of(shown);
   return found != nullptr && found->offset + index < bytes.size() && bytes[found->offset + index] != 0;
 }
 
 std::string PlcView::value(const Shown& shown, const std::string& path) const {
-  const auto bytes = told(shown);
+  const auto bytes = bytes_of(shown);
   for (std::size_t end = path.size(); end != std::string::npos && end > 0; end = path.find_last_of(".[", end - 1)) {
     if (const plc::WatchedVariable* found = find(shown, path.substr(0, end))) {
       const auto part = part_of(*found->type, std::string_view(path).substr(end));
@@ -225,7 +225,7 @@ std::string PlcView::output_value(const Shown& shown, const plc::network::Source
   }
   const plc::WatchedVariable* found = find(shown, plc::upper(source.element->instance + "." + source.pin->name));
   const bool flows = found == nullptr || found->type->is(plc::Elementary::Bool);
-  return flows ? std::string() : plc::value_text(*found->type, told(shown).subspan(found->offset));
+  return flows ? std::string() : plc::value_text(*found->type, bytes_of(shown).subspan(found->offset));
 }
 
 plc::draw::Live PlcView::live_of(const Shown& shown) const {

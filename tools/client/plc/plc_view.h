@@ -65,7 +65,7 @@ class PlcView {
   Result<void, Failure> check_marks() const;
 
   [[nodiscard]] std::string path_of(const Shown& shown, const std::string& path) const;
-  [[nodiscard]] std::span<const std::uint8_t> told(const Shown& shown) const;
+  [[nodiscard]] std::span<const std::uint8_t> bytes_of(const Shown& shown) const;
   [[nodiscard]] const plc::WatchedVariable* find(const Shown& shown, const std::string& path) const;
   [[nodiscard]] std::string shared_value(const std::string& name) const;
   [[nodiscard]] std::string output_value(const Shown& shown, const plc::network::Source& source) const;

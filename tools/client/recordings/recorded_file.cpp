@@ -82,11 +82,11 @@ Result<Wanted, Problem> find_numbers(const recording::Contents& contents, const 
 // Samples the values of the lines at evenly spaced times.
 class Grid {
  public:
-  Grid(std::pair<std::int64_t, std::int64_t> whole, const RecordedWish& wish)
-      : held(wish.names.size(), std::nan("")), points_(std::max<std::size_t>(wish.points, 2)) {
-    out.begin_ns = std::max(whole.first, wish.from_ns);
-    out.end_ns = std::max(wish.to_ns == 0 ? whole.second : std::min(whole.second, wish.to_ns), out.begin_ns);
-    out.lines.assign(wish.names.size(), std::vector<double>(points_, std::nan("")));
+  Grid(std::pair<std::int64_t, std::int64_t> whole, const ValuesRequest& request)
+      : held(request.names.size(), std::nan("")), points_(std::max<std::size_t>(request.points, 2)) {
+    out.begin_ns = std::max(whole.first, request.from_ns);
+    out.end_ns = std::max(request.to_ns == 0 ? whole.second : std::min(whole.second, request.to_ns), out.begin_ns);
+    out.lines.assign(request.names.size(), std::vector<double>(points_, std::nan("")));
   }
 
   // Fills all points before this time.
@@ -155,17 +155,17 @@ Result<RecordedContents, Problem> read_contents_of(const fs::path& path) {
   return out;
 }
 
-Result<RecordedValues, Problem> read_values_of(const fs::path& path, const RecordedWish& wish) {
+Result<RecordedValues, Problem> read_values_of(const fs::path& path, const ValuesRequest& request) {
   auto reader = recording::McapReader::open(path);
   if (!reader) {
     return reader.error();
   }
   const Layouts layouts = layouts_of(reader->contents());
-  auto wanted = find_numbers(reader->contents(), layouts, wish.names);
+  auto wanted = find_numbers(reader->contents(), layouts, request.names);
   if (!wanted) {
     return std::move(wanted).error();
   }
-  Grid grid(reader->contents().span_ns(), wish);
+  Grid grid(reader->contents().span_ns(), request);
   std::vector<double> values;
   const auto take = [&](const recording::McapMessage& message) {
     const auto lines = wanted->find(message.channel);

@@ -41,7 +41,7 @@ struct RecordedContents {
 // Errors: not a recording; damaged parts in it are skipped.
 Result<RecordedContents, base::Problem> read_contents_of(const std::filesystem::path& path);
 
-struct RecordedWish {
+struct ValuesRequest {
   std::vector<std::string> names;  // names of numbers
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;  // 0: the end
@@ -54,6 +54,6 @@ struct RecordedValues {
   std::vector<std::vector<double>> lines;
 };
 // Errors: not a recording; a number that is not in it.
-Result<RecordedValues, base::Problem> read_values_of(const std::filesystem::path& path, const RecordedWish& wish);
+Result<RecordedValues, base::Problem> read_values_of(const std::filesystem::path& path, const ValuesRequest& request);
 
 }  // namespace indurop::tools

@@ -26,17 +26,17 @@ bool reads_urdf(const schema::ModuleFile& file) {
   return file.imports.empty() || (found != file.imports.end() && found->rfind(name, 0) == 0);
 }
 
-std::string beside(const config::Config& config, const std::string& name) {
+std::string in_folder_of(const config::Config& config, const std::string& name) {
   return (config.file.parent_path() / name).lexically_normal().string();
 }
 
 robot::FileNames files_of(const config::Config& config, const config::Module& module) {
   const config::Property* const urdf = property(module, "urdf");
   const config::Property* const jobs = property(module, "jobs");
-  robot::FileNames names{beside(config, urdf == nullptr ? "robot.urdf" : urdf->value), {}, {}};
+  robot::FileNames names{in_folder_of(config, urdf == nullptr ? "robot.urdf" : urdf->value), {}, {}};
   std::istringstream words(jobs == nullptr ? "" : jobs->value);
   for (std::string word; words >> word;) {
-    names.jobs.push_back(beside(config, word));
+    names.jobs.push_back(in_folder_of(config, word));
   }
   return names;
 }

@@ -44,7 +44,7 @@ Result<void, Failure> HereSource::set(vars::Store& store, const std::string& nam
     return {};
   }
   if (written.error().code == Errc::Busy) {
-    return Failure{kUnreachable, fmt::format("{} is being written by somebody who does not finish; try again", name)};
+    return Failure{kUnreachable, fmt::format("another process is writing {} and does not finish; try again", name)};
   }
   return Failure{kFailed, fmt::format("{} cannot be written: {} ({})", name, written.error().where,
                                       to_string(written.error().code))};

@@ -138,7 +138,7 @@ Result<void, Failure> RemoteSource::gather(const dds::NetworkSettings& network, 
   }
   if (variables_.empty()) {
     return Failure{kUnreachable,
-                   fmt::format("nobody shows variables in DDS domain {} (heard for {}). Boards do if their manifest "
+                   fmt::format("no board shows variables in DDS domain {} (heard for {}). Boards do if their manifest "
                                "names <types>; other networks: --domain, --interface, --peer; {}",
                                network.domain, human_age(wait_ns_), keys_hint(network))};
   }

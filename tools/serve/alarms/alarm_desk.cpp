@@ -49,10 +49,10 @@ std::vector<std::string> AlarmDesk::news() {
   std::vector<std::string> words;
   const std::lock_guard hold(lock_);
   for (auto& [board, figures] : figures_) {
-    if (figures.revision == figures.told) {
+    if (figures.revision == figures.reported) {
       continue;
     }
-    figures.told = figures.revision;
+    figures.reported = figures.revision;
     base::Json word{{"type", "alarms"}, {"board", board}};
     word.update(json_of(figures.counts));
     words.push_back(word.dump());

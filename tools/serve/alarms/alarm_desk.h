@@ -28,7 +28,7 @@ class AlarmDesk {
   struct Figures {
     alarms::AlarmCounts counts;
     std::uint64_t revision = 0;
-    std::uint64_t told = 0;
+    std::uint64_t reported = 0;
   };
   void look_now(const std::vector<std::string>& boards);
 

@@ -36,14 +36,14 @@ Reply begin_jog(Api& api, const Call& call) {
   }
   Write write(api, call, "jog");
   const auto json = base::Json::parse(call.request->body);
-  JogWish wish;
+  JogRequest jog;
   std::string robot;
-  bool sound = json && base::read(*json, "frame", wish.frame) && base::read(*json, "robot", robot);
+  bool sound = json && base::read(*json, "frame", jog.frame) && base::read(*json, "robot", robot);
   for (const base::Json& one : sound ? (*json)["speed"].values() : std::span<const base::Json>()) {
     sound = sound && one.number().has_value();
-    wish.speed.push_back(one.number().value_or(0));
+    jog.speed.push_back(one.number().value_or(0));
   }
-  if (!sound || wish.speed.empty()) {
+  if (!sound || jog.speed.empty()) {
     return write.failed(status::kBadRequest, "robot, frame and speed are wanted");
   }
   write.about(call.request->body, "");
@@ -56,7 +56,7 @@ Reply begin_jog(Api& api, const Call& call) {
   if (const auto unnoted = write.begin()) {
     return write.failed(*unnoted);
   }
-  auto begun = api.jogs().begin((*found)->name(), robot, call.who, call.request->from, wish);
+  auto begun = api.jogs().begin((*found)->name(), robot, call.who, call.request->from, jog);
   if (!begun) {
     return write.failed(status::kConflict, begun.error().text);
   }

@@ -18,14 +18,14 @@ Reply ask(const Call& call, Ask what) {
   if (!found) {
     return found.error();
   }
-  auto told = (call.plc->*what)((*found)->name(), query_value(*call.request, "program").value_or(""));
-  if (!told) {
-    const int code = told.error().code;
+  auto answered = (call.plc->*what)((*found)->name(), query_value(*call.request, "program").value_or(""));
+  if (!answered) {
+    const int code = answered.error().code;
     const int answer = code == kCheckFailed ? status::kFailed : code == kUsage ? status::kNotFound : status::kConflict;
-    return refusal(answer, told.error().text);
+    return refusal(answer, answered.error().text);
   }
   base::Json body = about(**found);
-  body.update(*told);
+  body.update(*answered);
   return json_reply(body);
 }
 

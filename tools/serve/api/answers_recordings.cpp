@@ -78,23 +78,23 @@ Reply recorded_values(Api& api, const Call& call) {
   if (!file) {
     return file.error();
   }
-  tools::RecordedWish wish;
+  tools::ValuesRequest request;
   for (const auto& [name, value] : call.request->query) {
     if (name == "number") {
-      wish.names.push_back(value);
+      request.names.push_back(value);
     }
   }
   const auto from = query_number(call, "from_ns", 0, 0, INT64_MAX);
   const auto to = query_number(call, "to_ns", 0, 0, INT64_MAX);
   const auto points = query_number(call, "points", 1000, 2, kMostPoints);
-  if (!from || !to || !points || wish.names.empty() || wish.names.size() > kMostNames) {
+  if (!from || !to || !points || request.names.empty() || request.names.size() > kMostNames) {
     return refusal(status::kBadRequest,
                    "number says which (1 to 64 times), from_ns and to_ns are times, points is 2 to 20000");
   }
-  wish.from_ns = static_cast<std::int64_t>(*from);
-  wish.to_ns = static_cast<std::int64_t>(*to);
-  wish.points = *points;
-  const auto values = tools::read_values_of(file->path, wish);
+  request.from_ns = static_cast<std::int64_t>(*from);
+  request.to_ns = static_cast<std::int64_t>(*to);
+  request.points = *points;
+  const auto values = tools::read_values_of(file->path, request);
   if (!values) {
     return refusal(status::kWrongValue, values.error().text);
   }
@@ -103,13 +103,13 @@ Reply recorded_values(Api& api, const Call& call) {
   body["begin_ns"] = values->begin_ns;
   body["end_ns"] = values->end_ns;
   base::Json lines = base::Json::array();
-  for (std::size_t i = 0; i < wish.names.size(); ++i) {
+  for (std::size_t i = 0; i < request.names.size(); ++i) {
     base::Json numbers = base::Json::array();
     for (const double value : values->lines[i]) {
       numbers.push_back(std::isfinite(value) ? base::Json(value) : base::Json());
     }
     base::Json line = base::Json::object();
-    line["name"] = wish.names[i];
+    line["name"] = request.names[i];
     line["values"] = std::move(numbers);
     lines.push_back(std::move(line));
   }

@@ -46,8 +46,8 @@ Reply server_status(Api& api, const Call& call) {
 
 Reply audit(Api& api, const Call& call) {
   constexpr std::uint64_t kUsual = 100;
-  constexpr std::uint64_t kMost = 1000;
-  const auto count = query_number(call, "count", kUsual, 1, kMost);
+  constexpr std::uint64_t kMaxEntries = 1000;
+  const auto count = query_number(call, "count", kUsual, 1, kMaxEntries);
   if (!count) {
     return refusal(status::kBadRequest, "count is a number of 1 to 1000");
   }

@@ -61,7 +61,7 @@ void RemoteBoards::hear(const tools::PlantWatch& watch) {
       known = known != nullptr ? known : std::make_shared<tools::ReportedBoard>(name);
       board = known;
     }
-    board->look_at(row);
+    board->update(row);
     if (const auto said = board->said(); !said.heard && said.values) {
       board->silent();
     }

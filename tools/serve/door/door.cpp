@@ -148,9 +148,9 @@ int Door::Impl::patience_ms() const {
   if (listens_again_ns != 0) {
     first = std::min(first, listens_again_ns);
   }
-  constexpr std::int64_t kMost = 60'000;
+  constexpr std::int64_t kMaxWaitMs = 60'000;
   const std::int64_t left = first - now();
-  return static_cast<int>(std::clamp<std::int64_t>((left + kNsPerMs - 1) / kNsPerMs, 0, kMost));
+  return static_cast<int>(std::clamp<std::int64_t>((left + kNsPerMs - 1) / kNsPerMs, 0, kMaxWaitMs));
 }
 
 void Door::Impl::turn() {

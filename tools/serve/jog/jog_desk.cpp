@@ -37,12 +37,13 @@ Result<int, Problem> number_of(const std::string& frame) {
   return static_cast<int>(std::find(kWords.begin(), kWords.end(), frame) - kWords.begin());
 }
 
-std::optional<Problem> wrong_with(const JogWish& wish, std::size_t axes) {
+std::optional<Problem> wrong_with(const JogRequest& request, std::size_t axes) {
   const auto moves = [](double speed) { return speed != 0; };
-  if (wish.speed.size() > axes || std::count_if(wish.speed.begin(), wish.speed.end(), moves) != 1) {
+  if (request.speed.size() > axes || std::count_if(request.speed.begin(), request.speed.end(), moves) != 1) {
     return Problem{fmt::format("speed has at most {} numbers, of which one is not 0", axes)};
   }
-  if (!std::all_of(wish.speed.begin(), wish.speed.end(), [](double speed) { return std::abs(speed) <= kMaxSpeed; })) {
+  if (!std::all_of(request.speed.begin(), request.speed.end(),
+                   [](double speed) { return std::abs(speed) <= kMaxSpeed; })) {
     return Problem{"speed is -100 to 100 %"};
   }
   return std::nullopt;
@@ -87,8 +88,8 @@ JogDesk::~JogDesk() {
 }
 
 Result<std::string, Problem> JogDesk::begin(const std::string& board, const std::string& robot, const std::string& who,
-                                            const std::string& from, const JogWish& wish) {
-  const auto frame = number_of(wish.frame);
+                                            const std::string& from, const JogRequest& request) {
+  const auto frame = number_of(request.frame);
   if (!frame) {
     return frame.error();
   }
@@ -100,7 +101,7 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
   if (!place) {
     return place.error();
   }
-  if (auto wrong = wrong_with(wish, place->axes)) {
+  if (auto wrong = wrong_with(request, place->axes)) {
     return std::move(*wrong);
   }
   for (const vars::Force& force : store->forces()) {
@@ -108,13 +109,13 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
       return Problem{operate::is_forced(robot.empty() ? "ROBOT_JOG" : robot + "::ROBOT_JOG")};
     }
   }
-  std::vector<double> speed = wish.speed;
+  std::vector<double> speed = request.speed;
   speed.resize(place->axes);
   Hand hand(std::move(store).value(), std::move(place).value());
   hand.board = board;
   hand.robot = robot;
   hand.who = {who, from, {}};
-  hand.what = fmt::format("{} {} [{}]", robot, wish.frame, fmt::join(speed, ", "));
+  hand.what = fmt::format("{} {} [{}]", robot, request.frame, fmt::join(speed, ", "));
   return desk_.add(std::move(hand), [&](Hand& pressed, const auto& others) -> std::optional<Problem> {
     for (const auto& [name, other] : others) {
       if (other.board == board && other.robot == robot) {
@@ -129,7 +130,7 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
       return schema::write_field(type, "bEnable", 1.0, bytes) && schema::write_field(type, "eFrame", *frame, bytes) &&
              schema::write_field(type, "dSpeed", speed, bytes) &&
              schema::write_field(type, "nBeat", pressed.beat, bytes) &&
-             (*frame != kWorkFrame || schema::write_field(type, "frame", std::string_view(wish.frame), bytes));
+             (*frame != kWorkFrame || schema::write_field(type, "frame", std::string_view(request.frame), bytes));
     });
     if (!written) {
       pressed.release();

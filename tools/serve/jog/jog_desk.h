@@ -18,7 +18,7 @@
 namespace indurop::serve {
 
 // The motion that a client requests.
-struct JogWish {
+struct JogRequest {
   std::string frame;          // "axes", "base", "tool" or a work frame
   std::vector<double> speed;  // in %, of axes, or along and about x, y, z; one is not 0
 };
@@ -36,7 +36,7 @@ class JogDesk {
   // Presses the switch of `robot`, the namespace of its ROBOT_JOG. Returns the name to renew it by, or why it was
   // refused.
   Result<std::string, base::Problem> begin(const std::string& board, const std::string& robot, const std::string& who,
-                                           const std::string& from, const JogWish& wish);
+                                           const std::string& from, const JogRequest& request);
   // Renews. Returns false if this client does not hold the switch any more.
   bool keep(const std::string& board, const std::string& name, const std::string& who);
   bool end(const std::string& board, const std::string& name, const std::string& who);

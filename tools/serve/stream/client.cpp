@@ -61,7 +61,7 @@ void StreamClient::subscribe(const ClientWord& word) {
     tell(error_word(word.id, "too_many", fmt::format("a client follows at most {} variables", kMostVariables)).dump());
     return;
   }
-  tell((*feed)->told(word.id, word.binary).dump());
+  tell((*feed)->subscribed(word.id, word.binary).dump());
   Subscription& mine = subscriptions_[word.id];
   mine.feed = *feed;
   mine.binary = word.binary;

@@ -158,7 +158,7 @@ SharedMessage Feed::changes() {
   return changes_;
 }
 
-base::Json Feed::told(std::uint32_t id, bool binary) const {
+base::Json Feed::subscribed(std::uint32_t id, bool binary) const {
   base::Json variables = base::Json::array();
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const tools::Item& item = items_[i];

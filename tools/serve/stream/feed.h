@@ -46,7 +46,7 @@ class Feed {
   SharedMessage everything();
   SharedMessage changes();
   // The answer {"type": "subscribed", ...}.
-  [[nodiscard]] base::Json told(std::uint32_t id, bool binary) const;
+  [[nodiscard]] base::Json subscribed(std::uint32_t id, bool binary) const;
 
  private:
   void find_items(const vars::Store& store);

@@ -168,7 +168,7 @@ void FoxgloveClient::sampled(const Feed& feed) {
   Subscription& subscription = subscriptions_.at(found->second);
   if (subscription.waiting) {
     outbox_.count_dropped();
-    ++untold_;
+    ++dropped_;
   }
   subscription.waiting = true;
   outbox_.wake();
@@ -192,10 +192,10 @@ SharedMessage FoxgloveClient::message_of(std::uint32_t id, Subscription& subscri
 }
 
 SharedMessage FoxgloveClient::next() {
-  if (const std::int64_t now = rt::now_ns(); untold_ > 0 && now - told_ns_ > kTellEveryNs) {
-    say(foxglove::warning(fmt::format("{} messages were left out: they came faster than they were taken", untold_)));
-    untold_ = 0;
-    told_ns_ = now;
+  if (const std::int64_t now = rt::now_ns(); dropped_ > 0 && now - warned_ns_ > kTellEveryNs) {
+    say(foxglove::warning(fmt::format("{} messages were left out: they came faster than they were taken", dropped_)));
+    dropped_ = 0;
+    warned_ns_ = now;
   }
   return outbox_.next(subscriptions_, [this](auto& entry) {
     return entry.second.waiting ? message_of(entry.first, entry.second) : nullptr;

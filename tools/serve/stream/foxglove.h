@@ -65,8 +65,8 @@ class FoxgloveClient final : public Follower {
   std::map<std::uint32_t, Subscription> subscriptions_;
   std::map<const Feed*, std::uint32_t> of_feed_;  // ids of their subscriptions
   std::vector<std::uint8_t> cdr_;
-  std::uint64_t untold_ = 0;  // dropped messages that were not reported yet
-  std::int64_t told_ns_ = 0;  // time of the last such report
+  std::uint64_t dropped_ = 0;   // dropped messages that were not reported yet
+  std::int64_t warned_ns_ = 0;  // time of the last warning about them
 };
 
 }  // namespace indurop::serve

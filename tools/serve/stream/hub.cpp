@@ -74,9 +74,9 @@ void Hub::run(std::int64_t now_ns) {
       all.push_back(std::move(feed));
     }
   }
-  std::map<std::string, const Board*, std::less<>> looked_at;
+  std::map<std::string, const Board*, std::less<>> boards;
   for (const auto& feed : all) {
-    auto [board, fresh] = looked_at.try_emplace(feed->board(), nullptr);
+    auto [board, fresh] = boards.try_emplace(feed->board(), nullptr);
     if (fresh) {
       board->second = boards_->find(feed->board());
     }
