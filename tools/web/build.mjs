@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the page: node build.mjs [FOLDER]. File names carry a hash of their content, so a browser may keep them for
-// ever; only index.html has to be asked for again.
+// Bundles the page: node build.mjs [FOLDER]. File names contain a hash of their content, so that a browser may cache them
+// without limit; only index.html has to be requested again.
 import { mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { basename, join } from "node:path";
 import { gzipSync } from "node:zlib";
 import esbuild from "esbuild";
 
-const most = 600_000;  // bytes, compressed, all files together
+const max_size = 600_000;  // bytes, compressed, all files together
 const folder = process.argv[2] ?? "dist";
 
 await rm(folder, { recursive: true, force: true });
@@ -27,17 +27,17 @@ const { metafile } = await esbuild.build({
   metafile: true,
   logLevel: "warning",
 });
-const script = Object.entries(metafile.outputs).find(([, made]) => made.entryPoint === "src/main.tsx");
-// What the start needs is asked for at once, not when its importer has come.
+const script = Object.entries(metafile.outputs).find(([, output]) => output.entryPoint === "src/main.tsx");
+// Files that the start needs are requested at once, not when the file that imports them has arrived.
 const needed = new Set();
-const need = (path) => {
+const add_imports = (path) => {
   for (const { path: next, kind } of metafile.outputs[path].imports) {
     if (kind !== "import-statement" || needed.has(next)) continue;
     needed.add(next);
-    need(next);
+    add_imports(next);
   }
 };
-need(script[0]);
+add_imports(script[0]);
 const preloads = [...needed].map((path) => `  <link rel="modulepreload" href="${basename(path)}">\n`).join("");
 const page = (await readFile("src/index.html", "utf8"))
   .replace("page.css", basename(script[1].cssBundle))
@@ -49,5 +49,5 @@ let sum = 0;
 for (const name of await readdir(folder)) {
   sum += gzipSync(await readFile(join(folder, name)), { level: 9 }).length;
 }
-console.log(`the page: ${Math.ceil(sum / 1000)} kB compressed, of ${most / 1000} kB allowed`);
-if (sum > most) process.exit(1);
+console.log(`the page: ${Math.ceil(sum / 1000)} kB compressed, of ${max_size / 1000} kB allowed`);
+if (sum > max_size) process.exit(1);

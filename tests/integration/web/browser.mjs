@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A browser for tests: opens the page in a size and colour, waits for what must come, and judges what is there. Every script is
-// started as SCRIPT DRIVER ORIGIN TOKEN PICTURES BROWSER [ITS OWN...] by page_server.py, which carries its orders out.
+// A browser for tests: opens the page with a size and a colour scheme, waits for expected text, and checks the page. Every script
+// is started as SCRIPT DRIVER ORIGIN TOKEN PICTURES BROWSER [ITS OWN...] by page_server.py, which executes its commands.
 import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";
 import { readFile } from "node:fs/promises";
@@ -8,7 +8,7 @@ import { join } from "node:path";
 import { createInterface } from "node:readline";
 
 const PATIENCE_MS = 30_000;
-// What the page is allowed to say in the console: the browser's own words about answers that are refused on purpose.
+// Messages that may appear in the console: those of the browser about answers that are rejected on purpose.
 const EXPECTED = /Failed to load resource|WebSocket connection|GPU stall|GroupMarkerNotSet|Automatic fallback to software/;
 
 const [driver, origin, token, pictures, program, ...more] = process.argv.slice(2);
@@ -16,14 +16,14 @@ export { more, origin };
 
 const input = createInterface({ input: process.stdin });
 const answers = input[Symbol.asyncIterator]();
-export async function order(word) {
+export async function command(word) {
   console.log(`do ${word}`);
   await answers.next();
 }
 
 export class Browser {
   constructor(puppet, axe) {
-    Object.assign(this, { puppet, axe, said: [] });
+    Object.assign(this, { puppet, axe, messages: [] });
   }
 
   static async launch() {
@@ -37,9 +37,9 @@ export class Browser {
   async open(where, { width = 1920, height = 1080, dark = false, token: with_token = true } = {}) {
     const page = await this.puppet.newPage();
     page.setDefaultTimeout(PATIENCE_MS);
-    page.on("pageerror", (error) => this.said.push(`${where}: ${error.message}`));
+    page.on("pageerror", (error) => this.messages.push(`${where}: ${error.message}`));
     page.on("console", (message) => {
-      if (["error", "warn"].includes(message.type()) && !EXPECTED.test(message.text())) this.said.push(`${where}: ${message.text()}`);
+      if (["error", "warn"].includes(message.type()) && !EXPECTED.test(message.text())) this.messages.push(`${where}: ${message.text()}`);
     });
     await page.setViewport({ width, height, isMobile: width < 700, hasTouch: width < 700 });
     await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }]);
@@ -47,7 +47,7 @@ export class Browser {
     return page;
   }
 
-  // Every test, by its name; then the process ends, with 0 if all was right and the console had nothing to say.
+  // Runs every test by its name and ends the process, with 0 if all passed and the console has no unexpected messages.
   async run(tests) {
     let failed = 0;
     for (const [name, test] of Object.entries(tests)) {
@@ -59,13 +59,13 @@ export class Browser {
         console.log(`FAILED: ${name}: ${error.message}`);
       }
     }
-    for (const line of this.said) console.log(`FAILED: the console says: ${line}`);
+    for (const line of this.messages) console.log(`FAILED: console message: ${line}`);
     await this.puppet.close();
-    process.exit(failed + this.said.length === 0 ? 0 : 1);
+    process.exit(failed + this.messages.length === 0 ? 0 : 1);
   }
 
-  // Nothing wider than the screen, nothing serious for axe-core; a picture for people.
-  async judge(page, name) {
+  // Checks that nothing is wider than the screen and axe-core finds nothing serious; saves a picture.
+  async check_view(page, name) {
     const inner = page.viewport().width;
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     await page.screenshot({ path: join(pictures, `${name}.png`) });
@@ -85,13 +85,13 @@ export async function sees(page, text) {
   try {
     await page.waitForFunction((wanted) => document.body.innerText.includes(wanted), {}, text);
   } catch {
-    throw new Error(`'${text}' is not there, but:\n${await page.evaluate(() => document.body.innerText)}`);
+    throw new Error(`'${text}' is not shown, but:\n${await page.evaluate(() => document.body.innerText)}`);
   }
 }
 
 export async function sees_no(page, text) {
   await page.waitForFunction((wanted) => !document.body.innerText.includes(wanted), {}, text)
-    .catch(() => { throw new Error(`'${text}' does not go away`); });
+    .catch(() => { throw new Error(`'${text}' is still shown`); });
 }
 
 export async function press(page, text) {

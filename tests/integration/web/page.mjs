@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Goes through the page as run.py says; its own word is the node's name.
-import { Browser, check, fill, more, order, origin, press, sees, sees_no } from "./browser.mjs";
+// Goes through the page as run.py describes; its own argument is the node's name.
+import { Browser, check, fill, more, command, origin, press, sees, sees_no } from "./browser.mjs";
 
 const [node] = more;
 const SCREENS = {
@@ -16,8 +16,8 @@ const OVERRIDE = "PLC_ROBOT::ROBOT_OVERRIDE";
 const browser = await Browser.launch();
 const value_of = async (name) => (await (await fetch(`${origin}/api/v1/boards/${node}/variables/${encodeURIComponent(name)}`)).json()).value;
 
-// The arm as it stands, not its canvas only: what is drawn has many colours, and some of them are the arm's blue. Without WebGL the
-// page says so; the numbers are there in any case.
+// The arm is drawn, not only its canvas: the picture has many colours, among them the arm's blue. Without WebGL the page reports
+// that it cannot draw; the numbers are shown in any case.
 async function is_drawn(page) {
   await page.waitForFunction(() => {
     const canvas = document.querySelector(".arm canvas[data-drawn]");
@@ -36,28 +36,28 @@ async function is_drawn(page) {
   });
 }
 
-// What the page must fetch before it shows the overview, in bytes as they are on the wire, and how long it kept the processor.
+// What the page loads before it shows the overview: files, bytes on the wire, and requests.
 async function cost_of(page) {
   return await page.evaluate(() => {
     const all = performance.getEntriesByType("resource").map(({ name, transferSize }) => ({ name: new URL(name).pathname, bytes: transferSize }));
     const files = all.filter(({ name }) => !name.startsWith("/api/"));
-    return { files: files.length, bytes: files.reduce((sum, { bytes }) => sum + bytes, 0), questions: all.length - files.length };
+    return { files: files.length, bytes: files.reduce((sum, { bytes }) => sum + bytes, 0), requests: all.length - files.length };
   });
 }
 
 await browser.run({
-  async "The overview says what runs"() {
+  async "The overview shows what is running"() {
     for (const [screen, size] of Object.entries(SCREENS)) {
       const began = Date.now();
       const page = await browser.open("overview", size);
       await sees(page, node);
       if (screen === "wide") {
-        const { files, bytes, questions } = await cost_of(page);
-        console.log(`usable after ${Date.now() - began} ms, ${files} files, ${bytes} bytes, ${questions} questions`);
+        const { files, bytes, requests } = await cost_of(page);
+        console.log(`usable after ${Date.now() - began} ms, ${files} files, ${bytes} bytes, ${requests} requests`);
         check(files <= 10 && bytes < 90_000, `the first view needs ${files} files and ${bytes} bytes`);
       }
       for (const text of ["Robot", "every 10 ms", "Lost ticks", "running"]) await sees(page, text);
-      await browser.judge(page, `overview-${screen}`);
+      await browser.check_view(page, `overview-${screen}`);
       await page.close();
     }
   },
@@ -71,8 +71,8 @@ await browser.run({
 
   async "Without a token nothing can be written"() {
     const page = await browser.open(`variables?v=${OVERRIDE}`, { token: false });
-    await sees(page, "only looking");
-    await sees(page, "This page may only look");
+    await sees(page, "read-only");
+    await sees(page, "This page is read-only");
     check(await page.$("form.write") === null, "there is a form to write");
     await page.close();
   },
@@ -88,7 +88,7 @@ await browser.run({
     await page.waitForFunction((label) => document.querySelector(`[aria-label='${label}']`)?.value === "100", {}, field);
     await fill(page, field, "500");
     await press(page, "Set");
-    await sees(page, "Out of its range");
+    await sees(page, "Outside of the range");
     check(await value_of(OVERRIDE) === 100, "a value out of its range was written");
     await fill(page, field, "75");
     await press(page, "Set");
@@ -99,7 +99,7 @@ await browser.run({
     await press(page, "Force");
     await sees(page, "1 value is forced");
     await sees(page, "Forced to 60 for 10 min.");
-    await browser.judge(page, "variables-forced-wide");
+    await browser.check_view(page, "variables-forced-wide");
     await press(page, "Release");
     await sees_no(page, "1 value is forced");
     await fill(page, field, "100");
@@ -108,18 +108,18 @@ await browser.run({
     await page.close();
   },
 
-  async "A force ends with its page, says who and why, and a struct is forced as text"() {
+  async "A force has a user and a reason, ends with its page, and can force a struct as text"() {
     const page = await browser.open("variables?v=PLC_ROBOT::ROBOT_JOG");
     await fill(page, "New value of PLC_ROBOT::ROBOT_JOG", "{eFrame: 1, bEnable: 0}");
     await fill(page, "Reason, for the audit log", "the pendant is broken");
     await page.select("[aria-label='How long to force']", "4");
     await press(page, "Force");
     await sees(page, "2 values are forced");
-    await sees(page, "as long as its client is there, by tester");
+    await sees(page, "while the page that forced it is open, by tester");
     await sees(page, "the pendant is broken");
-    await new Promise((done) => setTimeout(done, 7000));  // longer than it holds unless the page renews it
+    await new Promise((done) => setTimeout(done, 7000));  // longer than the lease without a renewal
     await sees(page, "2 values are forced");
-    await browser.judge(page, "variables-lease-wide");
+    await browser.check_view(page, "variables-lease-wide");
     const other = await browser.open("variables");
     await sees(other, "2 values are forced");
     await page.close();
@@ -127,15 +127,15 @@ await browser.run({
     await other.close();
   },
 
-  async "A locked board is written by nobody until it is unlocked"() {
+  async "A locked board cannot be written until it is unlocked"() {
     const page = await browser.open(`variables?v=${OVERRIDE}`, phone);
     await page.waitForSelector(".lock select");
     await page.select(".lock select", "all");
     await sees(page, "by tester");
-    await page.waitForFunction(() => document.querySelector("form.write input").value !== "");  // its present value
+    await page.waitForFunction(() => document.querySelector("form.write input").value !== "");  // the current value
     await press(page, "Set");
     await sees(page, "its write lock is 'all' by tester: nothing may be written");
-    await browser.judge(page, "variables-locked-phone");
+    await browser.check_view(page, "variables-locked-phone");
     await page.select(".lock select", "none");
     await page.waitForFunction(() => document.querySelector(".lock select").value === "none" && !document.querySelector(".lock span"));
     await press(page, "Set");
@@ -143,28 +143,28 @@ await browser.run({
     await page.close();
   },
 
-  async "The tree is used with the keyboard"() {
+  async "The tree can be used with the keyboard"() {
     const page = await browser.open("variables", SCREENS.phone);
     await sees(page, "PLC_ROBOT");
     await page.focus("[role=treegrid]");
     for (const key of ["Home", "ArrowDown", "ArrowRight"]) await page.keyboard.press(key);
     await sees(page, "emergency_stop");
-    await browser.judge(page, "variables-phone");
+    await browser.check_view(page, "variables-phone");
     await page.keyboard.press("Enter");
     await sees(page, "The panel, for your hands");
     await page.close();
   },
 
-  async "Charts show numbers over time, stop, and come back from their address"() {
-    await order("start-tour");
+  async "Charts show numbers over time, can be paused, and are restored from the address"() {
+    await command("start-tour");
     for (const [screen, size] of Object.entries({ wide, phone })) {
       const page = await browser.open(`plots?c=${JOINTS}&c=PLC_ROBOT::ROBOT_ARM.tool_speed&w=10`, size);
       await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 2);
       await page.waitForFunction(() => /^-?[\d.]+$/.test(document.querySelector(".legend .number")?.textContent ?? ""));
-      if (screen === "wide") await new Promise((done) => setTimeout(done, 6000));  // so that people see something in the picture
+      if (screen === "wide") await new Promise((done) => setTimeout(done, 6000));  // so that the picture shows motion
       await press(page, "Pause");
       await sees(page, "Paused");
-      await browser.judge(page, `plots-${screen}`);
+      await browser.check_view(page, `plots-${screen}`);
       await page.reload();
       await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 2);
       await page.close();
@@ -172,41 +172,41 @@ await browser.run({
   },
 
   async "Charts show every tick around a trigger"() {
-    await order("start-tour");
+    await command("start-tour");
     for (const [screen, size] of Object.entries({ wide, phone })) {
       const page = await browser.open(`plots?m=single&t=PLC_ROBOT::ROBOT_ARM.tool_speed > 50&pre=40&post=80&c=${JOINTS}&c=PLC_ROBOT::ROBOT_ARM.tool_speed`, size);
       await sees(page, "40 ticks before, 80 after, every 10 ms");
       await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 2);
       await page.waitForFunction(() => /^-?[\d.]+$/.test(document.querySelector(".legend .number")?.textContent ?? ""));
-      await browser.judge(page, `plots-triggered-${screen}`);
+      await browser.check_view(page, `plots-triggered-${screen}`);
       if (screen === "wide") {
         await fill(page, "Expression", "far = abs(PLC_ROBOT::ROBOT_ARM.joint[0] - PLC_ROBOT::ROBOT_ARM.joint[1])");
         await page.keyboard.press("Enter");
         await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 3);
         await page.waitForFunction(() => [...document.querySelectorAll(".legend tr")].some((row) =>
           row.innerText.includes("far") && row.querySelector(".unit").innerText === "deg" && /^[\d.]+$/.test(row.querySelector(".number").innerText)));
-        await browser.judge(page, "plots-expression-wide");
+        await browser.check_view(page, "plots-expression-wide");
         await fill(page, "Expression", "PLC_ROBOT::ROBOT_ARM.joint[0] + PLC_ROBOT::ROBOT_ARM.tool_speed");
         await page.keyboard.press("Enter");
         await sees(page, "mm/s");
         await press(page, "PLC_ROBOT::ROBOT_ARM.joint[0] + PLC_ROBOT::ROBOT_ARM.tool_speed \u00d7");
-        await fill(page, "Trigger", "nobody > 1");
+        await fill(page, "Trigger", "missing > 1");
         await page.keyboard.press("Enter");
-        await sees(page, "no variable 'nobody'");
+        await sees(page, "no variable 'missing'");
       }
       await page.close();
     }
   },
 
   async "Charts show a recording"() {
-    await order("start-tour");
-    await order("record");
+    await command("start-tour");
+    await command("record");
     for (const [screen, size] of Object.entries({ wide, phone })) {
       const page = await browser.open(`plots?m=recording&r=run.mcap&c=${JOINTS}&c=PLC_ROBOT::ROBOT_ARM.tool_speed`, size);
       await sees(page, "run.mcap");
       await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 2);
       await page.waitForFunction(() => /^-?[\d.]+$/.test(document.querySelector(".legend .number")?.textContent ?? ""));
-      await browser.judge(page, `plots-recording-${screen}`);
+      await browser.check_view(page, `plots-recording-${screen}`);
       await page.close();
     }
   },
@@ -215,33 +215,33 @@ await browser.run({
     for (const [screen, size] of Object.entries({ wide, phone })) {
       const page = await browser.open("schedule?m=Robot", size);
       await page.waitForSelector(".run rect");
-      await sees(page, "Robot: how its times are distributed");
+      await sees(page, "Robot: distribution of its times");
       await sees(page, "half below");
       await page.locator("details.panel summary").click();
       await page.$eval("details.panel tbody .link-button", (button) => button.scrollIntoView({ block: "center" }));
       await page.locator("details.panel tbody .link-button").click();
-      await sees(page, "after it was due");
-      await browser.judge(page, `schedule-${screen}`);
+      await sees(page, "after its release");
+      await browser.check_view(page, `schedule-${screen}`);
       await page.close();
     }
   },
 
-  async "The robot is drawn and said in numbers"() {
-    await order("start-tour");
+  async "The robot is drawn, and its numbers are shown"() {
+    await command("start-tour");
     for (const [screen, size] of Object.entries({ wide, phone })) {
       const page = await browser.open("robot", size);
       await sees(page, "Commanded");
       await sees(page, "mm/s");
       await sees(page, "cell_arm");
       await is_drawn(page);
-      if (screen === "wide") await new Promise((done) => setTimeout(done, 4000));  // the way of the tool
-      await browser.judge(page, `robot-${screen}`);
+      if (screen === "wide") await new Promise((done) => setTimeout(done, 4000));  // so that the picture shows the path of the tool
+      await browser.check_view(page, `robot-${screen}`);
       await page.close();
     }
   },
 
-  async "Override, hold and stop of the robot are pressed, and do what they say"() {
-    await order("start-tour");
+  async "The buttons for override, hold and stop act on the robot"() {
+    await command("start-tour");
     const page = await browser.open("robot", { width: 1280, height: 900 });
     const until = async (what, condition) => {
       for (const end = Date.now() + 60_000; !(await condition());) {
@@ -252,12 +252,12 @@ await browser.run({
     const arm = async () => await value_of("PLC_ROBOT::ROBOT_ARM");
     const job = async () => (await value_of("PLC_ROBOT::ROBOT_JOB")).eState;
     const moves = async () => (await arm()).tool_speed > 1;
-    await sees(page, "By hand");
-    await sees(page, "Tool along pallet");
+    await sees(page, "Jogging");
+    await sees(page, "Tool, frame pallet");
     await until("the robot does not move", moves);
-    const override = "::-p-xpath(//section[@aria-label='Moving by hand']//label[starts-with(., 'Override')]/input)";
+    const override = "::-p-xpath(//section[@aria-label='Jogging']//label[starts-with(., 'Override')]/input)";
     const before = await value_of(OVERRIDE);
-    await page.waitForFunction((wanted) => document.querySelector("[aria-label='Moving by hand'] input").value === String(wanted), {}, before);
+    await page.waitForFunction((wanted) => document.querySelector("[aria-label='Jogging'] input").value === String(wanted), {}, before);
     await (await page.waitForSelector(override)).focus();
     await page.keyboard.press("ArrowLeft");
     await until("the override is not set", async () => await value_of(OVERRIDE) === before - 5);
@@ -268,11 +268,11 @@ await browser.run({
     await press(page, "Hold");
     await sees(page, "Held.");
     await until("it is not held", async () => !!(await value_of("PLC_ROBOT::ROBOT_HOLD")) && !(await moves()));
-    await sees(page, "Go on");
-    await browser.judge(page, "robot-held");
-    await press(page, "Go on");
-    await sees(page, "Goes on.");
-    await until("it does not go on", async () => !(await value_of("PLC_ROBOT::ROBOT_HOLD")) && await moves());
+    await sees(page, "Resume");
+    await browser.check_view(page, "robot-held");
+    await press(page, "Resume");
+    await sees(page, "Resumed.");
+    await until("it does not resume", async () => !(await value_of("PLC_ROBOT::ROBOT_HOLD")) && await moves());
     await press(page, "Stop");
     await sees(page, "Stopped.");
     await until("it is not stopped", async () => !(await moves()) && !RUNS.includes(await job()));
@@ -280,32 +280,32 @@ await browser.run({
   },
 
   async "The ladder of the cell is shown, wide and on a phone"() {
-    await order("start-tour");
+    await command("start-tour");
     for (const [screen, size] of Object.entries({ wide: { width: 1280, height: 900 }, phone, dark: { width: 1280, height: 900, dark: true } })) {
       const page = await browser.open("plc", size);
       await sees(page, "The drives have no power");
       await page.waitForFunction(() => document.querySelectorAll(".network .power").length > 20);
-      check(await page.$eval(".network", (one) => one.querySelectorAll("a[aria-label^='PLC_ROBOT::I14,']").length) > 0, "the emergency stop circuit leads nowhere");
-      if (screen === "phone") check(await page.$eval(".coils .chip", (chip) => chip.innerText.startsWith("safe ")), "the coil is not said");
-      await browser.judge(page, `plc-cell-${screen}`);
+      check(await page.$eval(".network", (one) => one.querySelectorAll("a[aria-label^='PLC_ROBOT::I14,']").length) > 0, "the emergency stop circuit has no link to its variable");
+      if (screen === "phone") check(await page.$eval(".coils .chip", (chip) => chip.innerText.startsWith("safe ")), "the coil is not shown as text");
+      await browser.check_view(page, `plc-cell-${screen}`);
       await page.close();
     }
   },
 
-  async "Alarms of the cell"() {
-    await order("start-tour");
+  async "The alarms of the cell are shown"() {
+    await command("start-tour");
     for (const [screen, size] of Object.entries({ wide: { width: 1280, height: 800 }, phone })) {
       const page = await browser.open("alarms", size);
-      await sees(page, "somebody is in the light curtain");
-      await browser.judge(page, `alarms-cell-${screen}`);
+      await sees(page, "is in the light curtain");
+      await browser.check_view(page, `alarms-cell-${screen}`);
       await page.close();
     }
   },
 
-  async "A module is stopped only when that is confirmed, and is missed everywhere"() {
-    await order("stop-node");  // somebody stopped its job
-    await order("start-node");
-    await order("start-tour");
+  async "A module is stopped only after a confirmation, and every view reports it as stopped"() {
+    await command("stop-node");  // an earlier test stopped its job
+    await command("start-node");
+    await command("start-tour");
     const page = await browser.open("overview", { width: 1280, height: 900 });
     await sees(page, "estop");
     const dialog = "dialog[open]";
@@ -316,10 +316,10 @@ await browser.run({
     const state_of = async (name) => (await (await fetch(`${origin}/api/v1/boards/${node}/modules`)).json()).modules.find((one) => one.name === name).state;
     await ask("Stop estop");
     await sees(page, "estop is the emergency stop: it writes PLC_ROBOT::EMERGENCY_STOP");
-    await browser.judge(page, "stop-asked");
+    await browser.check_view(page, "stop-asked");
     await press(page, "Leave it running");
     await page.waitForFunction((open) => !document.querySelector(open), {}, dialog);
-    check(await state_of("estop") === "running", "it was stopped although nobody agreed");
+    check(await state_of("estop") === "running", "it was stopped without a confirmation");
     await ask("Restart main");
     await page.keyboard.press("Escape");
     await page.waitForFunction((open) => !document.querySelector(open), {}, dialog);
@@ -328,21 +328,21 @@ await browser.run({
       await new Promise((done) => setTimeout(done, 20));
     }
     await ask("Stop Robot");
-    await sees(page, "The robot is in mid-job: ");
+    await sees(page, "The robot is in the middle of a job: ");
     await press(page, "Stop Robot");
     await sees(page, `${node}: module Robot is stopped`);
     check(await state_of("Robot") === "stopped", "it was not stopped");
-    await browser.judge(page, "module-stopped");
+    await browser.check_view(page, "module-stopped");
     const robot = await browser.open("robot", { width: 1280, height: 900 });
-    await sees(robot, "Module Robot is stopped: the robot cannot be moved. Start it on the overview.");
-    await sees(robot, "does not run");
+    await sees(robot, "Module Robot is stopped: the robot cannot be jogged. Start it on the overview.");
+    await sees(robot, "not running");
     await sees_no(robot, "moving");
-    await robot.waitForFunction(() => {  // no button can be pressed
+    await robot.waitForFunction(() => {  // all buttons are disabled
       const all = [...document.querySelectorAll(".jog")];
       return all.length > 0 && all.every((one) => one.matches(":disabled"));
     });
-    await browser.judge(robot, "robot-stopped");
-    await page.bringToFront();  // a page that nobody sees asks nothing
+    await browser.check_view(robot, "robot-stopped");
+    await page.bringToFront();  // a hidden page sends no requests
     await page.evaluate(() => { location.hash = "#/alarms"; });
     await sees(page, "module Robot is stopped");
     await sees(page, "active, not acknowledged");
@@ -350,12 +350,12 @@ await browser.run({
     await page.locator("::-p-aria(Start Robot)").click();
     await sees_no(page, "module Robot is stopped");
     await robot.bringToFront();
-    await sees_no(robot, "the robot cannot be moved");
+    await sees_no(robot, "the robot cannot be jogged");
     await robot.close();
     await page.close();
   },
 
-  async "The robot is moved by hand while a button is held, and stops when hand, page or server are lost"() {
+  async "The robot is jogged while a button is held down, and stops when the pointer, the page or the server is lost"() {
     const arm = async () => await value_of("PLC_ROBOT::ROBOT_ARM");
     const jog = async () => await value_of("PLC_ROBOT::ROBOT_JOG");
     const moves = async () => (await arm()).tool_speed > 1;
@@ -365,18 +365,18 @@ await browser.run({
         await new Promise((done) => setTimeout(done, 20));
       }
     };
-    await order("power-on");
+    await command("power-on");
     const page = await browser.open("robot", { width: 1280, height: 900 });
-    await sees(page, "standing by");
+    await sees(page, "standby");
     const centre = async (on, label) => {
       const box = await (await on.waitForSelector(`[aria-label='${label}']`)).boundingBox();
       return [box.x + box.width / 2, box.y + box.height / 2];
     };
-    await page.select("section[aria-label='Moving by hand'] select", "base");
+    await page.select("section[aria-label='Jogging'] select", "base");
     await sees(page, "roll");
     const z = await centre(page, "z forward, while held down");
     const from = (await arm()).position[2];
-    // A browser that is too busy to be heard lets go, as it shall: then the button is pressed again.
+    // If a busy browser does not renew its request in time, the server releases the switch: then the button is pressed again.
     const press_until_it_moves = async () => {
       for (const end = Date.now() + 60_000; ;) {
         await page.mouse.move(...z);
@@ -396,61 +396,61 @@ await browser.run({
       }
       return await shown() > shown_before;
     });
-    check((await jog()).dSpeed[2] === 10, "another speed than the page says");
+    check((await jog()).dSpeed[2] === 10, "the speed is not the one that the page shows");
     await page.mouse.up();
     await until("it does not stop", async () => !(await moves()) && !(await jog()).bEnable);
-    check((await arm()).position[2] > from, "it went another way");
-    await browser.judge(page, "robot-jog-wide");
-    // Beside the button, another window, a page that is closed.
-    const ways = {
+    check((await arm()).position[2] > from, "it moved in another direction");
+    await browser.check_view(page, "robot-jog-wide");
+    // The pointer leaves the button, another window gets the focus, the page is closed.
+    const losses = {
       "the pointer leaves": () => page.mouse.move(5, 5),
       "the window is left": () => page.evaluate(() => window.dispatchEvent(new Event("blur"))),
     };
-    for (const [what, act] of Object.entries(ways)) {
+    for (const [what, act] of Object.entries(losses)) {
       await press_until_it_moves();
       await act();
-      await until(`no rest after ${what}`, async () => !(await moves()) && !(await jog()).bEnable);
+      await until(`the robot does not stop after ${what}`, async () => !(await moves()) && !(await jog()).bEnable);
       await page.mouse.up();
     }
     await press_until_it_moves();
     await page.close({ runBeforeUnload: false });
-    await until("no rest after the page was closed", async () => !(await moves()) && !(await jog()).bEnable);
+    await until("the robot does not stop after the page was closed", async () => !(await moves()) && !(await jog()).bEnable);
     const other = await browser.open("robot", phone);
-    await sees(other, "standing by");
+    await sees(other, "standby");
     await is_drawn(other);
-    await other.evaluate(() => document.querySelector("[aria-label='Moving by hand']").scrollIntoView());
-    await browser.judge(other, "robot-jog-phone");
+    await other.evaluate(() => document.querySelector("[aria-label='Jogging']").scrollIntoView());
+    await browser.check_view(other, "robot-jog-phone");
     const button = await other.waitForSelector("[aria-label$='back, while held down']");
     await button.focus();
     for (const end = Date.now() + 60_000; !(await moves());) {
       check(Date.now() < end, "no motion by the keyboard");
       await other.keyboard.up("Space");
       await other.keyboard.down("Space");
-      for (const soon = Date.now() + 1500; Date.now() < soon && !(await moves());) { /* looks again */ }
+      for (const soon = Date.now() + 1500; Date.now() < soon && !(await moves());) { /* reads again */ }
     }
-    await order("kill-server");
-    // The server's memory of it is gone: the switch stays pressed, the robot task sees no beat.
-    await order("start-server");
-    await until("no rest after the server was killed", async () => !(await moves()));
-    await sees(other, "By hand");
-    await order("automatic");
-    await sees(other, "Automatic mode: the robot is not moved by hand.");
+    await command("kill-server");
+    // The killed server cannot release the switch; the robot task sees that its beat no longer counts.
+    await command("start-server");
+    await until("the robot does not stop after the server was killed", async () => !(await moves()));
+    await sees(other, "Jogging");
+    await command("automatic");
+    await sees(other, "Automatic mode: the robot cannot be jogged.");
     await other.close();
   },
 
-  async "A server and a node that go are missed, and found again"() {
+  async "The page reports a stopped server and a stopped node, and resumes when they are back"() {
     const page = await browser.open("overview");
     await sees(page, "connected");
-    await order("stop-server");
-    await sees(page, "The server is gone: looking for it again");
-    await browser.judge(page, "server-gone");
-    await order("start-server");
+    await command("stop-server");
+    await sees(page, "The server cannot be reached.");
+    await browser.check_view(page, "server-gone");
+    await command("start-server");
     await sees(page, "connected");
-    await sees_no(page, "The server is gone");
-    await order("stop-node");
-    await sees(page, `Node ${node} is gone: looking for it again`);
-    await order("start-node");
-    await sees_no(page, "is gone");
+    await sees_no(page, "The server cannot be reached");
+    await command("stop-node");
+    await sees(page, `Node ${node} is not running`);
+    await command("start-node");
+    await sees_no(page, "is not running");
     await page.close();
   },
 });

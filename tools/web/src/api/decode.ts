@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes of a board's memory to values, by their form (docs/serve.md, "Binary frames").
+// Decodes bytes of a board's memory to values, by their form (docs/serve.md, "Binary frames").
 
 import type { Form, Quality, Subscribed } from "./types";
 
@@ -27,7 +27,7 @@ function scalar(view: DataView, at: number, form: Form): unknown {
     case "enum":
     case "i32": return view.getInt32(at, true);
     case "u32": return view.getUint32(at, true);
-    // Exact up to 2^53: more than a page can show is not worth a second number type.
+    // Exact up to 2^53; the page shows larger values rounded.
     case "i64": return Number(view.getBigInt64(at, true));
     case "u64": return Number(view.getBigUint64(at, true));
     case "f32": return view.getFloat32(at, true);
@@ -51,7 +51,7 @@ export function decode(view: DataView, at: number, form: Form): unknown {
   return Array.from({ length: count }, (_, i) => decode(view, at + i * step, element));
 }
 
-// null: no frame of values this page knows.
+// null: not a frame of values, or of an unknown version.
 export function frame_of(data: ArrayBuffer): Frame | null {
   if (data.byteLength < HEADER) return null;
   const view = new DataView(data);

@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Questions and orders over HTTP. What the server refuses becomes a Refusal with the server's words.
+// Requests to the server. A request that fails or is rejected throws a RequestError with the server's message.
 
 const TOKEN_KEY = "indurop.token";
-const REFUSED_KEY = "indurop.refused";  // the token that was here is not the server's
+const REJECTED_KEY = "indurop.rejected";  // the server rejected the token of this tab
 const UNAUTHORIZED = 401;
-const PATIENCE_MS = 8000;
+const TIMEOUT_MS = 8000;
 
-export class Refusal extends Error {
+export class RequestError extends Error {
   constructor(readonly status: number, message: string, readonly details: string[] = []) {
     super(message);
   }
-  // The server is there and does not let this page look.
+  // The server answers, but requires a token.
   get unauthorized(): boolean { return this.status === UNAUTHORIZED; }
 }
 
-// `#token=...` of the address is kept for this tab and taken out of the address, which people copy and photograph. False:
-// there is none.
+// Moves `#token=...` from the address, which users copy and photograph, to the storage of this tab. False: there is none.
 export function take_token_from_address(): boolean {
   const found = /(?:^#|&)token=([A-Za-z0-9_-]+)/.exec(location.hash);
   if (!found) return false;
   sessionStorage.setItem(TOKEN_KEY, found[1]);
-  sessionStorage.removeItem(REFUSED_KEY);
+  sessionStorage.removeItem(REJECTED_KEY);
   const rest = location.hash.replace(/(^#|&)token=[A-Za-z0-9_-]+/, "").replace(/^&/, "");
   history.replaceState(null, "", location.pathname + (rest ? (rest.startsWith("#") ? rest : `#${rest}`) : ""));
-  window.dispatchEvent(new HashChangeEvent("hashchange"));  // which replaceState does not say
+  window.dispatchEvent(new HashChangeEvent("hashchange"));  // replaceState does not dispatch it
   return true;
 }
 
@@ -31,50 +30,50 @@ export function token(): string {
   return sessionStorage.getItem(TOKEN_KEY) ?? "";
 }
 
-// This page had a token that the server does not know. It is not shown again: without one a page may still look.
-export function token_was_refused(): boolean {
-  return sessionStorage.getItem(REFUSED_KEY) !== null;
+// The server rejected the token of this page. The page continues without one: reading may need none.
+export function token_was_rejected(): boolean {
+  return sessionStorage.getItem(REJECTED_KEY) !== null;
 }
 
-function forget(refused: string): void {
-  if (!refused || refused !== token()) return;
+function discard_token(rejected: string): void {
+  if (!rejected || rejected !== token()) return;
   sessionStorage.removeItem(TOKEN_KEY);
-  sessionStorage.setItem(REFUSED_KEY, "1");
+  sessionStorage.setItem(REJECTED_KEY, "1");
 }
 
-async function ask<T>(path: string, more: RequestInit, patience_ms = PATIENCE_MS): Promise<T> {
+async function request<T>(path: string, more: RequestInit, timeout_ms = TIMEOUT_MS): Promise<T> {
   const headers: Record<string, string> = { Accept: "application/json" };
-  const shown = token();
-  if (shown) headers.Authorization = `Bearer ${shown}`;
+  const sent = token();
+  if (sent) headers.Authorization = `Bearer ${sent}`;
   if (more.body) headers["Content-Type"] = "application/json";
   let answer: Response;
   try {
-    answer = await fetch(`/api/v1/${path}`, { ...more, headers, cache: "no-store", signal: AbortSignal.timeout(patience_ms) });
+    answer = await fetch(`/api/v1/${path}`, { ...more, headers, cache: "no-store", signal: AbortSignal.timeout(timeout_ms) });
   } catch {
-    throw new Refusal(0, "The server does not answer.");
+    throw new RequestError(0, "The server does not answer.");
   }
-  if (answer.status === UNAUTHORIZED) forget(shown);
+  if (answer.status === UNAUTHORIZED) discard_token(sent);
   const text = await answer.text();
   let body: any;
   try {
     body = JSON.parse(text);
   } catch {
-    throw new Refusal(answer.status, `The server's answer is no JSON (status ${answer.status}).`);
+    throw new RequestError(answer.status, `The server's answer is not JSON (status ${answer.status}).`);
   }
-  if (!answer.ok) throw new Refusal(answer.status, body.message ?? `Refused (status ${answer.status}).`, body.details ?? []);
+  if (!answer.ok) throw new RequestError(answer.status, body.message ?? `Rejected (status ${answer.status}).`, body.details ?? []);
   return body as T;
 }
 
-export function get<T>(path: string, patience_ms?: number): Promise<T> {
-  return ask<T>(path, { method: "GET" }, patience_ms);
+export function get<T>(path: string, timeout_ms?: number): Promise<T> {
+  return request<T>(path, { method: "GET" }, timeout_ms);
 }
 
-export function post<T>(path: string, body?: unknown, patience_ms?: number): Promise<T> {
-  return ask<T>(path, { method: "POST", body: body === undefined ? undefined : JSON.stringify(body) }, patience_ms);
+export function post<T>(path: string, body?: unknown, timeout_ms?: number): Promise<T> {
+  return request<T>(path, { method: "POST", body: body === undefined ? undefined : JSON.stringify(body) }, timeout_ms);
 }
 
-// For a page that is being closed: nobody hears the answer.
-export function post_at_the_end(path: string): void {
+// For a page that is being closed: it cannot receive the answer.
+export function post_without_answer(path: string): void {
   const headers: Record<string, string> = token() ? { Authorization: `Bearer ${token()}` } : {};
   void fetch(`/api/v1/${path}`, { method: "POST", headers, keepalive: true }).catch(() => undefined);
 }
@@ -83,7 +82,7 @@ export function board_path(board: string, rest = ""): string {
   return `boards/${encodeURIComponent(board)}${rest}`;
 }
 
-export function words(error: unknown): string {
-  if (error instanceof Refusal) return [error.message, ...error.details].join(" ");
+export function message_of(error: unknown): string {
+  if (error instanceof RequestError) return [error.message, ...error.details].join(" ");
   return error instanceof Error ? error.message : String(error);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one WebSocket of the page. A subscription lives until its owner ends it: through lost connections, nodes that go
-// and come, and deployments that change the layout.
+// The only WebSocket of the page. A subscription lasts until its owner ends it: it survives lost connections, restarted
+// nodes, and deployments that change the layout.
 
 import { frame_of, type Frame } from "./decode";
 import { token } from "./http";
@@ -9,7 +9,7 @@ import type { AlarmCounts, StreamBoard, Subscribed, ValuesFrame } from "./types"
 const RETRY_MS = [250, 500, 1000, 2000];
 const RESUBSCRIBE_MS = 1500;
 
-export interface Wanted {
+export interface Subscription {
   board: string;
   names: string[];
   rate_hz: number;
@@ -18,7 +18,7 @@ export interface Wanted {
   values?: (frame: ValuesFrame) => void;  // binary: false
   frame?: (frame: Frame, of: Subscribed) => void;  // binary: true
   dropped?: (frames: number) => void;
-  refused?: (message: string) => void;
+  rejected?: (message: string) => void;
 }
 
 export type Link = "connecting" | "open" | "lost";
@@ -27,7 +27,7 @@ class Stream {
   private socket: WebSocket | null = null;
   private tries = 0;
   private next_id = 1;
-  private readonly wanted = new Map<number, Wanted>();
+  private readonly subscriptions = new Map<number, Subscription>();
   private readonly answers = new Map<number, Subscribed>();
   on_link: (link: Link) => void = () => {};
   on_boards: (boards: StreamBoard[]) => void = () => {};
@@ -42,9 +42,9 @@ class Stream {
     socket.onopen = () => {
       this.tries = 0;
       this.on_link("open");
-      for (const id of this.wanted.keys()) this.ask(id);
+      for (const id of this.subscriptions.keys()) this.send_subscribe(id);
     };
-    socket.onmessage = ({ data }) => (typeof data === "string" ? this.said(JSON.parse(data)) : this.bytes(data));
+    socket.onmessage = ({ data }) => (typeof data === "string" ? this.receive_message(JSON.parse(data)) : this.receive_bytes(data));
     socket.onclose = () => {
       this.answers.clear();
       this.on_link("lost");
@@ -52,13 +52,13 @@ class Stream {
     };
   }
 
-  // Returns what ends it.
-  subscribe(wanted: Wanted): () => void {
+  // The function it returns ends the subscription.
+  subscribe(subscription: Subscription): () => void {
     const id = this.next_id++;
-    this.wanted.set(id, wanted);
-    this.ask(id);
+    this.subscriptions.set(id, subscription);
+    this.send_subscribe(id);
     return () => {
-      this.wanted.delete(id);
+      this.subscriptions.delete(id);
       this.answers.delete(id);
       this.send({ type: "unsubscribe", id });
     };
@@ -68,46 +68,46 @@ class Stream {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
 
-  private ask(id: number): void {
-    const wanted = this.wanted.get(id);
-    if (!wanted) return;
-    const { board, names, rate_hz, binary } = wanted;
+  private send_subscribe(id: number): void {
+    const subscription = this.subscriptions.get(id);
+    if (!subscription) return;
+    const { board, names, rate_hz, binary } = subscription;
     this.send({ type: "subscribe", id, board, names, rate_hz, binary });
   }
 
-  private said(message: any): void {
+  private receive_message(message: any): void {
     switch (message.type) {
       case "boards": return this.on_boards(message.boards);
       case "alarms": return this.on_alarms(message.board, message);
       case "subscribed":
-        if (!this.wanted.has(message.id)) return;
+        if (!this.subscriptions.has(message.id)) return;
         this.answers.set(message.id, message);
-        return this.wanted.get(message.id)?.subscribed?.(message);
-      case "values": return this.each(message.stream, (wanted) => wanted.values?.(message));
-      case "dropped": return this.each(message.stream, (wanted) => wanted.dropped?.(message.frames));
+        return this.subscriptions.get(message.id)?.subscribed?.(message);
+      case "values": return this.for_each(message.stream, (subscription) => subscription.values?.(message));
+      case "dropped": return this.for_each(message.stream, (subscription) => subscription.dropped?.(message.frames));
       case "layout_changed":
         for (const id of message.ids) {
           this.answers.delete(id);
-          this.ask(id);
+          this.send_subscribe(id);
         }
         return;
       case "error":
         this.answers.delete(message.id);
-        this.wanted.get(message.id)?.refused?.(message.message);
-        // What is missing now may come with the node or with a deployment.
-        setTimeout(() => { if (!this.answers.has(message.id)) this.ask(message.id); }, RESUBSCRIBE_MS);
+        this.subscriptions.get(message.id)?.rejected?.(message.message);
+        // A missing variable may appear when the node starts or with a deployment.
+        setTimeout(() => { if (!this.answers.has(message.id)) this.send_subscribe(message.id); }, RESUBSCRIBE_MS);
     }
   }
 
-  private bytes(data: ArrayBuffer): void {
+  private receive_bytes(data: ArrayBuffer): void {
     const frame = frame_of(data);
-    if (frame) this.each(frame.stream, (wanted, answer) => wanted.frame?.(frame, answer));
+    if (frame) this.for_each(frame.stream, (subscription, answer) => subscription.frame?.(frame, answer));
   }
 
-  private each(stream: number, what: (wanted: Wanted, answer: Subscribed) => void): void {
+  private for_each(stream: number, act: (subscription: Subscription, answer: Subscribed) => void): void {
     for (const [id, answer] of this.answers) {
-      const wanted = this.wanted.get(id);
-      if (wanted && answer.stream === stream) what(wanted, answer);
+      const subscription = this.subscriptions.get(id);
+      if (subscription && answer.stream === stream) act(subscription, answer);
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the server says, as tools/serve/openapi.json and docs/serve.md describe it; fields the page does not use are left out.
+// Answers of the server, as tools/serve/openapi.json and docs/serve.md describe them, without fields that the page does not use.
 
 export type Quality = "good" | "stale" | "silent" | "unread";
 
@@ -17,7 +17,7 @@ export interface ServerStatus {
 export interface BoardSummary {
   board: string;
   here: boolean;  // on this host
-  host?: string;  // of a board that is not
+  host?: string;  // of a remote board
   alive: boolean;
   state: string;
   deployment: string;
@@ -256,7 +256,7 @@ export interface RecipeValues {
   values: { name: string; recipe: unknown; now: unknown; same: boolean }[];
 }
 
-// What a module printed, or the node.
+// A message that a module or the node printed.
 export interface Message {
   who: string;
   tick: number;
@@ -289,7 +289,7 @@ export interface Field {
   range?: Range | null;
 }
 
-// Form of a variable's bytes.
+// The form of a variable's bytes.
 export interface Form {
   kind: string;
   name?: string;
@@ -376,7 +376,7 @@ export interface Robot {
   module: string;
   urdf: string;
   frames: string[];
-  name?: string;  // from the text, by the page
+  name?: string;  // added by the page, from the text
 }
 
 export interface CaptureLine {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forces that this page holds: renewed as long as it is open, whatever view is shown. A page that is closed, lost or put
-// to sleep by its browser does not renew, and the board lets go by itself.
+// Forces that this page holds: renewed as long as it is open, whatever view is shown. A page that is closed, disconnected
+// or suspended by its browser does not renew them, and the server releases them.
 
-import { board_path, post, post_at_the_end, words } from "../api/http";
+import { board_path, message_of, post, post_without_answer } from "../api/http";
 import { Store } from "../ui/store";
 
 export interface Held {
@@ -13,14 +13,14 @@ export interface Held {
 
 interface Leases {
   held: Held[];
-  lost: string;  // what was let go without this page, in words
+  lost: string;  // what was released without this page, as text
 }
 
 export const leases = new Store<Leases>({ held: [], lost: "" });
 let timer = 0;
 
-function path({ board, lease }: Held, what: string): string {
-  return board_path(board, `/leases/${lease}/${what}`);
+function path({ board, lease }: Held, act: string): string {
+  return board_path(board, `/leases/${lease}/${act}`);
 }
 
 async function renew(one: Held): Promise<void> {
@@ -29,15 +29,15 @@ async function renew(one: Held): Promise<void> {
   } catch (error) {
     const { held } = leases.get();
     if (!held.includes(one)) return;  // ended meanwhile
-    leases.set({ held: held.filter((other) => other !== one), lost: `${one.names.join(", ")}: ${words(error)}` });
+    leases.set({ held: held.filter((other) => other !== one), lost: `${one.names.join(", ")}: ${message_of(error)}` });
   }
 }
 
-export function keep(one: Held, lease_ns: number): void {
+export function add_lease(one: Held, lease_ns: number): void {
   leases.set({ held: [...leases.get().held, one], lost: "" });
   if (!timer) timer = window.setInterval(() => leases.get().held.forEach((each) => void renew(each)), lease_ns / 4e6);
 }
 
 window.addEventListener("pagehide", () => {
-  for (const one of leases.get().held) post_at_the_end(path(one, "end"));
+  for (const one of leases.get().held) post_without_answer(path(one, "end"));
 });

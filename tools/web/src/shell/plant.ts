@@ -1,60 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every view needs to know: is the server there, which boards are there, which one is looked at.
+// What every view needs: whether the server answers, which boards there are, which one is selected.
 
-import { get, Refusal, token, words } from "../api/http";
+import { get, message_of, RequestError, token } from "../api/http";
 import { stream, type Link } from "../api/stream";
 import type { BoardSummary, ServerStatus } from "../api/types";
 import { place } from "../ui/address";
-import { Store, turned, useStore } from "../ui/store";
+import { reconnected, Store, useStore } from "../ui/store";
 
-const LOOK_MS = 2000;
+const POLL_MS = 2000;
 
 export interface Plant {
   link: Link;
   status: ServerStatus | null;
   boards: BoardSummary[] | null;
   error: string;
-  let_in: boolean;  // false: the server is there and wants a token
+  admitted: boolean;  // false: the server requires a token
 }
 
-export const plant = new Store<Plant>({ link: "connecting", status: null, boards: null, error: "", let_in: true });
+export const plant = new Store<Plant>({ link: "connecting", status: null, boards: null, error: "", admitted: true });
 
 function update(part: Partial<Plant>): void {
   plant.set({ ...plant.get(), ...part });
 }
 
-let looking = false;
+let polling = false;
 
-// One question at a time: at the start the stream opens and tells of boards while the first one is still open.
-async function look(): Promise<void> {
-  if (looking) return;
-  looking = true;
-  const shown = token();
+// One request at a time: at the start the stream reports boards while the first request is still open.
+async function poll(): Promise<void> {
+  if (polling) return;
+  polling = true;
+  const sent = token();
   try {
     const [status, { boards }] = await Promise.all([
       get<ServerStatus>("status"), get<{ boards: BoardSummary[] }>("boards")]);
-    update({ status, boards, error: "", let_in: true });
+    update({ status, boards, error: "", admitted: true });
   } catch (error) {
-    update({ error: words(error), let_in: !(error instanceof Refusal && error.unauthorized) });
+    update({ error: message_of(error), admitted: !(error instanceof RequestError && error.unauthorized) });
   } finally {
-    looking = false;
+    polling = false;
   }
-  if (shown && !token()) void look();  // it was refused: without one
+  if (sent && !token()) void poll();  // the token was rejected: continue without one
 }
 
-export function start_looking(): void {
+export function start_polling(): void {
   stream.on_link = (link) => {
     update({ link });
-    if (link === "lost") void look();  // a browser does not say why a WebSocket was refused
+    if (link === "lost") void poll();  // a browser does not report why a WebSocket was rejected
     if (link !== "open") return;
-    turned.set(turned.get() + 1);
-    void look();
+    reconnected.set(reconnected.get() + 1);
+    void poll();
   };
-  stream.on_boards = (seen) => {
+  stream.on_boards = (reported) => {
     const boards = plant.get().boards;
-    const known = seen.every(({ board }) => boards?.some((one) => one.board === board)) && boards?.length === seen.length;
-    if (!boards || !known) return void look();
-    update({ boards: boards.map((one) => ({ ...one, ...seen.find(({ board }) => board === one.board) })) });
+    const same = reported.every(({ board }) => boards?.some((one) => one.board === board)) && boards?.length === reported.length;
+    if (!boards || !same) return void poll();
+    update({ boards: boards.map((one) => ({ ...one, ...reported.find(({ board }) => board === one.board) })) });
   };
   stream.on_alarms = (board, { active, unacknowledged, shelved, worst }) => {
     const boards = plant.get().boards;
@@ -62,14 +62,14 @@ export function start_looking(): void {
     if (boards) update({ boards: boards.map((one) => (one.board === board ? { ...one, alarms } : one)) });
   };
   stream.open();
-  const again = async () => {
-    if (!document.hidden) await look();
-    setTimeout(again, LOOK_MS);
+  const poll_again = async () => {
+    if (!document.hidden) await poll();
+    setTimeout(poll_again, POLL_MS);
   };
-  void again();
+  void poll_again();
 }
 
-// The board the address names, else the first of this host that runs, else the first that runs, else the first.
+// The board that the address names, else the first running one of this host, else the first running one, else the first.
 export function useBoard(): BoardSummary | null {
   const { boards } = useStore(plant);
   const named = useStore(place).query.get("board");

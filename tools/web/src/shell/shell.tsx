@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame around all views: where one can go, which board is looked at, and in words what is missing.
+// The frame around all views: navigation, the selected board, and a notice if the server or the board cannot be reached.
 
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { token_was_refused } from "../api/http";
+import { token_was_rejected } from "../api/http";
 import { address, change_query, place } from "../ui/address";
 import { useStore } from "../ui/store";
 import { plant, useBoard } from "./plant";
-import { choose_theme, theme, THEMES, type Theme } from "./theme";
+import { set_theme, theme, THEMES, type Theme } from "./theme";
 
 export interface View {
   name: string;
@@ -37,26 +37,26 @@ function Navigation({ views }: { views: View[] }) {
     </nav>);
 }
 
-// What keeps the page from showing what is, in order of how much is missing; empty if nothing does.
-function missing(): string {
-  const { link, status, boards, error, let_in } = plant.get();
-  const unknown = token_was_refused() ? "The server does not know the token of this page: it was started again, or has other tokens. " : "";
-  if (!let_in) return `${unknown}It wants a token: open the address that it prints, which ends in #token=...`;
-  if (link === "lost") return "The server is gone: looking for it again. What you see is old.";
-  if (error) return `${error} Asking again.`;
+// Why the page cannot show current values, the most severe reason first; empty: it can.
+function why_not_current(): string {
+  const { link, status, boards, error, admitted } = plant.get();
+  const unknown = token_was_rejected() ? "The server does not know the token of this page: the server was restarted, or has other tokens. " : "";
+  if (!admitted) return `${unknown}The server requires a token: open the address that it prints, which ends in #token=...`;
+  if (link === "lost") return "The server cannot be reached. The page shows the last values, and reconnects automatically.";
+  if (error) return `${error} Trying again.`;
   if (!status || !boards) return "";
-  if (unknown && !status.may_write) return `${unknown}You only look. To write, open the address that it prints.`;
-  if (boards.length === 0 && !status.plant) return "There is no node on this host yet. Start one with: indurop run module.xml";
+  if (unknown && !status.may_write) return `${unknown}The page is read-only. To write, open the address that the server prints.`;
+  if (boards.length === 0 && !status.plant) return "No node is running on this host. Start one with: indurop run module.xml";
   return "";
 }
 
 function Notice() {
   useStore(plant);
   const board = useBoard();
-  const what = missing();
-  const where = board && !board.here ? `Board ${board.board} is ${board.state}` : `Node ${board?.board} is gone`;
-  const gone = !what && board && !board.alive ? `${where}: looking for it again. Values are its last ones.` : "";
-  return <div role="status" class="notices">{(what || gone) && <p class="notice">{what || gone}</p>}</div>;
+  const what = why_not_current();
+  const where = board && !board.here ? `Board ${board.board} is ${board.state}` : `Node ${board?.board} is not running`;
+  const ended = !what && board && !board.alive ? `${where}. The page shows its last values, and resumes when it is back.` : "";
+  return <div role="status" class="notices">{(what || ended) && <p class="notice">{what || ended}</p>}</div>;
 }
 
 function BoardChoice() {
@@ -66,7 +66,7 @@ function BoardChoice() {
   return (
     <label class="choice">Board{" "}
       <select value={board.board} onChange={(event) => change_query({ board: event.currentTarget.value })}>
-        {boards.filter(({ alive, here }) => alive || !here).map((one) => <option key={one.board} value={one.board}>{one.board}{one.alive ? "" : " (not heard)"}</option>)}
+        {boards.filter(({ alive, here }) => alive || !here).map((one) => <option key={one.board} value={one.board}>{one.board}{one.alive ? "" : " (silent)"}</option>)}
         {boards.some(({ alive, here }) => !alive && here) && (
           <optgroup label="Ended">
             {boards.filter(({ alive, here }) => !alive && here).map(({ board: name }) => <option key={name} value={name}>{name}</option>)}
@@ -76,12 +76,12 @@ function BoardChoice() {
 }
 
 function LinkState() {
-  const { link, status, let_in } = useStore(plant);
-  const text = let_in ? { open: "connected", connecting: "connecting", lost: "server gone" }[link] : "no token";
+  const { link, status, admitted } = useStore(plant);
+  const text = admitted ? { open: "connected", connecting: "connecting", lost: "not connected" }[link] : "no token";
   return (
     <span class={`link ${link}`}>
       <span class="dot" aria-hidden="true" />{text}
-      {status && let_in && <span class="rights">{status.may_write ? `, writing as ${status.who || "nobody known"}` : ", only looking"}</span>}
+      {status && admitted && <span class="rights">{status.may_write ? `, writing as ${status.who || "unknown user"}` : ", read-only"}</span>}
     </span>);
 }
 
@@ -89,7 +89,7 @@ function ThemeChoice() {
   const now = useStore(theme);
   return (
     <label class="choice theme"><span class="hidden">Colours</span>
-      <select value={now} onChange={(event) => choose_theme(event.currentTarget.value as Theme)}>
+      <select value={now} onChange={(event) => set_theme(event.currentTarget.value as Theme)}>
         {THEMES.map((one) => <option key={one} value={one}>{one}</option>)}
       </select>
     </label>);
@@ -100,7 +100,7 @@ export function Shell({ views, title, children }: { views: View[]; title: string
   const first = useRef(true);
   useEffect(() => {
     document.title = `${title} - InduRoP`;
-    // A reader of the screen hears where it has come to; not at the start, where nobody went anywhere.
+    // A screen reader announces the new view; not at the start, when the user has not navigated.
     if (!first.current) main.current?.focus();
     first.current = false;
   }, [title]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light or dark: as the system says, until somebody chooses. Kept in the browser.
+// Light or dark: the system's setting, until the user selects one. Kept in the browser.
 
 import { Store } from "../ui/store";
 
@@ -8,9 +8,9 @@ export const THEMES = ["auto", "light", "dark"] as const;
 export type Theme = (typeof THEMES)[number];
 
 const system = matchMedia("(prefers-color-scheme: dark)");
-const chosen = localStorage.getItem(KEY) as Theme | null;
-export const theme = new Store<Theme>(chosen && THEMES.includes(chosen) ? chosen : "auto");
-// Counts changes, for what is drawn with colours taken from the style sheet.
+const stored = localStorage.getItem(KEY) as Theme | null;
+export const theme = new Store<Theme>(stored && THEMES.includes(stored) ? stored : "auto");
+// Counts changes, for drawings that take their colours from the style sheet.
 export const colours_changed = new Store(0);
 
 function apply(): void {
@@ -19,7 +19,7 @@ function apply(): void {
   colours_changed.set(colours_changed.get() + 1);
 }
 
-export function choose_theme(next: Theme): void {
+export function set_theme(next: Theme): void {
   localStorage.setItem(KEY, next);
   theme.set(next);
   apply();
@@ -29,7 +29,7 @@ export function colour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-// Size of letters in pixels, for what is drawn: it grows with the screen.
+// Size of letters in pixels, for drawings: it grows with the screen.
 export function letter_px(): number {
   return parseFloat(getComputedStyle(document.documentElement).fontSize);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page shows is in its address, after '#', so a link or a reload brings it back: #/plots?board=cell&c=a,b
+// The address, after '#', names what the page shows, so that a link or a reload shows it again: #/plots?board=cell&c=a,b
 
 import { Store } from "./store";
 
@@ -22,7 +22,7 @@ export function address(view: string, query: URLSearchParams | Record<string, st
   return `#/${view}${text ? `?${text}` : ""}`;
 }
 
-// Changes the query of the present view; empty values take a word out of it. Not a step of the browser's history.
+// Changes parameters in the query of the current view; an empty value removes one. The browser's history stays as it is.
 export function change_query(changes: Record<string, string | string[]>): void {
   const { view, query } = place.get();
   const next = new URLSearchParams(query);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers and times in words and with units.
+// Numbers and times as text, with units.
 
 const UNITS: [number, string][] = [[1e9, "s"], [1e6, "ms"], [1e3, "us"]];
 
@@ -18,7 +18,7 @@ function long_span(seconds: number): string {
   return `${Math.floor(hours / 24)} d ${Math.floor(hours % 24)} h`;
 }
 
-// Three digits that count, no exponent where people do not expect one.
+// Three significant digits, and an exponent only for very small and very large values.
 export function short(value: number): string {
   if (!Number.isFinite(value)) return "not a number";
   const size = Math.abs(value);
@@ -43,7 +43,7 @@ export function clock(wall_ns: number): string {
   return `${at.toISOString().slice(0, 10)} ${at.toTimeString().slice(0, 8)}`;
 }
 
-// A value as a person reads it: enumerators by name, numbers with six digits that count.
+// A value as text: enumerators by name, numbers with six significant digits.
 export function value_text(value: unknown, enumerators?: Record<string, number>): string {
   if (value === undefined) return "...";
   if (value === null) return "not a number";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pieces that several views are made of.
+// Components that several views share.
 
 import type { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
@@ -19,7 +19,7 @@ export function Panel({ title, state, good, children }: PanelProps) {
     </section>);
 }
 
-interface FigureProps {
+interface FactProps {
   name: string;
   value: string;
   hint?: string;
@@ -27,16 +27,16 @@ interface FigureProps {
   warn?: boolean;
 }
 
-export function Figure({ name, value, hint, bad, warn }: FigureProps) {
+export function Fact({ name, value, hint, bad, warn }: FactProps) {
   return <div title={hint}><dt>{name}</dt><dd class={bad ? "bad" : warn ? "warn" : ""}>{value}</dd></div>;
 }
 
 export function Waiting() {
-  return <p class="waiting" aria-live="polite">Asking the server ...</p>;
+  return <p class="waiting" aria-live="polite">Loading ...</p>;
 }
 
-// A table of figures. On a phone each of its lines is a block, in which every cell is called as its column is.
-export function Figures({ label, more = "", children }: { label: string; more?: string; children: ComponentChildren }) {
+// A table of values. On a phone each row is a block, and each cell shows the name of its column.
+export function DataTable({ label, more = "", children }: { label: string; more?: string; children: ComponentChildren }) {
   const table = useRef<HTMLTableElement>(null);
   useLayoutEffect(() => {
     const heads = [...table.current!.querySelectorAll("thead th")].map((head) => head.textContent ?? "");
@@ -46,7 +46,7 @@ export function Figures({ label, more = "", children }: { label: string; more?: 
   });
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={label}>
-      <table ref={table} class={`figures ${more}`}>{children}</table>
+      <table ref={table} class={`data-table ${more}`}>{children}</table>
     </div>);
 }
 
@@ -59,7 +59,7 @@ interface ConfirmProps {
   children: ComponentChildren;
 }
 
-// Asked before what cannot be undone. Escape is the same as `no`.
+// A question before an action that cannot be undone. Escape has the effect of `no`.
 export function Confirm({ title, yes, no, agree, close, children }: ConfirmProps) {
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => dialog.current?.showModal(), []);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of parts: joints[1].y is a part of joints. What it is made of, where its value is in the whole.
+// Parts of variables by name (joints[1].y is a part of joints): their types, and their values within the variable's value.
 
 import type { Form, Range, Variable } from "../api/types";
 
@@ -49,7 +49,7 @@ export function part_named(variables: Variable[], name: string): Part | null {
   return part;
 }
 
-// Everything of a variable that can be drawn over time; `most` keeps a list of large arrays short.
+// All numbers of a variable, which can be plotted; at most `most`, for large arrays.
 export function numbers_of(part: Part, most = 200): string[] {
   if (is_number(part)) return [part.name];
   if (!has_parts(part)) return [];

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value that components look at, and the two ways they get one: from a store, or by asking the server again and again.
+// A value that components show, from one of two sources: a store, or repeated requests to the server.
 
 import { useEffect, useRef, useState } from "preact/hooks";
+import { message_of } from "../api/http";
 
 export class Store<T> {
   private readonly listeners = new Set<() => void>();
-  constructor(private now: T) {}
-  get(): T { return this.now; }
+  constructor(private value: T) {}
+  get(): T { return this.value; }
   set(next: T): void {
-    this.now = next;
+    this.value = next;
     for (const listener of [...this.listeners]) listener();
   }
   listen(listener: () => void): () => void {
@@ -18,65 +19,65 @@ export class Store<T> {
 }
 
 export function useStore<T>(store: Store<T>): T {
-  const [value, set] = useState(store.get());
+  const [value, set_value] = useState(store.get());
   useEffect(() => {
-    set(() => store.get());
-    return store.listen(() => set(() => store.get()));
+    set_value(() => store.get());
+    return store.listen(() => set_value(() => store.get()));
   }, [store]);
   return value;
 }
 
-export interface Asked<T> {
+export interface Requested<T> {
   value: T | null;
   error: string;
-  again: () => void;
+  refresh: () => void;
 }
 
-// Set when whoever asks should not wait for the next turn: the server is back.
-export const turned = new Store(0);
+// Changes when the server can be reached again: then requests are sent at once.
+export const reconnected = new Store(0);
 
-// Asks at once and then every `every_ms`, never while the question before is still open or nobody sees the page. `key`
-// names what is asked: another key forgets the value; an empty one asks nothing.
-export function useAsked<T>(key: string, every_ms: number, ask: () => Promise<T>, words: (error: unknown) => string): Asked<T> {
-  const [state, set] = useState<{ key: string; value: T | null; error: string }>({ key, value: null, error: "" });
-  const latest = useRef(ask);
-  latest.current = ask;
-  const now = useRef<() => void>(() => {});
+// Sends a request at once and then every `every_ms` (0: once), never while the previous one is open or the page is hidden.
+// `key` identifies the request: another key discards the value, with an empty key no request is sent.
+export function useRequest<T>(key: string, every_ms: number, send: () => Promise<T>): Requested<T> {
+  const [state, set_state] = useState<{ key: string; value: T | null; error: string }>({ key, value: null, error: "" });
+  const latest = useRef(send);
+  latest.current = send;
+  const poll_now = useRef<() => void>(() => {});
   useEffect(() => {
     if (!key) return;
     let ended = false;
     let timer = 0;
     let open = false;
-    let wanted = false;  // meanwhile
-    const turn = async () => {
+    let repeat = false;  // requested while one was open
+    const poll = async () => {
       clearTimeout(timer);
-      wanted = open;
+      repeat = open;
       if (open || ended) return;
       if (!document.hidden) {
         open = true;
         try {
           const value = await latest.current();
-          if (!ended) set({ key, value, error: "" });
+          if (!ended) set_state({ key, value, error: "" });
         } catch (error) {
-          if (!ended) set((before) => ({ key, value: before.key === key ? before.value : null, error: words(error) }));
+          if (!ended) set_state((before) => ({ key, value: before.key === key ? before.value : null, error: message_of(error) }));
         }
         open = false;
       }
-      if (wanted) void turn();
-      else if (!ended && every_ms) timer = window.setTimeout(turn, every_ms);
+      if (repeat) void poll();
+      else if (!ended && every_ms) timer = window.setTimeout(poll, every_ms);
     };
-    now.current = () => void turn();
-    void turn();
-    const seen = () => { if (!document.hidden) void turn(); };
-    const deaf = turned.listen(seen);
-    document.addEventListener("visibilitychange", seen);
+    poll_now.current = () => void poll();
+    void poll();
+    const poll_if_visible = () => { if (!document.hidden) void poll(); };
+    const stop_listening = reconnected.listen(poll_if_visible);
+    document.addEventListener("visibilitychange", poll_if_visible);
     return () => {
       ended = true;
       clearTimeout(timer);
-      deaf();
-      document.removeEventListener("visibilitychange", seen);
+      stop_listening();
+      document.removeEventListener("visibilitychange", poll_if_visible);
     };
   }, [key, every_ms]);
-  const mine = state.key === key;
-  return { value: mine ? state.value : null, error: mine ? state.error : "", again: () => now.current() };
+  const current = state.key === key;
+  return { value: current ? state.value : null, error: current ? state.error : "", refresh: () => poll_now.current() };
 }

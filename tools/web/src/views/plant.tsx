@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The boards of the network by what their agents say, dead ones included.
+// The boards of the network as their agents report them, including silent ones.
 
-import { get, words } from "../api/http";
+import { get } from "../api/http";
 import type { RemoteBoard, PlantNow } from "../api/types";
 import { plant as here } from "../shell/plant";
 import { address } from "../ui/address";
 import { count, span } from "../ui/format";
-import { Figures, Panel, Waiting } from "../ui/parts";
-import { type Asked, useAsked, useStore } from "../ui/store";
+import { DataTable, Panel, Waiting } from "../ui/parts";
+import { type Requested, useRequest, useStore } from "../ui/store";
 
 const EVERY_MS = 1000;
-export const SHOWN_ID = 12;  // letters of a deployment's id
+export const SHOWN_ID = 12;  // letters of a deployment's id that are shown
 
 function Row({ row }: { row: RemoteBoard }) {
   const { boards } = useStore(here);
@@ -19,7 +19,7 @@ function Row({ row }: { row: RemoteBoard }) {
     <tr>
       <th scope="row">{local ? <a href={address("variables", { board: row.board })}>{row.board}</a> : row.board}
         {row.message && <span class={`fault-text ${row.state === "running" && row.phase === "steady" ? "past" : ""}`}>{row.message}</span>}</th>
-      <td class={row.heard ? (row.state === "running" ? "" : "warn") : "bad"}>{row.heard ? row.state : "not heard"}
+      <td class={row.heard ? (row.state === "running" ? "" : "warn") : "bad"}>{row.heard ? row.state : "silent"}
         {row.heard && row.phase !== "steady" ? `, ${row.phase}` : ""}</td>
       <td>{row.host}</td>
       <td>{row.plant || "-"}</td>
@@ -34,16 +34,16 @@ function Row({ row }: { row: RemoteBoard }) {
 
 function state_of({ boards, trouble, problem }: PlantNow): [string, boolean] {
   if (problem) return ["not connected", false];
-  if (boards.length === 0) return ["nobody heard", false];
+  if (boards.length === 0) return ["no boards", false];
   const silent = boards.filter(({ heard }) => !heard).length;
   if (silent > 0) return [`${silent} of ${boards.length} silent`, false];
-  return trouble.length > 0 ? ["something is wrong", false] : [`all ${boards.length} heard`, true];
+  return trouble.length > 0 ? ["problems", false] : [`all ${boards.length} reporting`, true];
 }
 
-// Nothing is asked of a server that does not look at a plant.
-export function usePlant(): Asked<PlantNow> {
+// Without `indurop serve --plant` no request is sent.
+export function usePlant(): Requested<PlantNow> {
   const { status } = useStore(here);
-  return useAsked(status?.plant ? "plant" : "", EVERY_MS, () => get<PlantNow>("plant"), words);
+  return useRequest(status?.plant ? "plant" : "", EVERY_MS, () => get<PlantNow>("plant"));
 }
 
 export function PlantPanel({ value, error }: { value: PlantNow | null; error: string }) {
@@ -53,15 +53,15 @@ export function PlantPanel({ value, error }: { value: PlantNow | null; error: st
     <Panel title="Plant" state={state} good={good}>
       {error && <p class="bad">{error}</p>}
       {value.problem && <p class="warn">{value.problem}</p>}
-      {value.trouble.length > 0 && <ul class="troubles">{value.trouble.map((text) => <li class="warning" key={text}>{text}</li>)}</ul>}
-      {value.boards.length === 0 && <p class="quiet">No board was heard on domain {value.domain}. Boards have an agent: indurop-agent --board NAME.</p>}
+      {value.trouble.length > 0 && <ul class="problems">{value.trouble.map((text) => <li class="warning" key={text}>{text}</li>)}</ul>}
+      {value.boards.length === 0 && <p class="quiet">No board reports on domain {value.domain}. Each board needs an agent: indurop-agent --board NAME.</p>}
       {value.boards.length > 0 && (
-        <Figures label="Boards of the plant">
+        <DataTable label="Boards of the plant">
             <thead><tr><th scope="col">Board</th><th scope="col">State</th><th scope="col">Host</th><th scope="col">Plant</th><th scope="col">Deployment</th>
-              <th scope="col" class="number">Tick</th><th scope="col" class="number">Lost</th><th scope="col" class="number">Overruns</th>
-              <th scope="col" class="number">Faults</th><th scope="col" class="number">Heard</th></tr></thead>
+              <th scope="col" class="number">Tick</th><th scope="col" class="number">Lost ticks</th><th scope="col" class="number">Overruns</th>
+              <th scope="col" class="number">Faults</th><th scope="col" class="number">Last report</th></tr></thead>
             <tbody>{value.boards.map((row) => <Row key={row.board} row={row} />)}</tbody>
-        </Figures>)}
-      <p><a href={address("deployments")}>What was deployed, what differs, and the way back</a></p>
+        </DataTable>)}
+      <p><a href={address("deployments")}>Compare deployments, roll back</a></p>
     </Panel>);
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was deployed to the plant, what differs between two of it, and the way back.
+// The deployments to the plant: a list, the differences between two of them, and the rollback.
 
 import { useState } from "preact/hooks";
-import { get, post, words } from "../../api/http";
+import { get, message_of, post } from "../../api/http";
 import type { Deployment } from "../../api/types";
 import { plant } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { clock } from "../../ui/format";
-import { Figures, Panel, Waiting } from "../../ui/parts";
-import { useAsked, useStore } from "../../ui/store";
+import { DataTable, Panel, Waiting } from "../../ui/parts";
+import { useRequest, useStore } from "../../ui/store";
 import { usePlant } from "../plant";
 import { Difference, shown_id } from "./difference";
 
@@ -19,15 +19,15 @@ interface Choice {
   all: Deployment[];
   before: string;
   after: string;
-  back: (to: Deployment) => void;
+  roll_back: (to: Deployment) => void;
 }
 
-function Rows({ all, before, after, back }: Choice) {
+function Rows({ all, before, after, roll_back }: Choice) {
   const { status } = useStore(plant);
   return (
-    <Figures label="Deployments" more="deployments">
-        <thead><tr><th scope="col">Before</th><th scope="col">After</th><th scope="col">Deployment</th><th scope="col">Back to it</th><th scope="col">Plant</th><th scope="col">When</th>
-          <th scope="col">From</th><th scope="col">Boards</th><th scope="col">Outcome</th></tr></thead>
+    <DataTable label="Deployments" more="deployments">
+        <thead><tr><th scope="col">Before</th><th scope="col">After</th><th scope="col">Deployment</th><th scope="col">Roll back</th><th scope="col">Plant</th><th scope="col">When</th>
+          <th scope="col">Host</th><th scope="col">Boards</th><th scope="col">Outcome</th></tr></thead>
         <tbody>{all.map((one) => {
           const name = `${shown_id(one.deployment)}, ${clock(one.wall_ns)}`;
           return (
@@ -36,30 +36,30 @@ function Rows({ all, before, after, back }: Choice) {
                 onChange={() => change_query({ before: one.deployment })} /></td>
               <td><input type="radio" name="after" aria-label={`Compare to ${name}`} checked={after === one.deployment}
                 onChange={() => change_query({ after: one.deployment })} /></td>
-              <th scope="row" title={one.deployment}>{shown_id(one.deployment)}{one.current && <span class="chip good">runs now</span>}</th>
+              <th scope="row" title={one.deployment}>{shown_id(one.deployment)}{one.current && <span class="chip good">running</span>}</th>
               <td>{status?.may_write && !one.current && one.outcome === "committed" &&
-                <button type="button" aria-label={`Roll back to ${name}`} onClick={() => back(one)}>Roll back</button>}</td>
+                <button type="button" aria-label={`Roll back to ${name}`} onClick={() => roll_back(one)}>Roll back</button>}</td>
               <td>{one.plant}</td><td>{clock(one.wall_ns)}</td><td>{one.host}</td><td class="boards">{one.boards.join(", ")}</td>
               <td class={one.outcome === "committed" ? "" : "warn"}>{one.outcome}</td>
             </tr>);
         })}</tbody>
-    </Figures>);
+    </DataTable>);
 }
 
-// Asked once more, for it ends what runs.
-function Confirm({ to, give_up, done }: { to: Deployment; give_up: () => void; done: () => void }) {
-  const [reason, because] = useState("");
+// The question before a rollback, which ends the running nodes.
+function Confirm({ to, close, done }: { to: Deployment; close: () => void; done: () => void }) {
+  const [reason, set_reason] = useState("");
   const [busy, set_busy] = useState(false);
-  const [said, say] = useState<{ text: string; bad: boolean }>({ text: "", bad: false });
+  const [result, set_result] = useState<{ text: string; bad: boolean }>({ text: "", bad: false });
   const boards = usePlant().value?.boards.filter((one) => one.plant === to.plant) ?? [];
-  const go = async () => {
+  const roll_back = async () => {
     set_busy(true);
-    say({ text: "", bad: false });
+    set_result({ text: "", bad: false });
     try {
       await post("plant/rollback", { deployment: to.deployment, plant: to.plant, ...(reason ? { reason } : {}) }, ROLLING_MS);
-      say({ text: `${shown_id(to.deployment)} runs again on all boards.`, bad: false });
+      set_result({ text: `${shown_id(to.deployment)} is running on all boards.`, bad: false });
     } catch (error) {
-      say({ text: words(error), bad: true });
+      set_result({ text: message_of(error), bad: true });
     }
     set_busy(false);
     done();
@@ -67,24 +67,24 @@ function Confirm({ to, give_up, done }: { to: Deployment; give_up: () => void; d
   return (
     <section class="panel confirm" aria-label="Roll back">
       <h2>Roll plant {to.plant} back to {shown_id(to.deployment)}?</h2>
-      <p>The nodes of all its boards end and start again with what they ran on {clock(to.wall_ns)}. If a board is not healthy then, all go back to what they run now.</p>
-      <label class="reason">Reason, for the audit log <input value={reason} disabled={busy} onInput={(event) => because(event.currentTarget.value)} /></label>
+      <p>The nodes of all its boards end, and start again with the deployment of {clock(to.wall_ns)}. If a board is not healthy afterwards, all boards return to the current deployment.</p>
+      <label class="reason">Reason, for the audit log <input value={reason} disabled={busy} onInput={(event) => set_reason(event.currentTarget.value)} /></label>
       <div class="bar">
-        <button type="button" class="main" disabled={busy} onClick={() => void go()}>Roll back now</button>
-        <button type="button" disabled={busy} onClick={give_up}>Close</button>
+        <button type="button" class="main" disabled={busy} onClick={() => void roll_back()}>Roll back now</button>
+        <button type="button" disabled={busy} onClick={close}>Close</button>
       </div>
-      {busy && <p role="status">{boards.map(({ board, phase }) => `${board}: ${phase}`).join(", ") || "Under way"}</p>}
-      {said.text && <p role="status" class={said.bad ? "bad" : "good"}>{said.text}</p>}
+      {busy && <p role="status">{boards.map(({ board, phase }) => `${board}: ${phase}`).join(", ") || "In progress"}</p>}
+      {result.text && <p role="status" class={result.bad ? "bad" : "good"}>{result.text}</p>}
     </section>);
 }
 
-// Of a plant what its boards remember, else what the nodes of this host run.
+// With `indurop serve --plant` the deployments that the boards recorded, otherwise those that run on this host.
 export function Deployments() {
   const { status } = useStore(plant);
   const { query } = useStore(place);
-  const [to, choose] = useState<Deployment | null>(null);
+  const [to, set_to] = useState<Deployment | null>(null);
   const path = status?.plant ? "plant/history" : "deployments";
-  const { value, error, again } = useAsked(status ? path : "", EVERY_MS, () => get<{ deployments: Deployment[] }>(path), words);
+  const { value, error, refresh } = useRequest(status ? path : "", EVERY_MS, () => get<{ deployments: Deployment[] }>(path));
   if (!value) return error ? <p class="bad">{error}</p> : <Waiting />;
   const all = value.deployments;
   const now = all.find(({ current }) => current);
@@ -93,11 +93,11 @@ export function Deployments() {
   return (
     <>
       {error && <p class="bad">{error}</p>}
-      {to && <Confirm key={to.deployment} to={to} give_up={() => choose(null)} done={again} />}
+      {to && <Confirm key={to.deployment} to={to} close={() => set_to(null)} done={refresh} />}
       <Panel title="Deployments">
-        {all.length === 0 && <p class="quiet">Here stands what was put to work on the boards and when, what differs between two of it, and the way back. Nothing was deployed: nodes here were started by hand.</p>}
-        {all.length > 0 && <Rows all={all} before={before} after={after} back={choose} />}
-        {!status?.plant && <p class="quiet">What was deployed before is known to the agents of boards: indurop serve --plant</p>}
+        {all.length === 0 && <p class="quiet">This view lists what was deployed to the boards and when, compares two deployments, and rolls back. There are no deployments: the nodes of this host were started manually.</p>}
+        {all.length > 0 && <Rows all={all} before={before} after={after} roll_back={set_to} />}
+        {!status?.plant && <p class="quiet">To see the deployments that the agents of boards recorded, start the server with: indurop serve --plant</p>}
       </Panel>
       {status?.plant && before && after && before !== after && <Difference before={before} after={after} />}
     </>);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What differs between two deployments: files, and the lines of those that are text.
+// The differences between two deployments: files, and lines of text files.
 
-import { get, words } from "../../api/http";
+import { get } from "../../api/http";
 import type { ChangedFile } from "../../api/types";
 import { plural } from "../../ui/format";
 import { Panel, Waiting } from "../../ui/parts";
-import { useAsked } from "../../ui/store";
+import { useRequest } from "../../ui/store";
 import { SHOWN_ID } from "../plant";
 
-const PATIENCE_MS = 60_000;
+const TIMEOUT_MS = 60_000;
 const SIGN = { added: "+", removed: "-", same: " " };
 
 export function shown_id(id: string): string {
@@ -21,13 +21,13 @@ function sizes({ size_before, size_after }: ChangedFile): string {
 }
 
 export function Difference({ before, after }: { before: string; after: string }) {
-  const { value, error } = useAsked(`${before} ${after}`, 0,
-    () => get<{ files: ChangedFile[] }>(`plant/difference?before=${before}&after=${after}`, PATIENCE_MS), words);
+  const { value, error } = useRequest(`${before} ${after}`, 0,
+    () => get<{ files: ChangedFile[] }>(`plant/difference?before=${before}&after=${after}`, TIMEOUT_MS));
   return (
     <Panel title={`From ${shown_id(before)} to ${shown_id(after)}`}>
       {error && <p class="bad">{error}</p>}
       {!value && !error && <Waiting />}
-      {value && <p>{value.files.length === 0 ? "Nothing differs." : `${plural(value.files.length, "file differs", "files differ")}.`}</p>}
+      {value && <p>{value.files.length === 0 ? "The files are the same." : `${plural(value.files.length, "file differs", "files differ")}.`}</p>}
       {value?.files.map((file) => (
         <section key={file.path} class="file" aria-label={file.path}>
           <h3>{file.path} <span class="quiet">{file.change}, {sizes(file)}</span></h3>

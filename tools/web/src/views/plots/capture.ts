@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a scope: every tick around a trigger, as the server takes them from the node's tape.
+// Captures of a scope: every tick around a trigger, which the server reads from the node's tape.
 
-import { board_path, get, Refusal, words } from "../../api/http";
+import { board_path, get, message_of, RequestError } from "../../api/http";
 import type { Capture } from "../../api/types";
-import type { Wish } from "./layout";
+import type { Scope } from "./layout";
 import type { Samples } from "./recorder";
 
-const PATIENCE_MS = 70_000;  // the server's for what comes after the trigger, and some more
-const AGAIN_MS = 1000;
+const TIMEOUT_MS = 70_000;  // the server waits for the ticks after the trigger
+const RETRY_MS = 1000;
 const AUTO_MS = 500;
 
 // Times are seconds from the trigger, or from the first tick.
-export class Picture implements Samples {
+export class CapturedSamples implements Samples {
   readonly size: number;
   readonly times: Float64Array;
   private readonly columns: Map<string, Float64Array>;
@@ -34,8 +34,8 @@ export class Picture implements Samples {
 
   csv(names: string[]): string {
     const { first_tick, lines } = this.capture;
-    const heads = names.map((name) => { const unit = lines.find((line) => line.name === name)?.unit; return unit ? `${name} [${unit}]` : name; });
-    const rows = [["tick", "time_s", ...heads].map((text) => (/[",]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text)).join(",")];
+    const columns = names.map((name) => { const unit = lines.find((line) => line.name === name)?.unit; return unit ? `${name} [${unit}]` : name; });
+    const rows = [["tick", "time_s", ...columns].map((text) => (/[",]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text)).join(",")];
     for (let row = 0; row < this.size; row++) {
       const values = names.map((name) => this.column(name)?.[row] ?? NaN);
       rows.push([first_tick + row, this.times[row], ...values.map((value) => (Number.isNaN(value) ? "" : value))].join(","));
@@ -44,49 +44,49 @@ export class Picture implements Samples {
   }
 }
 
-interface Told {
-  picture: (picture: Picture) => void;
-  waiting: (what: string) => void;
-  refused: (why: string) => void;
+interface Listener {
+  captured: (samples: CapturedSamples) => void;
+  waiting: (status: string) => void;
+  rejected: (problem: string) => void;
 }
 
-// Asks for one picture after the other until it is ended; of a single one only until it came.
-export function follow(board: string, names: string[], wish: Wish, told: Told): () => void {
+// Requests one capture after the other until it is ended; in single mode only one.
+export function capture_until_ended(board: string, names: string[], scope: Scope, listener: Listener): () => void {
   let ended = false;
   let after = -1;
-  const ask = (trigger: string, timeout_ms: number) => {
+  const request = (trigger: string, timeout_ms: number) => {
     const query = new URLSearchParams(names.map((name) => ["channel", name]));
-    query.set("pre", String(wish.pre));
-    query.set("post", String(wish.post));
+    query.set("pre", String(scope.pre));
+    query.set("post", String(scope.post));
     query.set("timeout_ms", String(timeout_ms));
     if (trigger) query.set("trigger", trigger);
     if (trigger && after >= 0) query.set("after_tick", String(after));
-    return get<{ capture: Capture | null }>(board_path(board, `/scope?${query}`), PATIENCE_MS);
+    return get<{ capture: Capture | null }>(board_path(board, `/scope?${query}`), TIMEOUT_MS);
   };
-  const turn = async () => {
+  const run = async () => {
     while (!ended) {
       let pause = 0;
       try {
-        let { capture } = await ask(wish.trigger, wish.mode === "auto" ? AUTO_MS : 2000);
-        if (!capture && wish.mode === "auto" && !ended) ({ capture } = await ask("", 2000));
+        let { capture } = await request(scope.trigger, scope.mode === "auto" ? AUTO_MS : 2000);
+        if (!capture && scope.mode === "auto" && !ended) ({ capture } = await request("", 2000));
         if (ended) return;
         if (capture) {
           after = capture.first_tick + capture.rows - 1;
-          told.picture(new Picture(capture));
-          if (wish.mode === "single") return;
-          pause = wish.trigger ? 100 : AGAIN_MS;  // for eyes
+          listener.captured(new CapturedSamples(capture));
+          if (scope.mode === "single") return;
+          pause = scope.trigger ? 100 : RETRY_MS;  // slow enough to read
         } else {
-          told.waiting(`Waiting for: ${wish.trigger}`);
+          listener.waiting(`Waiting for: ${scope.trigger}`);
         }
       } catch (error) {
         if (ended) return;
-        told.refused(words(error));
-        if (error instanceof Refusal && [400, 422].includes(error.status)) return;
-        pause = AGAIN_MS;
+        listener.rejected(message_of(error));
+        if (error instanceof RequestError && [400, 422].includes(error.status)) return;
+        pause = RETRY_MS;
       }
       if (pause) await new Promise((done) => setTimeout(done, pause));
     }
   };
-  void turn();
+  void run();
   return () => { ended = true; };
 }

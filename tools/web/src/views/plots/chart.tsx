@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One chart: uPlot draws, the legend says values at the cursor (or the newest), two marks measure.
+// One chart: uPlot draws it, the legend shows values at the cursor (or the newest), two marks measure.
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
@@ -28,17 +28,17 @@ interface Props {
   recorder: Samples;
   relative?: boolean;  // times are seconds from the trigger, else since 1970
   shown: () => Shown;
-  drawn: number;  // changes whenever the chart is to be drawn anew
+  drawn: number;  // changes when the chart has to be drawn again
   marks: number[];
   zoom: (shown: Shown) => void;
   live: () => void;
   mark: (at: number) => void;
   remove: (name: string) => void;
   drop: (name: string) => void;
-  made: (plot: uPlot | null) => void;
+  set_plot: (plot: uPlot | null) => void;
 }
 
-// Hours first, as digits: 14:05:09.250.
+// Times of the day: 14:05:09.250.
 function times(_: uPlot, splits: number[], __: number, ___: number, step: number): string[] {
   return splits.map((time) => {
     const text = new Date(time * 1000).toTimeString().slice(0, 8);
@@ -71,7 +71,7 @@ function data_of({ recorder, lines, shown }: Props): uPlot.AlignedData {
   return [Array.from(recorder.times.subarray(first, last)), ...lines.map(({ name }) => plain(recorder.column(name), first, last))];
 }
 
-// Values at a time: the last sample at or before it.
+// The values at a time: those of the last sample at or before it.
 function values_at({ recorder, lines }: Props, time: number | null): number[] {
   const index = time === null ? recorder.size - 1 : recorder.index_at(time + 1e-9) - 1;
   return lines.map(({ name }) => (index < 0 ? NaN : recorder.column(name)?.[index] ?? NaN));
@@ -114,7 +114,7 @@ function options(props: () => Props, size: { width: number; height: number }, cu
   };
 }
 
-// A line that does not change is not drawn on the edge.
+// Leaves space above and below, also for a constant line.
 function uPlotRange(_: uPlot, min: number | null, max: number | null): uPlot.Range.MinMax {
   if (min === null || max === null) return [0, 1];
   if (min === max) return [min - Math.max(1, Math.abs(min) * 0.1), max + Math.max(1, Math.abs(max) * 0.1)];
@@ -181,21 +181,21 @@ export function Chart(props: Props) {
   useEffect(() => {
     const element = box.current!;
     const size = () => ({ width: element.clientWidth, height: Math.max(180, Math.round(element.clientHeight)) });
-    const made = new uPlot(options(() => latest.current, size(), set_cursor), data_of(latest.current), element);
-    plot.current = made;
-    latest.current.made(made);
-    const watch = new ResizeObserver(() => made.setSize(size()));
+    const chart = new uPlot(options(() => latest.current, size(), set_cursor), data_of(latest.current), element);
+    plot.current = chart;
+    latest.current.set_plot(chart);
+    const watch = new ResizeObserver(() => chart.setSize(size()));
     watch.observe(element);
     let down = 0;
-    made.over.addEventListener("pointerdown", (event) => { down = event.clientX; });
-    made.over.addEventListener("click", (event) => {
-      if (Math.abs(event.clientX - down) < 4) latest.current.mark(made.posToVal(event.offsetX, "x"));
+    chart.over.addEventListener("pointerdown", (event) => { down = event.clientX; });
+    chart.over.addEventListener("click", (event) => {
+      if (Math.abs(event.clientX - down) < 4) latest.current.mark(chart.posToVal(event.offsetX, "x"));
     });
-    made.over.addEventListener("dblclick", () => latest.current.live());
+    chart.over.addEventListener("dblclick", () => latest.current.live());
     return () => {
       watch.disconnect();
-      latest.current.made(null);
-      made.destroy();
+      latest.current.set_plot(null);
+      chart.destroy();
     };
   }, [key, colours]);
   useEffect(() => plot.current?.setData(data_of(latest.current)), [props.drawn, props.marks]);
@@ -204,8 +204,8 @@ export function Chart(props: Props) {
     <section class={`panel chart ${over ? "over" : ""}`} aria-label={`Chart ${props.index + 1}`}
       onDragOver={(event) => { event.preventDefault(); set_over(true); }} onDragLeave={() => set_over(false)}
       onDrop={(event) => { event.preventDefault(); set_over(false); props.drop(event.dataTransfer?.getData("text/plain") ?? ""); }}>
-      <div class="plot" ref={box} role="img" aria-label={`Values over time of ${props.lines.map(({ name }) => name).join(", ")}; the table below has them as numbers`} />
+      <div class="plot" ref={box} role="img" aria-label={`Values over time of ${props.lines.map(({ name }) => name).join(", ")}; the table below lists them`} />
       <div class="scroll" tabIndex={0} role="region" aria-label={`Values of chart ${props.index + 1}`}><Legend props={props} cursor={cursor} /></div>
-      {drawable.length > 0 && <p class="warn">{drawable.map(({ name }) => name).join(", ")} is no number: choose a part of it.</p>}
+      {drawable.length > 0 && <p class="warn">{drawable.map(({ name }) => name).join(", ")} is not a number: select a part of it.</p>}
     </section>);
 }

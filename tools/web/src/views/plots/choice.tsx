@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One of a few values, chosen from a list.
+// A list from which one value is selected.
 
 export function Choice({ label, value, of, unit, choose }: { label: string; value: number | string; of: (number | string)[]; unit?: string; choose: (text: string) => void }) {
   return (

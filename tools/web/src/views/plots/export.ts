@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the charts show, as a file: numbers (CSV) or a picture (PNG).
+// Saves what the charts show as a file: numbers (CSV) or a picture (PNG).
 
 import type uPlot from "uplot";
 import { colour } from "../../shell/theme";
@@ -25,10 +25,10 @@ function quoted(text: string): string {
 }
 
 export function csv_of(recorder: Samples & { board_times: Float64Array }, lines: Line[], { from, to }: Shown): string {
-  const heads = ["utc", "board_time_s", ...lines.map(({ name, part }) => (part?.unit ? `${name} [${part.unit}]` : name))];
-  const rows = [heads.map(quoted).join(",")];
+  const columns = ["utc", "board_time_s", ...lines.map(({ name, part }) => (part?.unit ? `${name} [${part.unit}]` : name))];
+  const rows = [columns.map(quoted).join(",")];
   for (let i = recorder.index_at(from); i < recorder.size && recorder.times[i] <= to; i++) {
-    if (Number.isNaN(recorder.board_times[i])) continue;  // marks a gap
+    if (Number.isNaN(recorder.board_times[i])) continue;  // a gap
     const values = lines.map(({ name }) => recorder.column(name)?.[i] ?? NaN);
     rows.push([new Date(recorder.times[i] * 1000).toISOString(), recorder.board_times[i],
       ...values.map((value) => (Number.isNaN(value) ? "" : value))].join(","));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which charts there are, as the address has it: c=a,b&c=d are two charts, w the window in seconds, hz the rate.
+// The charts in the address: c=a,b&c=d are two charts, w is the window in seconds, hz the rate.
 
 import { change_query } from "../../ui/address";
 
@@ -12,8 +12,8 @@ export interface Layout {
 export type Mode = "strip" | "single" | "normal" | "auto" | "recording";
 export const MODES: Mode[] = ["strip", "single", "normal", "auto", "recording"];
 
-// m is the mode, t the trigger, pre and post how many ticks before and after it, e an expression with a chart of its own.
-export interface Wish {
+// In the address m is the mode, t the trigger, pre and post are the ticks before and after it, e is an expression with its own chart.
+export interface Scope {
   mode: Mode;
   trigger: string;
   pre: number;
@@ -21,7 +21,7 @@ export interface Wish {
   expressions: string[];
 }
 
-export function wish_of(query: URLSearchParams): Wish {
+export function scope_of(query: URLSearchParams): Scope {
   const ticks = (name: string, otherwise: number) => {
     const given = Number(query.get(name) ?? otherwise);
     return Number.isInteger(given) && given >= 0 && given < 10_000 ? given : otherwise;
@@ -46,6 +46,6 @@ export function layout_of(query: URLSearchParams): Layout {
 }
 
 export function show_charts(charts: string[][]): void {
-  // An empty chart has no name to keep its place in the address.
+  // The address cannot hold a chart without names.
   change_query({ c: charts.filter((names) => names.length > 0).map((names) => names.join(",")) });
 }

@@ -1,45 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values over time, as strips or around a trigger. All charts show the same time; what is shown is in the address.
+// Values over time, as strips or around a trigger. All charts show the same time; the address names what they show.
 
 import { useMemo } from "preact/hooks";
-import { board_path, get, words } from "../../api/http";
+import { board_path, get } from "../../api/http";
 import type { Variables } from "../../api/types";
 import { useBoard } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { Waiting } from "../../ui/parts";
 import { is_number, numbers_of, part_named, whole } from "../../ui/paths";
-import { useAsked, useStore } from "../../ui/store";
+import { useRequest, useStore } from "../../ui/store";
 import { Choice } from "./choice";
-import { layout_of, MODES, show_charts, wish_of } from "./layout";
+import { layout_of, MODES, show_charts, scope_of } from "./layout";
 import { Picker } from "./picker";
 import { Recorded } from "./recorded";
 import { Strip } from "./strip";
 import { Triggered } from "./triggered";
 
 const HINTS = {
-  strip: "Values as they come.",
+  strip: "Values as they arrive.",
   single: "Every tick around a trigger, once.",
   normal: "Every tick around each trigger.",
-  auto: "Every tick around each trigger, or the newest if none comes.",
-  recording: "What was recorded, black boxes included.",
+  auto: "Every tick around each trigger, or the newest ticks without one.",
+  recording: "Recordings and black boxes.",
 };
 
 export function Plots() {
   const board = useBoard();
   const { query } = useStore(place);
   const layout = layout_of(query);
-  const wish = wish_of(query);
+  const scope = scope_of(query);
   const { charts } = layout;
   const names = [...new Set(charts.flat())];
-  const asked = useAsked(board ? `${board.board} ${board.layout}` : "", 0,
-    () => get<Variables>(board_path(board!.board, "/variables?values=false")), words);
-  const variables = asked.value?.variables ?? [];
+  const answer = useRequest(board ? `${board.board} ${board.layout}` : "", 0,
+    () => get<Variables>(board_path(board!.board, "/variables?values=false")));
+  const variables = answer.value?.variables ?? [];
   const parts = useMemo(() => new Map(names.map((name) => [name, part_named(variables, name)])), [variables, names.join()]);
   const numbers = useMemo(() => variables.flatMap((variable) => numbers_of(whole(variable))), [variables]);
   const choice = (
-    <div class="bar"><Choice label="Show" value={wish.mode} of={MODES} choose={(m) => change_query({ m: m === "strip" ? "" : m })} />
-      <span class="quiet">{HINTS[wish.mode]}</span></div>);
-  if (wish.mode === "recording") return <>{choice}<Recorded charts={charts} name={query.get("r") ?? ""} /></>;
+    <div class="bar"><Choice label="Show" value={scope.mode} of={MODES} choose={(m) => change_query({ m: m === "strip" ? "" : m })} />
+      <span class="quiet">{HINTS[scope.mode]}</span></div>);
+  if (scope.mode === "recording") return <>{choice}<Recorded charts={charts} name={query.get("r") ?? ""} /></>;
   if (!board) return <Waiting />;
 
   const drawable = names.filter((name) => { const part = parts.get(name); return part && is_number(part); });
@@ -61,13 +61,13 @@ export function Plots() {
       {unknown.length > 0 && <p class="warn">This board has no {unknown.join(", ")}.</p>}
       <div class="plots">
         <div>
-          {charts.length === 0 && (wish.mode === "strip" || wish.expressions.length === 0) && <p class="panel">Here numbers are seen over time: as they come, around a trigger in every tick, or from a recording. No chart yet: click a number, or drag it here. The link in the address bar keeps your charts.</p>}
-          {wish.mode === "strip" ? <Strip {...shared} layout={layout} /> : <Triggered {...shared} wish={wish} charts={charts} />}
+          {charts.length === 0 && (scope.mode === "strip" || scope.expressions.length === 0) && <p class="panel">This view plots numbers over time: as they arrive, in every tick around a trigger, or from a recording. To begin, click a number, or drag it here. The address keeps the charts.</p>}
+          {scope.mode === "strip" ? <Strip {...shared} layout={layout} /> : <Triggered {...shared} scope={scope} charts={charts} />}
           <p class="panel drop" onDragOver={(event) => event.preventDefault()}
             onDrop={(event) => { event.preventDefault(); add(event.dataTransfer?.getData("text/plain") ?? "", charts.length); }}>
-            Drag a number here for a new chart. In a chart: drag over a part of it to zoom, double-click to go on, click twice to measure.</p>
+            Drag a number here for a new chart. In a chart: drag over a part of it to zoom, double-click to resume, click twice to measure.</p>
         </div>
-        {asked.error ? <p class="bad">{asked.error}</p> : <Picker names={numbers} add={(name) => add(name, Math.max(0, charts.length - 1))} />}
+        {answer.error ? <p class="bad">{answer.error}</p> : <Picker names={numbers} add={(name) => add(name, Math.max(0, charts.length - 1))} />}
       </div>
     </>);
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Charts of a recording or black box. Whoever zooms in asks for that part anew, so nothing of it is lost.
+// Charts of a recording or black box. Zooming in requests that part again, in more detail.
 
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type uPlot from "uplot";
-import { get, words } from "../../api/http";
+import { get } from "../../api/http";
 import type { RecordedValues, RecordingContents, RecordingFile } from "../../api/types";
 import { change_query } from "../../ui/address";
 import { clock, span } from "../../ui/format";
 import { Waiting } from "../../ui/parts";
 import type { Part } from "../../ui/paths";
-import { useAsked } from "../../ui/store";
+import { useRequest } from "../../ui/store";
 import { Chart, type Line, type Shown } from "./chart";
 import { csv_of, save_png, save_text } from "./export";
 import { show_charts } from "./layout";
@@ -17,9 +17,9 @@ import { Picker } from "./picker";
 import type { Samples } from "./recorder";
 
 const POINTS = 3000;
-const PATIENCE_MS = 60_000;
+const TIMEOUT_MS = 60_000;
 
-class Sheet implements Samples {
+class RecordedSamples implements Samples {
   readonly size: number;
   readonly times: Float64Array;
   readonly board_times: Float64Array;
@@ -39,7 +39,7 @@ class Sheet implements Samples {
   }
 }
 
-const EMPTY = new Sheet({ begin_ns: 0, end_ns: 0, lines: [] });
+const EMPTY = new RecordedSamples({ begin_ns: 0, end_ns: 0, lines: [] });
 
 function path(name: string, rest = ""): string {
   return `recordings/${encodeURIComponent(name)}${rest}`;
@@ -50,23 +50,23 @@ function label({ name, reason, wall_ns, black_box }: RecordingFile): string {
 }
 
 export function Recorded({ charts, name }: { charts: string[][]; name: string }) {
-  const all = useAsked("recordings", 5000, () => get<{ recordings: RecordingFile[] }>("recordings"), words);
-  const inside = useAsked(name && `recording ${name}`, 0, () => get<RecordingContents>(path(name), PATIENCE_MS), words);
-  const [zoomed, zoom] = useState<Shown | null>(null);
+  const all = useRequest("recordings", 5000, () => get<{ recordings: RecordingFile[] }>("recordings"));
+  const inside = useRequest(name && `recording ${name}`, 0, () => get<RecordingContents>(path(name), TIMEOUT_MS));
+  const [zoomed, set_zoomed] = useState<Shown | null>(null);
   const [marks, set_marks] = useState<number[]>([]);
-  const [drawn, draw] = useState(0);
+  const [drawn, set_drawn] = useState(0);
   const plots = useRef(new Map<number, uPlot>());
   const units = useMemo(() => new Map(inside.value?.channels.flatMap(({ unit, numbers }) => numbers.map((one) => [one, unit] as const))), [inside.value]);
   const wanted = [...new Set(charts.flat())].filter((one) => units.has(one));
   const part = zoomed ? `&from_ns=${Math.floor(zoomed.from * 1e9)}&to_ns=${Math.ceil(zoomed.to * 1e9)}` : "";
   const query = `${wanted.map((one) => `&number=${encodeURIComponent(one)}`).join("")}${part}`;
-  const values = useAsked(wanted.length > 0 ? `values ${name} ${query}` : "", 0,
-    () => get<RecordedValues>(path(name, `/values?points=${POINTS}${query}`), PATIENCE_MS), words);
-  const sheet = useMemo(() => (values.value ? new Sheet(values.value) : null), [values.value]);
-  const last = useRef<Sheet>(EMPTY);
-  if (sheet) last.current = sheet;
-  useEffect(() => draw((n) => n + 1), [sheet, zoomed]);
-  useEffect(() => zoom(null), [name]);
+  const values = useRequest(wanted.length > 0 ? `values ${name} ${query}` : "", 0,
+    () => get<RecordedValues>(path(name, `/values?points=${POINTS}${query}`), TIMEOUT_MS));
+  const samples = useMemo(() => (values.value ? new RecordedSamples(values.value) : null), [values.value]);
+  const last = useRef<RecordedSamples>(EMPTY);
+  if (samples) last.current = samples;
+  useEffect(() => set_drawn((n) => n + 1), [samples, zoomed]);
+  useEffect(() => set_zoomed(null), [name]);
 
   const whole = inside.value;
   const shown = (): Shown => zoomed ?? { from: (whole?.begin_ns ?? 0) / 1e9, to: (whole?.end_ns ?? 1e9) / 1e9 };
@@ -80,30 +80,30 @@ export function Recorded({ charts, name }: { charts: string[][]; name: string })
       <div class="bar">
         <label class="choice recording">Recording{" "}
           <select value={name} onChange={(event) => change_query({ r: event.currentTarget.value })}>
-            <option value="">choose one</option>
+            <option value="">select one</option>
             {all.value?.recordings.map((one) => <option key={one.name} value={one.name}>{label(one)}</option>)}
           </select></label>
-        {zoomed && <button type="button" onClick={() => zoom(null)}>All</button>}
-        <button type="button" disabled={!sheet} onClick={() => sheet && save_text(csv_of(sheet, wanted.map(line), shown()))}>CSV</button>
-        <button type="button" disabled={!sheet} onClick={() => save_png([...plots.current.values()])}>PNG</button>
+        {zoomed && <button type="button" onClick={() => set_zoomed(null)}>All</button>}
+        <button type="button" disabled={!samples} onClick={() => samples && save_text(csv_of(samples, wanted.map(line), shown()))}>CSV</button>
+        <button type="button" disabled={!samples} onClick={() => save_png([...plots.current.values()])}>PNG</button>
         {marks.length > 0 && <button type="button" onClick={() => set_marks([])}>Clear marks</button>}
       </div>
-      {all.value?.recordings.length === 0 && <p class="quiet">No black box and no recording. Nodes keep a black box when a module faults; indurop serve
-        --recordings DIR shows what indurop record wrote.</p>}
+      {all.value?.recordings.length === 0 && <p class="quiet">There are no recordings. A node writes a black box when a module faults. To show the files of indurop record, start the
+        server with: indurop serve --recordings DIR</p>}
       {[all.error, inside.error, values.error].filter(Boolean).map((text) => <p class="bad" key={text}>{text}</p>)}
       {name && !whole && !inside.error && <Waiting />}
       {whole && (
         <>
-          <p class="quiet" role="status">{span(whole.end_ns - whole.begin_ns)} from {clock(whole.begin_ns)} on{whole.reason && `: ${whole.reason}`}
-            {whole.complete ? "" : ". It was not closed."}</p>
+          <p class="quiet" role="status">{span(whole.end_ns - whole.begin_ns)} from {clock(whole.begin_ns)}{whole.reason && `: ${whole.reason}`}
+            {whole.complete ? "" : ". The file was not closed."}</p>
           <div class="plots">
             <div>
-              {charts.length === 0 && <p class="panel">No chart yet. Click a number, or drag it here.</p>}
+              {charts.length === 0 && <p class="panel">To begin, click a number, or drag it here.</p>}
               {charts.map((chart, index) => (
-                <Chart key={index} index={index} lines={chart.map(line)} recorder={last.current} shown={shown} drawn={drawn} marks={marks} zoom={zoom}
-                  live={() => { zoom(null); set_marks([]); }} mark={(at) => set_marks(marks.length === 2 ? [] : [...marks, at].sort((a, b) => a - b))}
+                <Chart key={index} index={index} lines={chart.map(line)} recorder={last.current} shown={shown} drawn={drawn} marks={marks} zoom={set_zoomed}
+                  live={() => { set_zoomed(null); set_marks([]); }} mark={(at) => set_marks(marks.length === 2 ? [] : [...marks, at].sort((a, b) => a - b))}
                   remove={(one) => show_charts(charts.map((names, i) => (i === index ? names.filter((other) => other !== one) : names)))}
-                  drop={(one) => add(one, index)} made={(plot) => { if (plot) plots.current.set(index, plot); else plots.current.delete(index); }} />))}
+                  drop={(one) => add(one, index)} set_plot={(plot) => { if (plot) plots.current.set(index, plot); else plots.current.delete(index); }} />))}
               <p class="panel drop" onDragOver={(event) => event.preventDefault()}
                 onDrop={(event) => { event.preventDefault(); add(event.dataTransfer?.getData("text/plain") ?? "", charts.length); }}>
                 Drag a number here for a new chart. In a chart: drag over a part of it to zoom, double-click to see all, click twice to measure.</p>

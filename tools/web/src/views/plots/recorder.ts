@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The samples of all charts since they were opened; pausing and zooming only look at another part of them.
+// The samples of all charts since they were opened; pausing and zooming only show another part of them.
 
 import { decode, quality_of, type Frame } from "../../api/decode";
 import { stream } from "../../api/stream";
 import type { Subscribed } from "../../api/types";
 
-const MOST = 60_000;  // samples; at 25 Hz 40 minutes
+const MAX_SAMPLES = 60_000;  // 40 minutes at 25 Hz
 
-// What a chart draws; times rise.
+// What a chart draws. Times increase.
 export interface Samples {
   readonly size: number;
   readonly times: Float64Array;
@@ -18,10 +18,10 @@ export interface Samples {
 export class Recorder implements Samples {
   size = 0;
   dropped = 0;
-  refused = "";
+  rejected = "";
   missing: string[] = [];
-  readonly times = new Float64Array(MOST);  // s since 1970
-  readonly board_times = new Float64Array(MOST);  // s, the board's
+  readonly times = new Float64Array(MAX_SAMPLES);  // s since 1970
+  readonly board_times = new Float64Array(MAX_SAMPLES);  // s, the board's
   private readonly columns = new Map<string, Float64Array>();
   private last_seq = -1;
   private end: () => void = () => {};
@@ -30,18 +30,18 @@ export class Recorder implements Samples {
     this.end();
     this.last_seq = -1;
     for (const name of [...this.columns.keys()]) if (!names.includes(name)) this.columns.delete(name);
-    for (const name of names) if (!this.columns.has(name)) this.columns.set(name, new Float64Array(MOST).fill(NaN));
+    for (const name of names) if (!this.columns.has(name)) this.columns.set(name, new Float64Array(MAX_SAMPLES).fill(NaN));
     if (names.length === 0) this.size = 0;
     this.end = names.length === 0 || !board ? () => {} : stream.subscribe({
       board, names, rate_hz, binary: true,
       subscribed: ({ missing }) => {
-        this.refused = "";
+        this.rejected = "";
         this.last_seq = -1;
         this.missing = (missing ?? []).map(({ message }) => message);
       },
-      frame: (frame, of) => this.take(frame, of),
+      frame: (frame, of) => this.add_frame(frame, of),
       dropped: (frames) => { this.dropped += frames; },
-      refused: (message) => { this.refused = message; },
+      rejected: (message) => { this.rejected = message; },
     });
   }
 
@@ -65,10 +65,10 @@ export class Recorder implements Samples {
     return low;
   }
 
-  private take(frame: Frame, of: Subscribed): void {
+  private add_frame(frame: Frame, of: Subscribed): void {
     const time = frame.wall_ns / 1e9;
     if (this.size > 0 && time <= this.times[this.size - 1]) return;
-    // A line must not be drawn over what nobody saw.
+    // A lost frame leaves a gap in the line.
     if (this.last_seq >= 0 && frame.seq !== this.last_seq + 1) this.add((time + this.times[this.size - 1]) / 2, NaN, () => NaN);
     this.last_seq = frame.seq;
     const places = new Map(of.variables.map((variable, i) => [variable.name, i]));
@@ -80,15 +80,15 @@ export class Recorder implements Samples {
   }
 
   private add(time: number, board_time: number, value: (name: string) => number): void {
-    if (this.size === MOST) this.forget_half();
+    if (this.size === MAX_SAMPLES) this.discard_half();
     this.times[this.size] = time;
     this.board_times[this.size] = board_time;
     for (const [name, column] of this.columns) column[this.size] = value(name);
     this.size++;
   }
 
-  private forget_half(): void {
-    const half = MOST / 2;
+  private discard_half(): void {
+    const half = MAX_SAMPLES / 2;
     for (const array of [this.times, this.board_times, ...this.columns.values()]) {
       array.copyWithin(0, half);
       array.fill(NaN, half);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strip charts: values as they come, over the last seconds; or what was, once they are paused.
+// Strip charts: values of the last seconds as they arrive, or earlier values while the charts are paused.
 
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type uPlot from "uplot";
@@ -16,17 +16,17 @@ const DRAW_MS = 80;
 const DRAW_MANY_MS = 500;
 const MANY = 15_000;
 
-// Draws while the charts follow; a chart that is paused is drawn when something else changes.
-function useClock(running: boolean, recorder: Recorder): number {
-  const [drawn, set] = useState(0);
+// Counts the drawings of running charts. A paused chart is drawn when something else changes.
+function useDrawings(running: boolean, recorder: Recorder): number {
+  const [drawn, set_drawn] = useState(0);
   useEffect(() => {
-    if (!running) return set((n) => n + 1);
+    if (!running) return set_drawn((n) => n + 1);
     let timer = 0;
-    const turn = () => {
-      if (!document.hidden) set((n) => n + 1);
-      timer = window.setTimeout(turn, recorder.size > MANY ? DRAW_MANY_MS : DRAW_MS);
+    const draw = () => {
+      if (!document.hidden) set_drawn((n) => n + 1);
+      timer = window.setTimeout(draw, recorder.size > MANY ? DRAW_MANY_MS : DRAW_MS);
     };
-    turn();
+    draw();
     return () => clearTimeout(timer);
   }, [running]);
   return drawn;
@@ -42,7 +42,7 @@ interface Props {
 }
 
 export function Strip({ board, layout: { charts, window_s, rate_hz }, drawable, line, remove, drop }: Props) {
-  const [paused, pause] = useState<Shown | null>(null);
+  const [paused, set_paused] = useState<Shown | null>(null);
   const [marks, set_marks] = useState<number[]>([]);
   const plots = useRef(new Map<number, uPlot>());
   const recorder = useMemo(() => new Recorder(), [board.board]);
@@ -50,25 +50,25 @@ export function Strip({ board, layout: { charts, window_s, rate_hz }, drawable, 
     recorder.follow(board.board, drawable, rate_hz);
     return () => recorder.stop();
   }, [recorder, board.board, drawable.join(), rate_hz]);
-  const drawn = useClock(!paused, recorder);
+  const drawn = useDrawings(!paused, recorder);
 
   const newest = () => (recorder.size > 0 ? recorder.times[recorder.size - 1] : Date.now() / 1000);
   const shown = (): Shown => paused ?? { from: newest() - window_s, to: newest() };
   const zoom_by = (factor: number) => {
     const { from, to } = shown();
     const half = (to - from) * factor / 2;
-    pause({ from: (from + to) / 2 - half, to: (from + to) / 2 + half });
+    set_paused({ from: (from + to) / 2 - half, to: (from + to) / 2 + half });
   };
   const move_by = (share: number) => {
     const { from, to } = shown();
-    pause({ from: from + (to - from) * share, to: to + (to - from) * share });
+    set_paused({ from: from + (to - from) * share, to: to + (to - from) * share });
   };
   const lines = [...new Set(charts.flat())].map(line);
   return (
     <>
       <div class="bar">
-        <button type="button" aria-pressed={!!paused} onClick={() => pause(paused ? null : shown())}>{paused ? "Go on" : "Pause"}</button>
-        <Choice label="Window" value={window_s} of={WINDOWS_S} unit="s" choose={(w) => { change_query({ w }); pause(null); }} />
+        <button type="button" aria-pressed={!!paused} onClick={() => set_paused(paused ? null : shown())}>{paused ? "Resume" : "Pause"}</button>
+        <Choice label="Window" value={window_s} of={WINDOWS_S} unit="s" choose={(w) => { change_query({ w }); set_paused(null); }} />
         <Choice label="Rate" value={rate_hz} of={RATES_HZ} unit="Hz" choose={(hz) => change_query({ hz })} />
         <span class="group">
           <button type="button" aria-label="Zoom in" onClick={() => zoom_by(0.5)}>+</button>
@@ -80,17 +80,17 @@ export function Strip({ board, layout: { charts, window_s, rate_hz }, drawable, 
         <button type="button" disabled={lines.length === 0} onClick={() => save_png([...plots.current.values()])}>PNG</button>
         {marks.length > 0 && <button type="button" onClick={() => set_marks([])}>Clear marks</button>}
         <span class="quiet" role="status">
-          {paused ? "Paused; values are still kept." : ""}
+          {paused ? "Paused; values are still recorded." : ""}
           {recorder.dropped > 0 && ` ${plural(recorder.dropped, "sample")} lost: this browser is too slow for the rate.`}
         </span>
       </div>
-      {recorder.refused && <p class="bad">{recorder.refused}</p>}
+      {recorder.rejected && <p class="bad">{recorder.rejected}</p>}
       {recorder.missing.map((text) => <p class="warn" key={text}>{text}</p>)}
       {charts.map((chart, index) => (
         <Chart key={index} index={index} lines={chart.map(line)} recorder={recorder} shown={shown}
-          drawn={drawn} marks={marks} zoom={pause} live={() => { pause(null); set_marks([]); }}
+          drawn={drawn} marks={marks} zoom={set_paused} live={() => { set_paused(null); set_marks([]); }}
           mark={(at) => set_marks(marks.length === 2 ? [] : [...marks, at].sort((a, b) => a - b))}
           remove={(name) => remove(index, name)} drop={(name) => drop(name, index)}
-          made={(plot) => { if (plot) plots.current.set(index, plot); else plots.current.delete(index); }} />))}
+          set_plot={(plot) => { if (plot) plots.current.set(index, plot); else plots.current.delete(index); }} />))}
     </>);
 }

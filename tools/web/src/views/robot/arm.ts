@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An arm of a URDF: which of its joints are axes, in order, and bodies for links that have no picture of their own.
+// The arm of a URDF file: its axes in order, and simple bodies for links without a shape.
 
 import * as THREE from "three";
 import URDFLoader, { type URDFJoint, type URDFLink, type URDFRobot } from "urdf-loader";
@@ -11,7 +11,7 @@ export interface Arm {
   robot: URDFRobot;
   axes: URDFJoint[];
   tool: THREE.Object3D;
-  size: number;  // m, about its reach
+  size: number;  // m, approximately its reach
 }
 
 function is_joint(object: THREE.Object3D): object is URDFJoint {
@@ -41,14 +41,14 @@ function chain_of(robot: URDFRobot): URDFJoint[] {
 }
 
 function tube(from: THREE.Vector3, to: THREE.Vector3, radius: number, material: THREE.Material): THREE.Mesh {
-  const way = to.clone().sub(from);
-  const mesh = new THREE.Mesh(new THREE.CapsuleGeometry(radius, way.length(), 6, 20), material);
-  mesh.position.copy(from).addScaledVector(way, 0.5);
-  mesh.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), way.normalize());
+  const vector = to.clone().sub(from);
+  const mesh = new THREE.Mesh(new THREE.CapsuleGeometry(radius, vector.length(), 6, 20), material);
+  mesh.position.copy(from).addScaledVector(vector, 0.5);
+  mesh.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), vector.normalize());
   return mesh;
 }
 
-function has_picture(link: THREE.Object3D): boolean {
+function has_shape(link: THREE.Object3D): boolean {
   return link.children.some((child) => !is_joint(child) && (child as { isURDFVisual?: boolean }).isURDFVisual === true && child.children.length > 0);
 }
 
@@ -67,12 +67,12 @@ function size_of(robot: URDFRobot): number {
   return Math.max(0.1, sum);
 }
 
-// Links of most descriptions have pictures in files the page does not have: they get a body from joint to joint.
+// Most URDF files refer to mesh files, which the page does not load: such links get a body from joint to joint.
 function add_bodies(robot: URDFRobot, size: number, link_material: THREE.Material, hub_material: THREE.Material): void {
   const chain = chain_of(robot);
   const links = Object.values(robot.links) as URDFLink[];
   for (const link of links) {
-    if (has_picture(link)) continue;
+    if (has_shape(link)) continue;
     const depth = chain.findIndex((joint) => joint.children.includes(link)) + 1;
     const radius = size * 0.045 * (1 - 0.55 * depth / (chain.length + 1));
     for (const joint of joints_below(link)) {

@@ -1,39 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm as it stands now, the way of its tool, and the same as numbers.
+// The arm at its measured position, the path of its tool, and the status in numbers.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { board_path, get, Refusal, words } from "../../api/http";
+import { board_path, get, message_of, RequestError } from "../../api/http";
 import type { Module, Robot as Description, Variables } from "../../api/types";
 import { plant, useBoard } from "../../shell/plant";
 import { colours_changed } from "../../shell/theme";
 import { address, change_query, place } from "../../ui/address";
-import { Figure, Figures, Waiting } from "../../ui/parts";
-import { useAsked, useStore } from "../../ui/store";
+import { Fact, DataTable, Waiting } from "../../ui/parts";
+import { useRequest, useStore } from "../../ui/store";
 import { Jog } from "./jog";
 import type { Scene } from "./scene";
 import { scopes_of, useRobotState, type RobotState, type Scope } from "./state";
 
 const MODULES_MS = 1000;
-const LOOKS = ["Corner", "Front", "Side", "Top"];
+const VIEWS = ["Corner", "Front", "Side", "Top"];
 
-interface Known {
+interface Robots {
   robots: Description[];
   scopes: Scope[];
-  told: boolean;  // the server has descriptions of robots
+  described: boolean;  // the server provides descriptions of robots
 }
 
 function name_in(urdf: string): string {
   return /<robot[^>]*\sname\s*=\s*["']([^"']*)["']/.exec(urdf)?.[1] ?? "";
 }
 
-async function ask(board: string): Promise<Known> {
+async function fetch_robots(board: string): Promise<Robots> {
   const variables = await get<Variables>(board_path(board, "/variables?values=false&match=*ROBOT_ARM"));
   const scopes = scopes_of(variables.variables);
   try {
     const { robots } = await get<{ robots: Description[] }>(board_path(board, "/robots"));
-    return { robots: robots.map((robot) => ({ ...robot, name: name_in(robot.urdf) || robot.module })), scopes, told: true };
+    return { robots: robots.map((robot) => ({ ...robot, name: name_in(robot.urdf) || robot.module })), scopes, described: true };
   } catch (error) {
-    if (error instanceof Refusal && error.status === 404) return { robots: [], scopes, told: false };
+    if (error instanceof RequestError && error.status === 404) return { robots: [], scopes, described: false };
     throw error;
   }
 }
@@ -45,13 +45,13 @@ function fixed(value: number | undefined, digits: number, unit: string): string 
 }
 
 // "palletise, in part, " if a job that it called is running.
-function called(state: RobotState): string {
+function job_text(state: RobotState): string {
   return state.job_called === state.job ? `${state.job}, ` : `${state.job}, in ${state.job_called}, `;
 }
 
-// Why the robot task does not run, in words; empty: it does.
+// Why the robot task does not run, as text; empty: it does.
 function why_down(alive: boolean, scope: Scope | null, modules: Module[] | null): string {
-  if (!alive) return "The node does not run";
+  if (!alive) return "The node is not running";
   const down = modules?.find(({ name, state }) => scope?.modules.includes(name) && state !== "running");
   return down ? `Module ${down.name} is ${down.state === "faulted" ? `out of service (${down.last_fault})` : down.state}` : "";
 }
@@ -66,25 +66,25 @@ function Numbers({ state, names, down }: { state: RobotState; names: string[]; d
   const { position, orientation } = state;
   return (
     <>
-      {down && <p class="bad">{down}: these are its last numbers.</p>}
+      {down && <p class="bad">{down}: the values below are its last ones.</p>}
       <dl class="facts">
-        <Figure name="State" value={down ? "does not run" : state.group} bad={!!down || state.group.includes("error")} warn={state.group === "no power"} />
-        <Figure name="Job" value={state.job ? `${called(state)}line ${state.job_line}: ${down ? "does not run" : state.job_state}` : "none yet"} bad={!!down || state.job_state === "failed"} />
-        <Figure name="Tool speed" value={down ? "-" : fixed(state.tool_speed, 0, "mm/s")} />
-        <Figure name="Pace on its path" value={down ? "-" : fixed(state.override_now, 0, "%")} hint="What override, job and hold leave of the speed, at this moment" />
-        <Figure name="To go" value={down ? "-" : fixed(state.to_go, 1, "s")} />
-        {["x", "y", "z"].map((name, i) => <Figure key={name} name={`Tool ${name}`} value={fixed(position[i], 1, "mm")} />)}
-        {["roll", "pitch", "yaw"].map((name, i) => <Figure key={name} name={`Tool ${name}`} value={fixed(orientation[i], 1, "deg")} />)}
+        <Fact name="State" value={down ? "not running" : state.group} bad={!!down || state.group.includes("error")} warn={state.group === "disabled"} />
+        <Fact name="Job" value={state.job ? `${job_text(state)}line ${state.job_line}: ${down ? "not running" : state.job_state}` : "none yet"} bad={!!down || state.job_state === "failed"} />
+        <Fact name="Tool speed" value={down ? "-" : fixed(state.tool_speed, 0, "mm/s")} />
+        <Fact name="Effective override" value={down ? "-" : fixed(state.override_now, 0, "%")} hint="current speed in percent of the programmed speed, after override, job and hold" />
+        <Fact name="Time remaining" value={down ? "-" : fixed(state.remaining_s, 1, "s")} />
+        {["x", "y", "z"].map((name, i) => <Fact key={name} name={`Tool ${name}`} value={fixed(position[i], 1, "mm")} />)}
+        {["roll", "pitch", "yaw"].map((name, i) => <Fact key={name} name={`Tool ${name}`} value={fixed(orientation[i], 1, "deg")} />)}
       </dl>
       <Reasons state={state} />
-      <Figures label="Axes">
+      <DataTable label="Axes">
         <thead><tr><th scope="col">Axis</th><th scope="col" class="number">Measured</th><th scope="col" class="number">Commanded</th><th scope="col" class="number">Speed</th></tr></thead>
         <tbody>
           {state.joint.map((joint, i) => (
             <tr key={i}><th scope="row">{names[i] ?? `axis ${i + 1}`}</th><td class="number">{fixed(joint, 2, "deg")}</td>
               <td class="number">{fixed(state.command[i], 2, "deg")}</td><td class="number">{down ? "-" : fixed(state.speed[i], 1, "deg/s")}</td></tr>))}
         </tbody>
-      </Figures>
+      </DataTable>
     </>);
 }
 
@@ -94,12 +94,12 @@ interface Drawn {
   kinds: string[];
 }
 
-// The picture needs far more code than everything else: it is fetched when it is wanted.
-function useScene(urdf: string | null): { box: { current: HTMLDivElement | null }; drawn: { current: Drawn | null }; names: string[]; said: string } {
+// Drawing needs far more code than the rest of the page: it is loaded when a robot is shown.
+function useScene(urdf: string | null): { box: { current: HTMLDivElement | null }; drawn: { current: Drawn | null }; names: string[]; problem: string } {
   const box = useRef<HTMLDivElement>(null);
   const drawn = useRef<Drawn | null>(null);
   const [names, set_names] = useState<string[]>([]);
-  const [said, say] = useState("");
+  const [problem, set_problem] = useState("");
   const colours = useStore(colours_changed);
   useEffect(() => {
     if (!urdf) return;
@@ -110,8 +110,8 @@ function useScene(urdf: string | null): { box: { current: HTMLDivElement | null 
       const { axes } = scene.load(urdf);
       drawn.current = { scene, names: axes.map(({ name }) => name), kinds: axes.map(({ jointType }) => jointType) };
       set_names(drawn.current.names);
-      say("");
-    }).catch((error) => say(`The arm cannot be drawn here: ${words(error)}`));
+      set_problem("");
+    }).catch((error) => set_problem(`The arm cannot be drawn: ${message_of(error)}`));
     return () => {
       ended = true;
       drawn.current?.scene.end();
@@ -119,10 +119,10 @@ function useScene(urdf: string | null): { box: { current: HTMLDivElement | null 
     };
   }, [urdf]);
   useEffect(() => drawn.current?.scene.recolour(), [colours]);
-  return { box, drawn, names, said };
+  return { box, drawn, names, problem };
 }
 
-// Degrees and millimetres of the robot task to what URDF has.
+// Converts degrees and millimetres of the robot task to radians and metres of URDF.
 function in_urdf(values: number[], kinds: string[]): number[] {
   return values.map((value, i) => (kinds[i] === "prismatic" ? value / 1000 : value * Math.PI / 180));
 }
@@ -131,15 +131,15 @@ export function Robot() {
   const board = useBoard();
   const { status } = useStore(plant);
   const chosen = Number(useStore(place).query.get("r")) || 0;
-  const { value, error } = useAsked(board ? `${board.board} ${board.layout}` : "", 0, () => ask(board!.board), words);
+  const { value, error } = useRequest(board ? `${board.board} ${board.layout}` : "", 0, () => fetch_robots(board!.board));
   const count = Math.max(value?.robots.length ?? 0, value?.scopes.length ?? 0);
   const index = Math.min(chosen, Math.max(0, count - 1));
   const robot = value?.robots[index] ?? null;
   const found = value ? value.scopes[index] ?? null : null;
   const scope = found && found.name;
-  const modules = useAsked(board && found ? `${board.board} modules` : "", MODULES_MS,
-    () => get<{ modules: Module[] }>(board_path(board!.board, "/modules")), words);
-  const { box, drawn, names, said } = useScene(robot?.urdf ?? null);
+  const modules = useRequest(board && found ? `${board.board} modules` : "", MODULES_MS,
+    () => get<{ modules: Module[] }>(board_path(board!.board, "/modules")));
+  const { box, drawn, names, problem } = useScene(robot?.urdf ?? null);
   const state = useRobotState(board?.board ?? "", scope, ({ joint }) => {
     const now = drawn.current;
     if (now) now.scene.move(in_urdf(joint.length ? joint : [], now.kinds));
@@ -149,8 +149,8 @@ export function Robot() {
   if (count === 0) {
     return (
       <div class="panel">
-        <p>Here the arm is drawn as it stands, with the way of its tool, its job and its axes, and moved by hand.</p>
-        <p class="quiet">There is no robot on {board.board}: no module with a property <code>urdf</code>, no variable ROBOT_ARM.</p>
+        <p>This view draws a robot arm at its current position with the path of its tool, shows its job and its axes, and jogs it.</p>
+        <p class="quiet">There is no robot on {board.board}: no module has a property <code>urdf</code>, and there is no variable ROBOT_ARM.</p>
       </div>);
   }
   return (
@@ -164,24 +164,24 @@ export function Robot() {
         {robot ? (
           <section class="panel" aria-label="The arm">
             <h2>{robot.name}</h2>
-            <div class={`arm ${down ? "old" : ""}`} ref={box} role="img" aria-label={`The arm ${robot.name} as it ${down ? "stood last" : "stands now"}; the numbers are in the table`} />
-            {said && <p class="warn">{said}</p>}
+            <div class={`arm ${down ? "old" : ""}`} ref={box} role="img" aria-label={`The arm ${robot.name} at its ${down ? "last" : "current"} position; the table has the numbers`} />
+            {problem && <p class="warn">{problem}</p>}
             <div class="bar">
-              {LOOKS.map((look) => <button key={look} type="button" onClick={() => drawn.current?.scene.look(look)}>{look}</button>)}
-              <button type="button" aria-label="Nearer" onClick={() => drawn.current?.scene.nearer(0.8)}>+</button>
-              <button type="button" aria-label="Farther" onClick={() => drawn.current?.scene.nearer(1.25)}>{"\u2212"}</button>
-              <button type="button" onClick={() => drawn.current?.scene.forget_path()}>Forget the path</button>
+              {VIEWS.map((view) => <button key={view} type="button" onClick={() => drawn.current?.scene.set_view(view)}>{view}</button>)}
+              <button type="button" aria-label="Zoom in" onClick={() => drawn.current?.scene.zoom(0.8)}>+</button>
+              <button type="button" aria-label="Zoom out" onClick={() => drawn.current?.scene.zoom(1.25)}>{"\u2212"}</button>
+              <button type="button" onClick={() => drawn.current?.scene.clear_path()}>Clear path</button>
             </div>
           </section>
         ) : (
-          <p class="panel warn">{value.told ? "The arm's description (property urdf of its module) cannot be read here, so only numbers are shown." : "This server does not tell the arm's description, so only numbers are shown."}</p>)}
+          <p class="panel warn">{value.described ? "The arm's description (property urdf of its module) cannot be read, so only numbers are shown." : "This server does not provide the arm's description, so only numbers are shown."}</p>)}
         <div>
         {status?.may_write && scope !== null && <Jog board={board.board} scope={scope} state={state} down={down} names={names} work_frames={robot?.frames ?? []} />}
         <section class="panel" aria-label="Robot in numbers">
-          <h2>{down ? "Last seen" : "Now"}</h2>
+          <h2>{down ? "Last values" : "Current values"}</h2>
           {state ? <Numbers state={state} names={names} down={down} /> : <Waiting />}
           {scope !== null && <p><a href={address("plots", {
-            board: board.board, c: (state?.joint ?? []).map((_, i) => `${scope ? `${scope}::` : ""}ROBOT_ARM.joint[${i}]`).join(",") })}>Plot the joints</a></p>}
+            board: board.board, c: (state?.joint ?? []).map((_, i) => `${scope ? `${scope}::` : ""}ROBOT_ARM.joint[${i}]`).join(",") })}>Plot the axes</a></p>}
         </section>
         </div>
       </div>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm in 3-D: floor, light, camera, the way of the tool. Drawn only when something has changed.
+// The arm in 3-D: floor, light, camera, the path of the tool. It is drawn only after a change.
 
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -7,9 +7,9 @@ import { colour } from "../../shell/theme";
 import { arm_of, type Arm } from "./arm";
 
 const PATH_POINTS = 3000;
-const LINKS = "#5b9bd9";  // stand out from light and dark ground
+const LINKS = "#5b9bd9";  // visible on a light and a dark background
 const HUBS = "#8d98a6";
-export const LOOKS: Record<string, [number, number, number]> = {
+export const VIEWS: Record<string, [number, number, number]> = {
   Corner: [1.0, -1.05, 0.65], Front: [1.8, 0, 0.25], Side: [0, -1.8, 0.25], Top: [0.001, 0, 2.2],
 };
 
@@ -25,7 +25,7 @@ export class Scene {
   private grid: THREE.GridHelper | null = null;
   private arm: Arm | null = null;
   private used = 0;
-  private asked = 0;
+  private requested = 0;
   private moved = false;
   private readonly watch: ResizeObserver;
 
@@ -52,13 +52,13 @@ export class Scene {
     if (this.arm) this.scene.remove(this.arm.robot);
     this.arm = arm_of(urdf, this.links, this.hubs);
     this.scene.add(this.arm.robot);
-    this.forget_path();
+    this.clear_path();
     this.recolour();
-    this.look("Corner");
+    this.set_view("Corner");
     return this.arm;
   }
 
-  // rad and m, in the order of the axes; the tool's way grows with each call.
+  // `values` are rad and m, in the order of the axes. Each call extends the path of the tool.
   move(values: number[]): void {
     if (!this.arm) return;
     this.arm.axes.forEach((joint, i) => { if (Number.isFinite(values[i])) joint.setJointValue(values[i]); });
@@ -70,22 +70,22 @@ export class Scene {
     this.draw();
   }
 
-  forget_path(): void {
+  clear_path(): void {
     this.used = 0;
     this.path.geometry.setDrawRange(0, 0);
     this.draw();
   }
 
-  look(from: string): void {
+  set_view(from: string): void {
     const reach = this.arm?.size ?? 1;
     const middle = new THREE.Vector3(reach * 0.15, 0, reach * 0.4);
     this.controls.target.copy(middle);
-    this.camera.position.copy(middle).add(new THREE.Vector3(...(LOOKS[from] ?? LOOKS.Corner)).multiplyScalar(reach));
+    this.camera.position.copy(middle).add(new THREE.Vector3(...(VIEWS[from] ?? VIEWS.Corner)).multiplyScalar(reach));
     this.controls.update();
     this.draw();
   }
 
-  nearer(factor: number): void {
+  zoom(factor: number): void {
     this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
     this.controls.update();
     this.draw();
@@ -104,7 +104,7 @@ export class Scene {
   }
 
   end(): void {
-    cancelAnimationFrame(this.asked);
+    cancelAnimationFrame(this.requested);
     this.watch.disconnect();
     this.controls.dispose();
     this.renderer.dispose();
@@ -132,11 +132,11 @@ export class Scene {
   }
 
   private draw(): void {
-    if (this.asked) return;
-    this.asked = requestAnimationFrame(() => {
-      this.asked = 0;
+    if (this.requested) return;
+    this.requested = requestAnimationFrame(() => {
+      this.requested = 0;
       this.renderer.render(this.scene, this.camera);
-      if (this.moved) this.renderer.domElement.dataset.drawn = "as it stands";
+      if (this.moved) this.renderer.domElement.dataset.drawn = "true";
     });
   }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the robot task says of itself, as the .glb of every robot declares it (docs/robot.md).
+// The status of the robot task, as the .glb file of every robot declares it (docs/robot.md).
 
 import { useEffect, useState } from "preact/hooks";
 import { decode } from "../../api/decode";
 import { stream } from "../../api/stream";
 import type { Form, Variable } from "../../api/types";
-import { error_text, GROUP_STATES, JOB_STATES } from "./words";
+import { error_text, GROUP_STATES, JOB_STATES } from "./names";
 
 const RATE_HZ = 25;
 
@@ -17,24 +17,24 @@ export interface RobotState {
   orientation: number[];
   tool_speed: number;
   override_now: number;
-  to_go: number;
+  remaining_s: number;
   group: string;
-  error: string;  // in words; empty: none
+  error: string;  // as text; empty: none
   job: string;
   job_line: number;
-  job_called: string;  // whose line that is: the job itself, or one that it called
+  job_called: string;  // the job that this line belongs to: the job itself, or one that it called
   job_state: string;
   job_message: string;
   override_set: number;
   hold: boolean;
   automatic: boolean;
-  may_move: boolean;  // as far as operating mode and enabling switch are concerned
-  acknowledged: number;  // the number of the service that was taken last
+  may_move: boolean;  // operating mode and enabling device allow it
+  acknowledged: number;  // the number of the service that was accepted last
 }
 
 export interface Scope {
-  name: string;  // namespace that has a robot: PLC_ROBOT of PLC_ROBOT::ROBOT_ARM
-  modules: string[];  // that write it, as far as that is known
+  name: string;  // namespace of a robot: PLC_ROBOT of PLC_ROBOT::ROBOT_ARM
+  modules: string[];  // that write its variables, if known
 }
 
 export function scopes_of(variables: Variable[]): Scope[] {
@@ -42,7 +42,7 @@ export function scopes_of(variables: Variable[]): Scope[] {
     .map(({ name, writers }) => ({ name: name.replace(/(::)?ROBOT_ARM$/, ""), modules: writers ?? [] }));
 }
 
-function words_of(list: string[], state: unknown): string {
+function name_of(list: string[], state: unknown): string {
   return list[Number(state)] ?? `state ${state}`;
 }
 
@@ -50,10 +50,10 @@ function state_of(values: Record<string, any>, errors: Record<string, number> | 
   const { arm = {}, module = {}, job = {} } = values;
   return {
     joint: arm.joint ?? [], command: arm.command ?? [], speed: arm.speed ?? [], position: arm.position ?? [],
-    orientation: arm.orientation ?? [], tool_speed: arm.tool_speed ?? NaN, override_now: arm.override_now ?? NaN, to_go: arm.to_go ?? NaN,
-    group: words_of(GROUP_STATES, module.eState), error: module.nError ? error_text(module.nError, errors) : "",
+    orientation: arm.orientation ?? [], tool_speed: arm.tool_speed ?? NaN, override_now: arm.override_now ?? NaN, remaining_s: arm.to_go ?? NaN,
+    group: name_of(GROUP_STATES, module.eState), error: module.nError ? error_text(module.nError, errors) : "",
     job: job.name ?? "", job_line: job.nLine ?? 0,
-    job_called: job.called || job.name || "", job_state: words_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
+    job_called: job.called || job.name || "", job_state: name_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
     override_set: values.override ?? NaN, hold: !!values.hold, acknowledged: module.nAcknowledge ?? 0,
     automatic: arm.eMode === 1, may_move: arm.bMayMove !== 0,
   };
@@ -63,18 +63,18 @@ function field_of(form: Form | undefined, name: string): Form | undefined {
   return form?.fields?.find((field) => field.name === name)?.type;
 }
 
-// `each` gets the joints of every frame, also those the page does not write as numbers.
+// `each` is called with every frame; the numbers on the page are updated less often.
 export function useRobotState(board: string, scope: string | null, each: (state: RobotState) => void): RobotState | null {
-  const [state, set] = useState<RobotState | null>(null);
+  const [state, set_state] = useState<RobotState | null>(null);
   useEffect(() => {
-    set(null);
+    set_state(null);
     if (scope === null || !board) return;
     const prefix = scope ? `${scope}::` : "";
     const names: Record<string, string> = {
       [`${prefix}ROBOT_ARM`]: "arm", [`${prefix}ROBOT_MODULE_STATE`]: "module", [`${prefix}ROBOT_JOB`]: "job",
       [`${prefix}ROBOT_OVERRIDE`]: "override", [`${prefix}ROBOT_HOLD`]: "hold",
     };
-    let written = 0;
+    let updated = 0;
     return stream.subscribe({
       board, names: Object.keys(names), rate_hz: RATE_HZ, binary: true,
       frame: (frame, of) => {
@@ -82,9 +82,9 @@ export function useRobotState(board: string, scope: string | null, each: (state:
         const module = of.variables.find(({ name }) => names[name] === "module")?.form;
         const next = state_of(values, field_of(module, "nError")?.enumerators);
         each(next);
-        if (Date.now() - written < 100) return;
-        written = Date.now();
-        set(next);
+        if (Date.now() - updated < 100) return;
+        updated = Date.now();
+        set_state(next);
       },
     });
   }, [board, scope]);

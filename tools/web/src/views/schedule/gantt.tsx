@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bars over time, a lane per module. Tables below say the same to who cannot see it.
+// Bars over time, a lane per module. The tables below have the same data for screen readers.
 
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { letter_px } from "../../shell/theme";
@@ -10,7 +10,7 @@ import type { Bar, Lane } from "./lanes";
 const LANE_PX = 34;
 const BAR_PX = 20;
 const AXIS_PX = 26;
-const LABEL_PX = 90;  // room a time needs on the axis
+const LABEL_PX = 90;  // space that a time needs on the axis
 const THINNEST_PX = 2;
 const PARTS = [10000, 5000, 4000, 2000, 1000, 500, 400, 200, 100, 50, 40, 20, 10, 8, 5, 4, 2];  // of a basic period
 
@@ -35,7 +35,7 @@ interface GridProps extends Props {
 
 function Grid({ from_ns, to_ns, epoch_ns, basic_ns, macro_ns, x, height, width, scale }: GridProps) {
   const wanted = Math.max(1, Math.floor(width / LABEL_PX / scale));
-  // At most as many lines as have room: basic periods, or every so many.
+  // At most as many lines as there is space for: one per basic period, or per several.
   const every = basic_ns * Math.max(1, Math.ceil((to_ns - from_ns) / basic_ns / wanted));
   const fine = every > basic_ns ? every : nice_step((to_ns - from_ns) / wanted, basic_ns);
   const lines = [];
@@ -62,15 +62,15 @@ function span_since(ns: number, step: number): string {
 export function Gantt(props: Props) {
   const { lanes, from_ns, to_ns, zoom, chosen, choose } = props;
   const box = useRef<HTMLDivElement>(null);
-  const [room, set_room] = useState(800);
+  const [width_px, set_width_px] = useState(800);
   useLayoutEffect(() => {
-    const watch = new ResizeObserver(() => set_room(box.current?.clientWidth ?? 800));
+    const watch = new ResizeObserver(() => set_width_px(box.current?.clientWidth ?? 800));
     watch.observe(box.current!);
     return () => watch.disconnect();
   }, []);
   const scale = letter_px() / 16;
   const [lane_px, bar_px, axis_px] = [LANE_PX * scale, BAR_PX * scale, AXIS_PX * scale];
-  const width = Math.max(200, room * zoom);
+  const width = Math.max(200, width_px * zoom);
   const height = axis_px + lanes.length * lane_px + 4;
   const x = (ns: number) => (ns - from_ns) / (to_ns - from_ns) * width;
   const cores = new Set(lanes.map(({ core }) => core)).size;
@@ -80,7 +80,7 @@ export function Gantt(props: Props) {
         {lanes.map(({ module, core }) => <li key={module} style={{ height: `${lane_px}px` }} title={module}>{module}{cores > 1 && <span class="quiet"> core {core}</span>}</li>)}
       </ul>
       <div class="scroll" ref={box} tabIndex={0} role="region" aria-label="Bars of the newest runs">
-        <svg width={width} height={height} role="img" aria-label={`When ${lanes.map(({ module }) => module).join(", ")} ran; the tables below have the same as numbers`}>
+        <svg width={width} height={height} role="img" aria-label={`When ${lanes.map(({ module }) => module).join(", ")} ran; the tables below have the numbers`}>
           {lanes.map(({ module }, i) => <rect key={module} class={i % 2 ? "lane odd" : "lane"} x={0} y={axis_px + i * lane_px} width={width} height={lane_px} />)}
           <Grid {...props} x={x} width={width} height={height} scale={scale} />
           {lanes.map((lane, i) => lane.bars.filter(({ run }) => run.end_ns >= from_ns && run.release_ns <= to_ns).map((bar) => {
@@ -88,7 +88,7 @@ export function Gantt(props: Props) {
             const y = axis_px + i * lane_px + (lane_px - bar_px) / 2;
             return (
               <g key={run.number} class={`run ${late ? "late" : ""} ${chosen === run.number ? "chosen" : ""}`} onClick={() => choose(bar)}>
-                <title>{`${lane.module}, tick ${run.tick}: ${span(run.end_ns - run.start_ns)}, ${span(run.start_ns - run.release_ns)} after it was due`}</title>
+                <title>{`${lane.module}, tick ${run.tick}: ${span(run.end_ns - run.start_ns)}, ${span(run.start_ns - run.release_ns)} after its release`}</title>
                 <line x1={x(run.release_ns)} x2={x(run.start_ns)} y1={y + bar_px / 2} y2={y + bar_px / 2} class="waits" />
                 <rect x={x(run.start_ns)} y={y} width={Math.max(THINNEST_PX, x(run.end_ns) - x(run.start_ns))} height={bar_px} />
                 {preempted.map(([from, to]) => <rect key={from} class="preempted" x={x(from)} y={y + 4} width={Math.max(1, x(to) - x(from))} height={bar_px - 8} />)}

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often a module took how long: four distributions, over times that grow by a factor from left to right.
+// Four distributions of a module's times, on a logarithmic time axis.
 
-import { board_path, get, words } from "../../api/http";
+import { board_path, get } from "../../api/http";
 import type { Histogram } from "../../api/types";
 import { count, span } from "../../ui/format";
-import { useAsked } from "../../ui/store";
+import { useRequest } from "../../ui/store";
 
 const EVERY_MS = 3000;
 const WIDTH = 320;
 const HEIGHT = 110;
 const FOOT = 18;
 const SHOWN: [string, string, string][] = [
-  ["exec", "Execution", "time it took"],
-  ["jitter", "Jitter", "how far its start was from where it should be"],
+  ["exec", "Execution", "time that a run took"],
+  ["jitter", "Jitter", "deviation of the start from its ideal time"],
   ["latency", "Latency", "from its release to its start"],
   ["response", "Response", "from its release to its end"],
 ];
@@ -24,7 +24,7 @@ function Bars({ histogram }: { histogram: Histogram }) {
   const high = Math.max(low + 0.1, place(bins[bins.length - 1][1]));
   const x = (ns: number) => (place(ns) - low) / (high - low) * WIDTH;
   const most = Math.max(...bins.map(([, , n]) => n));
-  // By its logarithm, so that one late run among millions is seen.
+  // Logarithmic, so that one late run among millions is visible.
   const tall = (n: number) => Math.log1p(n) / Math.log1p(most) * (HEIGHT - FOOT - 6);
   return (
     <svg viewBox={`0 0 ${WIDTH} ${HEIGHT}`} class="bars" aria-hidden="true">
@@ -38,11 +38,11 @@ function Bars({ histogram }: { histogram: Histogram }) {
 }
 
 export function Histograms({ board, module }: { board: string; module: string }) {
-  const { value, error } = useAsked(`${board} ${module}`, EVERY_MS,
-    () => get<{ histograms: Record<string, Histogram> }>(board_path(board, `/modules/${encodeURIComponent(module)}/histograms`)), words);
+  const { value, error } = useRequest(`${board} ${module}`, EVERY_MS,
+    () => get<{ histograms: Record<string, Histogram> }>(board_path(board, `/modules/${encodeURIComponent(module)}/histograms`)));
   return (
     <section class="panel" aria-label={`Distributions of ${module}`}>
-      <h2>{module}: how its times are distributed</h2>
+      <h2>{module}: distribution of its times</h2>
       {error && <p class="bad">{error}</p>}
       <div class="histograms">
         {value && SHOWN.filter(([name]) => value.histograms[name]).map(([name, title, hint]) => {
@@ -50,11 +50,11 @@ export function Histograms({ board, module }: { board: string; module: string })
           return (
             <figure key={name}>
               <figcaption><strong>{title}</strong> <span class="quiet">{hint}</span></figcaption>
-              {histogram.bins.length > 0 ? <Bars histogram={histogram} /> : <p class="quiet">Nothing measured yet.</p>}
+              {histogram.bins.length > 0 ? <Bars histogram={histogram} /> : <p class="quiet">No measurements yet.</p>}
               <p class="small-print">half below {span(histogram.p50_ns)}, 99 % below {span(histogram.p99_ns)}, at most {span(histogram.max_ns)}; {count(histogram.count)} runs</p>
             </figure>);
         })}
       </div>
-      <p class="quiet">Heights are logarithms, so that one late run among many is seen.</p>
+      <p class="quiet">The heights are logarithmic, so that one late run among many is visible.</p>
     </section>);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of modules as bars: a lane per module, grouped by core; when each was preempted, which ones were late.
+// Runs of modules as bars: a lane per module, grouped by core; when each run was preempted, and whether it was late.
 
 import type { Module, Overrun, Run } from "../../api/types";
 import { span } from "../../ui/format";
@@ -7,8 +7,8 @@ import { span } from "../../ui/format";
 export interface Bar {
   run: Run;
   late: boolean;
-  preempted: [number, number][];  // by others on its core, ns
-  before: Run | null;  // ran before it on its core, in the same tick
+  preempted: [number, number][];  // by other modules on its core, ns
+  before: Run | null;  // the run before it on its core, in the same tick
   overrun: Overrun | null;
 }
 
@@ -50,32 +50,32 @@ export function lanes_of(runs: Run[], modules: Module[], overruns: Overrun[]): L
   return [...lanes.values()].sort((a, b) => a.core - b.core || rank(a.module) - rank(b.module) || a.module.localeCompare(b.module));
 }
 
-// The likely reason, from what the record holds; `indurop overruns` judges alike.
+// The likely reason, from the recorded overrun, as in `indurop overruns`.
 export function overrun_text({ module, tick, own_ns, latency_ns, previous, previous_ns, started }: Overrun, period_ns: number): string {
   if (!started) {
-    // Only what took a good part of the period explains it.
+    // Only a module that took a large part of the period explains it.
     const explains = previous !== "" && 4 * previous_ns >= period_ns;
-    return `${module} did not get its turn in tick ${tick}: ${explains
-      ? `${previous} took ${span(previous_ns)}.` : "no module took so long, the machine was busy or stood still."}`;
+    return `${module} did not run in tick ${tick}: ${explains
+      ? `${previous} took ${span(previous_ns)}.` : "no module took that long; the machine was busy or suspended."}`;
   }
   const late = latency_ns > own_ns;
-  const why = !late ? "took too long itself" : previous !== "" && previous_ns > own_ns ? `started late, after ${previous}, which took ${span(previous_ns)}` : "started late";
-  return `${module} ${why} in tick ${tick}: it started ${span(latency_ns)} after it was due and had used ${span(own_ns)} when its time was over.`;
+  const why = !late ? "took too long" : previous !== "" && previous_ns > own_ns ? `started late, after ${previous}, which took ${span(previous_ns)}` : "started late";
+  return `${module} ${why} in tick ${tick}: it started ${span(latency_ns)} after its release, and had used ${span(own_ns)} when it was released again.`;
 }
 
-// Why a run was when it was, in sentences.
+// Why a run took place when it did, in sentences.
 export function explain({ run, late, preempted, before, overrun }: Bar, module: Module | undefined, epoch_ns: number): string[] {
   const latency = run.start_ns - run.release_ns;
   const lines = [
-    `Due in tick ${run.tick}, at ${((run.release_ns - epoch_ns) / 1e9).toFixed(6)} s after tick 0.`,
-    `It started ${span(latency)} later and ended ${span(run.end_ns - run.release_ns)} after it was due.`,
+    `Released in tick ${run.tick}, at ${((run.release_ns - epoch_ns) / 1e9).toFixed(6)} s after tick 0.`,
+    `It started ${span(latency)} later and ended ${span(run.end_ns - run.release_ns)} after its release.`,
   ];
-  if (before) lines.push(`Before it, on the same core, ran ${before.module}, for ${span(before.end_ns - before.start_ns)}.`);
-  else if (latency > 0) lines.push("No other module ran before it in this tick: the delay is the timer's and the system's.");
+  if (before) lines.push(`Before it, ${before.module} ran on the same core for ${span(before.end_ns - before.start_ns)}.`);
+  else if (latency > 0) lines.push("No other module ran before it in this tick: timer and operating system caused the delay.");
   const taken = preempted.reduce((sum, [from, to]) => sum + to - from, 0);
-  lines.push(`It took ${span(run.end_ns - run.start_ns)}${taken ? `, of which others ran ${span(taken)}` : ""}.`);
-  if (module?.mean_exec_ns) lines.push(`On average it takes ${span(module.mean_exec_ns)}, at most it took ${span(module.max_exec_ns)}.`);
+  lines.push(`It took ${span(run.end_ns - run.start_ns)}${taken ? `, including ${span(taken)} in which other modules ran` : ""}.`);
+  if (module?.mean_exec_ns) lines.push(`Its mean time is ${span(module.mean_exec_ns)}, its maximum ${span(module.max_exec_ns)}.`);
   if (overrun) lines.push(overrun_text(overrun, module?.period_ns ?? 0));
-  else if (late) lines.push("That is beyond its deadline.");
+  else if (late) lines.push("It missed its deadline.");
   return lines;
 }

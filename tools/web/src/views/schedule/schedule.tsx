@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which module ran when, as measured; what was late, and why.
+// When each module ran, as measured; which runs were late, and why.
 
 import { useMemo, useState } from "preact/hooks";
-import { board_path, get, words } from "../../api/http";
+import { board_path, get } from "../../api/http";
 import type { Module, Overrun, Runs, Schedule as Plan } from "../../api/types";
 import { useBoard } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { count, span } from "../../ui/format";
-import { Figure, Figures as Table, Waiting } from "../../ui/parts";
-import { useAsked, useStore } from "../../ui/store";
+import { DataTable, Fact, Waiting } from "../../ui/parts";
+import { useRequest, useStore } from "../../ui/store";
 import { Gantt } from "./gantt";
 import { Histograms } from "./histograms";
 import { explain, lanes_of, overrun_text, type Bar } from "./lanes";
@@ -17,33 +17,33 @@ const EVERY_MS = 1000;
 const PERIODS = [1, 2, 3, 5, 10, 20];
 const ZOOMS = [1, 4, 16, 64];
 const FIT_MARGIN = 1.1;
-const MOST_RUNS = 1500;
-const MOST_OVERRUNS = 50;
+const MAX_RUNS = 1500;
+const MAX_OVERRUNS = 50;
 
-interface Look {
+interface Details {
   plan: Plan;
   runs: Runs;
   modules: Module[];
   overruns: Overrun[];
 }
 
-async function look(board: string): Promise<Look> {
+async function fetch_details(board: string): Promise<Details> {
   const [plan, runs, { modules }, { overruns }] = await Promise.all([
     get<Plan>(board_path(board, "/schedule")),
-    get<Runs>(board_path(board, `/runs?count=${MOST_RUNS}`)),
+    get<Runs>(board_path(board, `/runs?count=${MAX_RUNS}`)),
     get<{ modules: Module[] }>(board_path(board, "/modules")),
-    get<{ overruns: Overrun[] }>(board_path(board, `/overruns?count=${MOST_OVERRUNS}`)),
+    get<{ overruns: Overrun[] }>(board_path(board, `/overruns?count=${MAX_OVERRUNS}`)),
   ]);
   return { plan, runs, modules, overruns };
 }
 
-function Figures({ modules, chosen }: { modules: Module[]; chosen: string }) {
+function Times({ modules, chosen }: { modules: Module[]; chosen: string }) {
   return (
-    <Table label="Times of the modules">
+    <DataTable label="Times of the modules">
         <thead>
           <tr><th scope="col">Module</th><th scope="col" class="number">Core</th><th scope="col" class="number">Priority</th><th scope="col">Released</th>
-            <th scope="col" class="number">Takes (mean)</th><th scope="col" class="number">At most</th><th scope="col" class="number">Jitter: half below</th>
-            <th scope="col" class="number">99 % below</th><th scope="col" class="number">At most</th><th scope="col" class="number">Overruns</th></tr>
+            <th scope="col" class="number">Mean time</th><th scope="col" class="number">Maximum time</th><th scope="col" class="number">Jitter (50 %)</th>
+            <th scope="col" class="number">Jitter (99 %)</th><th scope="col" class="number">Maximum jitter</th><th scope="col" class="number">Overruns</th></tr>
         </thead>
         <tbody>
           {modules.map((module) => (
@@ -58,14 +58,14 @@ function Figures({ modules, chosen }: { modules: Module[]; chosen: string }) {
               <td class={`number ${module.overruns ? "bad" : ""}`}>{count(module.overruns)}</td>
             </tr>))}
         </tbody>
-    </Table>);
+    </DataTable>);
 }
 
 function Overruns({ overruns, modules }: { overruns: Overrun[]; modules: Module[] }) {
   const period = (name: string) => modules.find((module) => module.name === name)?.period_ns ?? 0;
-  if (overruns.length === 0) return <p class="good">No overrun was recorded.</p>;
+  if (overruns.length === 0) return <p class="good">No overruns were recorded.</p>;
   return (
-    <ul class="troubles">
+    <ul class="problems">
       {[...overruns].reverse().slice(0, 10).map((overrun) => <li class="error" key={overrun.number}>{overrun_text(overrun, period(overrun.module))}</li>)}
     </ul>);
 }
@@ -74,8 +74,8 @@ function Newest({ bars, choose }: { bars: Bar[]; choose: (bar: Bar) => void }) {
   return (
     <details class="panel">
       <summary>The newest runs as a table</summary>
-      <Table label="The newest runs">
-        <thead><tr><th scope="col" class="number">Tick</th><th scope="col">Module</th><th scope="col" class="number">Started late by</th><th scope="col" class="number">Took</th><th scope="col">Late</th></tr></thead>
+      <DataTable label="The newest runs">
+        <thead><tr><th scope="col" class="number">Tick</th><th scope="col">Module</th><th scope="col" class="number">Latency</th><th scope="col" class="number">Took</th><th scope="col">Late</th></tr></thead>
         <tbody>
           {bars.map((bar) => (
             <tr key={bar.run.number}>
@@ -85,7 +85,7 @@ function Newest({ bars, choose }: { bars: Bar[]; choose: (bar: Bar) => void }) {
               <td class={bar.late ? "bad" : ""}>{bar.late ? "yes" : "no"}</td>
             </tr>))}
         </tbody>
-      </Table>
+      </DataTable>
     </details>);
 }
 
@@ -93,18 +93,18 @@ export function Schedule() {
   const board = useBoard();
   const { query } = useStore(place);
   const periods = Number(query.get("n")) || 1;
-  const zoom = Number(query.get("z"));  // 0: as far as modules run
+  const zoom = Number(query.get("z"));  // 0: until the last run of a module
   const module = query.get("m") ?? "";
-  const [held, hold] = useState<Look | null>(null);
-  const [bar, choose] = useState<Bar | null>(null);
-  const { value, error } = useAsked(board?.board ?? "", EVERY_MS, () => look(board!.board), words);
+  const [held, set_held] = useState<Details | null>(null);
+  const [bar, set_bar] = useState<Bar | null>(null);
+  const { value, error } = useRequest(board?.board ?? "", EVERY_MS, () => fetch_details(board!.board));
   const now = held ?? value;
   const lanes = useMemo(() => (now ? lanes_of(now.runs.runs, now.modules, now.overruns) : []), [now]);
   if (!now) return error ? <p class="bad">{error}</p> : <Waiting />;
   const { plan, runs, modules, overruns } = now;
   const epoch = runs.epoch_ns;
   const last_release = Math.max(epoch, ...runs.runs.map(({ release_ns }) => release_ns));
-  // Whole macro periods that have ended; the one that is on if there is none.
+  // Whole macro periods that have ended, or the current one if there are none.
   const macro = plan.macro_period_ns || 1e9;
   const first_release = Math.min(last_release, ...runs.runs.map(({ release_ns }) => release_ns));
   const begun = epoch + Math.floor((last_release - epoch) / macro) * macro;
@@ -114,34 +114,34 @@ export function Schedule() {
   const to = zoom === 0 && busy > 0 ? Math.min(end, from + busy * FIT_MARGIN) : end;
   const newest = lanes.flatMap(({ bars }) => bars).sort((a, b) => b.run.number - a.run.number).slice(0, 20);
   const show = (chosen: Bar) => {
-    choose(chosen);
-    hold(now);
+    set_bar(chosen);
+    set_held(now);
   };
   return (
     <>
       <dl class="facts">
-        <Figure name="Basic period" value={span(plan.basic_period_ns)} hint="greatest common divisor of all periods" />
-        <Figure name="Macro period" value={span(plan.macro_period_ns)} hint="least common multiple of all periods" />
-        <Figure name="Slots" value={count(plan.slots)} hint="basic periods in a macro period" />
-        <Figure name="Runs seen" value={count(runs.runs.length)} />
+        <Fact name="Basic period" value={span(plan.basic_period_ns)} hint="greatest common divisor of all periods" />
+        <Fact name="Macro period" value={span(plan.macro_period_ns)} hint="least common multiple of all periods" />
+        <Fact name="Slots" value={count(plan.slots)} hint="basic periods in a macro period" />
+        <Fact name="Runs" value={count(runs.runs.length)} />
       </dl>
       {plan.message && <p class="warn">{plan.message}</p>}
       {error && <p class="bad">{error}</p>}
       <section class="panel" aria-label="Newest macro periods">
         <div class="bar">
-          <button type="button" aria-pressed={!!held} onClick={() => { hold(held ? null : value); if (held) choose(null); }}>{held ? "Go on" : "Pause"}</button>
+          <button type="button" aria-pressed={!!held} onClick={() => { set_held(held ? null : value); if (held) set_bar(null); }}>{held ? "Resume" : "Pause"}</button>
           <label class="choice">Show{" "}
             <select value={periods} onChange={(event) => change_query({ n: event.currentTarget.value })}>
               {PERIODS.map((n) => <option key={n} value={n}>{n} macro period{n === 1 ? "" : "s"}</option>)}
             </select></label>
           <label class="choice">Zoom{" "}
             <select value={zoom} onChange={(event) => change_query({ z: event.currentTarget.value === "0" ? "" : event.currentTarget.value })}>
-              <option value={0}>what runs</option>
+              <option value={0}>fit</option>
               {ZOOMS.map((n) => <option key={n} value={n}>{n} x</option>)}
             </select></label>
-          <span class="quiet">Click a bar to know why it was when it was. Red is late.</span>
+          <span class="quiet">Click a bar to see why the module ran at that time. Red: late.</span>
         </div>
-        {runs.runs.length === 0 ? <p>Here stands when each module ran, a lane each, and why it ran when it did. No run was recorded yet.</p> :
+        {runs.runs.length === 0 ? <p>This view shows when each module ran, and why it ran at that time. No run has been recorded yet.</p> :
           <Gantt lanes={lanes} from_ns={from} to_ns={to} epoch_ns={epoch} basic_ns={plan.basic_period_ns || macro} macro_ns={macro} zoom={zoom || 1}
             chosen={bar?.run.number ?? null} choose={show} />}
         {bar && (
@@ -151,8 +151,8 @@ export function Schedule() {
           </div>)}
       </section>
       <section class="panel" aria-label="Overruns"><h2>Overruns</h2><Overruns overruns={overruns} modules={modules} /></section>
-      <section class="panel" aria-label="Modules"><h2>Modules</h2><Figures modules={modules} chosen={module} />
-        {!module && <p class="quiet">Choose a module to see how its times are distributed.</p>}</section>
+      <section class="panel" aria-label="Modules"><h2>Modules</h2><Times modules={modules} chosen={module} />
+        {!module && <p class="quiet">Select a module to see the distribution of its times.</p>}</section>
       {module && board && <Histograms board={board.board} module={module} />}
       <Newest bars={newest} choose={show} />
     </>);

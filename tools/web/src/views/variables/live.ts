@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of the variables that can be seen at this moment, from the stream.
+// Current values of the variables in visible lines, from the stream.
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import { stream } from "../../api/stream";
 import type { Quality } from "../../api/types";
 
 const RATE_HZ = 5;
-const SETTLE_MS = 120;  // somebody who scrolls does not subscribe to what flies by
+const SETTLE_MS = 120;  // while the user scrolls, lines that pass are not subscribed to
 
 export interface Live {
   values: Map<string, unknown>;
   quality: Map<string, Quality>;
   forced: Set<string>;
-  refused: string;
+  rejected: string;
 }
 
 export function useLive(board: string, names: string[]): Live {
-  const live = useRef<Live>({ values: new Map(), quality: new Map(), forced: new Set(), refused: "" });
+  const live = useRef<Live>({ values: new Map(), quality: new Map(), forced: new Set(), rejected: "" });
   const [, redraw] = useState(0);
   const key = names.join(",");
   useEffect(() => {
-    live.current = { values: new Map(), quality: new Map(), forced: new Set(), refused: "" };
+    live.current = { values: new Map(), quality: new Map(), forced: new Set(), rejected: "" };
   }, [board]);
   useEffect(() => {
     if (!board || !key) return;
@@ -33,11 +33,11 @@ export function useLive(board: string, names: string[]): Live {
           for (const [name, value] of Object.entries(frame.values)) now.values.set(name, value);
           now.quality = new Map(Object.entries(frame.quality ?? {}));
           now.forced = new Set(frame.forced ?? []);
-          now.refused = "";
+          now.rejected = "";
           redraw((n) => n + 1);
         },
-        refused: (message) => {
-          live.current.refused = message;
+        rejected: (message) => {
+          live.current.rejected = message;
           redraw((n) => n + 1);
         },
       });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree as lines: namespaces, variables, and the parts of those that are opened.
+// The lines of the tree: namespaces, variables, and the parts of expanded variables.
 
 import type { Form, Variable } from "../../api/types";
 import { has_parts, parts_of, whole, type Part } from "../../ui/paths";
@@ -20,7 +20,7 @@ function fields_of(form: Form): string {
   return (form.fields ?? []).map(({ name, description, type }) => `${name} ${description ?? ""} ${fields_of(type)}`).join(" ");
 }
 
-function said_of({ variable, form }: Part): string {
+function searched_text_of({ variable, form }: Part): string {
   return `${variable.name} ${fields_of(form)} ${variable.description} ${variable.unit}`.toLowerCase();
 }
 
@@ -28,8 +28,8 @@ export function matching(variables: Variable[], search: string): Variable[] {
   const wanted = words_in(search);
   if (wanted.length === 0) return variables;
   return variables.filter((variable) => {
-    const said = said_of(whole(variable));
-    return wanted.every((word) => said.includes(word));
+    const text = searched_text_of(whole(variable));
+    return wanted.every((word) => text.includes(word));
   });
 }
 
@@ -37,35 +37,35 @@ function words_in(search: string): string[] {
   return search.toLowerCase().split(/\s+/).filter(Boolean);
 }
 
-// A word of the search that names a field, not the whole: what is looked for is inside.
-function is_inside(part: Part, wanted: string[]): boolean {
+// A word of the search that matches a field but not the variable itself: the variable is expanded.
+function matches_inside(part: Part, wanted: string[]): boolean {
   const whole_text = `${part.name} ${part.variable.description}`.toLowerCase();
   return parts_of({ ...part, form: { ...part.form, dims: [] } }).some((inner) => {
     const text = `${inner.label} ${inner.description}`.toLowerCase();
-    return wanted.some((word) => !whole_text.includes(word) && text.includes(word)) || is_inside(inner, wanted);
+    return wanted.some((word) => !whole_text.includes(word) && text.includes(word)) || matches_inside(inner, wanted);
   });
 }
 
 interface Choice {
   open: Set<string>;
-  shut: Set<string>;
+  closed: Set<string>;
   wanted: string[];
 }
 
 function add_part(rows: Row[], part: Part, level: number, choice: Choice): void {
   const opens = has_parts(part);
-  const found = choice.wanted.length > 0 && opens && !part.form.dims?.length && !choice.shut.has(part.name) && is_inside(part, choice.wanted);
+  const found = choice.wanted.length > 0 && opens && !part.form.dims?.length && !choice.closed.has(part.name) && matches_inside(part, choice.wanted);
   const is_open = opens && (choice.open.has(part.name) || found);
   rows.push({ key: part.name, level, label: part.label, opens, open: is_open, part });
   if (is_open) for (const inner of parts_of(part)) add_part(rows, inner, level + 1, choice);
 }
 
-// `shut` is what somebody closed, `open` are variables that somebody opened. A search opens all namespaces, and structs
-// that have what is looked for inside.
-export function rows_of(variables: Variable[], search: string, open: Set<string>, shut: Set<string>): Row[] {
+// `closed` are lines that the user collapsed, `open` are variables that the user expanded. A search expands all namespaces,
+// and structs with matching fields.
+export function rows_of(variables: Variable[], search: string, open: Set<string>, closed: Set<string>): Row[] {
   const rows: Row[] = [];
   const sorted = [...matching(variables, search)].sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
-  const walk = (list: Variable[], space: string, level: number) => {
+  const add_namespace = (list: Variable[], space: string, level: number) => {
     const inner = new Map<string, Variable[]>();
     const own: Variable[] = [];
     for (const variable of list) {
@@ -78,12 +78,12 @@ export function rows_of(variables: Variable[], search: string, open: Set<string>
       }
     }
     for (const [name, members] of inner) {
-      const is_open = search !== "" || !shut.has(name);
+      const is_open = search !== "" || !closed.has(name);
       rows.push({ key: name, level, label: name.slice(space.length, -SEPARATOR.length), opens: true, open: is_open, inside: members.length });
-      if (is_open) walk(members, name, level + 1);
+      if (is_open) add_namespace(members, name, level + 1);
     }
-    for (const variable of own) add_part(rows, whole(variable), level, { open, shut, wanted: words_in(search) });
+    for (const variable of own) add_part(rows, whole(variable), level, { open, closed, wanted: words_in(search) });
   };
-  walk(sorted, "", 1);
+  add_namespace(sorted, "", 1);
   return rows;
 }

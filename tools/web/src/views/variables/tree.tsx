@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree on the screen. Only the lines that can be seen are made, so 5 000 variables cost as much as fifty.
+// The tree of variables. Only visible lines are created, so 5 000 variables cost as much as fifty.
 
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Quality } from "../../api/types";
 import { letter_px } from "../../shell/theme";
-import { span, value_text } from "../../ui/format";
+import { plural, span, value_text } from "../../ui/format";
 import { value_in } from "../../ui/paths";
 import type { Live } from "./live";
 import type { Row } from "./rows";
 
 const ROW_REM = 2;
-const SPARE = 6;  // lines made above and below the visible ones
+const SPARE = 6;  // lines created above and below the visible ones
 
 interface Props {
   rows: Row[];
   chosen: string;
   live: Live;
-  ages: (name: string) => number | null;
+  age_of: (name: string) => number | null;
   choose: (row: Row) => void;
   toggle: (row: Row, open: boolean) => void;
-  seen: (names: string[]) => void;
+  show_names: (names: string[]) => void;  // called with the variables of the visible lines
 }
 
 function quality_text(quality: Quality): string {
-  return { good: "", stale: "stale", silent: "owner is silent", unread: "unread" }[quality];
+  return { good: "", stale: "stale", silent: "board is silent", unread: "unread" }[quality];
 }
 
 function Cells({ row, live, age }: { row: Row; live: Live; age: number | null }) {
   const { part } = row;
-  if (!part) return <><span role="gridcell" class="value quiet">{row.inside} inside</span><span role="gridcell" class="unit" /><span role="gridcell" class="marks" /></>;
+  if (!part) return <><span role="gridcell" class="value quiet">{plural(row.inside ?? 0, "variable")}</span><span role="gridcell" class="unit" /><span role="gridcell" class="marks" /></>;
   const { name } = part.variable;
   const value = value_in(live.values.get(name), name, part.name);
   const quality = quality_text(live.quality.get(name) ?? "good");
@@ -45,7 +45,7 @@ function Cells({ row, live, age }: { row: Row; live: Live; age: number | null })
     </>);
 }
 
-export function Tree({ rows, chosen, live, ages, choose, toggle, seen }: Props) {
+export function Tree({ rows, chosen, live, age_of, choose, toggle, show_names }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const [top, set_top] = useState(0);
   const [height, set_height] = useState(600);
@@ -64,12 +64,12 @@ export function Tree({ rows, chosen, live, ages, choose, toggle, seen }: Props) 
   const last = Math.min(rows.length, Math.ceil((top + height) / row_px) + SPARE);
   const shown = rows.slice(first, last);
   const names = [...new Set(shown.flatMap(({ part }) => (part ? [part.variable.name] : [])))].join(",");
-  useEffect(() => seen(names ? names.split(",") : []), [names]);
+  useEffect(() => show_names(names ? names.split(",") : []), [names]);
 
-  // Where the keyboard is; what is chosen is shown beside the tree.
+  // The line that keys act on; the selected one is shown in the details next to the tree.
   const [active, set_active] = useState(chosen);
   const at = rows.findIndex(({ key }) => key === active);
-  const go = (to: number) => {
+  const move_to = (to: number) => {
     const next = rows[Math.max(0, Math.min(rows.length - 1, to))];
     if (!next || !box.current) return;
     set_active(next.key);
@@ -77,16 +77,16 @@ export function Tree({ rows, chosen, live, ages, choose, toggle, seen }: Props) 
     if (y < box.current.scrollTop) box.current.scrollTop = y;
     else if (y + row_px > box.current.scrollTop + height) box.current.scrollTop = y + row_px - height;
   };
-  const key = (event: KeyboardEvent) => {
+  const handle_key = (event: KeyboardEvent) => {
     const row = rows[at];
     const page = Math.max(1, Math.floor(height / row_px) - 1);
     const moves: Record<string, () => void> = {
-      ArrowDown: () => go(at + 1), ArrowUp: () => go(at - 1), PageDown: () => go(at + page), PageUp: () => go(at - page),
-      Home: () => go(0), End: () => go(rows.length - 1),
-      ArrowRight: () => (row?.opens && !row.open ? toggle(row, true) : go(at + 1)),
+      ArrowDown: () => move_to(at + 1), ArrowUp: () => move_to(at - 1), PageDown: () => move_to(at + page), PageUp: () => move_to(at - page),
+      Home: () => move_to(0), End: () => move_to(rows.length - 1),
+      ArrowRight: () => (row?.opens && !row.open ? toggle(row, true) : move_to(at + 1)),
       ArrowLeft: () => {
         if (row?.opens && row.open) return toggle(row, false);
-        for (let up = at - 1; row && up >= 0; up--) if (rows[up].level < row.level) return go(up);
+        for (let up = at - 1; row && up >= 0; up--) if (rows[up].level < row.level) return move_to(up);
       },
       Enter: () => row && choose(row),
       " ": () => row?.opens && toggle(row, !row.open),
@@ -96,7 +96,7 @@ export function Tree({ rows, chosen, live, ages, choose, toggle, seen }: Props) 
     moves[event.key]();
   };
   return (
-    <div class="tree" role="treegrid" aria-label="Variables" aria-rowcount={rows.length} tabIndex={0} ref={box} onKeyDown={key}
+    <div class="tree" role="treegrid" aria-label="Variables" aria-rowcount={rows.length} tabIndex={0} ref={box} onKeyDown={handle_key}
       aria-activedescendant={at >= first && at < last ? `row-${at}` : undefined} onScroll={() => set_top(box.current!.scrollTop)}>
       <div role="row" class="heads">
         {["Name", "Value", "Unit", "State"].map((head) => <span key={head} role="columnheader">{head}</span>)}
@@ -112,7 +112,7 @@ export function Tree({ rows, chosen, live, ages, choose, toggle, seen }: Props) 
                 {row.opens ? (row.open ? "\u25be" : "\u25b8") : ""}</span>
               {row.label}
             </span>
-            <Cells row={row} live={live} age={row.part ? ages(row.part.variable.name) : null} />
+            <Cells row={row} live={live} age={row.part ? age_of(row.part.variable.name) : null} />
           </div>))}
       </div>
     </div>);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Set and force a value; of a struct or an array what is written of it, as text. The page checks the range to spare a way; the server decides.
+// The form that sets and forces a value; parts of a struct or an array are written as text. The page checks the range to spare
+// a request; the server decides.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { board_path, post, words } from "../../api/http";
-import { keep } from "../../shell/leases";
+import { board_path, message_of, post } from "../../api/http";
+import { add_lease } from "../../shell/leases";
 import { plant } from "../../shell/plant";
 import { value_text } from "../../ui/format";
 import { has_parts, type Part } from "../../ui/paths";
 
-const HOW_LONG: [string, number][] = [["for 10 s", 10e9], ["for 1 min", 60e9], ["for 10 min", 600e9], ["until released", 0], ["while this page is open", -1]];
+const DURATIONS: [string, number][] = [["for 10 s", 10e9], ["for 1 min", 60e9], ["for 10 min", 600e9], ["until released", 0], ["while this page is open", -1]];
 
 export function range_text({ range, unit }: Part): string {
   if (!range || (range.min === null && range.max === null)) return "";
@@ -18,18 +19,18 @@ export function range_text({ range, unit }: Part): string {
   return `${range.min} to ${with_unit(range.max)}`;
 }
 
-// What is wrong with `text` as a value of `part`; empty: nothing the page can see.
-export function wrong_with(part: Part, text: string): string {
+// Why `text` is not a value of `part`; empty: the page finds nothing wrong.
+function problem_with(part: Part, text: string): string {
   const { kind } = part.form;
   if (kind === "text" || kind === "char") return "";
-  if (has_parts(part)) return text.trim() === "" ? "Write a value first." : "";
-  if (text.trim() === "") return "Write a value first.";
+  if (has_parts(part)) return text.trim() === "" ? "Enter a value first." : "";
+  if (text.trim() === "") return "Enter a value first.";
   if (kind === "bool" || kind === "enum") return "";
   const value = Number(text);
-  if (Number.isNaN(value)) return `'${text}' is no number.`;
-  if (!kind.startsWith("f") && !Number.isInteger(value)) return "Only whole numbers fit here.";
+  if (Number.isNaN(value)) return `'${text}' is not a number.`;
+  if (!kind.startsWith("f") && !Number.isInteger(value)) return "Only whole numbers are allowed.";
   const { min, max } = part.range ?? { min: null, max: null };
-  if ((min !== null && value < min) || (max !== null && value > max)) return `Out of its range: ${range_text(part)}.`;
+  if ((min !== null && value < min) || (max !== null && value > max)) return `Outside of the range: ${range_text(part)}.`;
   return "";
 }
 
@@ -67,52 +68,52 @@ interface Props {
 }
 
 export function Write({ board, part, value, forced, done }: Props) {
-  const here = plant.get().boards?.find((one) => one.board === board)?.here ?? true;
-  const ways = here ? HOW_LONG : HOW_LONG.filter(([, ns]) => ns >= 0);  // leases are for boards of this host
-  const [text, put] = useState("");
-  const touched = useRef(false);  // not a state: the effect must know at once
-  const [how_long, choose] = useState(0);
-  const [reason, give] = useState("");
-  const [said, say] = useState<{ text: string; bad: boolean }>({ text: "", bad: false });
-  // The present value is what the field begins with; when it comes late, it must not replace what was written meanwhile.
+  const is_local = plant.get().boards?.find((one) => one.board === board)?.here ?? true;
+  const durations = is_local ? DURATIONS : DURATIONS.filter(([, ns]) => ns >= 0);  // leases are for boards of this host
+  const [text, set_text] = useState("");
+  const touched = useRef(false);  // not a state: the effect needs it immediately
+  const [duration, set_duration] = useState(0);
+  const [reason, set_reason] = useState("");
+  const [result, set_result] = useState<{ text: string; bad: boolean }>({ text: "", bad: false });
+  // The field begins with the current value. If that arrives late, it must not replace what the user entered meanwhile.
   useEffect(() => {
-    if (!touched.current) put(value === undefined || has_parts(part) ? "" : value_text(value, part.form.enumerators));
+    if (!touched.current) set_text(value === undefined || has_parts(part) ? "" : value_text(value, part.form.enumerators));
   }, [value === undefined]);
-  const write = (what: string) => {
+  const write = (next: string) => {
     touched.current = true;
-    put(what);
+    set_text(next);
   };
-  const order = async (path: string, body: object, what: string) => {
+  const send = async (path: string, body: object, success: string) => {
     try {
       const { lease, lease_ns } = await post<{ lease?: string; lease_ns?: number }>(board_path(board, path), reason ? { ...body, reason } : body);
-      if (lease && lease_ns) keep({ board, lease, names: [part.name] }, lease_ns);
-      say({ text: what, bad: false });
+      if (lease && lease_ns) add_lease({ board, lease, names: [part.name] }, lease_ns);
+      set_result({ text: success, bad: false });
     } catch (error) {
-      say({ text: words(error), bad: true });
+      set_result({ text: message_of(error), bad: true });
     }
     done();
   };
-  const with_value = (path: string, more: object, what: string) => {
-    const wrong = wrong_with(part, text);
-    if (wrong) return say({ text: wrong, bad: true });
-    return void order(path, { values: { [part.name]: value_of(part, text) }, ...more }, what);
+  const send_value = (path: string, more: object, success: string) => {
+    const problem = problem_with(part, text);
+    if (problem) return set_result({ text: problem, bad: true });
+    return void send(path, { values: { [part.name]: value_of(part, text) }, ...more }, success);
   };
-  const for_ns = HOW_LONG[how_long][1];
+  const for_ns = DURATIONS[duration][1];
   const until = for_ns > 0 ? { for_ns } : for_ns < 0 ? { lease: true } : {};
   return (
-    <form class="write" onSubmit={(event) => { event.preventDefault(); with_value("/set", {}, `Set to ${text}.`); }}>
+    <form class="write" onSubmit={(event) => { event.preventDefault(); send_value("/set", {}, `Set to ${text}.`); }}>
       <div class="bar">
         <Input part={part} text={text} write={write} /><span>{part.unit}</span>
         <button type="submit" class="main">Set</button>
       </div>
       <div class="bar">
-        <button type="button" onClick={() => with_value("/force", until, `Forced to ${text} ${HOW_LONG[how_long][0]}.`)}>Force</button>
-        <select aria-label="How long to force" value={how_long} onChange={(event) => choose(Number(event.currentTarget.value))}>
-          {ways.map(([name], i) => <option key={name} value={i}>{name}</option>)}
+        <button type="button" onClick={() => send_value("/force", until, `Forced to ${text} ${DURATIONS[duration][0]}.`)}>Force</button>
+        <select aria-label="How long to force" value={duration} onChange={(event) => set_duration(Number(event.currentTarget.value))}>
+          {durations.map(([name], i) => <option key={name} value={i}>{name}</option>)}
         </select>
-        {forced && <button type="button" onClick={() => order("/release", { names: [part.name] }, "Released.")}>Release</button>}
+        {forced && <button type="button" onClick={() => send("/release", { names: [part.name] }, "Released.")}>Release</button>}
       </div>
-      <label class="reason">Reason, for the audit log <input value={reason} onInput={(event) => give(event.currentTarget.value)} /></label>
-      <p role="status" class={said.bad ? "bad" : "good"}>{said.text}</p>
+      <label class="reason">Reason, for the audit log <input value={reason} onInput={(event) => set_reason(event.currentTarget.value)} /></label>
+      <p role="status" class={result.bad ? "bad" : "good"}>{result.text}</p>
     </form>);
 }
