@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The page's alarms in headless Chromium: one comes, is acknowledged, shelved and gone; the server is killed in
+"""The page's alarms in headless Chromium: alarms are raised, acknowledged, shelved and cleared; the server is killed in
 between, and started again with another token."""
 
 import os

@@ -453,4 +453,19 @@ await browser.run({
     await sees_no(page, "is not running");
     await page.close();
   },
+
+  async "Without a node every view says what it is for"() {
+    await command("remove-node");
+    for (const view of ["overview", "alarms", "variables", "plots", "schedule", "plc", "robot"]) {
+      const page = await browser.open(view, phone);
+      await sees(page, "No node is running on this host.");
+      await sees(page, "This view ");
+      await sees_no(page, "Loading");
+      await page.close();
+    }
+    const page = await browser.open("recipes", phone);
+    await sees(page, "A recipe is a named set of parameter values");
+    await browser.check_view(page, "no-node-phone");
+    await page.close();
+  },
 });

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What every test of the page needs: a server in a folder of its own, and headless Chromium that a script drives before it."""
+"""What every test of the page needs: a server in its own folder, and headless Chromium that a script drives."""
 
 import argparse
 import os
@@ -47,7 +47,7 @@ def prepared(description, *names):
 
 
 class PageServer:
-    """`indurop serve` beside the node called `node`. Who inherits says in `obey` what the script's orders do."""
+    """`indurop serve` for the node `node`. A derived class executes the script's commands in `obey`."""
 
     node = ""
 
@@ -87,7 +87,7 @@ class PageServer:
         self.indurop("clean", "--node", self.node)
 
     def drive(self, script, *more):
-        """Runs the browser's script and carries its orders out, a line "do WORD" each; its exit code."""
+        """Runs the browser's script and executes its commands, a line "do WORD" each; returns its exit code."""
         command = ["node", HERE / script, self.options.driver, f"http://127.0.0.1:{self.port}", TOKEN, self.options.pictures,
                    self.options.browser, *more]
         with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as browser:

@@ -17,8 +17,11 @@ const killed_board = (screen, size) => async () => {
   await page.close();
 };
 
-// The ids of the running deployments, as the page shows them.
-const running_deployments = (page) => page.$$eval(".deployments .current th", (rows) => rows.map((row) => row.innerText.slice(0, 12)));
+// The id of the running deployment, once the page shows one other than `previous`.
+const running_deployment = async (page, previous = "") => (await page.waitForFunction((old) => {
+  const id = document.querySelector(".deployments .current th")?.innerText.slice(0, 12);
+  return id && id !== old ? id : null;
+}, {}, previous)).jsonValue();
 
 await browser.run({
   async "Other variables of a restarted node are shown"() {
@@ -37,11 +40,9 @@ await browser.run({
   async "Deployments are shown and compared, and the plant is rolled back"() {
     await command("deploy=2ms");
     const page = await browser.open("deployments", { width: 1280, height: 800 });
-    await sees(page, "running");
-    const [first] = await running_deployments(page);
+    const first = await running_deployment(page);
     await command("deploy=4ms");
-    await page.waitForFunction((id) => !document.querySelector(".deployments .current th").innerText.startsWith(id), {}, first);
-    const [second] = await running_deployments(page);
+    const second = await running_deployment(page, first);
     await sees(page, `From ${first} to ${second}`);
     await sees(page, "1 file differs.");
     await sees(page, "- <period>2ms</period>");
@@ -58,7 +59,7 @@ await browser.run({
     await browser.check_view(page, "deployments-confirm");
     await press(page, "Roll back now");
     await sees(page, `${first} is running on all boards.`);
-    await page.waitForFunction((id) => document.querySelector(".deployments .current th").innerText.startsWith(id), {}, first);
+    check(await running_deployment(page, second) === first, "another deployment is running");
     await page.close();
   },
 });

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The page's overview in headless Chromium before a plant of two boards: both are heard, one is killed and missed in words, and
-comes back. Two deployments are compared, and the plant is rolled back."""
+"""The page's overview in headless Chromium of a plant of two boards: both report, one is killed, the page says so, and it comes back. Two deployments are compared, and the plant is rolled back."""
 
 import os
 import pathlib
@@ -17,7 +16,7 @@ from plant_test import take_domain  # noqa: E402
 
 
 class Boards(PageServer):
-    """Two agents; what nodes this host runs otherwise does not matter here."""
+    """Two agents; other nodes of this host do not matter."""
 
     node = f"web_plant_{os.getpid()}"
 
@@ -37,7 +36,7 @@ class Boards(PageServer):
         assert done.returncode == 0, done.stderr
 
     def start_fake(self, many):
-        """The node that the server looks at, with so many variables besides its own; one that runs is ended."""
+        """Starts the node that the server shows, with so many variables in addition to its own, in place of a running one."""
         self.end_fake()
         self.fake = subprocess.Popen([self.options.fake_node, self.node, "many", many], env=self.environment,
                                      stdout=subprocess.PIPE, text=True)

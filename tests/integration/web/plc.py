@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The page's PLC view in headless Chromium beside the conveyor of examples/plc: power flows, a contact leads to its variable,
-which is forced from there; a second program of the board is chosen."""
+"""The page's PLC view in headless Chromium with the conveyor of examples/plc: power flows, a contact links to its variable,
+which is forced from there; a second program of the board is selected."""
 
 import os
 import sys

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The page of `indurop serve` as people use it: a robot cell runs, headless Chromium goes through every view, wide and on a
-phone, light and dark; a value is set and forced, the server and the node go and come back; axe-core finds nothing serious.
-Pictures of what was seen are left in WORK/pictures."""
+"""The page of `indurop serve` as users see it: a robot cell runs, headless Chromium goes through every view, wide and on a
+phone, light and dark; a value is set and forced, the server and the node end and start again; axe-core finds nothing serious.
+Pictures of the views are left in WORK/pictures."""
 
 import pathlib
 import sys
@@ -29,7 +29,7 @@ class Cell(PageServer):
         self.indurop("set", "--node", self.node, "CELL::tour", "true", check=True)
 
     def power_on(self):
-        """The cell anew: nobody pressed its start button, its group stands by. After a tour the PLC program goes on by itself."""
+        """Restarts the cell without pressing its start button: the group is in standby. After a tour the PLC program continues on its own."""
         self.stop_node()
         self.start_node()
         state = lambda: self.indurop("get", "--node", self.node, "PLC_ROBOT::ROBOT_MODULE_STATE.eState").stdout.strip()
@@ -38,11 +38,11 @@ class Cell(PageServer):
             if state() == "ROBOT_GROUP_STANDBY":
                 return
             if state() == "ROBOT_GROUP_DISABLED":
-                asked = self.indurop("get", "--node", self.node, "PLC_ROBOT::ROBOT_MODULE_STATE.nAcknowledge", check=True)
+                acknowledged = self.indurop("get", "--node", self.node, "PLC_ROBOT::ROBOT_MODULE_STATE.nAcknowledge", check=True)
                 self.indurop("set", "--node", self.node, "PLC_ROBOT::ROBOT_MODULE_SERVICE",
-                             f"{{eOpCode: SVC_AD_GROUP_ENABLE, nRequest: {int(asked.stdout) + 1}}}", check=True)
+                             f"{{eOpCode: SVC_AD_GROUP_ENABLE, nRequest: {int(acknowledged.stdout) + 1}}}", check=True)
             time.sleep(0.5)
-        raise AssertionError("the group does not stand by")
+        raise AssertionError("the group is not in standby")
 
     def automatic(self):
         self.indurop("set", "--node", self.node, "PLC_ROBOT::ROBOT_MODE", "{eMode: ROBOT_MODE_AUTOMATIC}", check=True)
@@ -57,10 +57,14 @@ class Cell(PageServer):
     def stop_node(self):
         self.indurop("stop", "--node", self.node)
 
+    def remove_node(self):
+        self.stop_node()
+        self.indurop("clean", "--node", self.node)
+
     def obey(self, word):
         {"start-node": self.start_node, "stop-node": self.stop_node, "start-server": self.start_server,
          "stop-server": self.stop_server, "start-tour": self.start_tour, "power-on": self.power_on, "automatic": self.automatic,
-         "kill-server": self.kill_server, "record": self.record}[word]()
+         "kill-server": self.kill_server, "record": self.record, "remove-node": self.remove_node}[word]()
 
 
 def main():

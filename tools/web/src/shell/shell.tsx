@@ -62,7 +62,7 @@ function Notice() {
 function BoardChoice() {
   const { boards } = useStore(plant);
   const board = useBoard();
-  if (!boards || boards.length < 2 || !board) return board && <span class="board-name">{board.board}</span>;
+  if (!boards || boards.length < 2 || !board) return board && <span class="board-name" title={board.board}>{board.board}</span>;
   return (
     <label class="choice">Board{" "}
       <select value={board.board} onChange={(event) => change_query({ board: event.currentTarget.value })}>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Components that several views share.
 
-import type { ComponentChildren } from "preact";
+import { type ComponentChildren, Fragment } from "preact";
 import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 
 interface PanelProps {
@@ -29,6 +29,11 @@ interface FactProps {
 
 export function Fact({ name, value, hint, bad, warn }: FactProps) {
   return <div title={hint}><dt>{name}</dt><dd class={bad ? "bad" : warn ? "warn" : ""}>{value}</dd></div>;
+}
+
+// A name that a narrow cell breaks after "::" and ".", not within a word.
+export function Name({ text }: { text: string }) {
+  return <>{text.split(/(?<=::|\.|_)/).map((part, i) => <Fragment key={i}>{part}<wbr /></Fragment>)}</>;
 }
 
 export function Waiting() {

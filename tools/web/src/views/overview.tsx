@@ -4,6 +4,7 @@
 import { useState } from "preact/hooks";
 import { board_path, get, message_of, post } from "../api/http";
 import type { Board, BoardSummary, Fault, Module } from "../api/types";
+import { NoBoard } from "../shell/no_board";
 import { plant } from "../shell/plant";
 import { address, place } from "../ui/address";
 import { count, percent, plural, span } from "../ui/format";
@@ -12,6 +13,7 @@ import { Fact, DataTable, Panel, Waiting } from "../ui/parts";
 import { PlantPanel, SHOWN_ID, usePlant } from "./plant";
 import { StopQuestion } from "./stopping";
 
+const PURPOSE = "This view shows the problems, values and modules of all boards.";
 const EVERY_MS = 2000;
 
 interface Details {
@@ -124,7 +126,6 @@ function BoardCard({ summary }: { summary: BoardSummary }) {
   const lost = board && number_of(board, "lost_ticks");
   const ticks = board && number_of(board, "ticks");
   const uptime = board && number_of(board, "uptime_ns");
-  const not_exact = (board?.rt as { why?: string } | undefined)?.why;
   return (
     <Panel title={summary.board} state={summary.alive ? summary.state : `not running (last: ${summary.state})`} good={summary.alive && summary.state === "running"}>
       <Problems summary={summary} faults={value?.faults ?? null} />
@@ -141,7 +142,6 @@ function BoardCard({ summary }: { summary: BoardSummary }) {
           <Fact name="Forced" value={count(summary.forces)} warn={summary.forces > 0} />
           <Fact name="Deployment" value={summary.deployment ? summary.deployment.slice(0, SHOWN_ID) : "started manually"} hint={summary.deployment || undefined} />
         </dl>
-        {not_exact && <p class="warn">Not real time: {not_exact}</p>}
         <Modules board={summary.board} modules={value.modules} may_write={!!status?.may_write} done={refresh} />
         <p class="links">
           <a href={address("variables", { board: summary.board })}>Variables</a>{" "}
@@ -186,7 +186,7 @@ export function Overview() {
   const { boards: all, status } = useStore(plant);
   const chosen = useStore(place).query.get("board");
   const live = usePlant();
-  if (!all) return <Waiting />;
+  if (!all || (all.length === 0 && !status?.plant)) return <NoBoard purpose={PURPOSE} />;
   const boards = all.filter(({ here }) => here);  // the plant lists the others
   // Boards of this host report their problems themselves.
   const silent = live.value?.trouble.filter((text) => !boards.some(({ board, alive }) => alive && text.startsWith(`board ${board}:`))) ?? [];

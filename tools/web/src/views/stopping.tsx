@@ -50,7 +50,7 @@ async function effects_of(board: string, module: string): Promise<Effect[]> {
   const needed = written.filter(({ readers }) => readers?.some((one) => one !== module));
   const readers = [...new Set(needed.flatMap(({ readers: all }) => all ?? []))].filter((one) => one !== module).sort();
   effects.push({ text: readers.length > 0
-    ? `${list_text(readers)} ${readers.length === 1 ? "reads" : "read"} ${plural(needed.length, "variable")} that it writes. These keep their last values, or get the fail-safe values of the module.`
+    ? `${list_text(readers)} ${readers.length === 1 ? "reads" : "read"} ${plural(needed.length, "variable")} that it writes. Its variables keep their last values, or get their fail-safe values.`
     : "No other module reads what it writes.", bad: false });
   return effects;
 }
@@ -71,6 +71,6 @@ export function StopQuestion({ board, module, act, agree, close }: Props) {
       {!value && !error && <Waiting />}
       {error && <p class="bad">{error}</p>}
       <ul class="problems">{value?.map(({ text, bad }) => <li key={text} class={bad ? "error" : "note"}>{text}</li>)}</ul>
-      <p class="quiet">The schedule of the other modules does not change. {act === "stop" ? "It stays stopped until it is started here or the node is restarted." : "It starts again immediately."}</p>
+      <p class="quiet">The schedule of the other modules does not change. {act === "stop" ? `${module} stays stopped until it is started here or the node is restarted.` : `${module} starts again immediately.`}</p>
     </Confirm>);
 }

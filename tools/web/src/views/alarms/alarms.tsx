@@ -4,12 +4,14 @@
 import { useEffect, useState } from "preact/hooks";
 import { board_path, get, message_of, post } from "../../api/http";
 import type { Alarm, AlarmEvent, Alarms as All, Message } from "../../api/types";
+import { NoBoard } from "../../shell/no_board";
 import { plant, useBoard } from "../../shell/plant";
 import { address } from "../../ui/address";
 import { clock, plural, span } from "../../ui/format";
-import { DataTable, Panel, Waiting } from "../../ui/parts";
+import { DataTable, Name, Panel, Waiting } from "../../ui/parts";
 import { useRequest, useStore } from "../../ui/store";
 
+const PURPOSE = "This view lists conditions that an operator has to act on, until they are acknowledged.";
 const EVERY_MS = 5000;  // in addition to changes, which the stream reports at once
 const HOUR_NS = 3600e9;
 const SHELVE_FOR: [string, number][] = [["1 hour", HOUR_NS], ["8 hours", 8 * HOUR_NS], ["1 day", 24 * HOUR_NS], ["1 week", 168 * HOUR_NS]];
@@ -48,7 +50,7 @@ function List({ board, alarms, for_ns, act }: { board: string; alarms: Alarm[]; 
           <tr key={alarm.alarm} class={alarm.state === "normal" || alarm.state === "shelved" ? "is-quiet" : ""}>
             <td class="how"><span class={`priority ${alarm.priority}`}>{alarm.priority}</span></td>
             <th scope="row" class="what message">{alarm.text}
-              <small>{alarm.name ? <a href={address("variables", { board, v: alarm.name })}>{alarm.alarm}</a> : alarm.alarm}
+              <small>{alarm.name ? <a href={address("variables", { board, v: alarm.name })}><Name text={alarm.alarm} /></a> : <Name text={alarm.alarm} />}
                 {alarm.unit && ` ${alarm.unit}`}{alarm.delay_ns > 0 && `, after ${span(alarm.delay_ns)}`}</small></th>
             <td class="what wide"><AlarmState alarm={alarm} /></td>
             <td class="when">{alarm.since_wall_ns ? clock(alarm.since_wall_ns) : "-"}</td>
@@ -73,7 +75,7 @@ function History({ board, revision }: { board: string; revision: string }) {
           {[...value.events].reverse().map((one, i) => (
             <tr key={`${one.wall_ns} ${i}`}>
               <td>{clock(one.wall_ns)}</td><td class={one.event === "raised" ? "bad" : ""}>{one.event}</td>
-              <td class="message">{one.text} <span class="quiet">({one.alarm})</span></td><td>{one.value ?? "-"}</td>
+              <td class="message">{one.text} <span class="quiet">(<Name text={one.alarm} />)</span></td><td>{one.value ?? "-"}</td>
               <td>{[one.who, one.reason].filter(Boolean).join(": ") || "-"}</td>
             </tr>))}
         </tbody>
@@ -108,7 +110,7 @@ export function Alarms() {
   const { value, error, refresh } = useRequest(board && `${board} ${all}`, EVERY_MS, () => get<All>(board_path(board, `/alarms${all ? "?all=true" : ""}`)));
   const revision = JSON.stringify(summary?.alarms ?? null) + JSON.stringify(value?.alarms.map(({ state }) => state) ?? null);
   useEffect(refresh, [JSON.stringify(summary?.alarms ?? null)]);
-  if (!summary) return null;
+  if (!summary) return <NoBoard purpose={PURPOSE} />;
   const act: Act = async (name, body) => {
     try {
       const { alarms } = await post<{ alarms: string[] }>(board_path(board, `/alarms/${name}`), reason ? { ...body, reason } : body);
@@ -126,7 +128,7 @@ export function Alarms() {
         {error && <p class="bad">{error}</p>}
         {!value && !error && <Waiting />}
         {value && !value.watched && value.declared > 0 && summary.alive && <p class="warn">The conditions of these alarms are not being evaluated yet.</p>}
-        {value && value.declared === 0 && <p class="quiet">This view lists conditions that an operator has to act on, until they are acknowledged. A module that does not run is always an alarm.
+        {value && value.declared === 0 && <p class="quiet">{PURPOSE} A module that does not run is always an alarm.
           No variable of this board declares an alarm yet. A declaration in a <code>.glb</code> file: <code>bool open @alarm("the door is open", high);</code></p>}
         <div class="alarm-parts">
         {value && (value.declared > 0 || value.alarms.length > 0) && (

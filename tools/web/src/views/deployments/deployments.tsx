@@ -7,7 +7,7 @@ import type { Deployment } from "../../api/types";
 import { plant } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { clock } from "../../ui/format";
-import { DataTable, Panel, Waiting } from "../../ui/parts";
+import { DataTable, Name, Panel, Waiting } from "../../ui/parts";
 import { useRequest, useStore } from "../../ui/store";
 import { usePlant } from "../plant";
 import { Difference, shown_id } from "./difference";
@@ -26,8 +26,8 @@ function Rows({ all, before, after, roll_back }: Choice) {
   const { status } = useStore(plant);
   return (
     <DataTable label="Deployments" more="deployments">
-        <thead><tr><th scope="col">Before</th><th scope="col">After</th><th scope="col">Deployment</th><th scope="col">Roll back</th><th scope="col">Plant</th><th scope="col">When</th>
-          <th scope="col">Host</th><th scope="col">Boards</th><th scope="col">Outcome</th></tr></thead>
+        <thead><tr><th scope="col">Compare</th><th scope="col">With</th><th scope="col">Deployment</th><th scope="col">Roll back</th><th scope="col">Plant</th><th scope="col">Deployed</th>
+          <th scope="col">Boards</th><th scope="col">Outcome</th></tr></thead>
         <tbody>{all.map((one) => {
           const name = `${shown_id(one.deployment)}, ${clock(one.wall_ns)}`;
           return (
@@ -39,7 +39,7 @@ function Rows({ all, before, after, roll_back }: Choice) {
               <th scope="row" title={one.deployment}>{shown_id(one.deployment)}{one.current && <span class="chip good">running</span>}</th>
               <td>{status?.may_write && !one.current && one.outcome === "committed" &&
                 <button type="button" aria-label={`Roll back to ${name}`} onClick={() => roll_back(one)}>Roll back</button>}</td>
-              <td>{one.plant}</td><td>{clock(one.wall_ns)}</td><td>{one.host}</td><td class="boards">{one.boards.join(", ")}</td>
+              <td>{one.plant}</td><td>{clock(one.wall_ns)}<small>from {one.host}</small></td><td class="boards"><Name text={one.boards.join(", ")} /></td>
               <td class={one.outcome === "committed" ? "" : "warn"}>{one.outcome}</td>
             </tr>);
         })}</tbody>

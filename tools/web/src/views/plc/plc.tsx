@@ -4,6 +4,7 @@
 import { useMemo } from "preact/hooks";
 import { board_path, get } from "../../api/http";
 import type { PlcBody, PlcBodyLive, PlcChart, PlcLive, PlcNetwork, PlcNetworkLive, PlcProgram, Variables } from "../../api/types";
+import { NoBoard } from "../../shell/no_board";
 import { plant, useBoard } from "../../shell/plant";
 import { address, change_query, place } from "../../ui/address";
 import { Panel, Waiting } from "../../ui/parts";
@@ -13,6 +14,7 @@ import { Detail } from "../variables/detail";
 import { Forces } from "../variables/forces";
 import { useLive } from "../variables/live";
 
+const PURPOSE = "This view shows a PLC program as it runs: power flow in ladders and function blocks, active steps of charts, values next to lines of text. Variables can be set and forced in the drawing.";
 const EVERY_MS = 200;
 const SWITCH_PX = 27;
 const SWITCH_HIGH_PX = 22;
@@ -151,10 +153,11 @@ export function Plc() {
   const chosen_part = useMemo(() => (wanted ? part_named(variables, wanted) : null), [variables, wanted]);
   const followed = chosen_part && !switched.includes(chosen_part.variable.name) ? [...switched, chosen_part.variable.name] : switched;
   const values = useLive(board?.board ?? "", followed);
+  if (!board) return <NoBoard purpose={PURPOSE} />;
   if (status && !status.plc) {
     return (
       <div class="panel">
-        <p>This view shows a PLC program as it runs: power flow in ladders and function blocks, active steps of charts, values next to lines of text. Variables can be set and forced in the drawing.</p>
+        <p>{PURPOSE}</p>
         <p class="quiet">No PLC program was given to the server. Build one with <code>indurop plc build FILE --watch</code>, and start the server with <code>indurop serve --plc FILE</code>.</p>
       </div>);
   }
@@ -165,7 +168,7 @@ export function Plc() {
         <p><button type="button" onClick={program.refresh}>Try again</button> {chosen && <button type="button" onClick={() => change_query({ p: "" })}>Show another program</button>}</p>
       </>);
   }
-  if (!board || !program.value) return <Waiting />;
+  if (!program.value) return <Waiting />;
   const where: Place = {
     find, forced: values.forced,
     address_of: (v) => address("plc", { board: board.board, ...(chosen ? { p: chosen } : {}), v }),

@@ -5,6 +5,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
 import { colour, colours_changed, letter_px } from "../../shell/theme";
 import { short, value_text } from "../../ui/format";
+import { Name } from "../../ui/parts";
 import { is_number, type Part } from "../../ui/paths";
 import { useStore } from "../../ui/store";
 import type { Samples } from "./recorder";
@@ -158,7 +159,7 @@ function Legend({ props, cursor }: { props: Props; cursor: number | null }) {
       <tbody>
         {lines.map((line, i) => (
           <tr key={line.name}>
-            <th scope="row"><span class={`swatch c${i % COLOURS} ${i % 2 ? "dashed" : ""}`} aria-hidden="true" />{line.name}</th>
+            <th scope="row"><span class={`swatch c${i % COLOURS} ${i % 2 ? "dashed" : ""}`} aria-hidden="true" /><Name text={line.name} /></th>
             <td class="number">{shown_value(line, now[i])}</td>
             <td class="unit">{line.part?.unit ?? ""}</td>
             {at.map((values, m) => <td key={m} class="number">{shown_value(line, values[i])}</td>)}

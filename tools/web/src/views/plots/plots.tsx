@@ -4,9 +4,9 @@
 import { useMemo } from "preact/hooks";
 import { board_path, get } from "../../api/http";
 import type { Variables } from "../../api/types";
+import { NoBoard } from "../../shell/no_board";
 import { useBoard } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
-import { Waiting } from "../../ui/parts";
 import { is_number, numbers_of, part_named, whole } from "../../ui/paths";
 import { useRequest, useStore } from "../../ui/store";
 import { Choice } from "./choice";
@@ -16,6 +16,7 @@ import { Recorded } from "./recorded";
 import { Strip } from "./strip";
 import { Triggered } from "./triggered";
 
+const PURPOSE = "This view plots numbers over time: as they arrive, in every tick around a trigger, or from a recording.";
 const HINTS = {
   strip: "Values as they arrive.",
   single: "Every tick around a trigger, once.",
@@ -40,7 +41,7 @@ export function Plots() {
     <div class="bar"><Choice label="Show" value={scope.mode} of={MODES} choose={(m) => change_query({ m: m === "strip" ? "" : m })} />
       <span class="quiet">{HINTS[scope.mode]}</span></div>);
   if (scope.mode === "recording") return <>{choice}<Recorded charts={charts} name={query.get("r") ?? ""} /></>;
-  if (!board) return <Waiting />;
+  if (!board) return <>{choice}<NoBoard purpose={PURPOSE} /></>;
 
   const drawable = names.filter((name) => { const part = parts.get(name); return part && is_number(part); });
   const add = (name: string, to: number) => {
@@ -61,7 +62,7 @@ export function Plots() {
       {unknown.length > 0 && <p class="warn">This board has no {unknown.join(", ")}.</p>}
       <div class="plots">
         <div>
-          {charts.length === 0 && (scope.mode === "strip" || scope.expressions.length === 0) && <p class="panel">This view plots numbers over time: as they arrive, in every tick around a trigger, or from a recording. To begin, click a number, or drag it here. The address keeps the charts.</p>}
+          {charts.length === 0 && (scope.mode === "strip" || scope.expressions.length === 0) && <p class="panel">{PURPOSE} To begin, click a number, or drag it here. The address keeps the charts.</p>}
           {scope.mode === "strip" ? <Strip {...shared} layout={layout} /> : <Triggered {...shared} scope={scope} charts={charts} />}
           <p class="panel drop" onDragOver={(event) => event.preventDefault()}
             onDrop={(event) => { event.preventDefault(); add(event.dataTransfer?.getData("text/plain") ?? "", charts.length); }}>

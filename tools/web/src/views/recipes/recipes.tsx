@@ -4,12 +4,14 @@
 import { useState } from "preact/hooks";
 import { board_path, get, message_of, post } from "../../api/http";
 import type { Recipe, RecipeValues } from "../../api/types";
+import { NoBoard } from "../../shell/no_board";
 import { plant, useBoard } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { clock, plural, value_text } from "../../ui/format";
 import { DataTable, Panel, Waiting } from "../../ui/parts";
 import { useRequest, useStore } from "../../ui/store";
 
+const PURPOSE = "A recipe is a named set of parameter values, for example those of one product. It can be compared with the current values and loaded in one tick.";
 const EVERY_MS = 5000;
 const COMPARE_MS = 2000;
 
@@ -65,7 +67,7 @@ export function Recipes() {
   const board = useBoard()?.board ?? "";
   const [result, set_result] = useState<{ text: string; bad: boolean }>({ text: "", bad: false });
   const { value, error, refresh } = useRequest(board, EVERY_MS, () => get<{ recipes: Recipe[] }>(board_path(board, "/recipes")));
-  if (!board) return null;
+  if (!board) return <NoBoard purpose={PURPOSE} />;
   const act: Act = async (name, verb, body) => {
     try {
       const done = await post<{ values?: number; tick?: number | null }>(board_path(board, `/recipes/${encodeURIComponent(name)}/${verb}`), body);
@@ -84,7 +86,7 @@ export function Recipes() {
         {!value && !error && <Waiting />}
         {status?.may_write && <Save act={act} />}
         <p role="status" class={result.bad ? "bad" : "good"}>{result.text}</p>
-        {value && recipes.length === 0 && <p class="quiet">A recipe is a named set of parameter values, for example those of one product. It can be compared with the current values and loaded in one tick. This board has no recipes yet.{" "}
+        {value && recipes.length === 0 && <p class="quiet">{PURPOSE} This board has no recipes yet.{" "}
           {status?.may_write ? "" : "To save one, start the server with: indurop serve --write"}</p>}
         {recipes.length > 0 && (
           <DataTable label="Recipes">

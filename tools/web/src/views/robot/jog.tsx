@@ -156,7 +156,7 @@ export function Jog({ board, scope, state, down, names, work_frames }: Props) {
       <div class="bar">
         <label>Jog <select value={frame} onChange={(event) => set_frame(event.currentTarget.value)}>
           {frames.map(([name, title]) => <option key={name} value={name}>{title}</option>)}</select></label>
-        <label>at {speed} % <input type="range" aria-label="Jog speed" min={1} max={100} value={speed} onInput={(event) => set_speed(Number(event.currentTarget.value))} /></label>
+        <label>Speed {speed} % <input type="range" aria-label="Jog speed" min={1} max={100} value={speed} onInput={(event) => set_speed(Number(event.currentTarget.value))} /></label>
       </div>
       <ul class="plain jogs">
         {axes.map((name, i) => <li key={name}>{button(i, -1, name)} <span>{name}</span> {button(i, 1, name)}</li>)}

@@ -4,6 +4,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { board_path, get, message_of, RequestError } from "../../api/http";
 import type { Module, Robot as Description, Variables } from "../../api/types";
+import { NoBoard } from "../../shell/no_board";
 import { plant, useBoard } from "../../shell/plant";
 import { colours_changed } from "../../shell/theme";
 import { address, change_query, place } from "../../ui/address";
@@ -13,6 +14,7 @@ import { Jog } from "./jog";
 import type { Scene } from "./scene";
 import { scopes_of, useRobotState, type RobotState, type Scope } from "./state";
 
+const PURPOSE = "This view draws a robot arm at its current position with the path of its tool, shows its job and its axes, and jogs it.";
 const MODULES_MS = 1000;
 const VIEWS = ["Corner", "Front", "Side", "Top"];
 
@@ -69,7 +71,7 @@ function Numbers({ state, names, down }: { state: RobotState; names: string[]; d
       {down && <p class="bad">{down}: the values below are its last ones.</p>}
       <dl class="facts">
         <Fact name="State" value={down ? "not running" : state.group} bad={!!down || state.group.includes("error")} warn={state.group === "disabled"} />
-        <Fact name="Job" value={state.job ? `${job_text(state)}line ${state.job_line}: ${down ? "not running" : state.job_state}` : "none yet"} bad={!!down || state.job_state === "failed"} />
+        <Fact name="Job" value={state.job ? `${job_text(state)}line ${state.job_line}: ${down ? "not running" : state.job_state}` : "none"} bad={!!down || state.job_state === "failed"} />
         <Fact name="Tool speed" value={down ? "-" : fixed(state.tool_speed, 0, "mm/s")} />
         <Fact name="Effective override" value={down ? "-" : fixed(state.override_now, 0, "%")} hint="current speed in percent of the programmed speed, after override, job and hold" />
         <Fact name="Time remaining" value={down ? "-" : fixed(state.remaining_s, 1, "s")} />
@@ -145,11 +147,12 @@ export function Robot() {
     if (now) now.scene.move(in_urdf(joint.length ? joint : [], now.kinds));
   });
   const down = why_down(board?.alive ?? true, found, modules.value?.modules ?? null);
-  if (!board || !value) return error ? <p class="bad">{error}</p> : <Waiting />;
+  if (!board) return <NoBoard purpose={PURPOSE} />;
+  if (!value) return error ? <p class="bad">{error}</p> : <Waiting />;
   if (count === 0) {
     return (
       <div class="panel">
-        <p>This view draws a robot arm at its current position with the path of its tool, shows its job and its axes, and jogs it.</p>
+        <p>{PURPOSE}</p>
         <p class="quiet">There is no robot on {board.board}: no module has a property <code>urdf</code>, and there is no variable ROBOT_ARM.</p>
       </div>);
   }

@@ -44,7 +44,7 @@ function Grid({ from_ns, to_ns, epoch_ns, basic_ns, macro_ns, x, height, width, 
     lines.push(
       <g key={at}>
         <line x1={x(at)} x2={x(at)} y1={(AXIS_PX - 6) * scale} y2={height} class={macro ? "macro" : "basic"} />
-        <text x={x(at) + 3} y={(AXIS_PX - 10) * scale}>{span_since(at - from_ns, fine)}</text>
+        {x(at) + LABEL_PX / 2 * scale < width && <text x={x(at) + 3} y={(AXIS_PX - 10) * scale}>{span_since(at - from_ns, fine)}</text>}
       </g>);
   }
   return <g class="grid">{lines}</g>;
@@ -56,7 +56,8 @@ function nice_step(least: number, most: number): number {
 
 function span_since(ns: number, step: number): string {
   const rounded = Math.round(ns / step) * step;
-  return rounded >= 1e6 || rounded === 0 ? `${+(rounded / 1e6).toFixed(3)} ms` : span(rounded);
+  if (rounded === 0) return "0";
+  return rounded >= 1e6 ? `${+(rounded / 1e6).toFixed(3)} ms` : span(rounded);
 }
 
 export function Gantt(props: Props) {

@@ -4,6 +4,7 @@
 import { useMemo, useState } from "preact/hooks";
 import { board_path, get } from "../../api/http";
 import type { Module, Overrun, Runs, Schedule as Plan } from "../../api/types";
+import { NoBoard } from "../../shell/no_board";
 import { useBoard } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { count, span } from "../../ui/format";
@@ -13,6 +14,7 @@ import { Gantt } from "./gantt";
 import { Histograms } from "./histograms";
 import { explain, lanes_of, overrun_text, type Bar } from "./lanes";
 
+const PURPOSE = "This view shows when each module ran, and why it ran at that time.";
 const EVERY_MS = 1000;
 const PERIODS = [1, 2, 3, 5, 10, 20];
 const ZOOMS = [1, 4, 16, 64];
@@ -100,6 +102,7 @@ export function Schedule() {
   const { value, error } = useRequest(board?.board ?? "", EVERY_MS, () => fetch_details(board!.board));
   const now = held ?? value;
   const lanes = useMemo(() => (now ? lanes_of(now.runs.runs, now.modules, now.overruns) : []), [now]);
+  if (!board) return <NoBoard purpose={PURPOSE} />;
   if (!now) return error ? <p class="bad">{error}</p> : <Waiting />;
   const { plan, runs, modules, overruns } = now;
   const epoch = runs.epoch_ns;
@@ -141,7 +144,7 @@ export function Schedule() {
             </select></label>
           <span class="quiet">Click a bar to see why the module ran at that time. Red: late.</span>
         </div>
-        {runs.runs.length === 0 ? <p>This view shows when each module ran, and why it ran at that time. No run has been recorded yet.</p> :
+        {runs.runs.length === 0 ? <p>{PURPOSE} No run has been recorded yet.</p> :
           <Gantt lanes={lanes} from_ns={from} to_ns={to} epoch_ns={epoch} basic_ns={plan.basic_period_ns || macro} macro_ns={macro} zoom={zoom || 1}
             chosen={bar?.run.number ?? null} choose={show} />}
         {bar && (

@@ -50,7 +50,7 @@ export function Detail({ board, part, live, close, changed }: Props) {
         <Fact name="Type" value={part === null ? "" : part.name === variable.name ? variable.type : part.form.name ?? part.form.kind} />
         <Fact name="Unit" value={part.unit || "none"} />
         {range && <Fact name="Range" value={range} />}
-        <Fact name="Age" value={latest.age_ns === null ? "current (written on this board)" : span(latest.age_ns)} />
+        <Fact name="Age" value={latest.age_ns === null ? "written on this board" : span(latest.age_ns)} />
         <Fact name="Written by" value={modules_text(latest.writers)} />
         <Fact name="Read by" value={modules_text(latest.readers)} />
         <Fact name="After a power loss" value={variable.retain ? "keeps its value" : "starts with its default"} />

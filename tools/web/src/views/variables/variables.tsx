@@ -4,6 +4,7 @@
 import { useMemo, useState } from "preact/hooks";
 import { board_path, get } from "../../api/http";
 import type { Variables as VariableList } from "../../api/types";
+import { NoBoard } from "../../shell/no_board";
 import { useBoard } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { plural } from "../../ui/format";
@@ -16,6 +17,7 @@ import { useLive } from "./live";
 import { matching, rows_of, type Row } from "./rows";
 import { Tree } from "./tree";
 
+const PURPOSE = "This view shows the variables that modules share, and sets and forces them.";
 const OFTEN_MS = 3000;
 const RARELY_MS = 20000;
 const MANY = 500;
@@ -49,7 +51,7 @@ export function Variables() {
   const wanted = chosen_part && !visible.includes(chosen_part.variable.name) ? [...visible, chosen_part.variable.name] : visible;
   const live = useLive(board?.board ?? "", wanted);
   const ages = useMemo(() => new Map(variables.map(({ name, age_ns }) => [name, age_ns])), [variables]);
-  if (!board) return <Waiting />;
+  if (!board) return <NoBoard purpose={PURPOSE} />;
   const age_of = (name: string) => ages.get(name) ?? null;
   const toggle = (row: Row, to: boolean) => {
     if (row.part) set_open(with_change(open, row.key, to));
@@ -64,14 +66,14 @@ export function Variables() {
       <Forces board={board.board} />
       <div class="bar">
         <label class="search"><span class="hidden">Search variables</span>
-          <input type="search" placeholder="Search names, fields, descriptions, units" value={search}
+          <input type="search" placeholder="Search names and descriptions" value={search}
             onInput={(event) => change_query({ q: event.currentTarget.value })} /></label>
         <span class="quiet" role="status">{value ? (search ? `${found} of ${plural(variables.length, "variable")}` : plural(variables.length, "variable")) : ""}</span>
       </div>
       {error && <p class="bad">{error}</p>}
       {live.rejected && <p class="bad">{live.rejected}</p>}
       {!value && !error && <Waiting />}
-      {value && variables.length === 0 && <p class="quiet">This view shows the variables that modules share, and sets and forces them. This board has none: they are declared in a <code>.glb</code> file.</p>}
+      {value && variables.length === 0 && <p class="quiet">{PURPOSE} This board has none: they are declared in a <code>.glb</code> file.</p>}
       {value && variables.length > 0 && found === 0 && <p>No variable matches '{search}'.</p>}
       {rows.length > 0 && (
         <div class={`variables ${chosen_part ? "with-detail" : ""}`}>
