@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plant of the test's own: a folder with a state directory, names of boards that nobody else on this machine has, a
-// DDS domain, programs. All of it is gone when the test ends.
+// DDS domain, programs. All of it is gone when the test ends, and so is what the programs have started.
 
 #pragma once
 
@@ -16,6 +16,7 @@
 #include "store/vars/node_lock.h"
 #include "store/vars/store.h"
 #include "tests/support/dds_domain.h"
+#include "tests/support/orphans.h"
 #include "tests/support/program.h"
 #include "tests/support/wait_until.h"
 
@@ -26,6 +27,7 @@ class PlantTest : public ::testing::Test {
   PlantTest() : folder_(std::filesystem::temp_directory_path() / ("indurop-plant-" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "state");
+    inherit_orphans();
   }
   ~PlantTest() override {
     for (const Program& program : programs_) {
@@ -34,11 +36,12 @@ class PlantTest : public ::testing::Test {
     for (Program& program : programs_) {
       (void)program.wait();
     }
+    programs_.clear();
+    // Nodes whose agent was killed, even before they had a store.
+    EXPECT_TRUE(end_children());
     for (const std::string& node : vars::list_nodes()) {
       if (node.starts_with(board(""))) {
-        kill_node(node);
-        EXPECT_TRUE(wait_until([&] { return vars::running_node(node) == 0 && vars::remove_node(node).ok(); }))
-            << node << " does not end";
+        EXPECT_TRUE(vars::remove_node(node).ok()) << node << " still runs";
       }
     }
     std::filesystem::remove_all(folder_);
