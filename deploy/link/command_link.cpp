@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/link/command_link.h"
 
+#include <utility>
+
 #include "core/rt/signal_word.h"
 #include "core/schema/topic_name.h"
 #include "deploy/link/deploy_link.h"
+#include "deploy/link/reply_inbox.h"
 #include "deploy/link/wire_words.h"
 #include "network/dds/endpoint.h"
 
@@ -16,8 +19,9 @@ constexpr std::int64_t kCommandBlockNs = 100'000'000;
 }  // namespace
 
 struct CommandLink::Impl {
-  explicit Impl(DeployLink& by) : link(by) {}
+  explicit Impl(DeployLink& by) : link(by), replies(by.wake_word()) {}
   DeployLink& link;
+  ReplyInbox replies;  // used by the listener of a commander's reader until that is gone
   dds::Endpoint in;
   dds::Endpoint out;
 };
@@ -31,8 +35,8 @@ Result<std::unique_ptr<CommandLink>, base::Problem> CommandLink::open(DeployLink
   const auto& in_type = agent ? indurop_deploy_Command_desc : indurop_deploy_Reply_desc;
   const auto& out_type = agent ? indurop_deploy_Reply_desc : indurop_deploy_Command_desc;
   const dds::Qos qos = dds::make_qos({.block_ns = kCommandBlockNs, .for_late_ones = false, .depth = kCommandDepth});
-  const dds::Listener listener = dds::wake_listener(link.wake_word());
   auto impl = std::make_unique<Impl>(link);
+  const dds::Listener listener = agent ? dds::wake_listener(link.wake_word()) : impl->replies.listener();
   impl->in = dds::make_reader(link.participant(), in_type, schema::deploy_topics() + (agent ? "command" : "reply"), qos,
                               listener);
   impl->out =
@@ -66,12 +70,11 @@ std::vector<deploy::Command> CommandLink::take_commands() {
 
 std::vector<deploy::CommandReply> CommandLink::take_replies() {
   std::vector<deploy::CommandReply> replies;
-  dds::take_all<indurop_deploy_Reply>(impl_->in.get(), [&](const auto& in, const dds::SampleInfo& info) {
-    if (info.valid && wire::known<Outcome>(in.outcome) &&
-        impl_->link.speaks_for(impl_->in.get(), info.publication, in.board)) {
-      replies.push_back(wire::word_of<CommandReply>(in));
+  for (ReplyInbox::Received& one : impl_->replies.take()) {
+    if (impl_->link.speaks_for(impl_->in.get(), one.publication, one.reply.board)) {
+      replies.push_back(std::move(one.reply));
     }
-  });
+  }
   return replies;
 }
 

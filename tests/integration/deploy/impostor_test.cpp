@@ -3,15 +3,18 @@
 
 #include <atomic>
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 
 #include "agents_fixture.h"
 #include "core/keys/participant_keys.h"
 #include "core/rt/clock.h"
+#include "core/schema/topic_name.h"
 #include "deploy/link/command_link.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/link/link_keys.h"
+#include "deploy/link/reply_inbox.h"
 #include "deploy/link/report_inbox.h"
 #include "deploy/link/wire_words.h"
 #include "network/dds/endpoint.h"
@@ -135,6 +138,50 @@ TEST(ReportInbox, Keeps_the_report_of_each_writer_however_often_another_one_writ
   ASSERT_EQ(again.size(), 1U) << "the board still writes it";
   EXPECT_EQ(again[0].report.value_or(deploy::BoardReport{}).tick, 8U);
   EXPECT_FALSE(again[0].gone);
+}
+
+TEST(CommandLink, Takes_the_answer_of_each_writer_however_often_another_one_answers) {
+  deploy::LinkSettings settings;
+  settings.network.domain = dds_domain(1);
+  settings.network.one_host = true;
+  settings.self = 5;
+  const auto opened = deploy::DeployLink::open(settings);
+  ASSERT_TRUE(opened) << opened.error().text;
+  const auto sut = deploy::CommandLink::open(*opened->link, deploy::CommandSide::Commander);
+  ASSERT_TRUE(sut) << sut.error().text;
+  const auto domain = static_cast<dds_domainid_t>(settings.network.domain);
+  const auto participant = [&] { return dds::Entity(dds_create_participant(domain, nullptr, nullptr)); };
+  const dds::Entity board = participant();
+  const dds::Entity rogue = participant();
+  const dds::Qos qos = dds::make_qos({.for_late_ones = false, .depth = 16});
+  const std::string topic = schema::deploy_topics() + "reply";
+  const auto truth = dds::make_writer(board.get(), indurop_deploy_Reply_desc, topic, qos);
+  const auto lies = dds::make_writer(rogue.get(), indurop_deploy_Reply_desc, topic, qos);
+  ASSERT_TRUE(truth.ok() && lies.ok()) << truth.why() << lies.why();
+  const auto write = [&](const dds::Endpoint& by, std::uint64_t nonce) {
+    const deploy::CommandReply reply{settings.self, "a", 1, nonce, deploy::Outcome::Done, ""};
+    const deploy::wire::Lent lent(reply);
+    EXPECT_TRUE(dds::write(by.get(), lent.sample()).ok());
+  };
+  const auto taken = [&] {
+    std::multiset<std::uint64_t> nonces;
+    for (const deploy::CommandReply& reply : (*sut)->take_replies()) {
+      nonces.insert(reply.nonce);
+    }
+    return nonces;
+  };
+
+  write(truth, 7);
+  write(truth, 8);
+  for (std::uint64_t lie = 0; lie < 100; ++lie) {
+    write(lies, 1000 + lie);
+  }
+  std::multiset<std::uint64_t> expected{7, 8};
+  for (std::uint64_t lie = 100 - deploy::ReplyInbox::kMaxOfWriter; lie < 100; ++lie) {
+    expected.insert(1000 + lie);
+  }
+  EXPECT_EQ(taken(), expected);
+  EXPECT_THAT(taken(), testing::IsEmpty());
 }
 
 class Impostors : public AgentsTest {
