@@ -2,6 +2,7 @@
 #include "control/robot/kinematics/numeric.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -80,25 +81,39 @@ double descend(const Arm& arm, const Pose& pose, const Descent& how, Joints& q) 
   return error;
 }
 
+// The change of the axes that reaches the position and, as far as the position leaves them free, turns the tool to the
+// orientation. The axes are divided by orthogonal directions: those that move the tool's point and those that do not.
+// Without that, rounding would show as jerk where the orientation is not reached.
+Joints change_for(const Jacobian& j, const Twist& twist) noexcept {
+  constexpr double kDamping = 1e-6;
+  constexpr double kMissing = 1e-9;  // part of the strongest direction: below it, the arm cannot move there
+  Eigen::ColPivHouseholderQR<Eigen::Matrix<double, kAxes, 3>> qr(j.topRows<3>().transpose());
+  qr.setThreshold(kMissing);
+  const auto rank = static_cast<int>(qr.rank());
+  const Square directions = qr.householderQ();
+  Joints change = Joints::Zero();
+  const Vec3 place = qr.colsPermutation().transpose() * twist.head<3>();
+  for (int i = 0; i < rank; ++i) {
+    change[i] = (place[i] - qr.matrixQR().col(i).head(i).dot(change.head(i))) / qr.matrixQR()(i, i);
+  }
+  change = directions * change;
+  Eigen::Matrix<double, 3, kAxes> turning = j.bottomRows<3>() * directions;
+  turning.leftCols(rank).setZero();
+  Square normal = turning.transpose() * turning;
+  normal.diagonal().array() += kDamping;
+  const Vec3 turn = twist.tail<3>() - j.bottomRows<3>() * change;
+  return change + directions * normal.ldlt().solve(turning.transpose() * turn);
+}
+
 // Reaches the position exactly, and among all joint angles for it those with the orientation closest to the requested
 // one. Returns the remaining errors of both, as squares.
 std::pair<double, double> place_first(const Arm& arm, const Pose& pose, Joints& q) noexcept {
-  constexpr int kMost = 40;
-  constexpr double kDamping = 1e-6;
+  constexpr int kMostSteps = 40;
   constexpr double kStill = 1e-12;
   Twist twist;
-  for (int step = 0; step < kMost; ++step) {
+  for (int step = 0; step < kMostSteps; ++step) {
     error_of(arm, pose, q, twist);
-    const Jacobian j = arm.jacobian(q);
-    Square turning = j.bottomRows<3>().transpose() * j.bottomRows<3>();
-    turning.diagonal().array() += kDamping;
-    const auto solver = turning.ldlt();
-    const Eigen::Matrix<double, kAxes, 3> across = solver.solve(j.topRows<3>().transpose());
-    const Joints turn = solver.solve(j.bottomRows<3>().transpose() * twist.tail<3>());
-    Mat3 reach = j.topRows<3>() * across;
-    reach.diagonal().array() += 1e-14 * reach.trace() + 1e-14;  // for directions that are missing
-    const Vec3 force = reach.ldlt().solve(twist.head<3>() - j.topRows<3>() * turn);
-    const Joints change = shortened(turn + across * force);
+    const Joints change = shortened(change_for(arm.jacobian(q), twist));
     q = within_limits(arm, q + change);
     if (change.squaredNorm() < kStill * kStill) {
       break;

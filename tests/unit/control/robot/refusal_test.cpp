@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <optional>
 
 #include "control/robot/path/profile.h"
 #include "drive_faults.h"
@@ -81,6 +82,13 @@ class Refusal : public testing::TestWithParam<const char*> {
     }
     return fault;
   }
+  // Plans the random motion of this number; nothing if it has none.
+  std::optional<Fault> plan_random(long seed) {
+    random.seed(static_cast<unsigned>(seed * 7919 + 13));
+    MoveCommand command;
+    Joints from;
+    return next(static_cast<int>(seed % 420), command, from) ? std::optional(plan(command, from)) : std::nullopt;
+  }
   // The greatest part of the joints' limits that it uses, by differences of four instants in many stretches.
   double used() {
     constexpr double kInstant = 0.001;
@@ -130,20 +138,17 @@ TEST_P(Refusal, Takes_no_more_than_its_work) {
   int most_done = 0;
   for (long i = first; i < first + motions; ++i) {
     SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
-    random.seed(static_cast<unsigned>(i * 7919 + 13));
-    MoveCommand command;
-    Joints from;
-    if (!next(static_cast<int>(i % 420), command, from)) {
+    const std::optional<Fault> fault = plan_random(i);
+    if (!fault) {
       continue;
     }
-    const Fault fault = plan(command, from);
-    ++seen[fault.code];
-    if (fault.ok()) {
+    ++seen[fault->code];
+    if (fault->ok()) {
       most_done = std::max(most_done, planner->work());
       ASSERT_LE(used(), 1.001);
     } else {
       most = std::max(most, planner->work());
-      ASSERT_LE(planner->work(), Planner::kMostWork) << to_string(fault.code);
+      ASSERT_LE(planner->work(), Planner::kMostWork) << to_string(fault->code);
     }
   }
   fmt::print("{}: {} planned, refused after {} places at most, planned after {}\n", GetParam(), seen[ErrorCode::Ok],
@@ -155,6 +160,22 @@ TEST_P(Refusal, Takes_no_more_than_its_work) {
 INSTANTIATE_TEST_SUITE_P(Of_all_kinds, Refusal,
                          testing::Values("cell", "ur5", "scara", "offset_wrist", "five_axis", "palletiser", "iiwa14",
                                          "rail", "irb4600", "scara_spec", "xarm6", "panda"));
+
+class RefusalOfFiveAxes : public Refusal {};
+
+// An arm of five axes comes as close to the orientation as it can, from place to place by iteration. What that leaves
+// to rounding shows as jerk, and a path that ends between two places as one that is followed.
+TEST_P(RefusalOfFiveAxes, Keeps_limits_where_the_orientation_is_not_reached) {
+  for (const long seed : {61L, 395L}) {
+    SCOPED_TRACE(seed);
+    const std::optional<Fault> fault = plan_random(seed);
+    ASSERT_TRUE(fault);
+    EXPECT_EQ(fault->ok(), seed == 61) << to_string(fault->code);
+    EXPECT_TRUE(!fault->ok() || used() <= 1.001);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Beside_its_orientation, RefusalOfFiveAxes, testing::Values("five_axis"));
 
 class RefusalOfIrb4600 : public Refusal {};
 
