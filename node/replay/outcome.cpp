@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages of a replay at its end: what differed, and what could not be compared and why.
+#include "node/replay/outcome.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <tuple>
-
-#include "node/replay/replay.h"
 
 namespace indurop::node {
 namespace {
@@ -24,20 +22,18 @@ std::string ticks_to_compare(const config::Replay& replay) {
   return all ? "" : " that can be repeated between the ticks asked for";
 }
 
-}  // namespace
-
 // Reports each variable, in the order in which they began to differ.
-void Replay::report_differences() {
+void report_differences(const ReplayedModules& modules, const vars::Store& store) {
   struct Line {
-    const Known* known;
+    const KnownValue* known;
     std::string name;
     std::string module;
   };
   std::vector<Line> lines;
-  for (std::size_t i = 0; i < modules_.size(); ++i) {
-    for (const Known& known : modules_[i]->known) {
+  for (const auto& module : modules.all()) {
+    for (const KnownValue& known : module->known) {
       if (known.differing > 0) {
-        lines.push_back({&known, variable(known.variable).name, checked_.config.modules[i].name});
+        lines.push_back({&known, variable_at(store, known.variable).name, module->name});
       }
     }
   }
@@ -57,22 +53,22 @@ void Replay::report_differences() {
 }
 
 // Returns false if something could not be compared that ran in the recording.
-bool Replay::report_left_out() {
+bool report_left_out(const ReplayedModules& modules, std::uint64_t runs_not_here, const Console& console) {
   bool whole = true;
-  for (std::size_t i = 0; i < modules_.size(); ++i) {
-    const Module& module = *modules_[i];
-    const std::string& name = checked_.config.modules[i].name;
-    const auto written = [](const Known& known) { return known.written; };
-    const auto compared = [](const Known& known) { return known.written && known.ever_compared; };
+  const auto written = [](const KnownValue& known) { return known.written; };
+  const auto compared = [](const KnownValue& known) { return known.written && known.ever_compared; };
+  for (const auto& each : modules.all()) {
+    const ReplayedModule& module = *each;
+    const std::string& name = module.name;
     if (module.left_out > 0) {
-      console_.error("{} runs of {} could not be repeated: the recording has no values of its inputs ({})",
-                     module.left_out, name, module.unknown_inputs);
+      console.error("{} runs of {} could not be repeated: the recording has no values of its inputs ({})",
+                    module.left_out, name, module.unknown_inputs);
       whole = false;
     } else if (module.repeated > 0 && !module.apart && !module.faulted_alike &&
                std::any_of(module.known.begin(), module.known.end(), written) &&
                std::none_of(module.known.begin(), module.known.end(), compared)) {
-      console_.error("{} runs of {} were repeated, but not compared: the recording has no values of its outputs",
-                     module.repeated, name);
+      console.error("{} runs of {} were repeated, but not compared: the recording has no values of its outputs",
+                    module.repeated, name);
       whole = false;
     }
     if (module.too_early > 0) {
@@ -84,40 +80,45 @@ bool Replay::report_left_out() {
                  waited, module.seen, name);
     }
   }
-  if (runs_not_here_ > 0) {
-    console_.error("{} runs of modules that are not in this configuration were not repeated", runs_not_here_);
+  if (runs_not_here > 0) {
+    console.error("{} runs of modules that are not in this configuration were not repeated", runs_not_here);
     whole = false;
   }
   return whole;
 }
 
-Ending Replay::conclude() {
+}  // namespace
+
+Ending conclude(const config::Replay& replay, const ReplayedModules& modules, const Comparison& comparison,
+                const Repeated& repeated, const vars::Store& store, const Console& console) {
   std::uint64_t disturbed = 0;
-  for (const auto& module : modules_) {
+  for (const auto& module : modules.all()) {
     disturbed += module->disturbed_runs;
   }
   if (disturbed > 0) {
     fmt::print("the inputs of {} runs changed while they ran: {} of their values differ, which proves nothing\n",
-               disturbed, unclear_);
+               disturbed, comparison.unclear());
   }
-  for (const auto& [name, values] : forced_) {
+  for (const auto& [name, values] : comparison.forced()) {
     fmt::print("{} values of {} were not compared: it was forced\n", values, name);
   }
-  const bool whole = report_left_out() && !output_failed_ && !damaged_;
-  if (runs_ == 0) {
-    console_.error(
-        "{} holds no run of these modules{}: nothing was compared{}", options_.replay.file.string(),
-        ticks_to_compare(options_.replay),
-        closed_ ? "" : "; its recorder ended before it had written the first runs, which it does once a second");
+  const bool whole =
+      report_left_out(modules, repeated.runs_not_here, console) && !comparison.output_failed() && !repeated.damaged;
+  if (repeated.runs == 0) {
+    console.error(
+        "{} holds no run of these modules{}: nothing was compared{}", replay.file.string(), ticks_to_compare(replay),
+        repeated.closed ? ""
+                        : "; its recorder ended before it had written the first runs, which it does once a second");
     return {kFailed, "the recording cannot be replayed"};
   }
-  const std::uint64_t ticks = ticks_ - std::min(ticks_, options_.replay.from_tick);
-  if (differences_ == 0) {
-    fmt::print("{} ticks, {} runs, {} values: equal\n", ticks, runs_, values_);
+  const std::uint64_t ticks = repeated.ticks - std::min(repeated.ticks, replay.from_tick);
+  if (comparison.differences() == 0) {
+    fmt::print("{} ticks, {} runs, {} values: equal\n", ticks, repeated.runs, comparison.values());
     return whole ? Ending{kOk, "end of the recording"} : Ending{kFailed, "the recording was not replayed as a whole"};
   }
-  fmt::print("{} ticks, {} runs, {} values: {} differ\n", ticks, runs_, values_, differences_);
-  report_differences();
+  fmt::print("{} ticks, {} runs, {} values: {} differ\n", ticks, repeated.runs, comparison.values(),
+             comparison.differences());
+  report_differences(modules, store);
   return {kCheckFailed, "the replay differs from the recording"};
 }
 

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "core/rt/relax.h"
-#include "node/replay/replay.h"
+#include "node/replay/repeater.h"
 
 namespace indurop::node {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::chrono::microseconds kShortPause{50};
 
 }  // namespace
 
-bool Replay::call(std::uint32_t index, const char* phase, void (*function)()) {
+bool Repeater::call(std::uint32_t index, const char* phase, void (*function)()) {
   if (function == nullptr) {
     return true;
   }
@@ -29,7 +29,7 @@ bool Replay::call(std::uint32_t index, const char* phase, void (*function)()) {
 }
 
 // A process has unlimited time, as long as it lives. One that dies stays dead until it is restarted.
-void Replay::run_process(Module& module, std::uint32_t index, const tape::RunTail& tail) {
+void Repeater::run_process(ReplayedModule& module, const tape::RunTail& tail) {
   scheduler::ProcessSlot& slot = *module.state.slot;
   replay_input_->give(module.clock, module.replayed_answers());
   const std::uint64_t release = slot.released.load() + 1;
@@ -45,18 +45,18 @@ void Replay::run_process(Module& module, std::uint32_t index, const tape::RunTai
     }
     std::this_thread::sleep_for(kShortPause);
     if (rt::MonoClock::now() > until) {
-      processes_.kill_hanging(index);
+      processes_.kill_hanging(module.index);
     }
     (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
     if (module.state.record->state.load() != scheduler::ModuleState::Running) {
       module.died = true;
-      processes_.stop(index, rt::MonoClock::now());
+      processes_.stop(module.index, rt::MonoClock::now());
       return;
     }
   }
 }
 
-bool Replay::restart_process(std::uint32_t index) {
+bool Repeater::restart_process(std::uint32_t index) {
   const rt::MonoTime until = rt::MonoClock::now() + kRestartPatience;
   processes_.stop(index, rt::MonoClock::now());
   bool started = false;
@@ -72,14 +72,15 @@ bool Replay::restart_process(std::uint32_t index) {
   return false;
 }
 
-bool Replay::restart(Module& module, std::uint32_t index) {
+bool Repeater::restart(ReplayedModule& module) {
   bool good = true;
-  if (module.state.task.type == scheduler::ModuleType::Process) {
+  if (module.is_process()) {
     module.died = false;
-    good = restart_process(index);
+    good = restart_process(module.index);
   } else {
-    (void)call(index, "stop", libraries_[index].functions().stop);  // a failure is reported
-    good = call(index, "start", libraries_[index].functions().start);
+    const auto& functions = libraries_[module.index].functions();
+    (void)call(module.index, "stop", functions.stop);  // a failure is reported
+    good = call(module.index, "start", functions.start);
     module.state.record->state.store(scheduler::ModuleState::Running);
     module.state.enabled.store(true);
   }
@@ -90,20 +91,11 @@ bool Replay::restart(Module& module, std::uint32_t index) {
   return good;
 }
 
-void Replay::restore(Module& module) {
+void Repeater::restore(const ReplayedModule& module) {
   for (const std::string& name : module.kept.restore()) {
     console_.warning("module {}: {} cannot be put back: it is declared otherwise than in the recording",
                      module.state.record->name, name);
   }
-}
-
-// Runs before this one are missing, and nothing tells what the module kept inside.
-void Replay::doubt(Module& module, std::uint64_t tick) {
-  const bool process = module.state.task.type == scheduler::ModuleType::Process;
-  const std::string reason = process ? "a process has no keyframes" : module.kept.why_none();
-  console_.warning(
-      "{} runs of {} before tick {} are not in the recording: its internal state may differ from here on; {}",
-      module.kept.take_missing(), module.state.record->name, tick, reason);
 }
 
 }  // namespace indurop::node

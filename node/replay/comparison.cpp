@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/replay/comparison.h"
+
+#include <fmt/format.h>
+
+#include "history/recording/cdr.h"
+
+namespace indurop::node {
+
+namespace {
+
+// Returns the number or text of a struct or an array that differs first, and its position. Padding between the parts of
+// a value does not count.
+std::pair<schema::Part, std::size_t> first_different_part(const schema::Variable& variable,
+                                                          const std::vector<std::uint8_t>& was,
+                                                          const std::vector<std::uint8_t>& is) {
+  schema::Schema alone;
+  alone.variables.push_back(variable);
+  for (std::size_t i = 0; i < is.size(); ++i) {
+    std::string message;
+    const schema::Part part = schema::part_at(variable, static_cast<std::uint32_t>(i));
+    const auto place =
+        was[i] == is[i] ? Result<schema::Place>(Error{Errc::NotFound}) : schema::find_place(alone, part.name, message);
+    if (place && i >= place->offset && i < place->offset + part.type.size()) {
+      return {part, place->offset};
+    }
+  }
+  return {{variable.name, variable.type}, 0};
+}
+
+}  // namespace
+
+bool Comparison::open_output(const std::filesystem::path& path, const std::string& of,
+                             std::int64_t real_minus_node_ns) {
+  auto output = ReplayOutput::create(path, of);
+  if (!output) {
+    console_.error("{}", output.error().text);
+    return false;
+  }
+  output_ = std::move(output).value();
+  real_minus_node_ns_ = real_minus_node_ns;
+  return true;
+}
+
+void Comparison::close_output() {
+  if (auto closed = output_ ? output_->close(differing_) : Result<void, base::Problem>(); !closed) {
+    console_.error("{}", closed.error().text);
+    output_failed_ = true;
+  }
+}
+
+void Comparison::write_output(std::uint32_t variable, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns) {
+  if (!output_) {
+    return;
+  }
+  if (auto written = output_->take(variable, variable_at(store_, variable), cdr, end_ns + real_minus_node_ns_);
+      !written) {
+    console_.error("{}", written.error().text);
+    output_failed_ = true;
+    output_.reset();
+  }
+}
+
+void Comparison::compare(ReplayedModule& module, const recorder::RunWords& run) {
+  module.disturbed_runs += module.disturbed ? 1U : 0U;
+  const bool faulted = module.has_faulted();
+  if (faulted != run.faulted) {
+    module.apart = true;
+    ++differences_;
+    console_.error("tick {}: module {} {} in the recording and {} now{}", run.tail.tick, module.state.record->name,
+                   run.faulted ? "faulted" : "did not fault", faulted ? "faults" : "does not",
+                   faulted ? fmt::format(": {}", module.state.record->last_fault) : "");
+    return;
+  }
+  module.faulted_alike = module.faulted_alike || faulted;
+  if (faulted) {
+    return;  // its outputs were those of an incomplete run, followed by its fail-safe values
+  }
+  for (KnownValue& known : module.known) {
+    if (known.written && known.has_value) {
+      compare(module, known, run);
+    }
+  }
+}
+
+void Comparison::compare(const ReplayedModule& module, KnownValue& known, const recorder::RunWords& run) {
+  const vars::DirectoryEntry& entry = store_.directory()[known.variable];
+  const schema::Variable& variable = variable_at(store_, known.variable);
+  if (!forced_then_.empty() && forced_then_.any(variable.name, run.tail.start_ns, run.tail.end_ns)) {
+    ++forced_[variable.name];
+    write_output(known.variable, known.cdr, run.tail.end_ns);
+    (void)store_.write(entry, 0, known.bytes);
+    return;
+  }
+  now_.resize(entry.value_size);
+  ++values_;
+  known.ever_compared = true;
+  known.compared += module.disturbed ? 0U : 1U;
+  // Padding between the parts of a value may differ.
+  if (!store_.read(entry, 0, now_).ok() || now_ == known.bytes ||
+      (recording::to_cdr(variable.type, now_, cdr_).ok() && cdr_ == known.cdr)) {
+    write_output(known.variable, known.cdr, run.tail.end_ns);
+    return;
+  }
+  write_output(known.variable, module.disturbed ? known.cdr : cdr_, run.tail.end_ns);
+  note_difference(module, known, run.tail.tick);
+  (void)store_.write(entry, 0, known.bytes);  // the next run begins with the recorded value
+}
+
+void Comparison::note_difference(const ReplayedModule& module, KnownValue& known, std::uint64_t tick) {
+  if (module.disturbed) {
+    ++unclear_;
+    return;
+  }
+  const schema::Variable& variable = variable_at(store_, known.variable);
+  if (differences_++ == 0) {
+    console_.error("tick {}, module {}: {} was {} in the recording and is {} now", tick, module.name, variable.name,
+                   schema::format_value(variable.type, known.bytes), schema::format_value(variable.type, now_));
+  }
+  ++differing_[variable.name];
+  if (known.differing++ == 0) {
+    known.first_tick = tick;
+    const auto [part, offset] = first_different_part(variable, known.bytes, now_);
+    known.first_place = part.name;
+    known.first_was = schema::format_value(part.type, std::span(known.bytes).subspan(offset, part.type.size()));
+    known.first_is = schema::format_value(part.type, std::span(now_).subspan(offset, part.type.size()));
+  }
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the recording before the replay: which values are known from its beginning on, and where each module begins.
+
+#include <vector>
+
+#include "history/recording/cdr.h"
+#include "node/replay/replayed_modules.h"
+
+namespace indurop::node {
+
+// A value that is recorded for the first time, and as unchanged, was present from the first run of the recording on: it
+// is known from the beginning. Reads until all values are known, at worst to the end.
+void ReplayedModules::look_ahead() {
+  struct Runs {
+    bool any = false;
+    bool gap = false;
+    std::uint64_t next = 0;
+  };
+  std::vector<Runs> runs(modules_.size());
+  std::size_t unrecorded = 0;
+  for (const auto& module : modules_) {
+    unrecorded += module->runs ? module->known.size() : 0;
+  }
+  auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_);
+  while (recorded && unrecorded > 0) {
+    auto item = recorded->next();
+    if (!item) {
+      continue;  // known when it is replayed
+    }
+    if (!*item) {
+      break;
+    }
+    if (const auto* run = std::get_if<RecordedRun>(&**item); run != nullptr) {
+      if (const ReplayedModule* module = of_recording(run->words.module); module != nullptr) {
+        Runs& of = runs[module->index];
+        of.gap = of.gap || (of.any && run->words.tail.number != of.next);
+        of.any = true;
+        of.next = run->words.tail.number + 1;
+      }
+    } else if (const auto* value = std::get_if<RecordedValue>(&**item); value != nullptr) {
+      ReplayedModule* const module = of_recording(value->words.module);
+      unrecorded -= module != nullptr && learn_early(*value, *module, runs[module->index].gap) ? 1U : 0U;
+    }
+  }
+  for (const auto& module : modules_) {
+    if (runs[module->index].any) {
+      leave_out_if_unknown(*module);
+    }
+  }
+}
+
+// Returns true if the value is recorded for the first time.
+bool ReplayedModules::learn_early(const RecordedValue& value, ReplayedModule& module, bool after_a_gap) const {
+  const auto place = module.place.find(value.variable);
+  if (!module.runs || value.words.kind == tape::EntryKind::Run || place == module.place.end() ||
+      module.known[place->second].ever_recorded) {
+    return false;
+  }
+  KnownValue& known = module.known[place->second];
+  known.ever_recorded = true;
+  if (value.words.kind == tape::EntryKind::Again && !after_a_gap) {
+    known.bytes.resize(store_.directory()[value.variable].value_size);
+    known.has_value = recording::from_cdr(variable_at(store_, value.variable).type, value.cdr, known.bytes).ok();
+    known.cdr.assign(value.cdr.begin(), value.cdr.end());
+  }
+  return true;
+}
+
+void ReplayedModules::leave_out_if_unknown(ReplayedModule& module) const {
+  for (const KnownValue& known : module.known) {
+    if (module.runs && known.read && !known.ever_recorded) {
+      module.unknown_inputs += (module.unknown_inputs.empty() ? "" : ", ") + variable_at(store_, known.variable).name;
+    }
+  }
+  if (!module.unknown_inputs.empty()) {
+    module.runs = false;
+    console_.warning(
+        "module {} does not run: the recording has no values of its inputs ({}); its outputs are taken from "
+        "the recording",
+        module.name, module.unknown_inputs);
+  }
+}
+
+// Each module begins at its last keyframe that comes before the first run that is wanted.
+void ReplayedModules::find_keyframes_to_begin_at() {
+  if (options_.replay.from_tick == 0) {
+    return;
+  }
+  auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_);
+  std::vector<std::uint64_t> newest(modules_.size(), 0);  // number of the run that begins with it
+  while (recorded) {
+    auto item = recorded->next();
+    if (!item) {
+      continue;  // known when it is replayed
+    }
+    if (!*item) {
+      break;
+    }
+    if (const auto* keyframe = std::get_if<RecordedKeyframe>(&**item); keyframe != nullptr) {
+      if (const ReplayedModule* module = of_recording(keyframe->module); module != nullptr) {
+        newest[module->index] = keyframe->words.run;
+      }
+    } else if (const auto* run = std::get_if<RecordedRun>(&**item); run != nullptr) {
+      ReplayedModule* const module = of_recording(run->words.module);
+      if (module != nullptr && run->words.tail.number == newest[module->index] &&
+          run->words.tail.tick <= options_.replay.from_tick) {
+        module->kept.begin_at(newest[module->index]);
+      }
+    }
+  }
+}
+
+}  // namespace indurop::node

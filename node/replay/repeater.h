@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Repeats single runs of a recording: starts the modules, gives each run the inputs and times it had, and restarts
+// modules that were restarted.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "node/modules/hang_watch.h"
+#include "node/modules/processes.h"
+#include "node/replay/replayed_modules.h"
+#include "node/run/phases.h"
+#include "scheduler/runner.h"
+#include "store/tape/replay_input.h"
+
+namespace indurop::node {
+
+class Repeater {
+ public:
+  // All references are borrowed.
+  Repeater(const Options& options, Console& console, base::StopSignal& signals, const Checked& checked,
+           const Prepared& prepared, const Loaded& loaded);
+
+  // Creates the memory in which process modules get their inputs. Returns false after an error.
+  bool prepare_processes();
+  // The calling thread repeats the runs.
+  void attach();
+  // Starts the modules. Returns false after an error.
+  bool start(const ReplayedModules& modules);
+  // Repeats the run whose inputs the module has. Returns false, after an error, if the replay cannot continue.
+  bool repeat(ReplayedModule& module, const recorder::RunWords& run);
+  // Ends the modules.
+  void stop();
+
+ private:
+  // A clock that is stopped except when a run of the recording sets it.
+  class Kernel final : public scheduler::Kernel {
+   public:
+    explicit Kernel(std::vector<std::atomic<std::int64_t>*> shown) : shown_(std::move(shown)) {}
+    rt::MonoTime now() noexcept override { return rt::mono_time(shown_.front()->load(std::memory_order_relaxed)); }
+    void sleep_until(rt::MonoTime /*deadline*/) noexcept override {}
+    void set(std::int64_t ns) noexcept;
+
+   private:
+    std::vector<std::atomic<std::int64_t>*> shown_;
+  };
+
+  scheduler::Hooks hooks();
+  scheduler::Hooks run_hooks();
+  void restore(const ReplayedModule& module);
+  bool restart(ReplayedModule& module);
+  bool restart_process(std::uint32_t index);
+  bool call(std::uint32_t index, const char* phase, void (*function)());
+  void run_process(ReplayedModule& module, const tape::RunTail& tail);
+
+  const Options& options_;
+  Console& console_;
+  base::StopSignal& signals_;
+  vars::Store& store_;
+  const std::vector<ModuleLibrary>& libraries_;
+  scheduler::RunBlock& run_;
+  Kernel kernel_;
+  scheduler::CoreTrace trace_;
+  scheduler::Runner runner_;
+  Phases phases_;
+  Processes processes_;
+  std::optional<tape::ReplayInputWriter> replay_input_;  // for process modules, if there are any
+  std::atomic<std::uint64_t> returned_{0};               // runs, for the check whether one hangs
+  std::optional<HangWatch> hang_watch_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/replay/replayed_module.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace indurop::node {
+
+const schema::Variable& variable_at(const vars::Store& store, std::uint32_t index) {
+  return store.schema().variables[store.directory()[index].schema_index];
+}
+
+bool ReplayedModule::has_faulted() const noexcept {
+  return died || state.record->state.load() == scheduler::ModuleState::Faulted;
+}
+
+std::vector<tape::ReplayedAnswer> ReplayedModule::replayed_answers() const {
+  std::vector<tape::ReplayedAnswer> all;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    all.push_back({codes[i], answers[i]});
+  }
+  return all;
+}
+
+bool ReplayedModule::knows_inputs() const noexcept {
+  return std::all_of(known.begin(), known.end(), [](const KnownValue& one) { return !one.read || one.has_value; });
+}
+
+void ReplayedModule::forget_older_values() noexcept {
+  for (KnownValue& one : known) {
+    one.has_value = one.has_value && one.recorded_run == seen;
+  }
+}
+
+void ReplayedModule::write_inputs(vars::Store& store) const {
+  for (const KnownValue& one : known) {
+    const vars::DirectoryEntry& entry = store.directory()[one.variable];
+    std::vector<std::uint8_t> now(entry.value_size);
+    if (one.read && one.has_value && store.read(entry, 0, now).ok() && now != one.bytes) {
+      (void)store.write(entry, 0, one.bytes);
+    }
+  }
+}
+
+void ReplayedModule::take_outputs() {
+  disturbed = false;
+  for (RecordedOutput& output : outputs) {
+    KnownValue& one = known[output.place];
+    one.has_value = true;
+    one.recorded_run = seen;
+    one.cdr = std::move(output.cdr);
+    one.bytes = std::move(output.bytes);
+    disturbed = disturbed || output.kind == tape::EntryKind::During;
+  }
+  outputs.clear();
+  clock.clear();
+  codes.clear();
+  answers.clear();
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// A module of a replay: the values the recording has for it, the run of it that is read, and what became of its runs.
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "history/recorder/run_words.h"
+#include "node/replay/recorded_runs.h"
+#include "node/replay/replayed_memory.h"
+#include "scheduler/runner.h"
+#include "store/tape/replay_input.h"
+#include "store/vars/store.h"
+
+namespace indurop::node {
+
+// The variable of an index in the store's directory.
+const schema::Variable& variable_at(const vars::Store& store, std::uint32_t index);
+
+// The recorded values of one variable for a module.
+struct KnownValue {
+  std::uint32_t variable = 0;
+  bool read = false;
+  bool written = false;
+  bool has_value = false;
+  bool ever_recorded = false;  // anywhere in the recording
+  bool ever_compared = false;
+  std::uint64_t recorded_run = 0;  // run (ReplayedModule::seen) in which it was recorded last
+  std::vector<std::uint8_t> cdr;
+  std::vector<std::uint8_t> bytes;
+  std::uint64_t compared = 0;   // runs whose value was compared because their inputs were the same
+  std::uint64_t differing = 0;  // of these: runs that wrote another value
+  std::uint64_t first_tick = 0;
+  std::string first_place;  // first part of it that differed
+  std::string first_was;
+  std::string first_is;
+};
+
+// A value a run wrote, from the recording.
+struct RecordedOutput {
+  std::size_t place = 0;  // in ReplayedModule::known
+  tape::EntryKind kind{};
+  std::vector<std::uint8_t> cdr;
+  std::vector<std::uint8_t> bytes;
+};
+
+struct ReplayedModule {
+  std::uint32_t index = 0;  // in the configuration
+  std::string name;
+  bool runs = false;
+  std::string unknown_inputs;  // variables that it reads and that are not recorded; empty: none
+  scheduler::TaskState state;
+  ReplayedMemory kept;
+  std::vector<KnownValue> known;
+  std::map<std::uint32_t, std::size_t> place;  // of a variable in `known`
+
+  // The run that is read.
+  std::vector<RecordedOutput> outputs;
+  std::vector<std::int64_t> clock;  // its clock readings
+  std::vector<std::int64_t> codes;  // returned by functions and channels
+  std::vector<std::vector<std::uint8_t>> answers;
+  bool restart_due = false;  // it must be restarted before it runs again
+  bool restores = false;     // its keyframe is put back before this run
+  bool disturbed = false;    // its inputs were changed while it ran
+
+  // Numbers of runs.
+  std::uint64_t seen = 0;       // in the recording
+  std::uint64_t left_out = 0;   // not repeated because of unknown inputs
+  std::uint64_t too_early = 0;  // not repeated because not all of their inputs are recorded before them
+  std::uint64_t repeated = 0;
+  std::uint64_t disturbed_runs = 0;
+  std::uint64_t next_number = 0;  // of the run that follows the last one that was read
+
+  bool died = false;  // its process ended
+  bool faulted_alike = false;
+  bool apart = false;  // it faulted only in the replay or only in the recording
+
+  [[nodiscard]] bool is_process() const noexcept { return state.task.type == scheduler::ModuleType::Process; }
+  [[nodiscard]] bool has_faulted() const noexcept;
+  [[nodiscard]] std::vector<tape::ReplayedAnswer> replayed_answers() const;
+  // Returns whether a value of each variable that it reads is known.
+  [[nodiscard]] bool knows_inputs() const noexcept;
+  // Keeps only the values of the run that was read last: the others may have changed since.
+  void forget_older_values() noexcept;
+  // Writes the known inputs of the next run to the store.
+  void write_inputs(vars::Store& store) const;
+  // Makes the recorded outputs of the run that was read the known values.
+  void take_outputs();
+};
+
+}  // namespace indurop::node

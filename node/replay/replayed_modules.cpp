@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/replay/replayed_modules.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "config/check/determinism.h"
+#include "history/recording/cdr.h"
+
+namespace indurop::node {
+namespace {
+
+using scheduler::ModuleType;
+using scheduler::Operation;
+
+bool names(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+// Returns why the module is not run again; empty: it is.
+std::string reason_to_leave_out(const config::Module& module, const std::vector<std::string>& imports) {
+  if (module.operation == Operation::NonReal) {
+    return "it runs in the background";
+  }
+  if (module.signal != 0) {
+    return "it does not say when a run ends";
+  }
+  if (module.type == ModuleType::Process) {
+    return "";
+  }
+  return config::talks_to_others(imports) ? "it speaks to devices or the network" : "";
+}
+
+}  // namespace
+
+ReplayedModules::ReplayedModules(const Options& options, const Console& console, const Checked& checked,
+                                 const Prepared& prepared, const Loaded& loaded)
+    : options_(options), console_(console), checked_(checked), store_(*prepared.store), libraries_(loaded.libraries) {
+  for (const config::Module& configured : checked.config.modules) {
+    auto module = std::make_unique<ReplayedModule>();
+    module->index = static_cast<std::uint32_t>(modules_.size());
+    module->name = configured.name;
+    modules_.push_back(std::move(module));
+  }
+  for (const scheduler::Task& task : loaded.tasks) {
+    scheduler::TaskState& state = modules_[task.index]->state;
+    state.task = task;
+    state.task.condition = Condition{};  // it was true in the recording
+    state.record = &prepared.run().modules()[task.index];
+    state.slot = &prepared.run().process_slots()[task.index];
+  }
+}
+
+ReplayedModule* ReplayedModules::of_recording(std::uint32_t recorded) const noexcept {
+  return is_recorded(recorded) ? of_recording_[recorded] : nullptr;
+}
+
+bool ReplayedModules::choose(const RecordedRuns& recorded) {
+  match(recorded);
+  for (const auto& module : modules_) {
+    const config::Module& configured = checked_.config.modules[module->index];
+    const std::string reason = names(recorded.modules(), module->name)
+                                   ? reason_to_leave_out(configured, checked_.check.facts[module->index].file.imports)
+                                   : "it is not in the recording";
+    module->runs = reason.empty();
+    module->kept.expect(libraries_[module->index].memory(), recorded.has_keyframes(module->name));
+    if (!module->runs) {
+      console_.info("module {} does not run: {}; what it wrote comes from the recording", module->name, reason);
+    }
+  }
+  find_variables();
+  look_ahead();
+  find_keyframes_to_begin_at();
+  const bool any = std::any_of(modules_.begin(), modules_.end(), [](const auto& module) { return module->runs; });
+  if (!any) {
+    console_.error("no module of {} can run again", options_.replay.file.string());
+  }
+  return any;
+}
+
+void ReplayedModules::match(const RecordedRuns& recorded) {
+  for (const std::string& name : recorded.modules()) {
+    const auto found =
+        std::find_if(modules_.begin(), modules_.end(), [&](const auto& module) { return module->name == name; });
+    of_recording_.push_back(found == modules_.end() ? nullptr : found->get());
+    if (found == modules_.end()) {
+      console_.warning("module {} of the recording is not in this configuration: its runs are not repeated", name);
+    }
+  }
+}
+
+void ReplayedModules::find_variables() {
+  for (const config::VariableUse& use : checked_.check.uses) {
+    const auto* entry = store_.find(abi::fnv1a64(use.name.data(), use.name.size()));
+    for (std::size_t i = 0; entry != nullptr && i < modules_.size(); ++i) {
+      KnownValue known;
+      known.variable = static_cast<std::uint32_t>(entry - store_.directory().data());
+      known.read = names(use.readers, modules_[i]->name);
+      known.written = names(use.writers, modules_[i]->name);
+      if (known.read || known.written) {
+        modules_[i]->place[known.variable] = modules_[i]->known.size();
+        modules_[i]->known.push_back(std::move(known));
+      }
+    }
+  }
+}
+
+bool ReplayedModules::take(const RecordedValue& value) {
+  const vars::DirectoryEntry& entry = store_.directory()[value.variable];
+  const schema::Variable& variable = variable_at(store_, value.variable);
+  std::vector<std::uint8_t> bytes(entry.value_size);
+  if (!recording::from_cdr(variable.type, value.cdr, bytes)) {
+    console_.error("a value of {} in the recording is damaged", variable.name);
+    return false;
+  }
+  const bool of_run = value.words.kind != tape::EntryKind::Run && value.words.module != recorder::kOthers;
+  ReplayedModule* const module = of_run ? of_recording(value.words.module) : nullptr;
+  if (module == nullptr || !module->runs) {
+    (void)store_.write(entry, 0, bytes);
+    return true;
+  }
+  const auto place = module->place.find(value.variable);
+  if (place == module->place.end()) {
+    return true;  // the changed module no longer uses it
+  }
+  if (value.words.kind == tape::EntryKind::Before) {
+    KnownValue& known = module->known[place->second];
+    known.has_value = true;
+    known.recorded_run = module->seen;
+    known.cdr.assign(value.cdr.begin(), value.cdr.end());
+    known.bytes = std::move(bytes);
+  } else {
+    module->outputs.push_back(
+        {place->second, value.words.kind, {value.cdr.begin(), value.cdr.end()}, std::move(bytes)});
+  }
+  return true;
+}
+
+}  // namespace indurop::node

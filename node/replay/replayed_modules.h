@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The modules of a replay: which of them run again, and the recorded values for them. A recording may contain only
+// chosen variables, begin in the middle, or miss runs.
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "node/replay/recorded_runs.h"
+#include "node/replay/replayed_module.h"
+#include "node/run/checked.h"
+#include "node/run/console.h"
+#include "node/run/loaded.h"
+#include "node/run/options.h"
+#include "node/run/prepared.h"
+
+namespace indurop::node {
+
+class ReplayedModules {
+ public:
+  // All references are borrowed.
+  ReplayedModules(const Options& options, const Console& console, const Checked& checked, const Prepared& prepared,
+                  const Loaded& loaded);
+
+  // Determines which modules run, and reports why others do not. Returns false, after an error, if none does.
+  bool choose(const RecordedRuns& recorded);
+  // Adds a value to the known ones of its module. A first value goes to the store. Returns false, after an error, if it
+  // is damaged.
+  bool take(const RecordedValue& value);
+
+  // The module that corresponds to a module of the recording; null: it is not in this configuration.
+  [[nodiscard]] ReplayedModule* of_recording(std::uint32_t recorded) const noexcept;
+  // Returns whether the recording has a module of this index; it also has values that no module reads or writes.
+  [[nodiscard]] bool is_recorded(std::uint32_t recorded) const noexcept { return recorded < of_recording_.size(); }
+  [[nodiscard]] const std::vector<std::unique_ptr<ReplayedModule>>& all() const noexcept { return modules_; }
+
+ private:
+  void match(const RecordedRuns& recorded);
+  void find_variables();
+  // Finds the values that were present from the first run of the recording on, and leaves out modules whose inputs are
+  // recorded nowhere.
+  void look_ahead();
+  bool learn_early(const RecordedValue& value, ReplayedModule& module, bool after_a_gap) const;
+  void leave_out_if_unknown(ReplayedModule& module) const;
+  void find_keyframes_to_begin_at();
+
+  const Options& options_;
+  const Console& console_;
+  const Checked& checked_;
+  vars::Store& store_;
+  const std::vector<ModuleLibrary>& libraries_;
+  std::vector<std::unique_ptr<ReplayedModule>> modules_;  // as in the configuration
+  std::vector<ReplayedModule*> of_recording_;             // null: not in the configuration
+};
+
+}  // namespace indurop::node
