@@ -18,6 +18,10 @@ class Columns {
     longest_paths();
     pull_values();
     push_ends();
+    if (wires() > kMostWires) {
+      graph_.too_large = true;
+      return;
+    }
     const std::size_t nets = graph_.nets.size();
     for (std::size_t i = 0; i < nets; ++i) {
       bridge(i);
@@ -153,6 +157,27 @@ class Columns {
     return end;
   }
 
+  // Returns how many wires bridge() will add, by the sources that each carries.
+  [[nodiscard]] std::size_t wires() const {
+    const auto column_of = [&](const End& end) { return graph_.items[static_cast<std::size_t>(end.item)].column; };
+    std::size_t count = 0;
+    for (const Net& net : graph_.nets) {
+      int last = 0;
+      for (const End& end : net.targets) {
+        last = std::max(last, column_of(end));
+      }
+      int before = 0;
+      for (const End& end : net.sources) {
+        before = std::max(before, column_of(end));
+      }
+      for (const End& end : net.sources) {
+        count += static_cast<std::size_t>(before - column_of(end));
+      }
+      count += static_cast<std::size_t>(std::max(last - before - 1, 0)) * net.carries.size();
+    }
+    return count;
+  }
+
   void bridge(std::size_t n) {
     Net net = graph_.nets[n];
     int before = 0;
@@ -180,21 +205,35 @@ class Columns {
       graph_.nets.push_back(std::move(joined));
       net.sources = {extend(first, rank, before + 2, behind - 1)};
     }
-    for (End& end : net.targets) {
-      const double rank_behind = item(end.item).rank + kPinRank * end.port;
-      const int column = item(end.item).column;
-      if (column > behind) {
-        const End first = add_wire(net.carries, rank_behind, behind);
-        const End last = extend(first, rank_behind, behind + 1, column - 1);
-        Net rest;
-        rest.carries = net.carries;
-        rest.sources = {last};
-        rest.targets = {end};
-        graph_.nets.push_back(std::move(rest));
-        end = first;
-      }
+    std::vector<Net> pieces = share_wire(std::move(net), behind);
+    graph_.nets[n] = std::move(pieces.front());
+    graph_.nets.insert(graph_.nets.end(), std::next(pieces.begin()), pieces.end());
+  }
+
+  // Leads a net with targets in `column` and later ones to all of them by one wire, which branches before each column.
+  // Returns its pieces.
+  std::vector<Net> share_wire(Net net, int column) {
+    std::vector<End> targets = std::move(net.targets);
+    const auto column_of = [&](const End& end) { return item(end.item).column; };
+    std::stable_sort(targets.begin(), targets.end(),
+                     [&](const End& a, const End& b) { return column_of(a) < column_of(b); });
+    std::vector<double> ranks(targets.size(), 0);  // the first rank of each and all after it
+    for (std::size_t i = targets.size(); i-- > 0;) {
+      const double rank = item(targets[i].item).rank + kPinRank * targets[i].port;
+      ranks[i] = i + 1 == targets.size() ? rank : std::min(rank, ranks[i + 1]);
     }
-    graph_.nets[n] = std::move(net);
+    std::vector<Net> pieces{{std::move(net.sources), {}, net.carries}};
+    for (std::size_t i = 0; true; ++column) {
+      for (; i < targets.size() && column_of(targets[i]) == column; ++i) {
+        pieces.back().targets.push_back(targets[i]);
+      }
+      if (i == targets.size()) {
+        return pieces;
+      }
+      const End wire = add_wire(net.carries, ranks[i], column);
+      pieces.back().targets.push_back(wire);
+      pieces.push_back({{wire}, {}, net.carries});
+    }
   }
 
   Graph& graph_;

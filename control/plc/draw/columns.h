@@ -8,7 +8,7 @@
 namespace indurop::plc::draw {
 
 // Puts every item after its sources, values next to the items that use them, and coils into the last column; then makes
-// nets that skip columns pass through pieces of wire.
+// nets that skip columns pass through pieces of wire. Marks the graph as too large where these were too many.
 void assign_columns(Graph& graph, bool rails);
 
 }  // namespace indurop::plc::draw

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns items in columns and lines into a picture: widths of columns, tracks between them, pieces of lines.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "control/plc/draw/layout_graph.h"
@@ -13,6 +15,7 @@ using Kind = Element::Kind;
 using Role = Item::Role;
 
 constexpr int kTrackPitch = 2;
+constexpr std::int64_t kMostCharacters = 4'000'000;  // of the pictures of one body
 
 int middle(int cell) noexcept {
   return 2 * cell + 1;
@@ -186,21 +189,34 @@ class Painter {
 
 }  // namespace
 
-Picture lay_out(const Network& network, const Index& index, const Order& order, bool rails, int width) {
-  return Painter(make_graph(network, index, order, rails), rails, width).run();
-}
-
-std::vector<Picture> lay_out(const Sheet& sheet, Body::Language language) {
-  const bool ladder = language == Body::Language::Ld;
+std::vector<Picture> lay_out(const Sheet& sheet, const Body& body, Diagnostics& diagnostics) {
+  const bool ladder = body.language == Body::Language::Ld;
+  const auto refuse = [&](const Place& at, const std::string& what) {
+    diagnostics.error(at, "too large for a picture: " + what);
+    return std::vector<Picture>{};
+  };
   int width = 0;
   std::vector<Picture> pictures;
   for (const Network& network : sheet.networks) {
-    pictures.push_back(lay_out(network, sheet.index, sheet.order, ladder));
+    Graph graph = make_graph(network, sheet.index, sheet.order, ladder);
+    if (graph.too_large) {
+      return refuse(network.elements.front()->at,
+                    "the lines of its network pass too many columns; replace long lines by variables");
+    }
+    pictures.push_back(Painter(std::move(graph), ladder, 0).run());
     width = std::max(width, pictures.back().width);
+  }
+  std::int64_t characters = 0;
+  for (const Picture& each : pictures) {
+    characters += std::int64_t{ladder ? width : each.width} * each.height;
+  }
+  if (characters > kMostCharacters) {
+    return refuse(
+        body.at, fmt::format("it has more than {} characters; split it into several POUs or actions", kMostCharacters));
   }
   for (std::size_t i = 0; ladder && i < pictures.size(); ++i) {
     if (pictures[i].width < width) {
-      pictures[i] = lay_out(sheet.networks[i], sheet.index, sheet.order, true, width);
+      pictures[i] = Painter(make_graph(sheet.networks[i], sheet.index, sheet.order, true), true, width).run();
     }
   }
   return pictures;

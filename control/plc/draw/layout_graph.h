@@ -35,14 +35,17 @@ struct Graph {
   std::vector<Item> items;
   std::vector<Net> nets;
   int columns = 0;
+  bool too_large = false;  // no columns are assigned: more than kMostWires pieces of wire
 };
+
+inline constexpr std::size_t kMostWires = 50'000;
 
 // The successor of an item is at its height; successors of its pins are ordered one below the other.
 inline constexpr double kBehind = 1e-6;
 inline constexpr double kPinRank = 1e-4;
 
-// Returns symbols and nets of a network, each source in one net only, with columns assigned; every net leads from one
-// column to the next.
+// Returns symbols and nets of a network, each source in one net only, with columns assigned, if there are not too
+// many; every net leads from one column to the next.
 [[nodiscard]] Graph make_graph(const Network& network, const Index& index, const Order& order, bool rails);
 
 }  // namespace indurop::plc::draw

@@ -46,11 +46,9 @@ struct Picture {
   std::vector<Line> lines;
 };
 
-// Lays out one network. `rails`: a ladder; coils end at the right rail, which is at least `width` away. Requires a
-// network without errors.
-[[nodiscard]] Picture lay_out(const Network& network, const Index& index, const Order& order, bool rails,
-                              int width = 0);
-// Lays out all networks; all ladders are as wide as the widest.
-[[nodiscard]] std::vector<Picture> lay_out(const Sheet& sheet, Body::Language language);
+// Lays out all networks of a body without errors; those of a chart are function block diagrams. In a ladder coils end
+// at the right rail, and all rungs are as wide as the widest. Returns none, with an error, if the pictures were too
+// large.
+[[nodiscard]] std::vector<Picture> lay_out(const Sheet& sheet, const Body& body, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::draw

@@ -2,7 +2,12 @@
 #include "control/plc/draw/rows.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace indurop::plc::draw {
 namespace {
@@ -155,11 +160,70 @@ std::vector<Span> spans_of(const Graph& graph, const std::vector<std::size_t>& n
   return spans;
 }
 
-// Returns true if a source of `a` and a target of `b` are on one line: the track of a must be left of that of b.
-bool comes_before(const Span& a, const Span& b) {
-  return std::any_of(a.left.begin(), a.left.end(),
-                     [&](int row) { return std::find(b.right.begin(), b.right.end(), row) != b.right.end(); });
+// Sorts spans so that the track of each can be right of those before it. A span with a source in a line comes before
+// the one with a target in it; else the order stays. Returns those sorted before the first circle.
+std::vector<const Span*> in_order(const std::vector<Span>& spans) {
+  std::unordered_map<int, std::size_t> from;  // by line
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    for (const int row : spans[i].left) {
+      from.emplace(row, i);
+    }
+  }
+  std::vector<std::size_t> waits(spans.size(), 0);
+  std::vector<std::vector<std::size_t>> before(spans.size());
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    for (const int row : spans[i].right) {
+      if (const auto found = from.find(row); found != from.end() && found->second != i) {
+        before[found->second].push_back(i);
+        ++waits[i];
+      }
+    }
+  }
+  std::set<std::size_t> ready;
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    if (waits[i] == 0) {
+      ready.insert(i);
+    }
+  }
+  std::vector<const Span*> order;
+  while (!ready.empty()) {
+    const std::size_t next = *ready.begin();
+    ready.erase(ready.begin());
+    order.push_back(&spans[next]);
+    for (const std::size_t each : before[next]) {
+      if (--waits[each] == 0) {
+        ready.insert(each);
+      }
+    }
+  }
+  return order;
 }
+
+// The rightmost track that is taken in each line.
+class Skyline {
+ public:
+  // Returns the first track right of all that are taken in these lines, and takes it.
+  int take(int top, int bottom) {
+    const auto begin = from(top);
+    const auto end = from(bottom + 1);
+    int track = 0;
+    for (auto each = begin; each != end; ++each) {
+      track = std::max(track, each->second + 1);
+    }
+    begin->second = track;
+    taken_.erase(std::next(begin), end);
+    return track;
+  }
+
+ private:
+  // Returns the entry that begins at this line.
+  std::map<int, int>::iterator from(int line) {
+    const auto next = taken_.upper_bound(line);
+    return taken_.emplace_hint(next, line, std::prev(next)->second);
+  }
+
+  std::map<int, int> taken_{{std::numeric_limits<int>::min(), -1}};  // by the first of the lines
+};
 
 }  // namespace
 
@@ -182,29 +246,21 @@ std::vector<std::vector<std::size_t>> nets_by_column(const Graph& graph) {
 }
 
 std::vector<int> assign_tracks(const Graph& graph, const std::vector<std::size_t>& nets, int& clash) {
+  std::vector<Span> spans = spans_of(graph, nets);
+  spans.erase(std::remove_if(spans.begin(), spans.end(), [](const Span& span) { return span.top == span.bottom; }),
+              spans.end());
+  const std::vector<const Span*> order = in_order(spans);
+  if (order.size() < spans.size()) {
+    const std::unordered_set<const Span*> sorted(order.begin(), order.end());
+    const auto last =
+        std::find_if(spans.rbegin(), spans.rend(), [&](const Span& one) { return !sorted.contains(&one); });
+    clash = graph.nets[nets[last->net]].targets.front().item;
+    return {};
+  }
   std::vector<int> tracks(nets.size(), -1);
-  std::vector<Span> open = spans_of(graph, nets);
-  open.erase(std::remove_if(open.begin(), open.end(), [](const Span& span) { return span.top == span.bottom; }),
-             open.end());
-  std::vector<Span> done;
-  while (!open.empty()) {
-    const auto next = std::find_if(open.begin(), open.end(), [&](const Span& span) {
-      return std::none_of(open.begin(), open.end(),
-                          [&](const Span& other) { return &other != &span && comes_before(other, span); });
-    });
-    if (next == open.end()) {
-      clash = graph.nets[nets[open.back().net]].targets.front().item;
-      return {};
-    }
-    int track = 0;
-    for (const Span& other : done) {
-      if ((other.top <= next->bottom && next->top <= other.bottom) || comes_before(other, *next)) {
-        track = std::max(track, tracks[other.net] + 1);
-      }
-    }
-    tracks[next->net] = track;
-    done.push_back(std::move(*next));
-    open.erase(next);
+  Skyline skyline;
+  for (const Span* span : order) {
+    tracks[span->net] = skyline.take(span->top, span->bottom);
   }
   return tracks;
 }

@@ -80,7 +80,10 @@ class Placer {
     if (quiet.failed()) {
       return;
     }
-    const auto pictures = draw::lay_out(sheet, body_.language);
+    const auto pictures = draw::lay_out(sheet, body_, quiet);
+    if (quiet.failed()) {
+      return;
+    }
     std::size_t remark = 0;  // the next element above a network
     for (std::size_t n = 0; n < pictures.size(); ++n) {
       remarks(remark, sheet.networks[n].elements);

@@ -54,7 +54,7 @@ class Reader {
     options.project = &project_;
     options.flow = true;
     number_points(lower::lower_networks(*made.sheet, options, diagnostics_), made);
-    made.pictures = draw::lay_out(*made.sheet, made.body->language);
+    made.pictures = draw::lay_out(*made.sheet, *made.body, diagnostics_);
   }
 
   const Project& project_;

@@ -166,8 +166,10 @@ std::string print_text(const std::vector<PrintedBody>& bodies, bool unicode, Dia
       const network::Sheet sheet = network::make_sheet(*each.body, each.what, diagnostics);
       const std::vector<std::size_t> conditions = conditions_of(each.body->diagram, sheet);
       text += chart_text(network::read_chart(each.body->diagram, diagnostics), unicode);
-      const auto pictures = conditions.empty() ? std::vector<draw::Picture>{} : draw::lay_out(sheet, Language::Fbd);
-      for (const std::size_t i : conditions) {
+      const auto pictures =
+          conditions.empty() ? std::vector<draw::Picture>{} : draw::lay_out(sheet, *each.body, diagnostics);
+      for (std::size_t k = 0; k < conditions.size() && !pictures.empty(); ++k) {
+        const std::size_t i = conditions[k];
         text += network_text(sheet.networks[i], pictures[i], Language::Fbd, unicode);
       }
       continue;
@@ -180,7 +182,7 @@ std::string print_text(const std::vector<PrintedBody>& bodies, bool unicode, Dia
     if (diagnostics.failed()) {
       continue;
     }
-    const auto pictures = draw::lay_out(sheet, each.body->language);
+    const auto pictures = draw::lay_out(sheet, *each.body, diagnostics);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       text += network_text(sheet.networks[i], pictures[i], each.body->language, unicode);
     }
@@ -212,7 +214,7 @@ std::string print_svg(const std::vector<PrintedBody>& bodies, Diagnostics& diagn
     if (is_chart) {
       made.chart = draw_chart(chart);
     }
-    auto pictures = draw::lay_out(sheet, is_chart ? Language::Fbd : each.body->language);
+    auto pictures = draw::lay_out(sheet, *each.body, diagnostics);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       if (is_chart && std::find(conditions.begin(), conditions.end(), i) == conditions.end()) {
         continue;

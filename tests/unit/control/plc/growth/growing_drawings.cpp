@@ -132,6 +132,26 @@ std::string blocks_doubled(Size n) {
   return drawing("FBD", out + fbd_result(n + 2, n + 1));
 }
 
+std::string blocks_far_apart(Size n) {
+  std::string out;
+  for (Size i = 0; i < n; ++i) {
+    out += fbd_variable(i + 1, "n");
+  }
+  for (Size i = 0; i < 2 * n; ++i) {
+    out += fbd_block(n + i + 1, "ADD", i == 0 ? from(1) : from(n + i, "OUT"), from(i % n + 1));
+  }
+  return drawing("FBD", out + fbd_result(3 * n + 1, 3 * n));
+}
+
+std::string rungs_wide(Size n) {
+  std::string out = rail();
+  for (Size i = 0; i < n; ++i) {
+    out += contact(i + 2, i + 1) + contact(n + 2 * i + 3, 1, 40 * (i + 1)) +
+           coil(n + 2 * i + 4, from(n + 2 * i + 3), 40 * (i + 1));
+  }
+  return drawing("LD", out + coil(n + 2, from(n + 1)));
+}
+
 std::string networks(Size n) {
   std::string out;
   for (Size i = 0; i < n; ++i) {

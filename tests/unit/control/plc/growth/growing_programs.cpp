@@ -288,6 +288,8 @@ const std::vector<GrowingText> kTexts = {
     GrowingText{"contacts_crosswise", &contacts_crosswise, 6, "in.xml"},
     GrowingText{"blocks_in_series", &blocks_in_series, 50, "in.xml"},
     GrowingText{"blocks_doubled", &blocks_doubled, 6, "in.xml"},
+    GrowingText{"blocks_far_apart", &blocks_far_apart, 100, "in.xml"},
+    GrowingText{"rungs_wide", &rungs_wide, 400, "in.xml"},
     GrowingText{"networks", &networks, 50, "in.xml"},
     GrowingText{"connectors", &connectors, 50, "in.xml"},
     GrowingText{"xml_deep", TEXT("<?xml version='1.0'?>" + times(n, "<a>") + times(n, "</a>")), 400, "in.xml"},

@@ -58,7 +58,7 @@ int program(const std::string& text, const std::string& file) {
   plc::plcopen::Document document = plc::read_document({file}, {}, read, diagnostics);
   bytes += plc::print_text(plc::printed_bodies(document, ""), true, diagnostics).size();
   bytes += plc::plcopen::write_project(document, {.name = "sut", .created = "2024-01-01T00:00:00"}, diagnostics).size();
-  return say(made.ok, made.diagnostics, bytes);
+  return say(made.ok && !diagnostics.failed(), made.ok ? diagnostics.list() : made.diagnostics, bytes);
 }
 
 }  // namespace
