@@ -82,23 +82,23 @@ class ChartLowering {
     for (std::size_t i = 0; i < chart_.transitions.size(); ++i) {
       const Transition& transition = chart_.transitions[i];
       const Place& at = transition.element->at;
-      ast::Expression ready = make::name(at, kRunning);
+      std::vector<ast::Expression> ready{make::name(at, kRunning)};
       for (const std::size_t step : transition.from) {
-        ready = make::both(std::move(ready), active(chart_, step, at));
+        ready.push_back(active(chart_, step, at));
       }
       std::set<std::size_t> others;
       for (const std::size_t step : transition.from) {
         others.insert(leaving[step].begin(), leaving[step].end());
       }
       for (const std::size_t other : others) {
-        ready = make::both(std::move(ready), make::negation(make::name(at, fired(other))));
+        ready.push_back(make::negation(make::name(at, fired(other))));
       }
       for (const std::size_t step : transition.from) {
         leaving[step].push_back(i);
       }
       ast::Expression value = condition(transition, i);
       declare(ast::Section::Temp, fired(i), make::type(at, Elementary::Bool));
-      ast::Expression fires = make::both(std::move(ready), std::move(value));
+      ast::Expression fires = make::both(make::all_of(std::move(ready)), std::move(value));
       fires.guards = true;
       add(make::assign(make::name(at, fired(i)), std::move(fires)));
     }

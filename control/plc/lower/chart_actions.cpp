@@ -7,6 +7,7 @@
 #include <array>
 #include <deque>
 #include <iterator>
+#include <unordered_map>
 #include <utility>
 
 #include "control/plc/model/elementary.h"
@@ -47,21 +48,20 @@ class Actions {
  private:
   std::vector<Group> collect() {
     std::vector<Group> groups;
+    std::unordered_map<std::string, std::size_t> known;  // groups by their names in capitals
     for (std::size_t i = 0; i < chart_.actions.size(); ++i) {
       const network::ActionLine& line = *chart_.actions[i].line;
       if (!acceptable(line)) {
         continue;
       }
-      auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& each) {
-        return !line.name.empty() && same_name(each.name, line.name);
-      });
-      if (group == groups.end()) {
+      const auto found = line.name.empty() ? known.end() : known.try_emplace(upper(line.name), groups.size()).first;
+      if (found == known.end() || found->second == groups.size()) {
         network::Body* body = line.name.empty()     ? line.inlined.get()
                               : is_of_another(line) ? &call_of(line)
                                                     : around_.action(line.name);
-        group = groups.insert(groups.end(), {line.name, body, {}});
+        groups.push_back({line.name, body, {}});
       }
-      group->associations.push_back(i);
+      groups[found == known.end() ? groups.size() - 1 : found->second].associations.push_back(i);
     }
     return groups;
   }
@@ -120,26 +120,29 @@ class Actions {
   void lower(const Group& group, std::size_t number) {
     const Place at = chart_.actions[group.associations.front()].line->at;
     const ast::TypeSpec boolean = make::type(at, Elementary::Bool);
-    ast::Expression reset = make::truth(at, false);
+    std::vector<ast::Expression> resets;
     for (const std::size_t i : group.associations) {
       const Association& association = chart_.actions[i];
       if (association.line->qualifier == "R") {
-        reset = join(std::move(reset), active(chart_, association.step, at));
+        resets.push_back(active(chart_, association.step, at));
       }
     }
-    ast::Expression level = make::truth(at, false);
-    ast::Expression pulse = make::truth(at, false);
+    const ast::Expression reset = any_of(std::move(resets), at);
+    std::vector<ast::Expression> levels;
+    std::vector<ast::Expression> pulses;
     for (const std::size_t i : group.associations) {
       const Association& association = chart_.actions[i];
       const std::string& qualifier = association.line->qualifier;
       if (qualifier == network::kWhileActive) {
-        pulse = join(std::move(pulse), active(chart_, association.step, association.line->at));
+        pulses.push_back(active(chart_, association.step, association.line->at));
       } else if (qualifier.starts_with('P')) {
-        pulse = join(std::move(pulse), edge(association, qualifier == "P0"));
+        pulses.push_back(edge(association, qualifier == "P0"));
       } else if (qualifier != "R") {
-        level = join(std::move(level), on(association, i, reset));
+        levels.push_back(on(association, i, reset));
       }
     }
+    ast::Expression level = any_of(std::move(levels), at);
+    ast::Expression pulse = any_of(std::move(pulses), at);
     if (!is_false(reset)) {
       level = make::both(std::move(level), make::negation(reset));
     }
@@ -156,7 +159,7 @@ class Actions {
     add(make::assign(make::name(at, now), std::move(level)));
     ast::Expression runs = join(make::either(make::name(at, now), make::name(at, before)), std::move(pulse));
     if (group.body == nullptr) {
-      variable(group, at, now, std::move(runs), std::move(reset));
+      variable(group, at, now, std::move(runs), reset);
     } else {
       code(group, number, std::move(runs));
     }
@@ -164,14 +167,14 @@ class Actions {
   }
 
   void variable(const Group& group, const Place& at, const std::string& now, ast::Expression runs,
-                ast::Expression reset) {
+                const ast::Expression& reset) {
     auto target = st::parse_expression({group.name, at}, diagnostics_);
     if (!target) {
       return;
     }
     when(std::move(runs), make::assign(*target, make::name(at, now)));
     if (!is_false(reset)) {
-      when(std::move(reset), make::assign(std::move(*target), make::truth(at, false)));
+      when(reset, make::assign(std::move(*target), make::truth(at, false)));
     }
   }
 
@@ -229,6 +232,9 @@ class Actions {
   static bool is_false(const ast::Expression& expression) noexcept {
     const bool* value = std::get_if<bool>(&expression.value);
     return expression.kind == ast::Expression::Kind::Literal && value != nullptr && !*value;
+  }
+  static ast::Expression any_of(std::vector<ast::Expression> values, const Place& at) {
+    return values.empty() ? make::truth(at, false) : make::any_of(std::move(values));
   }
   static ast::Expression join(ast::Expression left, ast::Expression right) {
     if (is_false(left)) {

@@ -61,6 +61,7 @@ Lowered InnerCharts::use(const network::Body& body, const std::function<Lowered(
       (one.section == ast::Section::Temp ? known.variables : pou_->variables).push_back(std::move(one));
     }
     known.body = std::move(code.body);
+    return known;  // with names that no other place has
   }
   Lowered out = known_[&body];
   Names names;

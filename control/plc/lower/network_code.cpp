@@ -35,22 +35,6 @@ bool is_fixed(const ast::Expression& expression) {
   }
 }
 
-// Combines the values one after the other, but not deeper than later passes can handle.
-ast::Expression any_of(std::vector<ast::Expression> values) {
-  while (values.size() > 1) {
-    std::vector<ast::Expression> out;
-    for (std::size_t i = 0; i < values.size(); i += kDeepest) {
-      ast::Expression one = std::move(values[i]);
-      for (std::size_t k = i + 1; k < std::min(values.size(), i + kDeepest); ++k) {
-        one = make::either(std::move(one), std::move(values[k]));
-      }
-      out.push_back(std::move(one));
-    }
-    values = std::move(out);
-  }
-  return std::move(values.front());
-}
-
 }  // namespace
 
 std::string key_of(const Element& element) {
@@ -87,7 +71,7 @@ Value NetworkCode::input_value(const Element& element, const Pin& pin, bool guar
     for (const Connection& connection : pin.connections) {
       values.push_back(value_of(connection, false).expression);
     }
-    all.expression = values.empty() ? make::truth(pin.at, false) : any_of(std::move(values));
+    all.expression = values.empty() ? make::truth(pin.at, false) : make::any_of(std::move(values));
   }
   if (pin.edge != ast::Edge::None) {
     all.expression = edge(std::move(all.expression), pin.edge, fmt::format("{}_{}", key_of(element), pin.name));

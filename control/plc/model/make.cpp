@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/plc/model/make.h"
 
+#include <algorithm>
+
 namespace indurop::plc::make {
 namespace {
 
@@ -19,6 +21,22 @@ Statement statement(Statement::Kind kind, const Place& at) {
   made.kind = kind;
   made.at = at;
   return made;
+}
+
+Expression joined(std::vector<Expression> values, Expression (*join)(Expression left, Expression right)) {
+  constexpr std::size_t kDeepest = 64;
+  while (values.size() > 1) {
+    std::vector<Expression> out;
+    for (std::size_t i = 0; i < values.size(); i += kDeepest) {
+      Expression one = std::move(values[i]);
+      for (std::size_t k = i + 1; k < std::min(values.size(), i + kDeepest); ++k) {
+        one = join(std::move(one), std::move(values[k]));
+      }
+      out.push_back(std::move(one));
+    }
+    values = std::move(out);
+  }
+  return std::move(values.front());
 }
 
 }  // namespace
@@ -96,6 +114,14 @@ Expression either(Expression left, Expression right) {
     return left;
   }
   return is_true(right) ? std::move(right) : binary(ast::Operator::Or, std::move(left), std::move(right));
+}
+
+Expression all_of(std::vector<Expression> values) {
+  return joined(std::move(values), &both);
+}
+
+Expression any_of(std::vector<Expression> values) {
+  return joined(std::move(values), &either);
 }
 
 Statement assign(Expression target, Expression value) {

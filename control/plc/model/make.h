@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "control/plc/model/ast.h"
 
@@ -25,6 +26,9 @@ namespace indurop::plc::make {
 [[nodiscard]] bool is_true(const ast::Expression& expression) noexcept;             // the literal TRUE
 [[nodiscard]] ast::Expression both(ast::Expression left, ast::Expression right);    // AND, shorter with TRUE
 [[nodiscard]] ast::Expression either(ast::Expression left, ast::Expression right);  // OR, shorter with TRUE
+// Join any number of values, at least one, by both() or either(), no deeper than later passes can handle.
+[[nodiscard]] ast::Expression all_of(std::vector<ast::Expression> values);
+[[nodiscard]] ast::Expression any_of(std::vector<ast::Expression> values);
 
 [[nodiscard]] ast::Statement assign(ast::Expression target, ast::Expression value);
 [[nodiscard]] ast::Statement call_statement(ast::Expression call);

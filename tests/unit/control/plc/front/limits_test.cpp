@@ -4,9 +4,13 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <string>
 
+#include "control/plc/front/reader.h"
+#include "control/plc/print/print.h"
 #include "tests/unit/control/plc/front/compiled.h"
+#include "tests/unit/control/plc/growth/growing_drawings.h"
 
 namespace indurop::plc {
 namespace {
@@ -198,6 +202,35 @@ TEST(PlcLimits, A_list_and_a_drawing_may_be_as_long_as_they_like) {
     list += "ADD 1\n";
   }
   EXPECT_EQ(wrong(list + "ST i\nEND_PROGRAM\n"), "");
+}
+
+TEST(PlcLimits, A_variable_may_be_the_action_of_any_number_of_steps) {
+  const std::string steps = lines(20000, [](int i) { return "STEP S" + n(i) + ": b(N); END_STEP\n"; }) +
+                            "TRANSITION FROM S0 TO (S1" +
+                            lines(20000, [](int i) { return i < 2 ? "" : ", S" + n(i); }) + ") := b; END_TRANSITION\n";
+  EXPECT_EQ(wrong("PROGRAM Main VAR b : BOOL; END_VAR INITIAL_STEP S0: END_STEP\n" + steps + "END_PROGRAM"), "");
+}
+
+std::string printed(const std::string& drawing) {
+  Diagnostics diagnostics;
+  const auto read = [&](const std::string& name) { return glb2idl::ReadResult{drawing, name, ""}; };
+  plcopen::Document document = read_document({"in.xml"}, {}, read, diagnostics);
+  const std::string text = print_text(printed_bodies(document, ""), true, diagnostics);
+  return diagnostics.failed() ? base::to_text(diagnostics.list()) : text;
+}
+
+TEST(PlcLimits, An_operand_of_many_blocks_has_one_wire_to_all_of_them) {
+  const std::string text = printed(testing::blocks_in_series(300));
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 15) << text.substr(0, 2000);
+}
+
+TEST(PlcLimits, Drawings_have_pictures_of_4000000_characters_and_50000_pieces_of_wire_at_most) {
+  EXPECT_THAT(printed(testing::blocks_far_apart(100)).substr(0, 300), HasSubstr("ADD"));
+  EXPECT_THAT(
+      printed(testing::blocks_far_apart(300)).substr(0, 300),
+      HasSubstr("in.xml:3:1: error: POU main, network 1, input variable n: too large for a picture: the lines"));
+  EXPECT_THAT(printed(testing::rungs_wide(800)).substr(0, 300),
+              HasSubstr("POU main: too large for a picture: it has more than 4000000 characters; split it"));
 }
 
 }  // namespace
