@@ -8,6 +8,7 @@ import pathlib
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -135,6 +136,14 @@ class DemoTest(unittest.TestCase):
         done = subprocess.run([program, "demo", "--folder", "/proc/none"], text=True, capture_output=True, check=False)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("/proc/none", done.stderr)
+
+    def test_6_a_second_cell_says_what_is_in_its_way(self):
+        first = socket.create_server(("127.0.0.1", 1502))
+        self.addCleanup(first.close)
+        done = subprocess.run([program, "demo"], text=True, capture_output=True, check=False)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("TCP port 1502", done.stderr)
+        self.assertEqual(done.stdout, "", "nothing was started")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop demo: runs a copy of a built example, with its script.
 #include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 
 #include <cerrno>
@@ -16,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/descriptor.h"
 #include "core/base/program_folder.h"
 #include "core/base/spawn.h"
 #include "core/rt/clock.h"
@@ -30,6 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint16_t kModbusPort = 1502;  // of ioconfig.xml of the robot cell
 constexpr std::int64_t kPollNs = 20'000'000;
 constexpr std::int64_t kGraceNs = 20'000'000'000;  // the script ends its nodes, which end their processes
 
@@ -67,6 +71,23 @@ void report_rights(Context& context) {
       "this user has no right to real time: the example keeps its order, not its times. {}; indurop doctor says more",
       group ? "To have it: sudo adduser $USER indurop, then log in again; or run this as root"
             : "To have it: run this as root, or allow rtprio and memlock in /etc/security/limits.d"));
+}
+
+// Returns what is wrong with this port of the host; empty if a program can listen on it.
+std::string port_problem(std::uint16_t port) {
+  const base::Descriptor tried(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  const int on = 1;
+  sockaddr_in at{};
+  at.sin_family = AF_INET;
+  at.sin_port = htons(port);
+  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (tried.get() >= 0 && ::setsockopt(tried.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
+      ::bind(tried.get(), reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0) {
+    return {};
+  }
+  return fmt::format(
+      "its field devices cannot listen on TCP port {} of this host: {}; if another robot cell runs here, end it first",
+      port, std::strerror(errno));  // NOLINT(concurrency-mt-unsafe): there is one thread
 }
 
 void set_environment(const fs::path& programs, const fs::path& folder, bool temporary) {
@@ -131,6 +152,12 @@ int demo(Context& context, const Options& options) {
         "tree: make demo",
         name));
     return kFailed;
+  }
+  if (name == "robot_cell") {
+    if (const std::string problem = port_problem(kModbusPort); !problem.empty()) {
+      context.out.error(problem);
+      return kFailed;
+    }
   }
   std::optional<TemporaryFolder> temporary;
   if (options.folder.empty()) {
