@@ -13,7 +13,7 @@ import unittest
 
 indurop, plant, work = (pathlib.Path(), pathlib.Path(), pathlib.Path())
 INSTALLED = "usr/share/indurop/plants/two_boards.bundle"
-NAME = "indurop-plant-two-boards"
+NAME = "indurop-plant-two.boards"
 
 
 def run(*words, **more):

@@ -134,9 +134,14 @@ Result<void, Problem> add_files(const PlantPackage& package, const Path& tree) {
 }  // namespace
 
 std::string package_name(const std::string& plant) {
-  std::string name = "indurop-plant-" + plant;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return c == '_' ? '-' : static_cast<char>(std::tolower(c)); });
+  std::string name = "indurop-plant-";
+  for (const char c : plant) {
+    if (c >= 'A' && c <= 'Z') {
+      name += fmt::format("+{}", static_cast<char>(c - 'A' + 'a'));
+    } else {
+      name += c == '_' ? '.' : c;
+    }
+  }
   return name;
 }
 

@@ -20,7 +20,8 @@ struct PlantPackage {
   std::string maintainer;  // NAME <ADDRESS>
 };
 
-// Returns the name of the package: indurop-plant-cell.
+// Returns the name of the package: indurop-plant-cell. dpkg takes neither '_' nor capital letters: Cell_2 becomes
+// indurop-plant-+cell.2, which no other plant has.
 std::string package_name(const std::string& plant);
 // Returns why this is not a version that apt can compare; empty if it is.
 std::string version_problem(const std::string& version);
