@@ -107,18 +107,18 @@ Compiled compile(const CompileOptions& options, const glb2idl::FileReader& read)
   return Compiler(options, read).run();
 }
 
-std::string module_xml(const std::vector<ModuleText>& modules) {
+std::string module_xml(const std::vector<ModuleText>& modules, const std::string& folder) {
   std::string out;
   for (const ModuleText& one : modules) {
     out += fmt::format(
         "  <module>\n"
-        "    <filename>./{}.so</filename>\n"
+        "    <filename>{}/{}.so</filename>\n"
         "    <moduletype>thread</moduletype>\n"
         "    <operationtype>{}</operationtype>\n"
         "{}"
         "    <priority>{}</priority>\n"
         "  </module>\n",
-        one.name, one.period_ns > 0 ? "periodic" : "sporadic",
+        folder, one.name, one.period_ns > 0 ? "periodic" : "sporadic",
         fmt::format("    <{0}>{1}</{0}>\n", one.period_ns > 0 ? "period" : "deadline",
                     duration(one.period_ns > 0 ? one.period_ns : kDefaultIntervalNs)),
         one.priority);

@@ -51,7 +51,8 @@ struct Compiled {
 [[nodiscard]] Compiled compile(const CompileOptions& options,
                                const glb2idl::FileReader& read = glb2idl::read_source_file);
 
-// Returns <module>...</module> for each module, in the format of module.xml.
-[[nodiscard]] std::string module_xml(const std::vector<ModuleText>& modules);
+// Returns <module>...</module> for each module, in the format of module.xml. `folder`: where the modules are, as seen
+// from the folder of module.xml.
+[[nodiscard]] std::string module_xml(const std::vector<ModuleText>& modules, const std::string& folder = ".");
 
 }  // namespace indurop::plc

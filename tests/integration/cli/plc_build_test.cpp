@@ -34,6 +34,17 @@ TEST_F(PlcBuild, Code_that_does_not_compile_is_an_internal_error_to_be_reported)
   EXPECT_THAT(kept, HasSubstr("no matching function"));
 }
 
+TEST_F(PlcBuild, Names_of_files_are_those_of_a_configuration_in_the_working_directory) {
+  const auto filename = [](const std::string& folder) {
+    const auto enter = [] { return ::chdir(scratch().c_str()) == 0; };
+    return indurop({"plc", "build", file("motor.st"), "--only-sources", "-o", folder}, {.prepare = enter}).out;
+  };
+  EXPECT_THAT(filename("."), HasSubstr("<filename>./motor.so</filename>"));
+  EXPECT_THAT(filename("out/"), HasSubstr("<filename>./out/motor.so</filename>"));
+  EXPECT_THAT(filename("out/../b"), HasSubstr("<filename>./b/motor.so</filename>"));
+  EXPECT_THAT(filename(file("out")), HasSubstr("<filename>" + file("out/motor.so</filename>")));
+}
+
 TEST_F(PlcBuild, Other_failures_of_the_compiler_are_shown) {
   const Outcome result = build("fatal error: error writing to /tmp/x.s: No space left on device");
   EXPECT_EQ(result.code, 1);

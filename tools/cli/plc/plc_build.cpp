@@ -159,7 +159,16 @@ int check_plc(Context& context, const PlcRequest& request) {
   return kOk;
 }
 
-// Writes <name>.glb and, for each task, .cpp and .so; prints the modules for module.xml.
+// The folder for <filename> of a module.xml in the working directory: ./build, ../build or /build.
+std::string from_here(const fs::path& folder) {
+  std::string path = folder.lexically_normal().string();
+  while (path.size() > 1 && path.back() == '/') {
+    path.pop_back();
+  }
+  return path == "." || path.starts_with('/') || path.starts_with("..") ? path : "./" + path;
+}
+
+// Writes <name>.glb and, for each task, .cpp and .so; prints the modules for a module.xml in the working directory.
 int build_plc(Context& context, const PlcRequest& request) {
   const plc::Compiled compiled = compile(context, request.compile, false);
   if (!compiled.ok) {
@@ -174,7 +183,7 @@ int build_plc(Context& context, const PlcRequest& request) {
     }
   }
   if (!context.out.quiet()) {
-    context.out.write(plc::module_xml(compiled.modules));
+    context.out.write(plc::module_xml(compiled.modules, from_here(request.folder)));
   }
   return kOk;
 }
