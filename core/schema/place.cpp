@@ -236,7 +236,7 @@ Failure no_variable(const Schema& schema, const Path& path) {
     for (const Variable& variable : schema.variables) {
       ends.push_back(last_parts(variable.name, parts));
     }
-    const std::string near = base::nearest(name, ends);
+    const std::string near = base::closest_name(name, ends);
     const auto at = static_cast<std::size_t>(std::find(ends.begin(), ends.end(), near) - ends.begin());
     return near.empty() ? near : schema.variables[at].name;
   };

@@ -110,6 +110,8 @@ TEST_F(Place_of_a_name, Unknown_names_get_the_nearest) {
   EXPECT_EQ(failed("other::joints"), Errc::NotFound);
   EXPECT_THAT(message_, HasSubstr("'knu::Robot::joints'"));
   EXPECT_EQ(failed("::joints"), Errc::NotFound);
+  EXPECT_EQ(failed("oint"), Errc::NotFound);
+  EXPECT_EQ(message_, "no variable 'oint'; did you mean 'knu::Robot::joints'?");
   EXPECT_EQ(failed("temperature"), Errc::NotFound);
   EXPECT_EQ(message_, "no variable 'temperature'; 'indurop vars' lists them");
   EXPECT_EQ(failed("joints[1].yy"), Errc::NotFound);
