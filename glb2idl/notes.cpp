@@ -197,7 +197,7 @@ std::optional<std::int64_t> read_duration(Context& context, const ast::Expressio
     return std::nullopt;
   }
   if (value->integer <= 0) {
-    context.error(expression.at, fmt::format("{} must be longer than 0", what));
+    context.error(expression.at, fmt::format("{} must be longer than 0, such as 10ms, or left out", what));
     return std::nullopt;
   }
   return static_cast<std::int64_t>(value->integer);
