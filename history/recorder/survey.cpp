@@ -107,7 +107,10 @@ Result<Survey, Problem> survey(const std::filesystem::path& file) {
   survey.bytes = std::filesystem::file_size(file, ignored);
   survey.closed = reader->contents().has_summary;
   for (const recording::McapAttachmentIndex& attachment : reader->contents().attachments) {
-    survey.attachments.push_back(attachment.name);
+    const std::vector<std::string>& names = survey.attachments;
+    if (std::find(names.begin(), names.end(), attachment.name) == names.end()) {  // a later one replaces an earlier one
+      survey.attachments.push_back(attachment.name);
+    }
   }
   Surveyor surveyor(survey);
   survey.damages = reader->each([&surveyor](const recording::McapMessage& message) { surveyor.take(message); });

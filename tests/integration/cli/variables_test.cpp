@@ -264,6 +264,7 @@ TEST_F(WithNode, Hz_counts_every_update_of_a_struct) {
   EXPECT_GT(json["rate_hz"], 0.0);
   EXPECT_THAT(indurop({"hz", "tick", "--once"}).out, HasSubstr("average rate: "));
   EXPECT_EQ(indurop({"hz", "nothing"}).code, 1);
+  EXPECT_EQ(indurop({"hz", "gain", "-n", "2"}).out, "no update yet\n");
 }
 
 }  // namespace

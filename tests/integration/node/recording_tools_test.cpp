@@ -43,6 +43,7 @@ TEST_F(RecordingTools, Info_counts_runs_and_messages) {
   EXPECT_EQ(all["closed"], true);
   EXPECT_EQ(all["nodes"][0]["node"], node());
   EXPECT_EQ(all["attachments"][0], "module.xml");
+  EXPECT_EQ(std::count(all["attachments"].begin(), all["attachments"].end(), "indurop.facts.json"), 1);
   ASSERT_EQ(all["modules"].size(), 2U);
   EXPECT_EQ(all["modules"][0]["module"], "counter");
   EXPECT_EQ(all["modules"][0]["runs"], 1000);

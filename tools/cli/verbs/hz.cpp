@@ -146,6 +146,7 @@ int hz(Context& context, const Options& options) {
   const std::int64_t begin = rt::now_ns();
   std::int64_t report_at = begin + kReportNs;
   std::uint64_t done = 0;
+  bool said = false;  // "no update yet" is said once
   for (std::int64_t next = begin;; next += kLookNs) {
     if (wait_until(next) == Woken::Signal && interrupted()) {
       return kOk;
@@ -158,7 +159,10 @@ int hz(Context& context, const Options& options) {
       continue;
     }
     report_at += kReportNs;
-    print(context, items.front(), counter);
+    if (context.format == Format::Json || counter.window() > 0 || !said) {
+      print(context, items.front(), counter);
+      said = true;
+    }
     if (!context.out.flush() || timed_out || (reports > 0 && ++done >= reports)) {
       return kOk;
     }

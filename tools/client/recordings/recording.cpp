@@ -65,6 +65,16 @@ void append(Series& series, const std::string& field, std::size_t rows_before) {
   }
 }
 
+// One row is what a recording has of values that did not change. They are drawn as lines of one second.
+void hold(Recording& recording) {
+  recording.time_s.push_back(recording.time_s.front() + 1);
+  for (Series& series : recording.series) {
+    for (std::vector<double>& line : series.lines) {
+      line.push_back(line.front());
+    }
+  }
+}
+
 }  // namespace
 
 bool few_whole_values(const std::vector<double>& line) {
@@ -110,8 +120,11 @@ Result<Recording, base::Diagnostic> read_recording(std::string_view text, const 
     }
     recording.time_s.push_back((*time - first) * unit);
   }
-  if (recording.time_s.size() < 2) {
-    return problem(line - 1, "a chart needs at least two rows");
+  if (recording.time_s.empty()) {
+    return problem(line - 1, "there is no row below the heading; record one with `indurop watch NAME... -o csv`");
+  }
+  if (recording.time_s.size() == 1) {
+    hold(recording);
   }
   if (!std::is_sorted(recording.time_s.begin(), recording.time_s.end())) {
     return problem(0, "the times are not rising");

@@ -49,8 +49,16 @@ TEST(RecordingText, What_is_no_recording_is_named_with_its_line) {
   EXPECT_THAT(problem("time_ns,a\n1,2\n2\n"), StartsWith("run.csv:3:1: error: 1 values for 2 columns"));
   EXPECT_THAT(problem("time_ns,a\nx,2\n"), StartsWith("run.csv:2:1: error: the first column is not a time"));
   EXPECT_THAT(problem("time_ns,a\n2,2\n1,2\n"), HasSubstr("error: the times are not rising"));
-  EXPECT_THAT(problem("time_ns,a\n1,2\n"), HasSubstr("at least two rows"));
+  EXPECT_THAT(problem("time_ns,a\n"), HasSubstr("error: there is no row below the heading"));
   EXPECT_THAT(problem(""), HasSubstr("error"));
+}
+
+TEST(RecordingText, Values_of_the_only_row_are_held_for_a_second) {
+  const Recording sut = read("time_ns,gain,state,none\n7,2.5,Idle,\n");
+  EXPECT_THAT(sut.time_s, ElementsAre(0, 1));
+  EXPECT_THAT(sut.series[0].lines, ElementsAre(ElementsAre(2.5, 2.5)));
+  EXPECT_THAT(sut.series[1].lines, ElementsAre(ElementsAre(0, 0)));
+  EXPECT_TRUE(sut.series[2].lines.empty());
 }
 
 TEST(RecordingText, A_number_of_many_values_is_a_line_and_one_of_few_a_lane) {
