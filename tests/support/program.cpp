@@ -174,15 +174,27 @@ pid_t dead_pid() {
   return pid;
 }
 
-bool own_mounts() {
+namespace {
+
+// What is made private; who is not root becomes this user and group in a user namespace.
+bool make_own(int what, const std::string& user, const std::string& group) {
   if (::geteuid() == 0) {
-    return ::unshare(CLONE_NEWNS) == 0;
+    return ::unshare(what) == 0;
   }
-  const std::string user = std::to_string(::getuid());
-  const std::string group = std::to_string(::getgid());
-  return ::unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0 && write_file("/proc/self/setgroups", "deny") &&
-         write_file("/proc/self/uid_map", user + " " + user + " 1") &&
-         write_file("/proc/self/gid_map", group + " " + group + " 1");
+  const std::string users = user + " " + std::to_string(::getuid()) + " 1";
+  const std::string groups = group + " " + std::to_string(::getgid()) + " 1";
+  return ::unshare(CLONE_NEWUSER | what) == 0 && write_file("/proc/self/setgroups", "deny") &&
+         write_file("/proc/self/uid_map", users) && write_file("/proc/self/gid_map", groups);
+}
+
+}  // namespace
+
+bool own_mounts() {
+  return make_own(CLONE_NEWNS, std::to_string(::getuid()), std::to_string(::getgid()));
+}
+
+bool own_network() {
+  return make_own(CLONE_NEWNET, "0", "0");
 }
 
 bool mount_small(const std::string& folder, const std::string& size) {

@@ -76,6 +76,10 @@ pid_t dead_pid();
 // Makes mounts of the calling process, which has one thread, its own. False if it may not.
 bool own_mounts();
 
+// Gives the calling process, which has one thread, and those it starts a network of their own, in which they may do
+// all. False if it may not.
+bool own_network();
+
 // For Environment::prepare: a private view of the file system with an empty one of this size at `folder`.
 bool mount_small(const std::string& folder, const std::string& size);
 

@@ -146,6 +146,12 @@ bool SimulatedBus::send(Bytes frame) noexcept {
   return true;
 }
 
+std::optional<Time> SimulatedBus::next_arrival() const noexcept {
+  const auto next = std::min_element(arrivals_.begin(), arrivals_.end(),
+                                     [](const Arrival& a, const Arrival& b) { return a.at < b.at; });
+  return next == arrivals_.end() ? std::nullopt : std::optional(next->at);
+}
+
 std::size_t SimulatedBus::receive(std::span<std::uint8_t> to) noexcept {
   const auto next =
       std::find_if(arrivals_.begin(), arrivals_.end(), [this](const Arrival& arrival) { return arrival.at <= now_; });

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "control/io/ethercat/master/query.h"
@@ -47,6 +48,9 @@ class SimulatedBus final : public Link {
   void add_fault(const Fault& fault) { faults_.push_back({fault, false, false}); }
   // Time passes; faults begin and end.
   void advance(Time now);
+
+  // When the next frame comes back to the master; nothing if none is under way.
+  [[nodiscard]] std::optional<Time> next_arrival() const noexcept;
 
   bool send(Bytes frame) noexcept override;
   std::size_t receive(std::span<std::uint8_t> to) noexcept override;

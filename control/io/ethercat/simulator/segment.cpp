@@ -50,6 +50,14 @@ std::optional<Time> Segment::process(std::span<std::uint8_t> frame, Time now) {
   return now + static_cast<std::int64_t>(2 * count) * delay_;
 }
 
+void Segment::compute() {
+  for (Slave& slave : slaves_) {
+    if (slave.is_on()) {
+      slave.compute();
+    }
+  }
+}
+
 void Segment::break_frame_at(std::size_t index) noexcept {
   auto& esc = slaves_[index].esc();
   const std::uint8_t errors = esc.at(reg::kRxErrors);

@@ -27,6 +27,8 @@ class Segment {
 
   // Passes a frame that leaves the master now. Returns when it is back; nothing if no slave turns it round.
   std::optional<Time> process(std::span<std::uint8_t> frame, Time now);
+  // Runs the applications of slaves that the frame has passed.
+  void compute();
   // A frame is broken on its way to this slave: it counts an error at its port, and all drop the frame.
   void break_frame_at(std::size_t index) noexcept;
 

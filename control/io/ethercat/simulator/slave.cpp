@@ -176,7 +176,7 @@ void Slave::react(Time now) {
   }
   if (events.outputs) {
     outputs_at_ = now;
-    run_application();
+    is_due_ = true;
   }
 }
 
@@ -227,7 +227,7 @@ void Slave::change_state(std::uint8_t request) {
     sdo_.reset();
     last_counter_ = 0;
   }
-  run_application();
+  is_due_ = true;
 }
 
 std::uint16_t Slave::check_change(AlState from, AlState to) const {
@@ -299,8 +299,8 @@ bool Slave::process_data_fits(SyncManagerUse use, unsigned number) const {
   return area_of(number).length == process_bytes(use);
 }
 
-void Slave::run_application() {
-  if (!application_) {
+void Slave::compute() {
+  if (!std::exchange(is_due_, false) || !application_) {
     return;
   }
   const Area out = area_of(kOutputs);

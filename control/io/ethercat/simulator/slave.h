@@ -29,13 +29,16 @@ struct SlaveConfig {
 
 class Slave {
  public:
-  // Called after a frame brought outputs: what the slave applies (only in OP, else empty), and the inputs to fill.
+  // Called by compute(): what the slave applies (only in OP, else empty), and the inputs to fill.
   using Application = std::function<void(Bytes outputs, std::span<std::uint8_t> inputs)>;
 
   explicit Slave(SlaveConfig config, Application application = {});
 
   // A frame passes: `now` when it comes, `back` when it returns through the next port.
   void process(std::span<std::uint8_t> frame, Time now, Time back);
+  // Runs the application if a frame brought outputs or another state. The frame has left by then, as with a real
+  // slave: what the application computes goes into later frames.
+  void compute();
   void set_power(bool on);
   void set_next_port(bool linked) noexcept;  // whether another slave answers after it
 
@@ -71,7 +74,6 @@ class Slave {
   [[nodiscard]] Area area_of(unsigned sync_manager) const noexcept;
   void receive_mailbox(Time now);
   void deliver_mailbox(Time now);
-  void run_application();
 
   Esc esc_;
   ObjectDictionary objects_;
@@ -91,6 +93,7 @@ class Slave {
   std::uint8_t last_counter_ = 0;
   std::uint8_t own_counter_ = 0;
   Time outputs_at_{0};
+  bool is_due_ = false;  // the application
   struct Refusal {
     AlState state = AlState::None;
     std::uint16_t code = 0;

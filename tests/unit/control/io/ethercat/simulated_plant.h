@@ -48,6 +48,7 @@ class Plant {
     now_ += kTick;
     bus_.advance(now_);
     master_->cycle(now_);
+    bus_.segment().compute();
     Event event;
     while (master_->next_event(event)) {
       events_.push_back(event);

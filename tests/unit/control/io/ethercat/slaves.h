@@ -69,6 +69,7 @@ class Prober {
     std::vector<std::uint8_t> frame(sent.begin(), sent.end());
     now_ += Time(1000);
     const auto back = segment_.process(frame, now_);
+    segment_.compute();
     if (!back) {
       return 0xFFFF;
     }

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// A servo drive as an EtherCAT slave: the simulated CiA 402 drive after a mailbox and a process image. What it is, its
+// master reads in its EEPROM.
+
+#pragma once
+
+#include "control/io/cia402_drive.h"
+#include "control/io/ethercat/simulator/slave.h"
+
+namespace indurop::io::ecsim {
+
+class Drive {
+ public:
+  explicit Drive(const config::IoAxis& axis) : drive_(axis) {}
+
+  // The slave, without its application.
+  static ethercat::SlaveConfig slave();
+  // The application of the slave: moves the axis up to this time, with what it has got, and fills in where it is then.
+  void compute(ethercat::Bytes outputs, std::span<std::uint8_t> inputs, ethercat::Time now);
+
+ private:
+  Cia402Drive drive_;
+  ethercat::Time last_{0};
+};
+
+}  // namespace indurop::io::ecsim

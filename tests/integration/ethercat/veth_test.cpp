@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+// The master at a network interface, simulated drives at the other end of the cable, tshark as the judge of what is
+// between them.
+#include <map>
+#include <set>
+
+#include "tests/support/as_nobody.h"
+#include "tests/unit/allocations.h"
+#include "veth_fixture.h"
+
+namespace indurop::io::ethercat {
+namespace {
+
+constexpr Clock kCycle = std::chrono::milliseconds(1);
+
+// The clock of the master counts cycles, so that its time-outs do not depend on how busy the machine is.
+class Bus {
+ public:
+  explicit Bus(std::size_t drives) {
+    auto opened = PacketLink::open("ec0");
+    if (!opened) {
+      ADD_FAILURE() << opened.error();
+      return;
+    }
+    packets_ = std::move(*opened);
+    link_ = std::make_unique<PatientLink>(*packets_);
+    master_ = std::make_unique<Master>(*link_, plans_of_drives(drives));
+  }
+  void cycle() {
+    now_ += kCycle;
+    master_->cycle(now_);
+    Event event;
+    while (master_->next_event(event)) {
+      story_ += describe(event, "drive") + "\n";
+    }
+  }
+  template <class Condition>
+  bool run_until(Condition condition) {
+    for (unsigned i = 0; i < 100'000 && !condition(); ++i) {
+      cycle();
+    }
+    return condition();
+  }
+  bool run_until_all_operate() {
+    return run_until([this] { return all_operate(); });
+  }
+  [[nodiscard]] bool all_operate() const {
+    for (std::size_t i = 0; i < master_->size(); ++i) {
+      if (!master_->slave(i).operates()) {
+        return false;
+      }
+    }
+    return true;
+  }
+  [[nodiscard]] bool all_fresh() const {
+    for (std::size_t i = 0; i < master_->size(); ++i) {
+      if (!master_->is_fresh(i)) {
+        return false;
+      }
+    }
+    return true;
+  }
+  Master& master() { return *master_; }
+  PatientLink& link() { return *link_; }
+  std::string& story() { return story_; }
+
+ private:
+  std::unique_ptr<PacketLink> packets_;
+  std::unique_ptr<PatientLink> link_;
+  std::unique_ptr<Master> master_;
+  Clock now_{0};
+  std::string story_;
+};
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
+    ++found;
+  }
+  return found;
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields(1);
+  for (const char c : line) {
+    if (c == '\t') {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+// What tshark shows of the frames, each line with these fields.
+const std::vector<std::string> kFields = {"ecat.cmd",
+                                          "ecat.idx",
+                                          "ecat.cnt",
+                                          "ecat.adp",
+                                          "ecat.reg.alctrl.ctrl",
+                                          "ecat.reg.alstatus.status",
+                                          "ecat.fmmu.lstart",
+                                          "ecat.syncman.start",
+                                          "ecat_mailbox.coe.sdoreq",
+                                          "ecat_mailbox.coe.sdores",
+                                          "ecat_mailbox.coe.sdoidx"};
+struct Seen {
+  std::map<std::string, int> frames;  // by their commands
+  std::map<std::string, std::vector<std::string>> states;
+  std::vector<std::string> counters;
+  std::set<std::string> fmmus;
+  std::set<std::string> managers;
+  std::set<std::string> requests;
+  std::set<std::string> answers;
+};
+
+Seen seen_by(const std::vector<std::string>& lines) {
+  Seen seen;
+  for (const std::string& line : lines) {
+    auto field = fields_of(line);
+    EXPECT_EQ(field.size(), kFields.size()) << line;
+    field.resize(kFields.size());
+    ++seen.frames[field[0] + " " + field[1]];
+    const bool is_back = field[2].find_first_not_of("0,") != std::string::npos;
+    if (field[0].starts_with("0x07") && field[5] == "0x0008") {
+      seen.counters.push_back(field[2]);
+    } else if (is_back && field[0].starts_with("0x05")) {
+      seen.states["requested " + field[4]].push_back(field[3]);
+    } else if (is_back && field[0].starts_with("0x04")) {
+      seen.states["reported " + field[5]].push_back(field[3]);
+    }
+    seen.fmmus.insert(field[6]);
+    seen.managers.insert(field[7]);
+    seen.requests.insert(field[8].empty() ? "" : field[10]);
+    seen.answers.insert(field[9].empty() ? "" : field[10]);
+  }
+  return seen;
+}
+
+using Veth = VethTest;
+
+TEST_F(Veth, A_master_brings_drives_to_op_and_exchanges_data_without_allocation) {
+  constexpr std::size_t kDrives = 5;
+  simulate(kDrives);
+  Bus sut(kDrives);
+  ASSERT_TRUE(sut.run_until_all_operate()) << sut.story();
+  for (int i = 0; i < 5; ++i) {
+    sut.cycle();
+  }
+  const auto allocated = g_allocations.load();
+  for (int i = 0; i < 5000; ++i) {
+    sut.cycle();
+    ASSERT_TRUE(sut.all_fresh()) << "cycle " << i << "\n" << sut.story();
+  }
+  EXPECT_EQ(g_allocations.load(), allocated);
+  const BusCounters& counters = sut.master().counters();
+  EXPECT_EQ(counters.lost + counters.late + counters.duplicates + counters.foreign + counters.not_sent, 0U);
+  EXPECT_EQ(sut.master().slaves_seen(), kDrives);
+}
+
+TEST_F(Veth, Every_frame_is_what_tshark_expects) {
+  if (!has_tshark()) {
+    GTEST_SKIP() << "tshark is not installed";
+  }
+  constexpr std::size_t kDrives = 3;
+  constexpr std::size_t kCycles = 1000;
+  simulate(kDrives);
+  Bus sut(kDrives);
+  ASSERT_TRUE(sut.run_until_all_operate()) << sut.story();
+  for (std::size_t i = 0; i < kCycles; ++i) {
+    sut.cycle();
+  }
+  end_simulation();
+
+  const std::string fault =
+      "!ecat || _ws.malformed || _ws.expert || ecat_mailbox.invalid || ecat_mailbox.coe.invalid || "
+      "ecat_mailbox.coe.abortcode || ecat.subframe.circulating == 1";
+  EXPECT_THAT(tshark(fault, {"frame.number"}), testing::IsEmpty());
+
+  Seen seen = seen_by(tshark("ecat", kFields));
+  for (const auto& [commands, times] : seen.frames) {
+    EXPECT_EQ(times % 2, 0) << "what the master sends comes back with the same commands: " << commands;
+  }
+  // Of the process data in OP: all drives in the broadcast, three of each drive that reads and writes.
+  EXPECT_GE(seen.counters.size(), kCycles);
+  EXPECT_THAT(seen.counters, testing::Each("3,3,3,3"));
+  const std::string drives = "0x1001,0x1002,0x1003";
+  for (const std::string state : {"1", "2", "4", "8"}) {
+    const std::string all = "0x000" + state + ",0x000" + state + ",0x000" + state;
+    EXPECT_THAT(seen.states["requested " + all], testing::Contains(drives)) << state;
+    EXPECT_THAT(seen.states["reported " + all], testing::Contains(drives)) << state;
+  }
+  EXPECT_THAT(seen.fmmus, testing::Contains(testing::StartsWith("0x00010000,")));
+  EXPECT_THAT(seen.managers, testing::Contains("0x1000,0x1080,0x1000,0x1080,0x1000,0x1080"));
+  EXPECT_THAT(seen.requests, testing::Contains("0x1c12,0x1c12,0x1c12"));
+  EXPECT_THAT(seen.answers, testing::Contains("0x1c12,0x1c12,0x1c12"));
+}
+
+TEST_F(Veth, Lost_late_and_doubled_frames_are_counted_and_the_exchange_goes_on) {
+  simulate(3);
+  Bus sut(3);
+  ASSERT_TRUE(sut.run_until_all_operate()) << sut.story();
+  const auto counted = [&](std::uint64_t BusCounters::*counter, const std::string& line) {
+    const std::uint64_t before = sut.master().counters().*counter;
+    sut.link().set_patience(std::chrono::milliseconds(1));
+    slaves_->input(line + "\n");
+    EXPECT_TRUE(sut.run_until([&] { return sut.master().counters().*counter > before + 3; })) << line << sut.story();
+    sut.link().set_patience(std::chrono::milliseconds(200));  // of the last frames some are lost
+    EXPECT_TRUE(sut.run_until([&] { return sut.all_operate() && sut.all_fresh(); })) << line << sut.story();
+  };
+  counted(&BusCounters::lost, "0s frames_lost for=20ms");
+  counted(&BusCounters::late, "0s frames_late for=20ms by=5ms");
+  counted(&BusCounters::duplicates, "0s frames_doubled for=20ms");
+  EXPECT_EQ(slaves_->err(), "");
+}
+
+TEST_F(Veth, Drives_before_a_pulled_one_keep_their_data) {
+  simulate(4);
+  Bus sut(4);
+  ASSERT_TRUE(sut.run_until_all_operate()) << sut.story();
+  ASSERT_TRUE(sut.run_until([&] { return sut.all_fresh(); }));
+  for (int round = 0; round < 3; ++round) {
+    sut.story().clear();
+    slaves_->input("0s power_off slave=2 for=100ms\n");
+    const auto others_run = [&] { return sut.master().is_fresh(0) && sut.master().is_fresh(1); };
+    ASSERT_TRUE(sut.run_until([&] { return !others_run() || !sut.master().is_fresh(2); }));
+    EXPECT_TRUE(others_run());
+    EXPECT_FALSE(sut.master().is_fresh(3));
+    EXPECT_EQ(count(sut.story(), "slave 2 (drive): wrong working counter"), 1U) << "in the tick in which it is gone";
+    ASSERT_TRUE(sut.run_until([&] { return !others_run() || !sut.master().slave(2).operates(); }));
+    ASSERT_TRUE(sut.run_until([&] { return !others_run() || sut.all_operate(); })) << sut.story();
+    EXPECT_TRUE(others_run()) << sut.story();
+    EXPECT_THAT(sut.story(), testing::HasSubstr("slave 2 (drive): does not answer"));
+    EXPECT_THAT(sut.story(), testing::HasSubstr("slave 2 (drive): operates"));
+    ASSERT_TRUE(sut.run_until([&] { return sut.all_fresh(); }));
+  }
+}
+
+TEST_F(Veth, A_link_that_cannot_be_used_says_why) {
+  const auto error_of = [](const std::string& interface) {
+    const auto link = PacketLink::open(interface);
+    return link ? std::string() : link.error();
+  };
+  EXPECT_THAT(error_of("ec7"), testing::StartsWith("there is no network interface 'ec7'; there are: "));
+  EXPECT_THAT(error_of("an interface with a long name"), testing::StartsWith("there is no network interface"));
+  auto sut = PacketLink::open("ec0");
+  ASSERT_TRUE(sut) << sut.error();
+  EXPECT_TRUE((*sut)->has_carrier());
+  ASSERT_EQ(test::Program({kEnv, "ip", "link", "set", "ec1", "down"}).wait(), 0);
+  EXPECT_TRUE(test::wait_until([&] { return !(*sut)->has_carrier(); }));
+  EXPECT_FALSE((*sut)->send(FrameBuilder(kMasterMac).finish())) << "there is no cable";
+  ASSERT_EQ(test::Program({kEnv, "ip", "link", "set", "ec0", "down"}).wait(), 0);
+  EXPECT_EQ(error_of("ec0"), "interface ec0 is switched off; run: ip link set ec0 up");
+}
+
+TEST_F(Veth, A_program_without_the_right_to_raw_sockets_says_so) {
+  test::Environment nobody;
+  nobody.user = test::kNobody;
+  const auto outcome = test::Program({ECSIM_PROGRAM, "ec1", "drive"}, nobody).finish();
+  if (outcome.code == test::Program::kNotPrepared) {
+    GTEST_SKIP() << "no right to become another user";
+  }
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err,
+            "indurop-ecsim: error: no right to open raw sockets; give the program CAP_NET_RAW, or start it as root\n");
+}
+
+}  // namespace
+}  // namespace indurop::io::ethercat
