@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/io/ethercat/master/slave_control.h"
 
+#include <algorithm>
+#include <array>
+
 namespace indurop::io::ethercat {
 
 namespace {
@@ -13,6 +16,8 @@ constexpr Clock kRefusedPause = milliseconds(200);  // for what a new try hardly
 constexpr Clock kStateCheck = milliseconds(10);
 constexpr std::size_t kStateBytes = 6;  // AL status, two bytes, AL status code
 constexpr std::size_t kCodeAt = 4;
+constexpr std::size_t kMaxChannels = 16;  // FMMUs, SyncManagers
+constexpr std::array<std::uint8_t, kMaxChannels * kFmmuBytes> kZeros{};
 
 // How long a slave may take to a state, as the standard's defaults are.
 constexpr Clock limit_of(AlState state) noexcept {
@@ -80,6 +85,13 @@ std::optional<Query> SlaveControl::query(Clock now) noexcept {
     case Step::Address:
       store<std::uint16_t>(word_, 0, station);
       return Query{Command::Apwr, address_of(position(place_), reg::kStation), word_, 0};
+    case Step::Channels:
+      return Query{Command::Fprd, address_of(station, reg::kFmmuCount), {}, 2};
+    case Step::ClearFmmus:
+      return Query{Command::Fpwr, address_of(station, reg::kFmmu), Bytes(kZeros).first(fmmus_ * kFmmuBytes), 0};
+    case Step::ClearManagers:
+      return Query{Command::Fpwr, address_of(station, reg::kSyncManager),
+                   Bytes(kZeros).first(managers_ * kSyncManagerBytes), 0};
     case Step::Identity:
       return eeprom_.query();
     case Step::Request:
@@ -137,12 +149,29 @@ void SlaveControl::answer(Bytes data, bool is_answered, Clock now) noexcept {
     }
     return;
   }
+  finish_step(data, now);
+}
+
+void SlaveControl::finish_step(Bytes data, Clock now) noexcept {
   switch (step_) {
     case Step::Find:
       found(load<std::uint16_t>(data, 0), now);
       return;
     case Step::Address:
       request(AlState::Init, now);
+      return;
+    case Step::Channels:
+      fmmus_ = std::min<std::size_t>(data[0], kMaxChannels);
+      managers_ = std::min<std::size_t>(data[1], kMaxChannels);
+      enter(Step::ClearFmmus, now);
+      return;
+    case Step::ClearFmmus:
+      enter(Step::ClearManagers, now);
+      return;
+    case Step::ClearManagers:
+      eeprom_word_ = kSiiIdentity;
+      eeprom_.start(station_of(place_), eeprom_word_, now);
+      enter(Step::Identity, now);
       return;
     case Step::Request:
       enter(Step::Wait, now);
@@ -223,10 +252,9 @@ void SlaveControl::check_state(Bytes data, Clock now) noexcept {
 void SlaveControl::reached(Clock now) noexcept {
   switch (target_) {
     case AlState::Init:
-      eeprom_word_ = kSiiIdentity;
-      eeprom_.start(station_of(place_), eeprom_word_, now);
+      // What another master left in it would answer for the process data of others.
       mailbox_.reset();
-      enter(Step::Identity, now);
+      enter(Step::Channels, now);
       return;
     case AlState::PreOp:
       object_ = 0;

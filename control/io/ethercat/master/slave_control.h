@@ -36,10 +36,26 @@ class SlaveControl {
   bool start(SdoTransfer& transfer, Clock now) noexcept;
 
  private:
-  enum class Step { Pause, Find, Address, Identity, Request, Wait, Mailbox, Objects, Managers, Fmmus, Operate };
+  enum class Step {
+    Pause,
+    Find,
+    Address,
+    Channels,  // how many FMMUs and SyncManagers it has
+    ClearFmmus,
+    ClearManagers,
+    Identity,
+    Request,
+    Wait,
+    Mailbox,
+    Objects,
+    Managers,
+    Fmmus,
+    Operate
+  };
 
   void enter(Step step, Clock now) noexcept;
   void request(AlState state, Clock now) noexcept;
+  void finish_step(Bytes data, Clock now) noexcept;
   void reached(Clock now) noexcept;
   void fail(Problem problem, std::uint32_t detail, Clock pause, Clock now) noexcept;
   void found(std::uint16_t station, Clock now) noexcept;
@@ -62,6 +78,8 @@ class SlaveControl {
   Clock resume_at_{0};
   AlState target_ = AlState::Init;
   std::array<std::uint8_t, 2> word_{};  // that a query writes
+  std::size_t fmmus_ = 0;
+  std::size_t managers_ = 0;
   EepromReader eeprom_;
   std::uint16_t eeprom_word_ = 0;
   Identity identity_;

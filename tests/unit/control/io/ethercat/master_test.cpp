@@ -132,32 +132,94 @@ TEST(Master, Objects_are_read_in_one_piece_and_in_segments) {
   EXPECT_EQ(read(0x1008, 0, false, room).abort_code, kAbortMemory);
 }
 
-TEST(Master, The_exchange_allocates_nothing) {
-  Plant plant(8);
-  plant.run_until_all_operate(2000);
-  class Silent final : public Link {
-   public:
-    bool send(Bytes frame) noexcept override {
-      std::copy(frame.begin(), frame.end(), last_.begin());
-      size_ = frame.size();
-      return true;
-    }
-    std::size_t receive(std::span<std::uint8_t> to) noexcept override {
-      std::copy_n(last_.begin(), size_, to.begin());
-      return std::exchange(size_, 0);
-    }
-
-   private:
-    std::array<std::uint8_t, kMaxFrame> last_{};
-    std::size_t size_ = 0;
-  } link;
-  Master master(link, drive_plans(8));
-  const auto before = g_allocations.load();
-  for (int i = 1; i < 2000; ++i) {
-    master.cycle(kTick * i);
+// A cable whose own memory does not count.
+class Counted final : public Link {
+ public:
+  explicit Counted(Link& link) : link_(link) {}
+  bool send(Bytes frame) noexcept override {
+    const auto before = g_allocations.load();
+    const bool sent = link_.send(frame);
+    allocated_ += g_allocations.load() - before;
+    return sent;
   }
-  EXPECT_EQ(g_allocations.load(), before);
-  EXPECT_GT(master.counters().sent, 2000U);
+  std::size_t receive(std::span<std::uint8_t> to) noexcept override {
+    const auto before = g_allocations.load();
+    const std::size_t size = link_.receive(to);
+    allocated_ += g_allocations.load() - before;
+    return size;
+  }
+  [[nodiscard]] std::uint64_t allocated() const { return allocated_; }
+
+ private:
+  Link& link_;
+  std::uint64_t allocated_ = 0;
+};
+
+TEST(Master, The_exchange_allocates_nothing) {
+  constexpr std::size_t kDrives = 8;
+  SimulatedBus bus;
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    bus.segment().add(drive_config(), reflect);
+  }
+  Counted cable(bus);
+  Master sut(cable, drive_plans(kDrives));
+  std::array<std::uint8_t, 200> room{};
+  SdoTransfer transfer;
+  transfer.index = 0x1008;
+  transfer.upload = true;
+  transfer.room = room;
+  bool is_started = false;
+  unsigned fresh = 0;
+  std::uint64_t allocated = 0;
+  const auto run = [&](int ticks) {
+    static Clock now{0};
+    for (int i = 0; i < ticks; ++i) {
+      now += kTick;
+      bus.advance(now);
+      const auto before = g_allocations.load() - cable.allocated();
+      sut.cycle(now);
+      Event event;
+      while (sut.next_event(event)) {
+      }
+      is_started = is_started || sut.start(3, transfer, now);
+      allocated += g_allocations.load() - cable.allocated() - before;
+      bus.segment().compute();
+      fresh += sut.is_fresh(kDrives - 1) ? 1U : 0U;
+    }
+  };
+  run(1000);
+  EXPECT_GT(fresh, 500U) << "all slaves are in OP";
+  EXPECT_EQ(transfer.state, SdoTransfer::State::Done);
+  bus.segment().slave(2).fall_to(AlState::SafeOp, 0x8001);
+  bus.segment().slave(4).send_emergency({0x2310, 1, {}});
+  run(100);
+  bus.segment().set_power(5, false);
+  run(300);
+  EXPECT_FALSE(sut.is_fresh(kDrives - 1));
+  bus.segment().set_power(5, true);
+  run(1000);
+  EXPECT_TRUE(sut.is_fresh(kDrives - 1)) << "it has recovered";
+  EXPECT_EQ(allocated, 0U);
+}
+
+TEST(Master, What_another_master_left_in_a_slave_answers_for_no_other) {
+  Plant plant(2);
+  auto& esc = plant.slave(0).esc();
+  // It maps the process data of the second slave into its own memory, and has a SyncManager too many.
+  const std::size_t fmmu = reg::kFmmu + std::size_t{7} * kFmmuBytes;
+  esc.set<std::uint32_t>(fmmu, plant.master().plan(1).logical);
+  esc.set<std::uint16_t>(fmmu + 4, 12);
+  esc.set<std::uint8_t>(fmmu + 7, 7);
+  esc.set<std::uint16_t>(fmmu + 8, 0x1800);
+  esc.set<std::uint8_t>(fmmu + 11, 3);
+  esc.set<std::uint8_t>(fmmu + 12, 1);
+  esc.set<std::uint8_t>(reg::kSyncManager + 5 * kSyncManagerBytes + 6, 1);
+  EXPECT_LT(plant.run_until_all_operate(2000), 500U) << plant.story();
+  plant.run(10);
+  EXPECT_TRUE(plant.master().is_fresh(0));
+  EXPECT_TRUE(plant.master().is_fresh(1)) << plant.story();
+  EXPECT_EQ(esc.at(fmmu + 12), 0);
+  EXPECT_EQ(esc.at(reg::kSyncManager + 5 * kSyncManagerBytes + 6), 0);
 }
 
 TEST(Master, Data_of_many_slaves_goes_in_several_frames) {
