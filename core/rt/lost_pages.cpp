@@ -70,7 +70,7 @@ Region& free_region() {
   if (first == nullptr) {
     install_fault_handler(SIGBUS);
   }
-  auto* const made = new Region;  // NOLINT(cppcoreguidelines-owning-memory): stays, a handler may be looking at it
+  auto* const made = new Region;  // NOLINT(cppcoreguidelines-owning-memory): stays, a handler may be reading it
   made->next = first;
   g_regions.store(made, std::memory_order_release);
   return *made;

@@ -25,7 +25,7 @@ bool end_is_wanted() {
 
 // A program paused by `indurop plc debug` does not hang.
 bool is_debugged() {
-  return std::getenv("INDUROP_PLC_DEBUG") != nullptr;  // NOLINT(concurrency-mt-unsafe): nobody sets it
+  return std::getenv("INDUROP_PLC_DEBUG") != nullptr;  // NOLINT(concurrency-mt-unsafe): no code sets it
 }
 
 }  // namespace

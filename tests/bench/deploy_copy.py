@@ -64,7 +64,7 @@ class Boards:
         subprocess.run([*self.lab, "down"], check=False)
 
     def write(self, size):
-        """Data nobody has seen before, so that all of it travels."""
+        """Data that no board has, so that all of it is sent."""
         with open(os.path.join(self.folder, "data.bin"), "wb") as file:
             while size > 0:
                 size -= file.write(os.urandom(min(size, 1 << 24)))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What it does to a tick of 1 ms that all of its eyes are open: the page in headless Chromium with a chart of what changes, a
-scope that shows each trigger, a recorder of everything and a watch of everything, in every other window of a few seconds beside
+scope that shows each trigger, a recorder of everything and a watch of everything, in every other window of a few seconds next to
 one running node. Chromium takes most of what they take together: --no-page leaves it out, --apart keeps it off the core of the
 tick, the last one, as far as a browser on the same machine can be kept away."""
 
@@ -49,7 +49,7 @@ class Watched(Node):
                 time.sleep(self.options.settle)
                 died = [child.args[:2] for child in children if child.poll() is not None]
                 if died:
-                    raise SystemExit(f"ended by itself: {died}")
+                    raise SystemExit(f"ended on its own: {died}")
                 yield
             for child in children:
                 child.terminate()

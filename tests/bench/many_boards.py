@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Sixteen boards of a hundred variables each, in network namespaces of this machine: how long after the last board was
-started every board had all variables of all others, and the memory of each node beside the store. Needs root."""
+started every board had all variables of all others, and the memory of each node in addition to the store. Needs root."""
 
 import argparse
 import os
@@ -78,7 +78,7 @@ def main():
         return 1
     print(f"{len(boards)} boards: the last one had all variables {max(found.values()):.2f} s after all were started, the first "
           f"{min(found.values()):.2f} s (target 2 s)")
-    print(f"memory of a node beside the store (target 15 MB): {max(s[0] for s in sizes) / 1024:.1f} MB resident; its share "
+    print(f"memory of a node in addition to the store (target 15 MB): {max(s[0] for s in sizes) / 1024:.1f} MB resident; its share "
           f"of them, where pages of libraries are divided among those who use them, {max(s[1] for s in sizes) / 1024:.1f} MB")
     return 0
 

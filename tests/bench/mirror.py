@@ -76,15 +76,15 @@ def main():
               f"ratio {median[0] / median[1]:.2f} (target 1.3)")
         print(f"                       p99 {median[2]:.1f} us, ddsperf {median[3]:.1f} us, "
               f"ratio {median[2] / median[3]:.2f} (target 2)")
-        alone, beside, many = [], [], None
+        alone, combined, many = [], [], None
         for _ in range(arguments.rounds):
             writer = boards.start("a", [boards.bench, "alone", boards.domain, str(arguments.seconds), "16", "500"])
             alone.append(json.loads(writer.communicate(timeout=arguments.seconds + 60)[0])["late_p99_us"])
             many = boards.mirror(arguments.seconds, 16, 500)
-            beside.append(many["late_p99_us"])
+            combined.append(many["late_p99_us"])
         print(f"500 variables of 16 B at 1 kHz: {many['mirror_us_per_tick']:.0f} us of mirror per tick (target 80), "
               f"{many['lost']} updates lost, p50 {many['p50_us']:.1f} us, p99 {many['p99_us']:.1f} us")
-        with_it, without = statistics.median(beside), statistics.median(alone)
+        with_it, without = statistics.median(combined), statistics.median(alone)
         print(f"the writer's p99 lateness at 1 ms: {with_it:.1f} us, without a mirror {without:.1f} us, "
               f"ratio {with_it / without:.2f} (target 1.1)")
 

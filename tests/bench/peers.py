@@ -4,7 +4,7 @@
 interleaved rounds. Writes peers.json, peers.md and charts. Peers whose packages are not installed are left out and named.
 
 Timers: a module of one line, cyclictest, a thread of LinuxCNC, a timer of roscpp; FIFO 90 on one core, memory locked.
-Messages: written and read in one thread, so that nobody's waking counts; between boards see mirror.py."""
+Messages: written and read in one thread, so that waking a thread does not count; between boards see mirror.py."""
 
 import argparse
 import contextlib
@@ -28,7 +28,7 @@ def json_lines(text):
 
 
 @contextlib.contextmanager
-def beside(command, **options):
+def in_background(command, **options):
     """A program that has to run meanwhile."""
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **options)
     try:
@@ -55,7 +55,7 @@ class Peers(run.Bench):
 
     def ros_master(self):
         master = shutil.which("rosmaster")
-        return beside(["/usr/bin/python3", master, "--core", "-p", "11377"], env=self.ros_environment)
+        return in_background(["/usr/bin/python3", master, "--core", "-p", "11377"], env=self.ros_environment)
 
     def peer(self, program, *words, environment=None):
         environment = {**(environment or os.environ), "PEERS_STARTED": str(time.clock_gettime_ns(time.CLOCK_MONOTONIC))}
@@ -66,7 +66,7 @@ class Peers(run.Bench):
     # --- messages ---
     def messages_of(self, name):
         if name == "iceoryx" and self.has("message_iceoryx", "iox-roudi"):
-            with beside(["iox-roudi"]):
+            with in_background(["iox-roudi"]):
                 return self.peer("message_iceoryx")
         if name == "roscpp" and self.has("message_ros", "rosmaster"):
             with self.ros_master():

@@ -3,7 +3,7 @@
 """What recording costs: a module that changes many variables in each run, recorded to a file. Each round runs the node
 without a recorder, with one, and without a tape; only figures of one round are compared, what is printed is the median
 over the rounds. How late runs begin changes from minute to minute on a shared machine, more than a recorder could do to
-it: that is compared beside one running node, with a recorder in every other window of a few seconds."""
+it: that is compared on one running node, with a recorder in every other window of a few seconds."""
 
 import argparse
 import contextlib
@@ -75,8 +75,8 @@ class Node:
         child.wait()
         os.remove(self.path("run.mcap"))
 
-    def windows(self, pairs, seconds, beside):
-        """Latencies without and with what `beside` runs, a list of windows each."""
+    def windows(self, pairs, seconds, load):
+        """Latencies without and with what `load` runs, a list of windows each."""
         node = self.start("--tape", str(self.options.tape))
         time.sleep(2)  # the node has started and its caches are warm
         without, with_it = [], []
@@ -84,7 +84,7 @@ class Node:
             for _ in range(pairs):
                 time.sleep(seconds)
                 without.append(self.latencies(seconds))
-                with beside():
+                with load():
                     time.sleep(seconds)
                     with_it.append(self.latencies(seconds))
         finally:
@@ -125,7 +125,7 @@ def quantile(values, part):
 
 
 def print_lateness(without, with_it, what):
-    """Both ways to look at it: of all runs, and the middle of what neighbouring windows say."""
+    """Both evaluations: of all runs, and the median over pairs of neighbouring windows."""
     for name, part in (("median", 0.5), ("p99", 0.99)):
         before, after = (quantile([one for window in windows for one in window], part) for windows in (without, with_it))
         pairs = statistics.median(quantile(b, part) / quantile(a, part) for a, b in zip(without, with_it))

@@ -3,7 +3,7 @@
 """Runs every comparison in interleaved rounds and prints medians, ratios and the target of each.
 
 The machine may be noisy: only figures of one round are compared with each other, and what is printed is the median
-over the rounds. Nothing here is a pass or a fail by itself; the last column says how the ratio stands to its target."""
+over the rounds. No line is a pass or a fail on its own; the last column compares the ratio with its target."""
 
 import argparse
 import json
@@ -213,7 +213,7 @@ class Bench:
                  statistics.median(ratios), 1.3)
 
     def watch(self):
-        self.title("`indurop watch '*'` at 10 Hz on 1000 variables beside a 1 ms node (p99 lateness)")
+        self.title("`indurop watch '*'` at 10 Hz on 1000 variables of a 1 ms node (p99 lateness)")
         xml = self.config(os.path.join(self.programs, "thousand.so"), "1ms")
         pairs = []
         for _ in range(self.rounds * 2 - 1):

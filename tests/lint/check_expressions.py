@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Conditional expressions (`a ? b : c`) choose a value and nothing else: none is a statement by itself, none is assigned to,
+"""Conditional expressions (`a ? b : c`) choose a value and nothing else: none is a statement on its own, none is assigned to,
 none is nested three deep. By a scan of the text: nothing is compiled. check_expressions.py ROOT"""
 
 import pathlib

@@ -2,7 +2,7 @@
 """Every header compiles alone. Public ones are compiled here with both compilers and only the public include directory.
 Others are compiled alone by the build if their .cpp includes them first, which is checked; the rest is compiled here.
 The build reads common headers precompiled, so a file could do without naming them: what it uses of them must be included,
-by itself or by a header of ours that it includes.
+directly or by a header of ours that it includes.
 A header that passed is not compiled again as long as it and all headers of ours that it includes are the same.
 check_headers.py ROOT [--cache FOLDER] [compiler flags for the third-party headers...]"""
 

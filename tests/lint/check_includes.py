@@ -72,7 +72,7 @@ def check_table(root, file, rules):
 
 def groups_of(root, name, quote, target):
     """The words of a rule line that would allow this include."""
-    if target.startswith("indurop/idl/"):  # generated from idl/: who may use DDS types is told header by header
+    if target.startswith("indurop/idl/"):  # generated from idl/: the rules permit DDS types header by header
         return set()
     if target.startswith("indurop/"):
         return {"public"}

@@ -145,9 +145,16 @@ FIXED_NAMES = re.compile(r"\bindurop/told\b|indurop::Told|struct Told|external/w
                          r"nobody@example\.com\">nobody<")
 
 
-def words_of_code(line):
-    """String literals and identifiers of a line without its comment; an identifier as its words: `let_go` is 'let go'."""
-    code = re.sub(r"(?<!:)// .*", "", line)
+# Files in which all comments, names and messages use the terms, and the beginning of a comment in them and in C++.
+SCRIPTS = (".py", ".js", ".mjs", ".ts", ".tsx", ".html", ".css")
+COMMENT = re.compile(r"(?<!:)(?://|/\*|<!--) ")
+COMMENT_OF_PYTHON = re.compile(r'(?<!["\'])# |"""')
+# They quote the retired words.
+WORD_LISTS = ("tests/lint/check_text.py", "tests/lint/selftest.py")
+
+
+def words_of_code(code):
+    """An identifier as its words: `let_go` and `LetGo` are 'let go'."""
     return re.sub(r"_+|(?<=[a-z])(?=[A-Z])", " ", code)
 
 
@@ -155,16 +162,18 @@ def words(root):
     """Comments, without what is quoted in them, names, messages and pages use the terms of docs/words.md."""
     retired = list(retired_words())
     for name in common.project_files(root):
-        is_code = name.endswith(common.CXX) and not common.is_data(name) and not name.startswith(("tests/", *VERBATIM))
+        is_script = name.endswith(SCRIPTS) and name not in WORD_LISTS
+        is_code = is_script or name.endswith(common.CXX) and not name.startswith("tests/")
         is_page = name.endswith(".md") and not name.startswith(OPEN_PAGES)
-        if not is_code and not is_page:
+        if not is_code and not is_page or is_code and (common.is_data(name) or name.startswith(VERBATIM)):
             continue
+        is_plain = is_script or name.startswith(PLAIN_ROOMS)
+        begin_of_comment = COMMENT_OF_PYTHON if name.endswith(".py") else COMMENT
         for number, line in enumerate(common.read(root, name).split("\n"), 1):
-            line = FIXED_NAMES.sub("", line)
-            comment = re.search(r"(?<!:)// (?!NOLINT).*", line) if is_code else None
-            text = line if is_page else re.sub(r"`[^`]*`|\"[^\"]*\"", "", comment.group(0)) if comment else ""
-            if is_code and name.startswith(PLAIN_ROOMS):
-                text = words_of_code(line) + " " + text
+            text = line = line if is_script else FIXED_NAMES.sub("", line)
+            if is_code:
+                code, *comment = begin_of_comment.split(line, maxsplit=1)
+                text = (words_of_code(code) if is_plain else "") + re.sub(r"`[^`]*`|\"[^\"]*\"", "", "".join(comment))
             for pattern, instead in retired:
                 if found := pattern.search(text):
                     yield f"{name}:{number}: '{found.group(0)}' is retired: {instead}"

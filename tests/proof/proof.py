@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Real time, proven: schedules run in a machine with counted time (guest.py), idle and loaded, beside cyclictest.
+"""Real time, proven: schedules run in a machine with counted time (guest.py), idle and loaded, compared with cyclictest.
 Fails if a tick is lost, a module overruns or misses its deadline, a tick is later than cyclictest's latest + 1 us, or
-something takes 2 % more instructions than instructions.json says (INDUROP_UPDATE_GOLDEN=1 writes that file anew)."""
+something takes 2 % more instructions than instructions.json says (INDUROP_UPDATE_GOLDEN=1 writes that file again)."""
 
 import argparse
 import json
@@ -62,7 +62,7 @@ def above_bound(program, config, report):
 
 
 def script(seconds):
-    """One boot: cyclictest and each schedule, idle and with work beside it."""
+    """One boot: cyclictest and each schedule, idle and with work in the background."""
     lines = ["set -u", "ip route add 224.0.0.0/4 dev lo 2>/dev/null", "uname -r >/out/kernel"]
     for load in ("idle", "loaded"):
         if load == "loaded":
@@ -149,7 +149,7 @@ def compare(found):
 
 
 def table(rows):
-    head = ("what", "beside", "ticks", "lost", "overruns", "misses", "p50 ns", "p99 ns", "max ns", "cyclictest max ns")
+    head = ("what", "load", "ticks", "lost", "overruns", "misses", "p50 ns", "p99 ns", "max ns", "cyclictest max ns")
     lines = [head, ("---",) * len(head), *rows]
     return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the chapter's modules and looks at the real-time threads from outside: how often they allocated (a preloaded
+"""Runs the chapter's modules and observes the real-time threads from outside: how often they allocated (a preloaded
 counter), which system calls they made (strace), and how often a page was missing to them. Allowed are the sleep of the
 tick thread, the wake-ups it gives and the waits of the bands. The first two are compared between a short and a long run,
 so what threads do when they begin and end cancels out."""
@@ -33,7 +33,7 @@ XML = """<root>
     <period>1ms</period><priority>6</priority></module>
 </root>
 """
-# Nobody listens at the address: the device's own thread has all the trouble, the tick none.
+# No program listens at the address: failures occur in the thread of the device, none in the tick.
 IO_CONFIG = """<ioconfig>
   <device name="gone" driver="modbus_tcp" address="127.0.0.1:1" retry="1ms" retry_most="5ms" quality="link_good"
           errors="link_errors">
@@ -71,7 +71,7 @@ def node_command(arguments, xml, milliseconds):
 
 
 def role(thread):
-    """The thread's name without its core: a node beside this one may take the core of the run before."""
+    """The thread's name without its core: another node may take the core of the previous run."""
     return re.sub(r"^(irp-tick)-\d+$", r"\1", thread)
 
 

@@ -21,7 +21,7 @@ import time
 BOARDS = ["soak-left", "soak-middle", "soak-right"]
 EVERY_S = 10
 MOST_KB_PER_MINUTE = 5.0
-MOST_TIMES_SLOWER = 3.0  # of the last third against the first; builds beside it may well make it twice
+MOST_TIMES_SLOWER = 3.0  # of the last third against the first; builds in the background may double it
 QUANTITIES = ["rss_anon_kb", "files", "threads"]
 
 
@@ -88,8 +88,8 @@ class Plant:
 
     def jitter(self, board):
         """Runs of its module so far, and the sum of their jitter in us."""
-        told = json.loads(self.ask(board, "jitter", "--node", board, "-o", "json").stdout)["modules"][0]["jitter_ns"]
-        return told["count"], told["count"] * told["mean"] / 1000
+        jitter = json.loads(self.ask(board, "jitter", "--node", board, "-o", "json").stdout)["modules"][0]["jitter_ns"]
+        return jitter["count"], jitter["count"] * jitter["mean"] / 1000
 
     def answer_ms(self, *words):
         began = time.monotonic()
@@ -115,7 +115,7 @@ class Plant:
 
 
 class Latencies:
-    """How long things take, in each round anew."""
+    """How long each operation takes, in each round again."""
 
     def __init__(self, plant):
         self.plant = plant

@@ -44,7 +44,7 @@ class Busy(Error):
 
 
 class Changed(Error):
-    """The node has other variables now. The package refreshes its handle by itself; this is raised if that failed."""
+    """The node has other variables now. The package refreshes its handle automatically; this is raised if that failed."""
 
 
 class Timeout(Error, TimeoutError):

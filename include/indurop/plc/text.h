@@ -32,7 +32,7 @@ class Joined {
   using View = std::basic_string_view<Letter>;
   // The parts must have at most N characters together.
   template <std::same_as<View>... Parts>
-  explicit Joined(Parts... parts) noexcept {  // NOLINT(cppcoreguidelines-pro-type-member-init): nobody reads the rest
+  explicit Joined(Parts... parts) noexcept {  // NOLINT(cppcoreguidelines-pro-type-member-init): the rest is not read
     (append(parts), ...);
   }
   [[nodiscard]] View view() const noexcept { return {data_, size_}; }

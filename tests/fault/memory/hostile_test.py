@@ -135,7 +135,7 @@ def blocks_of_a_plant(setting):
 
 
 def put(end, content):
-    """Under a new inode, so that nobody who still has the old one is fooled."""
+    """Under a new inode, so that a process that still maps the old one is not misled."""
     path = SHM / f"indurop.{EVIL}{end}"
     new = SHM / f"indurop-new-{os.getpid()}"
     new.write_bytes(content)
@@ -185,7 +185,7 @@ def ask_all(server, port):
 
 
 def test_blocks_as_they_are_show_a_node(setting):
-    """Else the mutations would be of something that nobody reads."""
+    """Otherwise the mutations would be of bytes that no program reads."""
     blocks = blocks_of_a_plant(setting)
     for end, content in blocks.items():
         put(end, content)
@@ -270,7 +270,7 @@ def test_blocks_that_change_and_are_cut_while_they_are_read(setting):
     assert server.wait(HANG_S) in (0, 143), server.returncode
 
 
-def test_files_of_zeros_hold_up_nobody(setting):
+def test_files_of_zeros_block_no_program(setting):
     """As many as would take minutes, if each were waited for."""
     for number in range(300):
         (SHM / f"indurop.sq{number}").write_bytes(bytes(4096))

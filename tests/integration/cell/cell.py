@@ -38,16 +38,16 @@ class Cell:
 
     def changes(self, work):
         """What happened during work(), in order: every change of the robot's state and of its job."""
-        with tempfile.TemporaryFile("w+") as told:  # a pipe that nobody reads would be full
+        with tempfile.TemporaryFile("w+") as output:  # a pipe would fill up while it is not read
             recording = subprocess.Popen([f"{self.arguments.bin}/indurop", "watch", "--node", self.robot, "ROBOT_MODULE_STATE.eState",
-                                          "ROBOT_JOB.name", "--hz", "100", "-o", "csv"], stdout=told, text=True)
+                                          "ROBOT_JOB.name", "--hz", "100", "-o", "csv"], stdout=output, text=True)
             try:
                 work()
             finally:
                 recording.terminate()
                 recording.wait(timeout=30)
-            told.seek(0)
-            rows = list(csv.reader(told))[1:]
+            output.seek(0)
+            rows = list(csv.reader(output))[1:]
         changes = []
         for row in rows:
             now = tuple(row[1:])
@@ -57,6 +57,6 @@ class Cell:
 
 
 def jobs(changes):
-    """Names of the jobs one after the other; one that runs again after another begins anew."""
+    """Names of the jobs one after the other; one that runs again after another counts again."""
     names = [name for _, name in changes if name]
     return [name for i, name in enumerate(names) if i == 0 or names[i - 1] != name]

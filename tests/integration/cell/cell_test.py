@@ -100,7 +100,7 @@ class RunningCell(Cell):
             self.wait("the part on the pallet", lambda: (self.get(self.station, "CELL::world.placed") or 0) > placed)
 
         changes = self.changes(work)
-        assert "home" not in jobs(changes), f"the job began anew: {changes}"
+        assert "home" not in jobs(changes), f"the job began again: {changes}"
         assert self.get(self.station, "CELL::world.lost") == 0, "a part was lost"
         assert self.get(self.station, "CELL::world.spilled") == 0, "glue was spilled"
 
@@ -161,10 +161,10 @@ def main():
             two = cell.tour()
         cores = sorted(os.sched_getaffinity(0))
         on_two_cores(folder, cores)
-        beside = one
+        on_two_cores = one
         if len(cores) > 1:
             with RunningCell(arguments, folder, ["cores.xml", "--node", "cell_test"], "cell_test", "cell_test") as cell:
-                beside = cell.tour()
+                on_two_cores = cell.tour()
         values = without_devices(folder, "module.xml", arguments)
         assert values == without_devices(folder, "cores.xml", arguments), "not the values of one core"
     states = {state for state, _ in one}
@@ -173,8 +173,8 @@ def main():
     common = min(len(jobs(one)), len(jobs(two))) - 1  # the last one is whatever was on when it ended
     assert common >= 6, (jobs(one), jobs(two))
     assert jobs(one)[:common] == jobs(two)[:common], f"one board: {jobs(one)}\ntwo boards: {jobs(two)}"
-    common = min(common, len(jobs(beside)) - 1)
-    assert common >= 6 and jobs(one)[:common] == jobs(beside)[:common], f"one core: {jobs(one)}\ntwo cores: {jobs(beside)}"
+    common = min(common, len(jobs(on_two_cores)) - 1)
+    assert common >= 6 and jobs(one)[:common] == jobs(on_two_cores)[:common], f"one core: {jobs(one)}\ntwo cores: {jobs(on_two_cores)}"
     print(f"one board and two: {' '.join(jobs(one)[:common])}")
     return 0
 

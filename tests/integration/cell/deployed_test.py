@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The robot cell (examples/robot_cell) deployed to two boards, network namespaces with agents, from a third one: it works, stops when
-a cable is pulled, goes on after it is back, and comes back by itself when a board's node is killed. Needs root."""
+a cable is pulled, continues when it is back, and is restarted when a board's node is killed. Needs root."""
 
 import argparse
 import json
@@ -71,7 +71,7 @@ class DeployedCell(Cell):
         return next((board for board in boards if board["board"] == name), None)
 
     def press(self, button, point):
-        """Somebody holds a button, which is wired to a point, until the PLC sees it."""
+        """Holds a button down, which is wired to a point, until the PLC sees it."""
         self.indurop("set", "--node", self.station, f"CELL::panel.{button}", "true")
         self.wait(f"{button} is seen", lambda: self.get(self.station, point) == 1)
         self.indurop("set", "--node", self.station, f"CELL::panel.{button}", "false")
@@ -83,7 +83,7 @@ class DeployedCell(Cell):
         return self.get(self.robot, "ROBOT_MODULE_STATE.eState") == "ROBOT_GROUP_MOVING"
 
     def keep_going(self):
-        """True if the robot moves; after a stop, once its cause is gone, somebody presses reset and start. On a machine that is busy
+        """True if the robot moves; after a stop, once its cause is gone, reset and start are pressed. On a machine that is busy
         the I/O station may answer too late at any time, which is a stop too."""
         if self.moves():
             return True

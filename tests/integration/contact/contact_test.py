@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The arm with masses (examples/robot_contact) in virtual time: it stops for each push of its visitor, on the right axis and
 soon, goes on, and stops for nothing else, also with other loads of its loops; it is nearer to its set points if its drives
-are told what a motion needs; and an axis of it pushes with a torque."""
+get the torque that a motion needs; and an axis of it pushes with a torque."""
 
 import argparse
 import csv
@@ -96,7 +96,7 @@ def main():
     expect("it goes on", still_moves(rows, 17), "joint 1 moves")
     quiet = (("5 5.4 2 -60   10 10.4 1 60   15 15.4 4 18", ""),)
     rows = cell.run("alone", 40, quiet)
-    expect("nobody pushes, nothing stops it", not stops(rows) and still_moves(rows, 1), stops(rows))
+    expect("without a push nothing stops it", not stops(rows) and still_moves(rows, 1), stops(rows))
     push = max(abs(float(row[f"PLC_ROBOT::AXIS_STATE[{axis}].dPush"])) / limit
                for row in rows if row["t"] > 1 for axis, limit in enumerate((25, 25, 20, 8, 8, 6)))
     expect("without a push half of the limits is enough", push < 0.5, f"{push:.2f} of them")
@@ -105,11 +105,11 @@ def main():
     expect("nor with softer loops", not stops(rows) and still_moves(rows, 1), stops(rows))
     rows = cell.run("loaded", 5, quiet + (('name="held">1.2', 'name="held">7'),))
     expect("a tool that weighs more than the job says does", len(stops(rows)) > 0, stops(rows))
-    told = farthest_behind(cell.run("told", 10, quiet))
-    untold = farthest_behind(cell.run("untold", 10, quiet + ((
+    with_torque = farthest_behind(cell.run("torque", 10, quiet))
+    without = farthest_behind(cell.run("without", 10, quiet + ((
         '<value name="rated_torque">400 400 250 60 50 30</value>\n'
         '      <value name="collision_limit">25 25 20 8 8 6</value>', ""),)))
-    expect("drives that are told the torque follow better", told < 0.5 * untold, f"{told:.3f} deg, else {untold:.3f}")
+    expect("drives that get the torque follow more closely", with_torque < 0.5 * without, f"{with_torque:.3f} deg, else {without:.3f}")
     last = cell.run("torque", 25, quiet + ((f"{cell.options.example}/swing.so", cell.options.blocks),))[-1]
     blocks = {name.split("::")[1]: value for name, value in last.items() if name.startswith("torque_blocks::ok_")}
     expect("an axis pushes with a torque, by the blocks of a program",

@@ -107,7 +107,7 @@ class DemoTest(unittest.TestCase):
         self.assertEqual(sut.nodes(), [])
         self.assertEqual(list(sut.temporary.iterdir()), [], "the copy of the example is removed")
 
-    def test_2_a_user_without_rights_is_told_what_is_missing(self):
+    def test_2_a_user_without_rights_gets_a_message_about_what_is_missing(self):
         if os.geteuid() != 0 or not shutil.which("setpriv"):
             self.skipTest("only root can become a user without rights")
         sut = self.start(before=("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "--bounding-set=-all",

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The binary interface of libindurop-c.so against the description kept in doors/c/abi: functions may be added, nothing
-else may change. `--update` describes it anew, after an addition."""
+else may change. `--update` writes the description again, after an addition."""
 
 import argparse
 import subprocess

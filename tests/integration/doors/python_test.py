@@ -64,7 +64,7 @@ class Python(unittest.TestCase):
             self.process.terminate()
             self.process.wait(PATIENCE)
 
-    def told(self, name):
+    def shown_value(self, name):
         """The value as the command line has it."""
         done = subprocess.run([OPTIONS.indurop, "get", "--node", self.name, "-o", "json", name], capture_output=True,
                               text=True, check=True)
@@ -83,10 +83,10 @@ class Python(unittest.TestCase):
         node["grid"] = [[1, 2, 3], [-4, 5, -128]]
         node["mode"] = "AUTO"
         node["text"] = "away"
-        self.assertEqual(self.told("places[1]"), {"x": 2.5, "y": 0, "valid": True, "name": "tool"})
-        self.assertEqual(self.told("grid"), [[1, 2, 3], [-4, 5, -128]])
-        self.assertEqual(self.told("mode"), "AUTO")
-        self.assertEqual(self.told("text"), "away")
+        self.assertEqual(self.shown_value("places[1]"), {"x": 2.5, "y": 0, "valid": True, "name": "tool"})
+        self.assertEqual(self.shown_value("grid"), [[1, 2, 3], [-4, 5, -128]])
+        self.assertEqual(self.shown_value("mode"), "AUTO")
+        self.assertEqual(self.shown_value("text"), "away")
         self.assertEqual(node["doors::places[1]"].name, "tool")
         self.assertIn("places", node)
         self.assertNotIn("place", node)
@@ -111,7 +111,7 @@ class Python(unittest.TestCase):
                 node[name] = value
         with self.assertRaisesRegex(indurop.NotFound, "did you mean 'doors::gain'"):
             node.variable("gian")
-        self.assertEqual(self.told("grid"), [[0, 0, 0], [0, 0, 0]])
+        self.assertEqual(self.shown_value("grid"), [[0, 0, 0], [0, 0, 0]])
         with indurop.node(self.name) as reader, self.assertRaises(indurop.Denied):
             reader["gain"] = 1
 
@@ -129,7 +129,7 @@ class Python(unittest.TestCase):
         with self.assertRaises(indurop.NotFound):
             gain.release()
         gain.force(3, seconds=0.05)
-        wait_until("the force ends by itself", lambda: not gain.quality.forced)
+        wait_until("the force times out", lambda: not gain.quality.forced)
 
     def test_values_of_one_moment(self):
         together = 0
@@ -205,7 +205,7 @@ class Python(unittest.TestCase):
         watched = self.node.variable("count").watch()
         next(watched)
         self.stop()
-        rest = list(watched)  # ends by itself
+        rest = list(watched)  # ends when the node ends
         self.assertFalse(self.node.running)
         last = self.node["count"]
         self.assertEqual(last, rest[-1] if rest else last)

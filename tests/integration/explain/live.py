@@ -78,7 +78,7 @@ class Live:
         return self.explain(what, "--node", self.node, *more, number=number)
 
     def let_pass(self, runs=40):
-        """Until so many more runs, so that the kernel's counters of what was before were looked at."""
+        """Waits for so many more runs, so that the kernel's counters before them have been read."""
         now = self.get("el::ticks")
         wait_until("the node goes on", lambda: self.get("el::ticks") >= now + runs)
 
@@ -212,7 +212,7 @@ def judge(kind, answer, right):
     if cause in ("not-known", "all-is-well"):
         return "not known"
     if kind in TIMES and cause == "machine":
-        return "not known"  # it says what the kernel counted, and blames nobody
+        return "not known"  # it reports what the kernel counted, and names no cause
     return "WRONG"
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Boards of a lab as virtual machines beside one that is a network namespace: a plant is deployed to them, one loses its cable,
+"""Boards of a lab as virtual machines, together with one that is a network namespace: a plant is deployed to them, one loses its cable,
 one its power, and boots into what it ran. A machine with counted time loses no tick. Needs root, QEMU and mmdebstrap."""
 
 import argparse

@@ -81,7 +81,7 @@ class Packages(unittest.TestCase):
         self.assertEqual([str(path) for path in self.root.rglob("*") if not path.is_symlink() and path.stat().st_mode & 0o6000], [])
 
     def test_an_installation_shows_the_examples(self):
-        """From where it was put, not from the build tree; `indurop demo chapter` reads no terminal and ends by itself."""
+        """From where it was put, not from the build tree; `indurop demo chapter` reads no terminal and ends on its own."""
         shown = subprocess.run([self.root / "usr/bin/indurop", "demo", "chapter", "--folder", work / "demo"], text=True,
                                capture_output=True, check=False, timeout=240)
         self.assertEqual(shown.returncode, 0, shown.stdout + shown.stderr)

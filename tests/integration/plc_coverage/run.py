@@ -92,7 +92,7 @@ def main():
     boxes = [({"box_sensor": value}, 5) for _ in range(12) for value in ("true", "false")]
     more = sut.run([({"start": "true"}, 300), *boxes, ({"box_sensor": "true"}, 400)])
     both = sut.covered()
-    expect(both["not_tried"] == ["rung 6, coil fault is never on"], f"nobody acknowledged: {both}")
+    expect(both["not_tried"] == ["rung 6, coil fault is never on"], f"without an acknowledgement: {both}")
     expect(max(sut.lines().values()) == scans + more, "runs add up")
 
     damaged = next((sut.work / "counts").iterdir())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Expressions in which no number has a type: MAX(300, 1) * 300. They take that of what stands beside them, and the widest
+"""Expressions in which no number has a type: MAX(300, 1) * 300. They take the type of the other operand, and the widest
 where nothing does; so none of their steps may leave it, and then they are what mathematics says."""
 
 import dataclasses
@@ -115,7 +115,7 @@ def written(make, low, high, halves=False, divides=False):
             return one.expr
 
 
-def beside(make, type_):
+def typed_by_operand(make, type_):
     """One that takes the type."""
     if type_.kind == "real":  # few enough digits for a REAL
         halves = make.rng.random() < 0.5

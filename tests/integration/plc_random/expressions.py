@@ -32,11 +32,11 @@ class Maker:
     def __init__(self, rng, scope):
         self.rng = rng
         self.scope = scope
-        self.changer = None  # what this statement calls beside what it changes
+        self.changer = None  # the function that this statement calls in addition to its change
         self.changed = []  # the places it changes
         self.narrower = False  # what is made becomes a wider type
 
-    # Calls beside what they change: they show in which order operands are computed
+    # Calls in addition to the change: they show in which order operands are computed
 
     def begin(self):
         """Of a statement. Its expressions may name one place and call what changes it."""
@@ -165,7 +165,7 @@ class Maker:
         """Of the type, narrower, or a bare number."""
         rng = self.rng
         if bare and not self.narrower and type_.kind in ("int", "real") and rng.random() < 0.1:
-            return bare_numbers.beside(self, type_)
+            return bare_numbers.typed_by_operand(self, type_)
         if bare and type_.kind in ("int", "real", "bits") and rng.random() < 0.4:
             value = literals.some_value(rng, type_)
             if type_.kind == "real" and value == int(value) and abs(value) < 1 << 20 and rng.random() < 0.3:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Statements whose value tells in which order their parts were computed: a place, and beside it calls that change it."""
+"""Statements whose value shows in which order their parts were computed: a place, and calls that change it."""
 
 import dataclasses
 

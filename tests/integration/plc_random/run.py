@@ -82,7 +82,7 @@ def check_counts(build, folder, seeds, optimize):
             number = int(mark.group(1))
             expected = tree.counts[number] - before[number]
             compared += 1
-            if counted.get(line, 0) != expected:  # what nobody calls is not in the module
+            if counted.get(line, 0) != expected:  # a POU without a caller is not in the module
                 found.append(f"line {line} ran {counted.get(line)} times, expected {expected}: {text.strip()}")
         if found:
             bad.append((one.seed, one.text(), found))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Random statements. Every loop ends by itself after a few rounds."""
+"""Random statements. Every loop ends after a few rounds."""
 
 import aliases
 import functions as do

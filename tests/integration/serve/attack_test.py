@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""indurop-serve as somebody meets it who means harm: raw sockets, real certificates of a plant. What may be asked is taken
+"""indurop-serve under attack: raw sockets, real certificates of a plant. What may be asked is taken
 from tools/serve/openapi.json, so a path that is added is tried by everybody, too. attack_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
 import base64
@@ -123,7 +123,7 @@ def test_who_may_what(setting):
     subprocess.run(["cp", "-a", revoked, revoked_copy], check=True)
     keys("revoke", "gone")
     bearer = lambda token: f"Authorization: Bearer {token}"
-    askers = [("nobody", [], None, False, False, False), ("wrong token", [bearer(TOKEN[:-1] + "x")], None, False, False, True),
+    askers = [("no token", [], None, False, False, False), ("wrong token", [bearer(TOKEN[:-1] + "x")], None, False, False, True),
               ("half a token", [bearer(TOKEN[:25])], None, False, False, True),
               ("read token", [bearer(READ_TOKEN)], None, True, False, False),
               ("write token", [bearer(TOKEN)], None, True, True, False)]
@@ -233,7 +233,7 @@ def opened(port, count, data=b""):
     return connections
 
 
-def test_idle_and_dripping_connections_lock_nobody_out(setting):
+def test_idle_and_dripping_connections_lock_no_client_out(setting):
     setting.start_node()
     server = setting.start_server("--write", "--token-file", setting.tokens)
     client = WebSocket(server.port)
@@ -337,13 +337,13 @@ def test_a_certificate_that_is_revoked_counts_no_more(setting):
     assert noted[0]["who"] == "bob" and "revoked" in noted[0]["outcome"], noted
 
 
-def test_a_slow_tls_handshake_locks_nobody_out(setting):
+def test_a_slow_tls_handshake_locks_no_client_out(setting):
     plant_keys(setting)
     server = server_for(setting, False, True)
     held = opened(server.port, 320, b"\x16\x03\x01\x02\x00\x01\x00")
     begin = time.monotonic()
     assert ask(server.port, get("/api/v1/status", f"Authorization: Bearer {TOKEN}"), tls=True) == 200
-    for connection in held:  # all are ended, although nobody says anything
+    for connection in held:  # all are ended, although no client sends anything
         connection.settimeout(harness.DEADLINE_S)
         with contextlib.suppress(OSError):
             assert connection.recv(10) in (b"", b"\x15\x03\x01\x00\x02\x02F"), time.monotonic() - begin

@@ -93,7 +93,7 @@ def test_only_known_pages_may_follow(setting):
     assert answer.status == 403, "that is for streams only"
 
 
-def test_a_client_that_never_reads_is_told_what_it_missed(setting):
+def test_a_client_that_never_reads_gets_the_number_of_lost_messages(setting):
     setting.start_node("many", "1000")
     server = setting.start_server("--foxglove-hz", "100")
     slow, quick = connect(server), connect(server)
@@ -105,8 +105,8 @@ def test_a_client_that_never_reads_is_told_what_it_missed(setting):
             values(quick)
         return max(one["dropped"] for one in server.get("/api/v1/status").json()["clients"]) > 10000
     wait_for(missed, "a client that is behind")
-    told = word(slow, "status")["message"]
-    assert re.match(r"\d+ messages were left out", told), told
+    text = word(slow, "status")["message"]
+    assert re.match(r"\d+ messages were left out", text), text
 
 
 def test_a_node_that_goes_takes_its_channels_along(setting):

@@ -137,10 +137,10 @@ def test_a_lease_ends_with_its_client(setting):
     while time.monotonic() < end:
         assert server.post(renew).status == 200
         assert forces(), "it is renewed"
-    assert server.post(renew, token=TOKEN[::-1]).status == 404, "of somebody else"
+    assert server.post(renew, token=TOKEN[::-1]).status == 404, "of another user"
     assert server.ask("POST", renew).status == 401
     assert server.post(base + "/leases/nothing/renew").status == 404
-    wait_for(lambda: not forces(), "the end of a lease that nobody renews")
+    wait_for(lambda: not forces(), "the end of a lease that is not renewed")
     assert server.post(renew).status == 404
     audit = wait_for(lambda: [one for one in server.get(API + "/audit").json()["audit"]
                               if "did not renew it in time" in one["outcome"]], "a note about it")
@@ -333,7 +333,7 @@ def test_shows_the_arms_of_a_board(setting):
     server = setting.start_server()
     answer = server.get(f"{API}/boards/{setting.node}/robots").json()
     assert answer == {"board": setting.node, "robots": [{"module": "modify", "urdf": "<robot name='arm'/>", "frames": []}]}, answer
-    assert server.get(f"{API}/boards/nobody/robots").status == 404
+    assert server.get(f"{API}/boards/missing/robots").status == 404
 
 
 def test_a_scope_needs_what_it_can_read(setting):
@@ -344,7 +344,7 @@ def test_a_scope_needs_what_it_can_read(setting):
     for wrong in ("?channel=tick&pre=x", "?channel=tick&pre=15000&post=15000", "?channel=tick&timeout_ms=99999",
                   "?channel=tick&after_tick=-1"):
         assert server.get(base + wrong).status == 400, wrong
-    assert server.get(f"{API}/boards/nobody/scope?channel=tick").status == 404
+    assert server.get(f"{API}/boards/missing/scope?channel=tick").status == 404
 
 
 def openssl(setting, *words):
@@ -352,7 +352,7 @@ def openssl(setting, *words):
 
 
 def make_certificate(setting, name, days=10, authority=None):
-    """NAME.key and NAME.pem, by itself or by an authority."""
+    """NAME.key and NAME.pem, self-signed or signed by an authority."""
     openssl(setting, "req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-keyout", f"{name}.key",
             "-out", f"{name}.csr", "-subj", f"/CN={name}")
     signer = ["-CA", f"{authority}.pem", "-CAkey", f"{authority}.key", "-CAcreateserial"] if authority else [
@@ -425,7 +425,7 @@ def test_is_not_open_by_mistake(setting):
     assert done.returncode == 1 and "chmod 600" in done.stderr
 
 
-def test_ends_when_it_is_told(setting):
+def test_ends_on_a_signal(setting):
     server = setting.start_server()
     assert setting.end(server.child) == 143
 

@@ -9,7 +9,7 @@ import harness
 from harness import TOKEN, wait_for
 
 API = "/api/v1"
-WISH = {"robot": "arm", "frame": "base", "speed": [0, 0, 25]}
+REQUEST = {"robot": "arm", "frame": "base", "speed": [0, 0, 25]}
 
 
 def begun(setting):
@@ -23,7 +23,7 @@ def begun(setting):
 def held(server, base, switch):
     """A hand that was heard at least four times. One that this machine was too slow for is put there again."""
     def tried():
-        said = server.post(base + "/jog", WISH)
+        said = server.post(base + "/jog", REQUEST)
         assert said.status == 200, said.body
         hand = said.json()
         assert hand["keep_ns"] == 250_000_000, hand
@@ -52,13 +52,13 @@ def test_a_hand_presses_the_switch_while_it_is_heard(setting):
 
 def test_a_hand_moves_along_a_work_frame(setting):
     server, base, switch = begun(setting)
-    said = server.post(base + "/jog", {**WISH, "frame": "pallet"})
+    said = server.post(base + "/jog", {**REQUEST, "frame": "pallet"})
     assert said.status == 200, said.body
     now = switch()
     assert (now["eFrame"], now["frame"]) == (3, "pallet"), now
 
 
-def test_a_hand_that_is_not_heard_is_released(setting):
+def test_a_jog_that_is_not_renewed_is_released(setting):
     server, base, switch = begun(setting)
     hand = held(server, base, switch)
     wait_for(lambda: switch()["bEnable"] == 0, "the release of a hand that is not heard")
@@ -68,16 +68,16 @@ def test_a_hand_that_is_not_heard_is_released(setting):
 
 def test_a_server_that_ends_releases_and_one_that_is_killed_beats_no_more(setting):
     server, base, switch = begun(setting)
-    server.post(base + "/jog", WISH)
+    server.post(base + "/jog", REQUEST)
     setting.end(server.child)
     server = setting.start_server("--write", "--token-file", setting.tokens)
     switch = lambda: server.get(base + "/variables/arm::ROBOT_JOG").json()["value"]
     assert switch()["bEnable"] == 0
-    assert server.post(base + "/jog", WISH).status == 200
+    assert server.post(base + "/jog", REQUEST).status == 200
     setting.end(server.child, signal.SIGKILL)
     server = setting.start_server("--write", "--token-file", setting.tokens)
     before = switch()["nBeat"]
-    assert before > 0, "who looks at the beat sees that nobody is there"
+    assert before > 0, "a robot that checks the beat sees that no client is there"
     assert held(server, base, switch), "the robot can be moved again"
 
 
@@ -87,17 +87,17 @@ def test_refuses_what_is_no_motion(setting):
     for wrong, status in (({"robot": "leg"}, 409), ({"frame": "the \"moon"}, 409), ({"frame": "m" * 32}, 409), ({"speed": [0, 0, 0]}, 409), ({"speed": [1, 1]}, 409),
                           ({"speed": [101]}, 409), ({"speed": [0] * 6 + [1]}, 409), ({"speed": []}, 400), ({"speed": "fast"}, 400),
                           ({"speed": [None]}, 400), ({"robot": 7}, 400)):
-        said = server.post(jog, {**WISH, **wrong})
+        said = server.post(jog, {**REQUEST, **wrong})
         assert said.status == status, (wrong, said.status, said.body)
-    assert server.ask("POST", jog, WISH).status == 401
-    assert server.post(jog, WISH, token="x" * 30).status == 401
+    assert server.ask("POST", jog, REQUEST).status == 401
+    assert server.post(jog, REQUEST, token="x" * 30).status == 401
     assert server.post(jog + "/nothing/keep").status == 404
-    assert server.post(f"{API}/boards/nobody/jog", WISH).status == 404
+    assert server.post(f"{API}/boards/missing/jog", REQUEST).status == 404
     assert server.post(base + "/lock", {"lock": "tune"}).status == 200
-    assert server.post(jog, WISH).status == 423, "the board is locked"
+    assert server.post(jog, REQUEST).status == 423, "the board is locked"
     assert server.post(base + "/lock", {"lock": "none"}).status == 200
     assert server.post(base + "/force", {"values": {"arm::ROBOT_JOG.bEnable": 0}}).status == 200
-    assert server.post(jog, WISH).status == 409, "the switch is forced"
+    assert server.post(jog, REQUEST).status == 409, "the switch is forced"
     assert server.post(base + "/release", {"all": True}).status == 200
     assert switch()["bEnable"] == 0 and switch()["nBeat"] == 0, "nothing was written"
 
@@ -107,7 +107,7 @@ def test_one_hand_at_a_time_and_only_its_own(setting):
 
     def seen():
         hand = held(server, base, switch)
-        second, other = server.post(base + "/jog", WISH, token=TOKEN[::-1]), server.post(f"{base}/jog/{hand}/end", token=TOKEN[::-1])
+        second, other = server.post(base + "/jog", REQUEST, token=TOKEN[::-1]), server.post(f"{base}/jog/{hand}/end", token=TOKEN[::-1])
         return server.post(f"{base}/jog/{hand}/keep").status == 200 and (second, other)  # else it was too slow
 
     second, other = wait_for(seen, "one look while the hand is there")

@@ -33,7 +33,7 @@ const bodies = {
 };
 const parts = {board, module: "modify", name: "knu::Robot::joints[1]"};
 // Orders to modules: the node of this test answers none, it has no tape, and
-// no plant and no PLC program is looked at. Names of recipes are no names of variables.
+// the server shows no plant and no PLC program. Names of recipes are no names of variables.
 const unanswered = new Set(["startModule", "stopModule", "restartModule", "schedule", "scope", "plant", "plantHistory", "plantDifference", "plantRollback", "beginJog", "keepJog", "endJog", "plc", "plcLive", "recording", "recordedValues", "recipe", "saveRecipe", "loadRecipe", "removeRecipe"]);
 const take_lease = async () => (await (await fetch(`${address}/api/v1/boards/${board}/force`, {
   method: "POST",
@@ -68,7 +68,7 @@ for (const [pattern, methods] of Object.entries(described.paths)) {
 const socket = new WebSocket(address.replace("http", "ws") + "/api/v1/stream", ["indurop.v1", `indurop.token.${token}`]);
 socket.binaryType = "arraybuffer";
 const frames = [];
-let told;
+let subscribed;
 await new Promise((done, failed) => {
   socket.on("error", failed);
   socket.on("open", () => socket.send(JSON.stringify(
@@ -76,7 +76,7 @@ await new Promise((done, failed) => {
   socket.on("message", (data, binary) => {
     if (!binary) {
       const word = JSON.parse(data.toString());
-      told = word.type === "subscribed" ? word : told;
+      subscribed = word.type === "subscribed" ? word : subscribed;
       return;
     }
     frames.push(new DataView(data));
@@ -85,16 +85,16 @@ await new Promise((done, failed) => {
 });
 socket.close();
 const type = ajv.compile({$ref: "api#/components/schemas/Type"});
-for (const variable of told.variables) {
+for (const variable of subscribed.variables) {
   if (!type(variable.form)) fail(`form of ${variable.name}: ${ajv.errorsText(type.errors)}`);
 }
 let last = 0n;
 for (const view of frames) {
   const seq = view.getBigUint64(8, true);
-  if (view.byteLength !== told.record_size || view.getUint8(0) !== 1 || seq <= last) fail("a frame is not as described");
+  if (view.byteLength !== subscribed.record_size || view.getUint8(0) !== 1 || seq <= last) fail("a frame is not as described");
   last = seq;
-  const tick = view.getUint32(told.variables[0].offset, true);
-  const x = view.getFloat64(told.variables[1].offset, true);
+  const tick = view.getUint32(subscribed.variables[0].offset, true);
+  const x = view.getFloat64(subscribed.variables[1].offset, true);
   if (Math.abs(x - tick * 0.5) > 50) fail(`tick ${tick} and joints[0].x ${x} do not belong together`);
 }
 console.log(`${Object.keys(api.paths).length} paths, ${answered} answers and ${frames.length} frames are as described`);

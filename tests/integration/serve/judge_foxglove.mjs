@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Foxglove's own client and decoders beside a server: judge_foxglove.mjs PACKAGES ADDRESS BOARD TOKEN
+// Foxglove's own client and decoders against a server: judge_foxglove.mjs PACKAGES ADDRESS BOARD TOKEN
 import assert from "node:assert/strict";
 import {createRequire} from "node:module";
 import path from "node:path";

@@ -38,7 +38,7 @@ def names(answer):
     return {one["board"]: one["heard"] for one in answer["boards"]}
 
 
-def test_hears_boards_and_misses_those_that_die(setting):
+def test_shows_boards_and_reports_those_that_die(setting):
     domain = take_domain(setting)
     left, right = (f"{setting.node}_{side}" for side in ("left", "right"))
     start_agent(setting, left, domain)
@@ -59,7 +59,7 @@ def test_hears_boards_and_misses_those_that_die(setting):
     assert plant()["trouble"] == []
 
 
-def test_looks_at_its_host_only_if_nobody_said_more(setting):
+def test_shows_only_its_host_without_the_option_plant(setting):
     server = setting.start_server()
     assert not server.get(API + "/status").json()["plant"]
     for path in ("/plant", "/plant/history"):

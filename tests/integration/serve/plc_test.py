@@ -158,11 +158,11 @@ def test_shows_several_programs(setting):
     first = asked(server, base)
     assert (first["program"], first["programs"]) == ("line", ["other", "line", "logic"]), "the first that the board runs"
     for name, languages in (("line", ["ST", "SFC"]), ("logic", ["FBD"])):
-        told, live = asked(server, f"{base}?program={name}"), asked(server, f"{base}/live?program={name}")
-        assert told["program"] == live["program"] == name and told["namespace"] == name
-        assert [one["language"] for one in told["bodies"]] == languages and len(live["bodies"]) == len(languages)
+        program, live = asked(server, f"{base}?program={name}"), asked(server, f"{base}/live?program={name}")
+        assert program["program"] == live["program"] == name and program["namespace"] == name
+        assert [one["language"] for one in program["bodies"]] == languages and len(live["bodies"]) == len(languages)
     assert server.get(base + "?program=other").status == 409, "the board does not run it"
-    assert server.get(base + "?program=nobody").status == 404
+    assert server.get(base + "?program=missing").status == 404
 
 
 def test_refuses_programs_it_cannot_tell_apart(setting):

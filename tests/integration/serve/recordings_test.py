@@ -53,7 +53,7 @@ def test_opens_only_what_is_listed(setting):
     path = API + "/recordings/run.mcap/values"
     for wrong in ("", "?number=conveyor::start&points=1", "?number=conveyor::start&from_ns=x"):
         assert server.get(path + wrong).status == 400, wrong
-    assert server.get(path + "?number=nobody").status == 422
+    assert server.get(path + "?number=missing").status == 422
 
 
 if __name__ == "__main__":

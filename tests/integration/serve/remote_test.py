@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """indurop-serve before a board of another host: a board whose memory it cannot see, heard through its agent only. The board's
-values, as they come here, are compared with what a server beside it reads from its memory. remote_test.py PROGRAMS FAKE_NODE [TEST...]"""
+values, as they arrive here, are compared with those that a server on its host reads from its memory. remote_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
 import json
 import os
@@ -46,7 +46,7 @@ def board_of(setting):
 
 
 def begin(setting, *options):
-    """A board with its agent, a server beside it, and one elsewhere that has heard the board."""
+    """A board with its agent, a server on its host, and one on another host that receives the board."""
     domain = take_domain(setting)
     setting.start_node(*options)
     agent = start_agent(setting, setting.node, domain)
@@ -84,8 +84,8 @@ def test_follows_values_and_says_when_they_are_old(setting):
     wait_for(lambda: variables(remote, setting), "variables")
     client = WebSocket(remote.port)
     client.say(type="subscribe", id=1, board=setting.node, names=["tick", "gain"], rate_hz=10)
-    told = client.heard("subscribed")
-    assert [one["name"] for one in told["variables"]] == ["knu::Robot::tick", "knu::Robot::gain"], told
+    answer = client.heard("subscribed")
+    assert [one["name"] for one in answer["variables"]] == ["knu::Robot::tick", "knu::Robot::gain"], answer
     ticks = set()
     while len(ticks) < 4:
         frame = client.heard("values")
@@ -130,7 +130,7 @@ def end_deployed(setting, agent):
     setting.end(agent)  # and with it the node
 
 
-def test_sets_forces_and_lets_go_with_a_note_of_it(setting):
+def test_sets_forces_and_releases_and_logs_it(setting):
     _, agent, near, remote = begin_deployed(setting)
     base = board_of(setting)
     looks = lambda server: variables(server, setting)["nt::looks"]
@@ -161,7 +161,7 @@ def test_sets_forces_and_lets_go_with_a_note_of_it(setting):
     stop = [one for one in map(json.loads, orders) if one["action"] == "stop"]
     assert [(one["what"], one["reason"]) for one in stop] == [("counter", "belt torn")] and "ana" in stop[0]["who"], stop
     assert near.get(base + "/modules").json()["modules"][0]["state"] == "stopped"
-    assert remote.post(base + "/modules/nobody/stop").status == 422
+    assert remote.post(base + "/modules/missing/stop").status == 422
     notes = remote.get(API + "/audit", Authorization="Bearer " + harness.TOKEN).json()["audit"]
     done = sorted(one["action"] for one in notes if one["outcome"] == "done" and one["who"] == "ana")
     assert done == ["force", "lock", "lock", "release", "set", "set", "stop"], notes
@@ -197,8 +197,8 @@ def test_shows_modules_with_their_times_and_the_schedule(setting):
     assert {what: plan[what] for what in ("basic_period_ns", "macro_period_ns", "slots", "epoch_ns")} == {
         what: ask(near, "/schedule")[what] for what in ("basic_period_ns", "macro_period_ns", "slots", "epoch_ns")}
     seen = wait_for(lambda: ask(remote, "/runs?count=50")["runs"], "runs")
-    beside = {one["number"]: one for one in ask(near, "/runs?count=8192")["runs"]}
-    assert all(beside[one["number"]] == one for one in seen), "runs are those of the board's memory"
+    local = {one["number"]: one for one in ask(near, "/runs?count=8192")["runs"]}
+    assert all(local[one["number"]] == one for one in seen), "runs are those of the board's memory"
     last = seen[-1]["number"]
     newer = wait_for(lambda: ask(remote, f"/runs?after={last}")["runs"], "newer runs")
     assert newer[0]["number"] > last
@@ -206,15 +206,15 @@ def test_shows_modules_with_their_times_and_the_schedule(setting):
     few, many = exec_of(remote), exec_of(near)
     assert 0 < few["count"] <= many["count"] and few["min_ns"] >= many["min_ns"] and few["max_ns"] <= many["max_ns"], (few, many)
     assert ask(remote, "/overruns")["overruns"] == ask(near, "/overruns")["overruns"]
-    assert remote.get(base + "/modules/nobody/histograms").status == 404
+    assert remote.get(base + "/modules/missing/histograms").status == 404
     setting.end(agent, signal.SIGKILL)
-    assert wait_for(lambda: remote.get(base + "/modules").status == 504, "the answer that nobody answers")
+    assert wait_for(lambda: remote.get(base + "/modules").status == 504, "the answer that the board does not answer")
     agent = start_agent(setting, setting.node, domain)
     wait_for(lambda: remote.get(base + "/modules").status == 200, "the board again")
     end_deployed(setting, agent)
 
 
-def test_alarms_are_looked_at_by_the_agent_and_acknowledged_from_elsewhere(setting):
+def test_alarms_are_evaluated_by_the_agent_and_acknowledged_from_another_host(setting):
     domain = take_domain(setting)
     agent = start_agent(setting, setting.node, domain)
     remote = start_remote_server(setting, domain)
@@ -226,7 +226,7 @@ def test_alarms_are_looked_at_by_the_agent_and_acknowledged_from_elsewhere(setti
     alarm = "nt::torn > 1000"
     assert [one["alarm"] for one in ask(remote, "?all=true")["alarms"]] == [alarm] and of(remote) == [], ask(remote)
     assert remote.post(base + "/set", {"values": {"torn": 1001}}).status == 200
-    wait_for(lambda: of(remote) == [(alarm, "unacknowledged")], "the alarm, which nobody but the agent can have seen")
+    wait_for(lambda: of(remote) == [(alarm, "unacknowledged")], "the alarm, which only the agent can have evaluated")
     assert ask(remote)["watched"] is True
     summary = wait_for(lambda: [one for one in remote.get(API + "/boards").json()["boards"] if one["alarms"]["unacknowledged"] == 1], "its count")
     assert summary[0]["alarms"]["worst"] == "high" and any("alarm" in text for text in summary[0]["trouble"]), summary
@@ -242,8 +242,8 @@ def test_alarms_are_looked_at_by_the_agent_and_acknowledged_from_elsewhere(setti
     assert of(near) == [(alarm, "unacknowledged")], "nothing was done"
     done = order("ack", {"alarms": ["torn"], "reason": "seen"})
     assert done.status == 200 and done.json()["alarms"] == [alarm], done.body
-    told = ask(near)["alarms"][0]
-    assert told["state"] == "acknowledged" and told["reason"] == "seen" and "ana" in told["who"], told
+    alarm_now = ask(near)["alarms"][0]
+    assert alarm_now["state"] == "acknowledged" and alarm_now["reason"] == "seen" and "ana" in alarm_now["who"], alarm_now
     assert order("ack", {"all": True}).json()["alarms"] == [], "there was nothing to do"
     assert order("shelve", {"all": True, "for_ns": 3600 * 10**9}).status == 200
     assert of(near) == of(remote) == [(alarm, "shelved")]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Judges from npm look at a server: judge.mjs, judge_foxglove.mjs. run_judges.py PROGRAMS FAKE_NODE WORK"""
+"""Packages of npm judge a server: judge.mjs, judge_foxglove.mjs. run_judges.py PROGRAMS FAKE_NODE WORK"""
 
 import pathlib
 import shutil

@@ -17,14 +17,14 @@ HERE = pathlib.Path(__file__).parent
 SITUATIONS = {
     "50 clients": ("stream_test.py", "test_fifty_clients"),
     "more clients than allowed": ("stream_test.py", "test_no_more_clients_than_allowed"),
-    "a client that never reads": ("stream_test.py", "test_a_client_that_never_reads_loses_frames_and_nobody_else_does"),
+    "a client that never reads": ("stream_test.py", "test_a_client_that_never_reads_loses_frames_and_no_other_client_does"),
     "5 000 variables": ("stream_test.py", "test_five_thousand_variables"),
     "node gone and back": ("stream_test.py", "test_a_node_that_comes_back_goes_on"),
-    "node gone and back, before the page": ("../web/page.mjs", "A server and a node that go are missed, and found again"),
-    "plant with a dead board": ("plant_test.py", "test_hears_boards_and_misses_those_that_die"),
-    "plant with a dead board, before the page": ("../web/plant.mjs", "A killed board is missed in words, and comes back"),
+    "node gone and back, on the page": ("../web/page.mjs", "The page reports a stopped server and a stopped node, and resumes when they are back"),
+    "plant with a dead board": ("plant_test.py", "test_shows_boards_and_reports_those_that_die"),
+    "plant with a dead board, on the page": ("../web/plant.mjs", "A killed board is reported, and comes back"),
     "type changed while a client follows": ("stream_test.py", "test_another_layout_ends_subscriptions"),
-    "type changed while a page is open": ("../web/plant.mjs", "Variables that become others are shown anew"),
+    "type changed while a page is open": ("../web/plant.mjs", "Other variables of a restarted node are shown"),
     "wrong token": ("http_test.py", "test_refuses_those_who_may_not"),
     "wrong token of a stream": ("stream_test.py", "test_refuses_strangers"),
     "expired certificate of a client": ("http_test.py", "test_tls_and_client_certificates"),
@@ -35,14 +35,14 @@ SITUATIONS = {
     "slow-loris": ("http_test.py", "test_ends_requests_that_never_end"),
     "garbage instead of HTTP": ("http_test.py", "test_survives_garbage"),
     "garbage in a WebSocket": ("stream_test.py", "test_garbage_is_closed_with_the_right_code"),
-    "a fuzzed WebSocket": ("situations_test.py", "test_a_fuzzed_stream_writes_nothing_and_disturbs_nobody"),
+    "a fuzzed WebSocket": ("situations_test.py", "test_a_fuzzed_stream_writes_nothing_and_disturbs_no_client"),
     "fuzzed orders": ("situations_test.py", "test_fuzzed_orders_write_nothing_out_of_range"),
     "memory of a node taken away": ("stream_test.py", "test_a_node_whose_memory_is_taken_away"),
     "a full disk, so that nothing can be noted": ("http_test.py", "test_does_nothing_that_it_cannot_note_down"),
     "a client that holds a force is lost": ("http_test.py", "test_a_lease_ends_with_its_client"),
-    "hand, page or server lost while a robot moves": (
-        "../web/page.mjs", "The robot is moved by hand while a button is held, and stops when hand, page or server are lost"),
-    "a hand at a robot that is not heard": ("jog_test.py", "test_a_hand_that_is_not_heard_is_released"),
+    "pointer, page or server lost while a robot moves": (
+        "../web/page.mjs", "The robot is jogged while a button is held down, and stops when the pointer, the page or the server is lost"),
+    "a jog that is not renewed": ("jog_test.py", "test_a_jog_that_is_not_renewed_is_released"),
     "a locked board": ("http_test.py", "test_a_locked_board_is_not_written"),
 }
 
@@ -78,7 +78,7 @@ WORDS = [
 ]
 
 
-def test_a_fuzzed_stream_writes_nothing_and_disturbs_nobody(setting):
+def test_a_fuzzed_stream_writes_nothing_and_disturbs_no_client(setting):
     setting.start_node()
     server = setting.start_server("--write", "--token-file", setting.tokens)
     gain = lambda: server.get(f"{API}/boards/{setting.node}/variables/gain").json()["value"]

@@ -30,12 +30,12 @@ def test_greets_and_names_the_boards(setting):
 def test_streams_json(setting):
     server, client = begin(setting, "--write", "--token-file", setting.tokens)
     client.say(type="subscribe", id=1, names=["tick", "joints[0].x", "station::*", "gian"], rate_hz=50)
-    told = client.heard("subscribed")
-    assert [one["name"] for one in told["variables"]] == [
+    answer = client.heard("subscribed")
+    assert [one["name"] for one in answer["variables"]] == [
         "knu::Robot::tick", "knu::Robot::joints[0].x", "station::name", "station::starts"]
-    assert told["missing"][0]["name"] == "gian" and "gain" in told["missing"][0]["message"]
+    assert answer["missing"][0]["name"] == "gian" and "gain" in answer["missing"][0]["message"]
     first = client.heard("values")
-    assert first["full"] and first["alive"] and len(first["values"]) == 4 and first["stream"] == told["stream"]
+    assert first["full"] and first["alive"] and len(first["values"]) == 4 and first["stream"] == answer["stream"]
     last = first
     for _ in range(5):
         next_one = client.heard("values")
@@ -52,15 +52,15 @@ def test_streams_json(setting):
 def test_streams_binary(setting):
     server, client = begin(setting)
     client.say(type="subscribe", id=9, board=setting.node, names=["mode", "tick", "joints", "name"], rate_hz=100, binary=True)
-    told = client.heard("subscribed")
-    at = {one["name"]: one["offset"] for one in told["variables"]}
+    answer = client.heard("subscribed")
+    at = {one["name"]: one["offset"] for one in answer["variables"]}
     seen = []
     for _ in range(10):
         data = client.heard("binary")
         version, kind, flags, stream, seq, time_ns, wall_ns, reserved = struct.unpack_from("<BBHIQqqq", data)
-        assert (version, kind, flags, stream, reserved) == (1, 1, 1, told["stream"], 0)
-        assert len(data) == told["record_size"] and abs(wall_ns - time.time_ns()) < 60 * 10**9
-        assert data[told["quality_offset"]:] == bytes(4)
+        assert (version, kind, flags, stream, reserved) == (1, 1, 1, answer["stream"], 0)
+        assert len(data) == answer["record_size"] and abs(wall_ns - time.time_ns()) < 60 * 10**9
+        assert data[answer["quality_offset"]:] == bytes(4)
         tick = struct.unpack_from("<I", data, at["knu::Robot::tick"])[0]
         x = struct.unpack_from("<d", data, at["knu::Robot::joints"])[0]
         assert abs(x - tick * 0.5) < 50
@@ -83,7 +83,7 @@ def test_shares_what_is_the_same(setting):
     second.close()
 
 
-def test_a_client_that_never_reads_loses_frames_and_nobody_else_does(setting):
+def test_a_client_that_never_reads_loses_frames_and_no_other_client_does(setting):
     server, lazy = begin(setting, node=("many", "5000"))
     names = ["many::*"]
     lazy.say(type="subscribe", id=1, names=names, rate_hz=100, binary=True)
@@ -98,12 +98,12 @@ def test_a_client_that_never_reads_loses_frames_and_nobody_else_does(setting):
         seq = struct.unpack_from("<Q", eager.heard("binary"), 8)[0]
         last = seq
     assert last
-    told = lazy.heard("dropped")  # it reads after all
-    assert told["frames"] >= 1 and told["total"] >= told["frames"]
+    dropped = lazy.heard("dropped")  # it reads after all
+    assert dropped["frames"] >= 1 and dropped["total"] >= dropped["frames"]
     newest = 0
     for _ in range(3):
         newest = struct.unpack_from("<Q", lazy.heard("binary"), 8)[0]
-    assert newest > told["total"]
+    assert newest > dropped["total"]
     assert next(one for one in figures() if one["dropped"] == 0)["sent"] >= 50
     lazy.close()
     eager.close()
@@ -127,10 +127,10 @@ def test_five_thousand_variables(setting):
     server, client = begin(setting, node=("many", "5000"))
     assert len(server.get(f"{API}/boards/{setting.node}/variables?match=many::*").json()["variables"]) == 5000
     client.say(type="subscribe", id=1, names=["many::*"], rate_hz=25, binary=True)
-    told = client.heard("subscribed")
-    assert len(told["variables"]) == 5000 and not told["missing"]
+    answer = client.heard("subscribed")
+    assert len(answer["variables"]) == 5000 and not answer["missing"]
     first = client.heard("binary")
-    assert len(first) == told["record_size"] > 5000 * 9
+    assert len(first) == answer["record_size"] > 5000 * 9
     wait_for(lambda: client.heard("binary")[40:48] != first[40:48], "other values")
     client.say(type="subscribe", id=2, names=["many::*"], rate_hz=5)
     assert len(client.heard("values")["values"]) == 5000
@@ -205,7 +205,7 @@ def test_a_node_whose_memory_is_taken_away(setting):
 def test_what_makes_no_sense_is_answered(setting):
     _, client = begin(setting)
     for word in ({"type": "subscribe", "id": 1}, {"type": "subscribe", "id": 1, "names": ["tick"], "rate_hz": 1000},
-                 {"type": "subscribe", "id": 1, "names": ["tick"], "board": "nobody"}, {"type": "set", "id": 1}, {}):
+                 {"type": "subscribe", "id": 1, "names": ["tick"], "board": "missing"}, {"type": "set", "id": 1}, {}):
         client.say(**word)
         answer = client.heard("error")
         assert answer["id"] == word.get("id") and answer["message"], answer

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A user's way with a maker's URDF file: `indurop check` warns of its mesh and names a command; the command writes a file
-of which check has nothing to say; what is wrong is told with its place, all at once, and writes nothing."""
+of which check has nothing to say; errors are reported with their places, all at once, and nothing is written."""
 
 import argparse
 import json
@@ -92,7 +92,7 @@ def tells_all_mistakes_and_writes_nothing(cell):
     done = cell.run("indurop-solids", "wrong.urdf", "never.urdf", "--svg", "never.svg")
     expect(done.returncode == 4, f"it ends with {done.returncode}: {done.stderr}")
     lines = done.stderr.splitlines()
-    expect(len(lines) == 2, f"two mistakes are told in {done.stderr}")
+    expect(len(lines) == 2, f"two errors are reported in {done.stderr}")
     expect(lines[0].startswith("wrong.urdf:5:21: error: link 'base': mesh 'base.stl' cannot be read: there is no "), lines[0])
     expect(lines[1].startswith("wrong.urdf:") and "link 'wrist': mesh 'wrist.stl' cannot be read: " in lines[1], lines[1])
     expect(not list(cell.folder.glob("never.*")), "a file was written")

@@ -58,9 +58,9 @@ def test_says_what_is_wrong(setting):
     setting.start_node()
     assert stream(setting, "tick").returncode == 2
     assert stream(setting, "tick", "--plotjuggler", "--to", "nonsense").returncode == 2
-    assert stream(setting, "nobody", "--plotjuggler").returncode == 1
+    assert stream(setting, "missing", "--plotjuggler").returncode == 1
     done = stream(setting, "tick", "--plotjuggler", "--to", "127.0.0.1:9", "-n", "3", "--hz", "100")
-    assert done.returncode == 0, done  # nobody listens there
+    assert done.returncode == 0, done  # no server listens there
 
 
 if __name__ == "__main__":
