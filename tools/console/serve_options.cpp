@@ -32,8 +32,10 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
   app.add("--bind", "ADDRESS", options.bind,
           "Listen on this address (default 127.0.0.1); others need --cert and --key");
   app.flag("--write", options.write, "Let those with a token or a certificate set, force, start and stop");
+  app.add("--users", "FILE", options.users, "Users, their passwords and roles: a file of indurop users")
+      .completes(base::Completion::File);
   app.add("--token-file", "FILE", options.token_file,
-          "Tokens, one 'NAME TOKEN' per line; made with one token if it is not there")
+          "Tokens, one 'NAME TOKEN [ROLE]' per line; made with one token if it is not there")
       .completes(base::Completion::File);
   app.add("--cert", "FILE", options.cert, "Certificate for TLS (PEM)").completes(base::Completion::File);
   app.add("--key", "FILE", options.key, "Private key of --cert (PEM)").completes(base::Completion::File);
@@ -83,6 +85,7 @@ std::vector<std::string> words_of(const ServeOptions& options) {
   if (options.write) {
     words.emplace_back("--write");
   }
+  value("--users", options.users.string());
   value("--token-file", options.token_file.string());
   value("--cert", options.cert.string());
   value("--key", options.key.string());

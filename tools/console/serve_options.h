@@ -20,6 +20,7 @@ struct ServeOptions {
   std::string bind = "127.0.0.1";
   std::uint64_t port = 8080;
   bool write = false;
+  std::filesystem::path users;
   std::filesystem::path token_file;
   std::filesystem::path cert;
   std::filesystem::path key;

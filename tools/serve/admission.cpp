@@ -16,14 +16,14 @@
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 #include "core/base/text.h"
-#include "tools/serve/random_word.h"
+#include "tools/client/process/random_word.h"
 
 namespace indurop::serve {
 namespace {
 
 constexpr std::size_t kShortestToken = 20;
 constexpr std::size_t kLongestToken = 200;
-constexpr std::string_view kReadOnly = "read";
+constexpr std::string_view kReadOnly = "read";  // what earlier releases call the role `look`
 
 bool sound(std::string_view token) {
   const auto allowed = [](unsigned char c) {
@@ -38,6 +38,16 @@ std::string_view next_word(std::string_view& text) {
   const std::string_view word = text.substr(0, text.find_first_of(" \t"));
   text = base::trimmed(text.substr(word.size()));
   return word;
+}
+
+// Returns the role that a line of a token file names; nothing if there is no such role.
+std::optional<Role> role_of(std::string_view word) {
+  for (const Role role : {Role::Look, Role::Operate, Role::Tune, Role::Program, Role::Administer}) {
+    if (word == word_of(role)) {
+      return role;
+    }
+  }
+  return word.empty() ? std::optional(Role::Program) : word == kReadOnly ? std::optional(Role::Look) : std::nullopt;
 }
 
 // Returns addresses and name of this machine.
@@ -74,7 +84,7 @@ std::vector<std::string> own_names() {
 Result<std::vector<Token>, base::Problem> tokens_of(const std::filesystem::path& file) {
   struct stat info {};
   if (stat(file.c_str(), &info) != 0 && errno == ENOENT) {
-    const auto made = base::create_file(file, fmt::format("operator {}\n", random_word()), S_IRUSR | S_IWUSR);
+    const auto made = base::create_file(file, fmt::format("operator {}\n", tools::random_word()), S_IRUSR | S_IWUSR);
     if (!made) {
       return base::Problem{base::cannot_write(file.string(), made.error())};
     }
@@ -115,12 +125,14 @@ Result<std::vector<Token>, base::Problem> parse_tokens(std::string_view text) {
     std::string_view rest = words;
     const std::string_view name = next_word(rest);
     const std::string_view token = next_word(rest);
-    if (!sound(token) || (!rest.empty() && rest != kReadOnly)) {
-      return base::Problem{fmt::format(
-          "{}: error: a line is a name, a token of {} to {} letters, digits, '-' or '_', and '{}' if it only lets look",
-          line, kShortestToken, kLongestToken, kReadOnly)};
+    const auto role = role_of(rest);
+    if (!sound(token) || !role) {
+      return base::Problem{
+          fmt::format("{}: error: a line is a name, a token of {} to {} letters, digits, '-' or '_', and a role: look, "
+                      "operate, tune, program (if it names none) or administer",
+                      line, kShortestToken, kLongestToken)};
     }
-    tokens.push_back({std::string(name), std::string(token), rest.empty() ? Role::Writer : Role::Reader});
+    tokens.push_back({std::string(name), std::string(token), *role});
   }
   if (tokens.empty()) {
     return base::Problem{"1: error: there is no token"};
@@ -146,9 +158,9 @@ Result<Admission, tools::Failure> admission_of(const tools::ServeOptions& option
   if (!gate.loopback && !gate.tls) {
     return usage(fmt::format("{} can be reached from other machines: that needs --cert and --key", options.bind));
   }
-  if (!gate.loopback && options.token_file.empty() && options.client_ca.empty()) {
-    return usage(fmt::format("{} can be reached from other machines: say who may, with --token-file or --client-ca",
-                             options.bind));
+  if (!gate.loopback && options.token_file.empty() && options.client_ca.empty() && options.users.empty()) {
+    return usage(fmt::format(
+        "{} can be reached from other machines: say who may, with --users, --token-file or --client-ca", options.bind));
   }
   if (!options.token_file.empty()) {
     auto tokens = tokens_of(options.token_file);
@@ -156,8 +168,8 @@ Result<Admission, tools::Failure> admission_of(const tools::ServeOptions& option
       return tools::Failure{kFailed, tokens.error().text};
     }
     gate.tokens = std::move(tokens).value();
-  } else if (options.write && options.client_ca.empty()) {
-    gate.tokens.push_back({"operator", random_word()});
+  } else if (options.write && options.client_ca.empty() && options.users.empty()) {
+    gate.tokens.push_back({"operator", tools::random_word()});
   }
   if (!options.client_ca.empty()) {
     auto authority = ClientAuthority::open(options.client_ca, options.revoked);

@@ -51,22 +51,33 @@ std::string ClientAuthority::read_list(std::string& list) const {
   return {};
 }
 
+bool ClientAuthority::is_person(const std::string& certificate) {
+  const auto facts = keys::read_certificate(certificate);
+  const auto role = facts ? keys::plant_role(*facts) : std::nullopt;
+  return facts && (!keys::is_plant_certificate(*facts) || role == keys::Role::Deployer || role == keys::Role::Viewer);
+}
+
 Client ClientAuthority::identify(const std::string& certificate) const {
   const auto facts = keys::read_certificate(certificate);
   if (authority_.empty() || !facts || facts->common_name.empty()) {
-    return {{}, Role::Unknown, "the certificate names no user"};
+    return {{}, Role::Unknown, "the certificate names no user", {}, {}};
   }
   std::string list;
   if (!read_list(list).empty()) {
-    return {facts->common_name, Role::Unknown, "which certificates were revoked cannot be read, so none counts"};
+    return {
+        facts->common_name, Role::Unknown, "which certificates were revoked cannot be read, so none counts", {}, {}};
   }
   if (!list.empty() && keys::is_revoked(certificate, list)) {
-    return {facts->common_name, Role::Unknown, fmt::format("the certificate of {} was revoked", facts->common_name)};
+    return {facts->common_name,
+            Role::Unknown,
+            fmt::format("the certificate of {} was revoked", facts->common_name),
+            {},
+            {}};
   }
   // Certificates of other authorities define no role: their clients have the rights of one with a token.
   const auto role = keys::plant_role(*facts);
   const bool writes = !keys::is_plant_certificate(*facts) || role == keys::Role::Deployer;
-  return {facts->common_name, writes ? Role::Writer : Role::Reader, {}};
+  return {facts->common_name, writes ? Role::Program : Role::Look, {}, {}, {}};
 }
 
 }  // namespace indurop::serve

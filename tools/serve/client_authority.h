@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rights of a client with a certificate of --client-ca. Of a plant's certificates, those of deployers may write and
-// all others may read; the revocation list is read again for each client.
+// The rights of a client with a certificate of --client-ca. Of a plant's certificates, those of deployers have the role
+// `program` and all others the role `look`; the revocation list is read again for each client.
 
 #pragma once
 
@@ -25,6 +25,8 @@ class ClientAuthority {
 
   // `certificate`: PEM, signed by the authority and valid now.
   [[nodiscard]] Client identify(const std::string& certificate) const;
+  // Returns false for certificates of a plant's boards and tools.
+  [[nodiscard]] static bool is_person(const std::string& certificate);
 
  private:
   // Reads the revocation list. Returns why no certificate can be checked; empty: `list` is the list, or there is none.

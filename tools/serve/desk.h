@@ -17,8 +17,8 @@
 #include "core/base/problem.h"
 #include "core/rt/clock.h"
 #include "store/operate/who.h"
+#include "tools/client/process/random_word.h"
 #include "tools/serve/audit.h"
-#include "tools/serve/random_word.h"
 
 namespace indurop::serve {
 
@@ -105,7 +105,7 @@ class Desk {
 
   std::string insert(Held held) {
     held.until_ns = rt::now_ns() + keep_ns_;
-    auto name = all_.emplace(random_word(), std::move(held)).first->first;
+    auto name = all_.emplace(tools::random_word(), std::move(held)).first->first;
     count_ = all_.size();
     return name;
   }

@@ -7,9 +7,11 @@
 
 #include "core/base/exit_code.h"
 #include "core/keys/participant_keys.h"
+#include "core/rt/clock.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/serve/admission.h"
 #include "tools/serve/server.h"
+#include "tools/serve/users/user_book.h"
 
 namespace indurop::serve {
 namespace {
@@ -27,6 +29,12 @@ int run(const tools::ServeOptions& options) {
   }
   if (const std::string exposed = keys::exposed_key(options.key); !options.key.empty() && !exposed.empty()) {
     fmt::print(stderr, "indurop-serve: warning: {}\n", exposed);
+  }
+  if (!options.users.empty()) {
+    if (const std::string problem = UserBook(options.users, &rt::now_ns).problem(); !problem.empty()) {
+      fmt::print(stderr, "{}", problem);
+      return kFailed;
+    }
   }
   return Server(options, std::move(admission).value(), INDUROP_VERSION).run();
 }

@@ -37,7 +37,8 @@ DoorSettings door_of(const tools::ServeOptions& options, const GateSettings& gat
   settings.key = options.key;
   settings.client_ca = options.client_ca;
   settings.most_streams = options.clients;
-  settings.reserve_streams = gate.loopback && (!gate.tokens.empty() || !options.client_ca.empty());
+  settings.reserve_streams =
+      gate.loopback && (!gate.tokens.empty() || !options.client_ca.empty() || !options.users.empty());
   return settings;
 }
 
@@ -45,17 +46,20 @@ DoorSettings door_of(const tools::ServeOptions& options, const GateSettings& gat
 
 Server::Server(tools::ServeOptions options, Admission admission, const std::string& version)
     : options_(std::move(options)),
-      gate_(std::move(admission.gate)),
+      users_(options_.users, &rt::now_ns),
+      gate_(std::move(admission.gate), &users_),
       authority_(std::move(admission.authority)),
       audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
       leases_(audit_),
       jogs_(audit_),
-      api_(gate_, audit_, leases_, jogs_, facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
+      api_(gate_, users_, audit_, leases_, jogs_,
+           facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
       page_(options_.web),
       boards_(options_.node, &remote_boards_),
       hub_(boards_, version, {options_.foxglove, options_.foxglove_hz},
            [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
       files_(options_.node),
+      sign_in_(options_.node),
       orders_(options_.node),
       holds_(options_.node) {}
 
@@ -64,14 +68,18 @@ std::string Server::choose_subprotocol(const Request& request) {
 }
 
 Client Server::identify(const std::string& certificate) {
-  return authority_.identify(certificate);
+  Client client = authority_.identify(certificate);
+  if (!client.refusal.empty() || !ClientAuthority::is_person(certificate)) {
+    return client;
+  }
+  return users_.client_named(client.name).value_or(client);
 }
 
 std::optional<Reply> Server::refuse(Request& request) {
-  if (auto refused = gate_.refuse(request, right_of(all_routes(), request))) {
+  request.client = gate_.client_of(request);
+  if (auto refused = gate_.refuse(request, needed_for(all_routes(), request))) {
     return refused;
   }
-  request.client = gate_.client_of(request);
   if (!request.subprotocol.empty() && match_route(all_routes(), request).route == nullptr) {
     return refusal(status::kNotFound, "the WebSocket is at /api/v1/stream");
   }
@@ -80,7 +88,7 @@ std::optional<Reply> Server::refuse(Request& request) {
 
 void Server::note_refused(const Request& request, const std::string& why, std::uint64_t count) {
   AuditEntry entry;
-  entry.who = request.certificate.name;
+  entry.who = request.client.name.empty() ? request.certificate.name : request.client.name;
   entry.from = request.from;
   entry.action = "refused";
   entry.what = request.path;
@@ -103,6 +111,8 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
   switch (match.route->pace) {
     case Pace::Files:
       return hand_over(files_, std::move(match), ticket);
+    case Pace::SignIn:
+      return hand_over(sign_in_, std::move(match), ticket);
     case Pace::Orders:
       return hand_over(orders_, std::move(match), ticket);
     case Pace::Holds:

@@ -23,6 +23,7 @@
 #include "tools/serve/leases/lease_desk.h"
 #include "tools/serve/page.h"
 #include "tools/serve/stream/hub.h"
+#include "tools/serve/users/user_book.h"
 #include "tools/serve/worker.h"
 
 namespace indurop::serve {
@@ -62,6 +63,7 @@ class Server final : public House {
   void announce() const;
 
   tools::ServeOptions options_;
+  UserBook users_;
   Gate gate_;
   ClientAuthority authority_;
   Audit audit_;
@@ -76,6 +78,7 @@ class Server final : public House {
   std::unique_ptr<Door> door_;  // declared after everything its connections use
   std::unique_ptr<Door::Alarm> sampling_;
   Helper files_;
+  Helper sign_in_;
   Helper orders_;
   Helper holds_;
   struct Plant {

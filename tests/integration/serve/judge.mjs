@@ -23,6 +23,7 @@ ajv.addSchema({$id: "api", ...described});
 const refer = (schema) => JSON.parse(JSON.stringify(schema).replaceAll('"#/', '"api#/'));
 
 const bodies = {
+  signIn: {user: "ana", password: "correct horse"},
   set: {values: {gain: 2}},
   force: {values: {gain: 3}, for_ns: 60_000_000_000},
   release: {all: true},
@@ -31,7 +32,7 @@ const bodies = {
   shelveAlarms: {all: true, for_ns: 1_000_000_000},
   unshelveAlarms: {all: true},
 };
-const parts = {board, module: "modify", name: "knu::Robot::joints[1]"};
+const parts = {user: "ana", board, module: "modify", name: "knu::Robot::joints[1]"};
 // Orders to modules: the node of this test answers none, it has no tape, and
 // the server shows no plant and no PLC program. Names of recipes are no names of variables.
 const unanswered = new Set(["startModule", "stopModule", "restartModule", "schedule", "scope", "plant", "plantHistory", "plantDifference", "plantRollback", "beginJog", "keepJog", "endJog", "plc", "plcLive", "recording", "recordedValues", "recipe", "saveRecipe", "loadRecipe", "removeRecipe"]);

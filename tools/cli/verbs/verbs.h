@@ -56,6 +56,7 @@ extern const Verb kStreamVerb;
 extern const Verb kTopVerb;
 extern const Verb kTypeofVerb;
 extern const Verb kUnforceVerb;
+extern const Verb kUsersVerb;
 extern const Verb kVarsVerb;
 extern const Verb kVerifyVerb;
 extern const Verb kWatchVerb;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/serve/random_word.h"
+#include "tools/client/process/random_word.h"
 
 #include <sys/random.h>
 
 #include <array>
 #include <string_view>
 
-namespace indurop::serve {
+namespace indurop::tools {
 
 std::string random_word() {
   constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
@@ -20,4 +20,4 @@ std::string random_word() {
   return word;
 }
 
-}  // namespace indurop::serve
+}  // namespace indurop::tools

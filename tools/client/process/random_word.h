@@ -5,9 +5,9 @@
 
 #include <string>
 
-namespace indurop::serve {
+namespace indurop::tools {
 
 // 32 letters, digits, '-' or '_'; empty if the system has no random numbers.
 std::string random_word();
 
-}  // namespace indurop::serve
+}  // namespace indurop::tools

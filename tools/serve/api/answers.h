@@ -17,6 +17,12 @@ Reply description(Api& api, const Call& call);
 Reply server_status(Api& api, const Call& call);
 Reply audit(Api& api, const Call& call);
 
+Reply sign_in(Api& api, const Call& call);
+Reply session(Api& api, const Call& call);
+Reply sign_out(Api& api, const Call& call);
+Reply users(Api& api, const Call& call);
+Reply end_sessions(Api& api, const Call& call);
+
 Reply boards(Api& api, const Call& call);
 Reply board(Api& api, const Call& call);
 Reply modules(Api& api, const Call& call);

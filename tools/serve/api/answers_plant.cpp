@@ -84,7 +84,7 @@ Reply plant_rollback(Api& api, const Call& call) {
     return write.failed(status::kBadRequest, "that is no name of a plant");
   }
   write.about(id, reason);
-  if (const auto unnoted = write.begin()) {
+  if (const auto unnoted = write.begin({{}, true})) {
     return write.failed(*unnoted);
   }
   const Said said = roll_back(*call.link, id, plant);

@@ -20,6 +20,13 @@ struct Body {
   std::string reason;
 };
 
+std::vector<std::string> names_of(const tools::Recipe& recipe) {
+  std::vector<std::string> names;
+  std::transform(recipe.values.begin(), recipe.values.end(), std::back_inserter(names),
+                 [](const auto& value) { return value.first; });
+  return names;
+}
+
 std::optional<Body> read_body(const Call& call) {
   const auto json = base::Json::parse(call.request->body.empty() ? "{}" : call.request->body);
   if (!json || !json->is_object()) {
@@ -90,7 +97,7 @@ Reply save_recipe(Api& api, const Call& call) {
   if (const auto taken = tools::take_values(*store, wanted->names, recipe); !taken) {
     return write.failed(Refused{status::kWrongValue, taken.error()});
   }
-  if (const auto unnoted = write.begin()) {
+  if (const auto unnoted = write.begin({names_of(recipe)})) {
     return write.failed(*unnoted);
   }
   if (const auto saved = tools::write_recipe((*found)->name(), recipe); !saved) {
@@ -121,7 +128,7 @@ Reply load_recipe(Api& api, const Call& call) {
   if (!store) {
     return write.failed(store.error());
   }
-  if (const auto unnoted = write.begin()) {
+  if (const auto unnoted = write.begin({names_of(*one)})) {
     return write.failed(*unnoted);
   }
   const auto loaded = tools::load_values((*found)->name(), *store, *one, write.who());
@@ -143,10 +150,11 @@ Reply remove_recipe(Api& api, const Call& call) {
   Write write(api, call, "remove recipe");
   const auto wanted = read_body(call);
   write.about(recipe_in(call), wanted ? wanted->reason : std::string());
-  if (const auto one = tools::read_recipe((*found)->name(), recipe_in(call)); !one) {
+  const auto one = tools::read_recipe((*found)->name(), recipe_in(call));
+  if (!one) {
     return write.failed(status::kNotFound, one.error().text);
   }
-  if (const auto unnoted = write.begin()) {
+  if (const auto unnoted = write.begin({names_of(*one)})) {
     return write.failed(*unnoted);
   }
   if (const auto removed = tools::remove_recipe((*found)->name(), recipe_in(call)); !removed) {

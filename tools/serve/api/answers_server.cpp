@@ -2,6 +2,7 @@
 // Answers about the server itself.
 #include "core/rt/clock.h"
 #include "tools/serve/api/answers.h"
+#include "tools/serve/users/user_book.h"
 
 namespace indurop::serve::answers {
 
@@ -19,8 +20,11 @@ Reply server_status(Api& api, const Call& call) {
   body["version"] = facts.version;
   body["api"] = kApiVersion;
   body["write"] = api.gate().settings().write;
-  body["may_write"] = api.gate().may_write(call.request->client);
+  const Client& asker = call.request->client;
+  body["may_write"] = api.gate().may(asker, Role::Operate);
   body["who"] = call.who;
+  body["role"] = word_of(asker.role);
+  body["users"] = api.users().used();
   body["web"] = facts.web;
   body["plant"] = facts.plant;
   body["plc"] = facts.plc;

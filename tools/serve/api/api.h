@@ -48,13 +48,15 @@ struct ServerFacts {
 class Board;
 class JogDesk;
 class LeaseDesk;
+class UserBook;
 
 class Api {
  public:
-  Api(const Gate& gate, Audit& audit, LeaseDesk& leases, JogDesk& jogs, ServerFacts facts)
-      : gate_(&gate), audit_(&audit), leases_(&leases), jogs_(&jogs), facts_(std::move(facts)) {}
+  Api(const Gate& gate, UserBook& users, Audit& audit, LeaseDesk& leases, JogDesk& jogs, ServerFacts facts)
+      : gate_(&gate), users_(&users), audit_(&audit), leases_(&leases), jogs_(&jogs), facts_(std::move(facts)) {}
 
   [[nodiscard]] const Gate& gate() const noexcept { return *gate_; }
+  [[nodiscard]] UserBook& users() const noexcept { return *users_; }
   [[nodiscard]] const ServerFacts& facts() const noexcept { return facts_; }
   [[nodiscard]] Audit& audit() const noexcept { return *audit_; }
   [[nodiscard]] LeaseDesk& leases() const noexcept { return *leases_; }
@@ -70,6 +72,7 @@ class Api {
   };
 
   const Gate* gate_;
+  UserBook* users_;
   Audit* audit_;
   LeaseDesk* leases_;
   JogDesk* jogs_;

@@ -60,12 +60,14 @@ Match match_route(std::span<const Route> routes, const Request& request) {
   return match;
 }
 
-Right right_of(std::span<const Route> routes, const Request& request) {
+Needed needed_for(std::span<const Route> routes, const Request& request) {
   const bool unknown_stream = request.stream && request.subprotocol.empty();
   const Match match = match_route(routes, request);
-  return match.route != nullptr && !unknown_stream ? match.route->right
-         : request.method == Method::Post          ? Right::Write
-                                                   : Right::Read;
+  if (match.route == nullptr || unknown_stream) {
+    return {request.method == Method::Post ? Role::Operate : Role::Look, {}};
+  }
+  const auto board = match.call.part.find("board");
+  return {match.route->role, board != match.call.part.end() ? board->second : std::string()};
 }
 
 std::string choose_subprotocol(std::span<const Route> routes, const Request& request) {

@@ -36,10 +36,11 @@ struct Call {
   std::map<std::string, std::string, std::less<>> part;  // "board", "module", "name"
 };
 
-// The thread that answers: the door's; one that may read files; one that may wait for a node; one of those that wait
-// for an event; one for requests that must not wait for the others; one that receives from remote boards; one that
-// changes what they run; one that has the PLC program. Files of the page and streams have no answer of their own.
-enum class Pace { Quick, Files, Orders, Wait, Holds, Plant, PlantOrders, Plc, Page, Stream };
+// The thread that answers: the door's; one that may read files; one that verifies passwords; one that may wait for a
+// node; one of those that wait for an event; one for requests that must not wait for the others; one that receives from
+// remote boards; one that changes what they run; one that has the PLC program. Files of the page and streams have no
+// answer of their own.
+enum class Pace { Quick, Files, SignIn, Orders, Wait, Holds, Plant, PlantOrders, Plc, Page, Stream };
 
 using Answer = Reply (*)(Api& api, const Call& call);
 
@@ -50,7 +51,7 @@ enum class Remote { No, Reported, Asked };
 struct Route {
   Method method;
   std::string_view pattern;  // "/api/v1/boards/{board}/set"; a last part "{file...}" matches any path
-  Right right;
+  Role role;                 // that a client needs; Unknown: none
   Pace pace;
   Answer answer;
   Remote remote;
@@ -66,8 +67,8 @@ struct Match {
   Call call;
 };
 Match match_route(std::span<const Route> routes, const Request& request);
-// Returns the right a client needs for this request; for a path that does not exist the same as if it did.
-Right right_of(std::span<const Route> routes, const Request& request);
+// Returns what a client needs for this request; for a path that does not exist at least as much as to look or operate.
+Needed needed_for(std::span<const Route> routes, const Request& request);
 // Returns the first of the subprotocols requested by the client that is in the table; empty: none.
 std::string choose_subprotocol(std::span<const Route> routes, const Request& request);
 

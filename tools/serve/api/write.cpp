@@ -2,6 +2,7 @@
 #include "tools/serve/api/write.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <utility>
 #include <vector>
@@ -9,8 +10,29 @@
 #include "tools/serve/boards/local_board.h"
 
 namespace indurop::serve {
+namespace {
 
-Write::Write(Api& api, const Call& call, std::string action) : api_(&api) {
+// Returns why the client may not change this; nothing if it may.
+std::optional<std::string> beyond_rights(const Client& client, const Affected& affected) {
+  if (client.variables.empty()) {
+    return std::nullopt;
+  }
+  const std::string most = fmt::format("{} may change {} only", client.name, fmt::join(client.variables, ", "));
+  if (affected.board) {
+    return most;
+  }
+  for (const std::string& name : affected.variables) {
+    const std::string variable = name.substr(0, name.find_first_of(".["));
+    if (!matches_any(client.variables, variable) && !matches_any(client.variables, name)) {
+      return fmt::format("{}, not {}", most, name);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Write::Write(Api& api, const Call& call, std::string action) : api_(&api), client_(&call.request->client) {
   entry_.who = call.who;
   entry_.from = call.request->from;
   const auto board = call.part.find("board");
@@ -42,7 +64,10 @@ void Write::note_failure(const std::string& why) {
   static_cast<void>(api_->audit().note(entry_));  // nothing was written, so a missing log entry hides nothing
 }
 
-std::optional<Refused> Write::begin() {
+std::optional<Refused> Write::begin(const Affected& affected) {
+  if (auto beyond = beyond_rights(*client_, affected)) {
+    return Refused{status::kForbidden, {std::move(*beyond)}};
+  }
   entry_.outcome = "begun";
   const std::string problem = api_->audit().note(entry_);
   if (problem.empty()) {

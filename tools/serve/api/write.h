@@ -28,13 +28,14 @@ class Write final : public ChangeNote {
   // Fails because store/operate/ refused it.
   Reply failed(const operate::Refusal& refusal);
   // A write that cannot be logged is not done.
-  std::optional<Refused> begin() override;
+  std::optional<Refused> begin(const Affected& affected) override;
   Reply done(const base::Json& body);
 
  private:
   void note_failure(const std::string& why);
 
   Api* api_;
+  const Client* client_;
   AuditEntry entry_;
 };
 

@@ -36,7 +36,13 @@ struct Refused {
   std::vector<std::string> reasons;  // at least one
 };
 
-// The note of a change in the audit log.
+// What a change affects: a client may be limited to some variables.
+struct Affected {
+  std::vector<std::string> variables;  // full names of variables or parts of them
+  bool board = false;                  // more than variables: modules, the write lock, all forces
+};
+
+// Decides whether a client may make a change, and notes it in the audit log.
 class ChangeNote {
  public:
   ChangeNote() = default;
@@ -44,8 +50,9 @@ class ChangeNote {
   ChangeNote& operator=(const ChangeNote&) = delete;
   virtual ~ChangeNote() = default;
   [[nodiscard]] virtual operate::Who who() const = 0;
-  // To be called before anything is changed: returns why it cannot be noted, and then nothing may be changed.
-  virtual std::optional<Refused> begin() = 0;
+  // To be called before anything is changed: returns why it is not allowed or cannot be noted, and then nothing may be
+  // changed.
+  virtual std::optional<Refused> begin(const Affected& affected) = 0;
 };
 
 class Board {

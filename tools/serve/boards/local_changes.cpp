@@ -2,6 +2,8 @@
 // Changes of a local board: by store/operate/, the run block and the journal of alarms.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "control/plc/st/value_literal.h"
@@ -37,11 +39,15 @@ Result<std::vector<operate::Assignment>, operate::Refusal> check_values(const va
   return all;
 }
 
-base::Json names_of(const std::vector<operate::Assignment>& all) {
-  base::Json names = base::Json::array();
-  for (const operate::Assignment& one : all) {
-    names.push_back(one.item.name);
-  }
+std::vector<std::string> names_of(const std::vector<operate::Assignment>& all) {
+  std::vector<std::string> names;
+  std::transform(all.begin(), all.end(), std::back_inserter(names), [](const auto& one) { return one.item.name; });
+  return names;
+}
+
+std::vector<std::string> names_of(const std::vector<operate::Item>& all) {
+  std::vector<std::string> names;
+  std::transform(all.begin(), all.end(), std::back_inserter(names), [](const auto& one) { return one.name; });
   return names;
 }
 
@@ -103,13 +109,13 @@ Board::Done LocalBoard::set(const WriteRequest& request, ChangeNote& note) {
   if (const auto locked = operate::refusal_to_set(name(), *values)) {
     return refused(*locked);
   }
-  if (auto unnoted = note.begin()) {
+  if (auto unnoted = note.begin({names_of(*values)})) {
     return std::move(*unnoted);
   }
   if (const auto done = operate::set(name(), *store, *values, note.who()); !done) {
     return refused(done.error());
   }
-  return base::Json{{"written", names_of(*values)}};
+  return base::Json{{"written", base::Json(names_of(*values))}};
 }
 
 Board::Done LocalBoard::force(const WriteRequest& request, ChangeNote& note, LeaseDesk& leases) {
@@ -127,7 +133,7 @@ Board::Done LocalBoard::force(const WriteRequest& request, ChangeNote& note, Lea
   if (request.lease && store->header().virtual_ns.load() != 0) {
     return Refused{status::kConflict, {"the time of a simulation is not the one that a lease goes by: use for_ns"}};
   }
-  if (auto unnoted = note.begin()) {
+  if (auto unnoted = note.begin({names_of(*values)})) {
     return std::move(*unnoted);
   }
   auto held = operate::hold(name(), *store, *values, request.lease ? LeaseDesk::kLeaseNs : request.for_ns,
@@ -135,7 +141,7 @@ Board::Done LocalBoard::force(const WriteRequest& request, ChangeNote& note, Lea
   if (!held) {
     return refused(held.error());
   }
-  base::Json body{{"forced", names_of(*values)}};
+  base::Json body{{"forced", base::Json(names_of(*values))}};
   if (request.lease) {
     body["lease"] = leases.take(name(), note.who(), text_of(request), *store, std::move(held).value());
     body["lease_ns"] = LeaseDesk::kLeaseNs;
@@ -155,7 +161,7 @@ Board::Done LocalBoard::release(const WriteRequest& request, ChangeNote& note) {
   if (const auto locked = operate::refusal(name(), vars::Act::Force)) {
     return refused(*locked);
   }
-  if (auto unnoted = note.begin()) {
+  if (auto unnoted = note.begin({names_of(*items), request.all})) {
     return std::move(*unnoted);
   }
   const auto released = request.all ? operate::release_all(name(), *store, note.who())
@@ -167,7 +173,7 @@ Board::Done LocalBoard::release(const WriteRequest& request, ChangeNote& note) {
 }
 
 Board::Done LocalBoard::set_lock(vars::WriteLock lock, ChangeNote& note) {
-  if (auto unnoted = note.begin()) {
+  if (auto unnoted = note.begin({{}, true})) {
     return std::move(*unnoted);
   }
   if (const auto locked = operate::set_lock(name(), lock, note.who()); !locked) {
@@ -189,7 +195,7 @@ Board::Done LocalBoard::command(scheduler::ModuleCommand what, const std::string
   if (const auto locked = operate::refusal(name(), vars::Act::Command)) {
     return refused(*locked);
   }
-  if (auto unnoted = note.begin()) {
+  if (auto unnoted = note.begin({{}, true})) {
     return std::move(*unnoted);
   }
   const auto done = tools::command_module(name(), what, module, kLongestCommandNs, note.who());
@@ -202,7 +208,7 @@ Board::Done LocalBoard::command(scheduler::ModuleCommand what, const std::string
 }
 
 Board::Done LocalBoard::carry_out(const alarms::AlarmOrder& order, ChangeNote& note) {
-  if (auto unnoted = note.begin()) {
+  if (auto unnoted = note.begin({order.names, order.all})) {
     return std::move(*unnoted);
   }
   alarms::AlarmJournal journal(name());

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/rt/clock.h"
 #include "history/alarms/alarm_list.h"
+#include "store/operate/item.h"
 #include "tools/client/board/board_run.h"
 #include "tools/serve/door/request.h"
 
@@ -159,14 +161,27 @@ Board::Done RemoteBoard::alarm_history(std::uint64_t count) {
   return Json{{"events", newest((*answer)["events"], count)}};
 }
 
-Result<std::string, Refused> RemoteBoard::send(Order order, ChangeNote& note) {
+std::vector<std::string> RemoteBoard::full_names(const std::vector<std::string>& names) const {
+  std::vector<std::string> full;
+  if (store() == nullptr) {
+    return names;
+  }
+  const auto items = operate::select(*store(), names);
+  if (!items) {
+    return names;
+  }
+  std::transform(items->begin(), items->end(), std::back_inserter(full), [](const auto& item) { return item.name; });
+  return full;
+}
+
+Result<std::string, Refused> RemoteBoard::send(Order order, const Affected& affected, ChangeNote& note) {
   const operate::Who who = note.who();
   order.who = who.name + " at " + who.from;
   order.reason = who.reason;
   if (!one_line(order.reason) || !std::all_of(order.lines.begin(), order.lines.end(), one_line)) {
     return Refused{status::kWrongValue, {"names, values and reasons for a board of another host are one line each"}};
   }
-  if (auto unnoted = note.begin()) {
+  if (auto unnoted = note.begin(affected)) {
     return std::move(*unnoted);
   }
   auto done = watch_->order(name(), order);
@@ -178,16 +193,16 @@ Result<std::string, Refused> RemoteBoard::send(Order order, ChangeNote& note) {
 
 Board::Done RemoteBoard::write(Order::What what, const WriteRequest& request, ChangeNote& note) {
   Order order{what, {}, request.for_ns, {}, {}};
-  Json names = Json::array();
+  std::vector<std::string> names;
   for (const auto& [name, value] : request.values) {
     order.lines.push_back(name + "=" + value);
     names.push_back(name);
   }
-  const auto answer = send(std::move(order), note);
+  const auto answer = send(std::move(order), {full_names(names)}, note);
   if (!answer) {
     return answer.error();
   }
-  return Json{{what == Order::What::Force ? "forced" : "written", std::move(names)}, {"message", *answer}};
+  return Json{{what == Order::What::Force ? "forced" : "written", Json(names)}, {"message", *answer}};
 }
 
 Board::Done RemoteBoard::set(const WriteRequest& request, ChangeNote& note) {
@@ -203,7 +218,8 @@ Board::Done RemoteBoard::force(const WriteRequest& request, ChangeNote& note, Le
 }
 
 Board::Done RemoteBoard::release(const WriteRequest& request, ChangeNote& note) {
-  const auto answer = send({Order::What::Unforce, request.names, 0, {}, {}}, note);
+  const auto answer =
+      send({Order::What::Unforce, request.names, 0, {}, {}}, {full_names(request.names), request.all}, note);
   if (!answer) {
     return answer.error();
   }
@@ -211,7 +227,7 @@ Board::Done RemoteBoard::release(const WriteRequest& request, ChangeNote& note) 
 }
 
 Board::Done RemoteBoard::set_lock(vars::WriteLock lock, ChangeNote& note) {
-  const auto answer = send({Order::What::Lock, {vars::word_of(lock)}, 0, {}, {}}, note);
+  const auto answer = send({Order::What::Lock, {vars::word_of(lock)}, 0, {}, {}}, {{}, true}, note);
   if (!answer) {
     return answer.error();
   }
@@ -223,7 +239,7 @@ Board::Done RemoteBoard::command(scheduler::ModuleCommand what, const std::strin
   const auto word = what == ModuleCommand::Stop    ? Order::What::StopModule
                     : what == ModuleCommand::Start ? Order::What::StartModule
                                                    : Order::What::RestartModule;
-  const auto answer = send({word, {module}, 0, {}, {}}, note);
+  const auto answer = send({word, {module}, 0, {}, {}}, {{}, true}, note);
   if (!answer) {
     return answer.error();
   }
@@ -235,7 +251,7 @@ Board::Done RemoteBoard::carry_out(const alarms::AlarmOrder& order, ChangeNote& 
   const auto word = order.what == AlarmEvent::Acknowledged ? Order::What::AckAlarms
                     : order.what == AlarmEvent::Shelved    ? Order::What::ShelveAlarms
                                                            : Order::What::UnshelveAlarms;
-  const auto answer = send({word, order.names, order.for_ns, {}, {}}, note);
+  const auto answer = send({word, order.names, order.for_ns, {}, {}}, {order.names, order.all}, note);
   if (!answer) {
     return answer.error();
   }

@@ -48,7 +48,10 @@ class RemoteBoard final : public Board {
   // Requests a text of the agent, a JSON object; `what` is what is missing if there is no answer.
   Result<base::Json, Refused> ask(const char* text, const char* what);
   // Notes the command, sends it and returns the agent's answer.
-  Result<std::string, Refused> send(Order order, ChangeNote& note);
+  // Sends a command that affects this. Returns the agent's message.
+  Result<std::string, Refused> send(Order order, const Affected& affected, ChangeNote& note);
+  // Returns full names, as far as the reported variables have them.
+  [[nodiscard]] std::vector<std::string> full_names(const std::vector<std::string>& names) const;
   Done write(Order::What what, const WriteRequest& request, ChangeNote& note);
 
   std::shared_ptr<tools::ReportedBoard> reported_;

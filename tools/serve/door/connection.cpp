@@ -169,12 +169,18 @@ bool Connection::answer(std::int64_t now_ns) {
 }
 
 bool Connection::reply(Reply reply, std::int64_t now_ns) {
-  return begin(std::move(reply), now_ns) && flush(now_ns);
+  const bool refused = !reply.wrong_credentials.empty();
+  return (refused ? refuse(std::move(reply), now_ns) : begin(std::move(reply), now_ns)) && flush(now_ns);
 }
 
 bool Connection::refuse(Reply reply, std::int64_t now_ns) {
   reply.close = true;
   close_ = true;
+  if (!reply.lacks_right.empty()) {
+    if (const std::uint64_t count = common_.lacking_rights.count(now_ns); count > 0) {
+      common_.house->note_refused(request_, reply.lacks_right, count);
+    }
+  }
   if (reply.wrong_credentials.empty()) {
     return begin(std::move(reply), now_ns);
   }

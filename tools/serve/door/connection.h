@@ -14,6 +14,7 @@
 #include "tools/serve/door/frames.h"
 #include "tools/serve/door/house.h"
 #include "tools/serve/door/http_head.h"
+#include "tools/serve/door/note_limit.h"
 #include "tools/serve/door/wire.h"
 #include "tools/serve/door/wrong_tokens.h"
 
@@ -28,6 +29,7 @@ struct Common {
   House* house = nullptr;
   ConnectionLimits limits;
   WrongTokens wrong_tokens;
+  NoteLimit lacking_rights;
   Ticket last_ticket = 0;
   std::size_t streams = 0;
   std::size_t unknown_streams = 0;  // streams of clients without token or certificate

@@ -52,7 +52,7 @@ struct Door::Alarm::State {
 
 struct Door::Impl {
   Impl(DoorSettings settings, House& house, Listener own_listener, TlsContext own_tls)
-      : common{std::move(settings), &house, ConnectionLimits(0, 0), {}},
+      : common{std::move(settings), &house, ConnectionLimits(0, 0), {}, {}},
         listener(std::move(own_listener)),
         tls(std::move(own_tls)),
         wake(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/serve/door/gate.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -19,7 +23,18 @@ std::string lower(std::string_view text) {
 constexpr std::string_view kBearer = "Bearer ";
 constexpr std::string_view kTokenProtocol = "indurop.token.";
 
-// Returns the token in a header or, for the WebSocket of a browser, in a subprotocol. Empty: none.
+Reply refuse_right(std::string why) {
+  Reply reply = refusal(status::kForbidden, why);
+  reply.lacks_right = std::move(why);
+  return reply;
+}
+
+bool is_json(std::string_view content_type) {
+  return lower(base::trimmed(content_type.substr(0, content_type.find(';')))) == "application/json";
+}
+
+}  // namespace
+
 std::string_view sent_token(const Request& request) {
   const std::string_view header = request.authorization;
   if (header.starts_with(kBearer)) {
@@ -37,11 +52,11 @@ std::string_view sent_token(const Request& request) {
   return {};
 }
 
-bool is_json(std::string_view content_type) {
-  return lower(base::trimmed(content_type.substr(0, content_type.find(';')))) == "application/json";
+bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
+  return patterns.empty() || std::any_of(patterns.begin(), patterns.end(), [&name](const std::string& pattern) {
+           return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+         });
 }
-
-}  // namespace
 
 bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept {
   unsigned difference = a.size() == b.size() ? 0 : 1;
@@ -75,14 +90,21 @@ std::string host_name(std::string_view host) {
 
 Client Gate::client_of(const Request& request) const {
   const std::string_view sent = sent_token(request);
-  if (sent.empty()) {
-    return request.certificate;
+  return sent.empty() ? request.certificate : client_of_token(sent);
+}
+
+Client Gate::client_of_token(std::string_view sent) const {
+  if (accounts_ != nullptr) {
+    if (auto client = accounts_->client_of_token(sent)) {
+      return std::move(*client);
+    }
   }
-  Client client{{}, Role::Unknown, "the token is wrong"};
+  Client client;
+  client.refusal = "the token is wrong, or its session has ended";
   for (const Token& token : settings_.tokens) {  // checks all of them, so that the time does not reveal which one
                                                  // matches
     if (equal_in_constant_time(token.value, sent)) {
-      client = {token.name, token.role, {}};
+      client = {token.name, token.role, {}, {}, {}};
     }
   }
   return client;
@@ -105,8 +127,8 @@ bool Gate::same_origin(const Request& request) const {
   return lower(request.origin) == (settings_.tls ? "https://" : "http://") + lower(request.host);
 }
 
-std::optional<Reply> Gate::refuse_client(const Client& client, Right right) const {
-  if (right == Right::Open) {
+std::optional<Reply> Gate::refuse_client(const Client& client, const Needed& needed) const {
+  if (needed.role == Role::Unknown) {
     return std::nullopt;
   }
   if (!client.refusal.empty()) {
@@ -115,23 +137,28 @@ std::optional<Reply> Gate::refuse_client(const Client& client, Right right) cons
     return reply;
   }
   if (client.role == Role::Unknown && !settings_.loopback) {
-    return refusal(status::kUnauthorized, "a token or a client certificate is needed");
+    return refusal(status::kUnauthorized, "a user, a token or a client certificate is needed");
   }
-  if (right == Right::Read) {
+  if (needed.role == Role::Look) {
     return std::nullopt;
   }
   if (!settings_.write) {
     return refusal(status::kForbidden, "this server only shows; start it with --write to let it write");
   }
   if (client.role == Role::Unknown) {
-    return refusal(status::kUnauthorized, "writing needs a token or a client certificate");
+    return refusal(status::kUnauthorized, "writing needs a user, a token or a client certificate");
   }
-  return may_write(client)
-             ? std::nullopt
-             : std::optional(refusal(status::kForbidden, "what " + client.name + " showed lets it look, not write"));
+  if (client.role < needed.role) {
+    return refuse_right(fmt::format("{} has the role {}; this needs the role {}", client.name, word_of(client.role),
+                                    word_of(needed.role)));
+  }
+  if (!client.boards.empty() && (needed.board.empty() || !matches_any(client.boards, needed.board))) {
+    return refuse_right(fmt::format("{} may change {} only", client.name, fmt::join(client.boards, ", ")));
+  }
+  return std::nullopt;
 }
 
-std::optional<Reply> Gate::refuse(const Request& request, Right right) const {
+std::optional<Reply> Gate::refuse(const Request& request, const Needed& needed) const {
   if (!host_known(request.host)) {
     return refusal(status::kMisdirected, "this server is not called '" + request.host +
                                              "'; start it with --host NAME to let it be called so");
@@ -144,7 +171,7 @@ std::optional<Reply> Gate::refuse(const Request& request, Right right) const {
     reply.allow = "GET, POST";
     return reply;
   }
-  if (auto refused = refuse_client(client_of(request), right)) {
+  if (auto refused = refuse_client(client_of(request), needed)) {
     return refused;
   }
   if (request.has_body && !is_json(request.content_type)) {

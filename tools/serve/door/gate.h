@@ -15,7 +15,18 @@ namespace indurop::serve {
 struct Token {
   std::string name;  // for the audit log
   std::string value;
-  Role role = Role::Writer;
+  Role role = Role::Program;
+};
+
+// Clients that sign in, and tokens that are kept as hashes. Called by the door's thread.
+class Accounts {
+ public:
+  Accounts() = default;
+  Accounts(const Accounts&) = delete;
+  Accounts& operator=(const Accounts&) = delete;
+  virtual ~Accounts() = default;
+  // Returns the client that has this token; nothing if none has.
+  virtual std::optional<Client> client_of_token(std::string_view token) = 0;
 };
 
 struct GateSettings {
@@ -29,25 +40,38 @@ struct GateSettings {
 
 class Gate {
  public:
-  explicit Gate(GateSettings settings) : settings_(std::move(settings)) {}
+  // `accounts`: null: there are none but the tokens of the settings. Must outlive the gate.
+  explicit Gate(GateSettings settings, Accounts* accounts = nullptr)
+      : settings_(std::move(settings)), accounts_(accounts) {}
 
-  // Returns the refusal of a request that needs `right`, or nothing if it is allowed.
-  [[nodiscard]] std::optional<Reply> refuse(const Request& request, Right right) const;
+  // Returns the refusal of a request that needs this, or nothing if it is allowed.
+  [[nodiscard]] std::optional<Reply> refuse(const Request& request, const Needed& needed) const;
   // Returns the client identified by the token, else by the certificate.
   [[nodiscard]] Client client_of(const Request& request) const;
-  [[nodiscard]] bool may_write(const Client& client) const { return settings_.write && client.role == Role::Writer; }
+  // Returns true if the client may do what this role may, on some board at least.
+  [[nodiscard]] bool may(const Client& client, Role role) const {
+    return client.role >= role && (role <= Role::Look || settings_.write);
+  }
   [[nodiscard]] const GateSettings& settings() const noexcept { return settings_; }
 
  private:
   [[nodiscard]] bool host_known(std::string_view host) const;
   [[nodiscard]] bool same_origin(const Request& request) const;
-  [[nodiscard]] std::optional<Reply> refuse_client(const Client& client, Right right) const;
+  [[nodiscard]] std::optional<Reply> refuse_client(const Client& client, const Needed& needed) const;
+  [[nodiscard]] Client client_of_token(std::string_view token) const;
 
   GateSettings settings_;
+  Accounts* accounts_;
 };
 
 // Returns name or address of a Host header, in lower case and without the port; empty: it is not a valid Host.
 std::string host_name(std::string_view host);
+
+// Returns the token that a request sends in a header or, for the WebSocket of a browser, in a subprotocol. Empty: none.
+std::string_view sent_token(const Request& request);
+
+// Returns true if there are no patterns, or one of them matches the whole name. '*' stands for any characters.
+bool matches_any(const std::vector<std::string>& patterns, const std::string& name);
 
 // Takes the same time wherever the two texts differ.
 bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept;

@@ -86,7 +86,8 @@ class House {
   virtual Client identify(const std::string& certificate) = 0;
   // Returns the refusal of this request, from its headers alone; else fills in its `client`.
   virtual std::optional<Reply> refuse(Request& request) = 0;
-  // Logs that `count` requests of this address were refused for their token or certificate; `request` is the last one.
+  // Logs that `count` requests of this address were refused for their token or certificate, or because their client has
+  // no right; `request` is the last one.
   virtual void note_refused(const Request& request, const std::string& why, std::uint64_t count) = 0;
   // Returns the reply; nothing: it comes later, by Door::reply().
   virtual std::optional<Reply> answer(const Request& request, Ticket ticket) = 0;

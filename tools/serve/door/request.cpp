@@ -6,6 +6,11 @@
 
 namespace indurop::serve {
 
+std::string_view word_of(Role role) noexcept {
+  constexpr std::array<std::string_view, 6> kWords{"unknown", "look", "operate", "tune", "program", "administer"};
+  return kWords.at(static_cast<std::size_t>(role));
+}
+
 std::string_view word_of(int code) noexcept {
   constexpr std::array<std::pair<int, std::string_view>, 16> kWords{{
       {status::kBadRequest, "bad_request"},

@@ -15,17 +15,23 @@ namespace indurop::serve {
 
 enum class Method { Get, Post, Other };
 
-// The right a request needs: none, to read, or to write.
-enum class Right { Open, Read, Write };
+// The rights of a client. Each role includes those before it. On this machine unidentified clients may look.
+enum class Role { Unknown, Look, Operate, Tune, Program, Administer };
+std::string_view word_of(Role role) noexcept;
 
-// The rights of a client. On this machine unidentified clients may read.
-enum class Role { Unknown, Reader, Writer };
-
-// The client, as identified by its certificate or token.
+// The client, as identified by its session, token or certificate.
 struct Client {
   std::string name;  // empty: not identified
   Role role = Role::Unknown;
   std::string refusal;  // why its token or certificate is rejected; empty: it is accepted, or there was none
+  std::vector<std::string> boards;     // patterns over boards that it may change; none: all
+  std::vector<std::string> variables;  // patterns over full names of variables that it may change; none: all
+};
+
+// What a client must have for a request.
+struct Needed {
+  Role role = Role::Unknown;  // Unknown: anyone
+  std::string board;          // the board that the path names; empty: none
 };
 
 struct Request {
@@ -40,7 +46,7 @@ struct Request {
   std::string subprotocol;    // the one in use; empty: HTTP
   std::string content_type;
   Client certificate;  // the client according to its certificate
-  Client client;       // the client according to certificate and token; set once it was admitted
+  Client client;       // the client according to certificate and token
   std::string from;    // address
   std::string body;
   bool has_body = false;
@@ -56,6 +62,7 @@ struct Reply {
   bool immutable = false;         // browsers may cache it for a year
   bool close = false;             // end the connection afterwards
   std::string wrong_credentials;  // why the token or certificate is rejected; empty: it is accepted
+  std::string lacks_right;        // why a known client may not do this; empty: it may
 };
 
 namespace status {

@@ -42,10 +42,10 @@ class Authority : public testing::Test {
 TEST_F(Authority, Only_deployers_write) {
   ASSERT_TRUE(plant_.add_tool("panel", {{"cell::*"}, {}}, until_));
   ASSERT_TRUE(plant_.add_tool("hand", {{}, {"cell::target"}}, until_));
-  EXPECT_EQ(client(plant_.deployer()).role, Role::Writer);
+  EXPECT_EQ(client(plant_.deployer()).role, Role::Program);
   EXPECT_EQ(client(plant_.deployer()).name, "deployer");
   for (const fs::path& folder : {plant_.viewer(), plant_.board("drive"), plant_.tool("panel"), plant_.tool("hand")}) {
-    EXPECT_EQ(client(folder).role, Role::Reader) << folder;
+    EXPECT_EQ(client(folder).role, Role::Look) << folder;
     EXPECT_EQ(client(folder).refusal, "") << folder;
   }
 }

@@ -40,7 +40,7 @@ GateSettings here(bool writes) {
 
 // What the table asks for these.
 std::optional<Reply> refusal_of(const Gate& gate, const Request& request) {
-  return gate.refuse(request, right_of(all_routes(), request));
+  return gate.refuse(request, needed_for(all_routes(), request));
 }
 
 int code(const std::optional<Reply>& reply) {
@@ -120,11 +120,11 @@ TEST(Gate, Lets_nobody_write_without_the_option_and_a_token) {
   EXPECT_EQ(code(refusal_of(gate, wrong)), 401);
   wrong.authorization.clear();
   EXPECT_EQ(code(refusal_of(gate, wrong)), 401);
-  wrong.certificate = {"deployer", Role::Writer, {}};
+  wrong.certificate = {"deployer", Role::Program, {}, {}, {}};
   EXPECT_EQ(code(refusal_of(gate, wrong)), 0);
-  wrong.certificate = {"viewer", Role::Reader, {}};
+  wrong.certificate = {"viewer", Role::Look, {}, {}, {}};
   EXPECT_EQ(code(refusal_of(gate, wrong)), 403);
-  wrong.certificate = {"drive", Role::Unknown, "revoked"};
+  wrong.certificate = {"drive", Role::Unknown, "revoked", {}, {}};
   EXPECT_EQ(code(refusal_of(gate, wrong)), 401);
 }
 
@@ -175,8 +175,8 @@ TEST(Tokens, Have_a_name_and_are_long_enough) {
   ASSERT_EQ(tokens->size(), 2U);
   EXPECT_EQ((*tokens)[1].name, "ana");
   EXPECT_EQ((*tokens)[1].value, std::string(kToken) + "1");
-  EXPECT_EQ((*tokens)[1].role, Role::Writer);
-  EXPECT_EQ(parse_tokens(std::string("desk ") + kToken + " read\n")->front().role, Role::Reader);
+  EXPECT_EQ((*tokens)[1].role, Role::Program);
+  EXPECT_EQ(parse_tokens(std::string("desk ") + kToken + " read\n")->front().role, Role::Look);
   for (const char* text : {"", "panel\n", "panel short\n", "abcdefghijklmnopqrstuvwxyz\n",
                            "panel abcdefghijklmnopqrstuvw xyz\n", "panel abcdefghijklmnopqrstuvwx,yz\n"}) {
     EXPECT_FALSE(parse_tokens(text)) << text;

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
+#include <string>
 
 #include "tools/serve/api/router.h"
 #include "tools/serve/door/gate.h"
@@ -15,33 +17,37 @@ namespace {
 
 constexpr const char* kWriteToken = "write-token-abcdefghijkl";
 constexpr const char* kReadToken = "read-token-abcdefghijklm";
+constexpr const char* kOperateToken = "operate-token-abcdefghij";
+constexpr const char* kTuneToken = "tune-token-abcdefghijklm";
+constexpr const char* kAdminToken = "administer-token-abcdefg";
 
 // Who asks.
 struct Asker {
   const char* what = "";
   const char* token = "";
   Client certificate;
-  bool known = false;   // to the server
-  bool writes = false;  // if the server lets anybody write
-  bool wrong = false;   // showed something that does not count
+  int level = 0;       // what it may do: 0 unknown, 1 look, 2 operate, 3 tune, 4 program, 5 administer
+  bool wrong = false;  // showed something that does not count
 };
 
 const std::array kAskers{
-    Asker{"nobody", "", {}, false, false, false},
-    Asker{"wrong token", "wrong-token-abcdefghijkl", {}, false, false, true},
-    Asker{"beginning of the token", "write-token-abcdefghijk", {}, false, false, true},
-    Asker{"read token", kReadToken, {}, true, false, false},
-    Asker{"write token", kWriteToken, {}, true, true, false},
-    Asker{"certificate of a tool", "", {"panel", Role::Reader, {}}, true, false, false},
-    Asker{"certificate of a viewer", "", {"viewer", Role::Reader, {}}, true, false, false},
-    Asker{"certificate of a board", "", {"drive", Role::Reader, {}}, true, false, false},
-    Asker{"certificate of a deployer", "", {"deployer", Role::Writer, {}}, true, true, false},
-    Asker{"revoked certificate", "", {"deployer", Role::Unknown, "it was revoked"}, false, false, true},
+    Asker{"nobody", "", {}, 0, false},
+    Asker{"wrong token", "wrong-token-abcdefghijkl", {}, 0, true},
+    Asker{"beginning of the token", "write-token-abcdefghijk", {}, 0, true},
+    Asker{"read token", kReadToken, {}, 1, false},
+    Asker{"operator's token", kOperateToken, {}, 2, false},
+    Asker{"tuner's token", kTuneToken, {}, 3, false},
+    Asker{"write token", kWriteToken, {}, 4, false},
+    Asker{"administrator's token", kAdminToken, {}, 5, false},
+    Asker{"certificate of a tool", "", {"panel", Role::Look, {}, {}, {}}, 1, false},
+    Asker{"certificate of a viewer", "", {"viewer", Role::Look, {}, {}, {}}, 1, false},
+    Asker{"certificate of a board", "", {"drive", Role::Look, {}, {}, {}}, 1, false},
+    Asker{"certificate of a deployer", "", {"deployer", Role::Program, {}, {}, {}}, 4, false},
+    Asker{"revoked certificate", "", {"deployer", Role::Unknown, "it was revoked", {}, {}}, 0, true},
     Asker{"wrong token with a deployer's certificate",
           "wrong-token-abcdefghijkl",
-          {"deployer", Role::Writer, {}},
-          false,
-          false,
+          {"deployer", Role::Program, {}, {}, {}},
+          0,
           true},
 };
 
@@ -71,22 +77,46 @@ GateSettings settings_of(bool loopback, bool write) {
   settings.tls = !loopback;
   settings.write = write;
   settings.hosts = {"localhost", "127.0.0.1", "::1"};
-  settings.tokens = {{"operator", kWriteToken, Role::Writer}, {"desk", kReadToken, Role::Reader}};
+  settings.tokens = {{"operator", kWriteToken, Role::Program},
+                     {"desk", kReadToken, Role::Look},
+                     {"olga", kOperateToken, Role::Operate},
+                     {"tom", kTuneToken, Role::Tune},
+                     {"ada", kAdminToken, Role::Administer}};
   return settings;
 }
 
-int expected(const Request& request, const Asker& asker, const GateSettings& settings) {
-  const bool page = !request.stream && !request.path.starts_with("/api/");
-  if (page) {
+// The level that a request needs, by the last word of its path.
+int level_of(const Request& request) {
+  static const std::map<std::string, int> kLevels{
+      {"set", 2},     {"ack", 2},   {"jog", 2},     {"keep", 2},   {"load", 2},    {"force", 3},
+      {"release", 3}, {"renew", 3}, {"save", 3},    {"remove", 3}, {"shelve", 3},  {"unshelve", 3},
+      {"start", 4},   {"stop", 4},  {"restart", 4}, {"lock", 4},   {"rollback", 4}};
+  if ((!request.stream && !request.path.starts_with("/api/")) ||
+      (request.method == Method::Post && request.path == "/api/v1/session")) {
     return 0;
   }
-  if (asker.wrong || (!asker.known && !settings.loopback)) {
+  if (request.path.starts_with("/api/v1/users")) {
+    return 5;
+  }
+  if (request.method == Method::Get || request.path == "/api/v1/session/end") {
+    return 1;
+  }
+  const std::string last = request.path.substr(request.path.rfind('/') + 1);
+  return last == "end" ? request.path.find("/jog/") != std::string::npos ? 2 : 3 : kLevels.at(last);
+}
+
+int expected(const Request& request, const Asker& asker, const GateSettings& settings) {
+  const int level = level_of(request);
+  if (level == 0) {
+    return 0;
+  }
+  if (asker.wrong || (asker.level == 0 && !settings.loopback)) {
     return status::kUnauthorized;
   }
-  if (request.method == Method::Get || (settings.write && asker.writes)) {
+  if (level == 1 || (settings.write && asker.level >= level)) {
     return 0;
   }
-  return settings.write && !asker.known ? status::kUnauthorized : status::kForbidden;
+  return settings.write && asker.level == 0 ? status::kUnauthorized : status::kForbidden;
 }
 
 int code_of_reply(const std::optional<Reply>& reply) {
@@ -113,7 +143,7 @@ void walk(const Check& check) {
 }
 
 int answer_of(const GateSettings& settings, const Request& request) {
-  return code_of_reply(Gate(settings).refuse(request, right_of(all_routes(), request)));
+  return code_of_reply(Gate(settings).refuse(request, needed_for(all_routes(), request)));
 }
 
 TEST(WhoMay, Is_the_same_for_every_line_of_the_table) {
@@ -142,8 +172,26 @@ TEST(WhoMay, What_is_not_in_the_table_asks_for_no_less) {
   const GateSettings settings = settings_of(false, true);
   for (const char* path : {"/api/", "/api/v1", "/api/v1/nothing", "/api/v2/boards", "/api/v1/stream"}) {
     for (const Method method : {Method::Get, Method::Post}) {
-      Request request = request_for({method, path, Right::Open, Pace::Quick, nullptr, Remote::No}, kAskers[0], true);
+      Request request = request_for({method, path, Role::Unknown, Pace::Quick, nullptr, Remote::No}, kAskers[0], true);
       EXPECT_EQ(answer_of(settings, request), status::kUnauthorized) << path;
+    }
+  }
+}
+
+TEST(WhoMay, A_client_of_some_boards_changes_no_other_and_not_the_plant) {
+  GateSettings settings = settings_of(true, true);
+  for (const Route& route : all_routes()) {
+    Request request = request_for(route, kAskers[0], true);
+    request.certificate = {"ben", Role::Program, {}, {"press*", "table"}, {}};
+    const bool changes = level_of(request) >= 2;
+    const bool of_board = request.path.find("{board}") != std::string::npos;
+    for (const auto& [board, own] : {std::pair("press2", true), {"table", true}, {"tables", false}, {"p", false}}) {
+      Request one = request;
+      if (of_board) {
+        one.path.replace(one.path.find("{board}"), 7, board);
+      }
+      const bool allowed = !changes || (of_board && own && level_of(request) < 5);
+      EXPECT_EQ(answer_of(settings, one), allowed ? 0 : status::kForbidden) << one.path;
     }
   }
 }
@@ -158,8 +206,7 @@ TEST(WhoMay, Only_these_subprotocols_are_spoken) {
   EXPECT_EQ(choose_subprotocol(all_routes(), request), kStream);
   for (const Route& route : all_routes()) {
     EXPECT_TRUE(route.protocol.empty() || route.protocol == kStream || is_foxglove(route.protocol)) << route.protocol;
-    EXPECT_EQ(route.right == Right::Open, route.pace == Pace::Page);
-    EXPECT_EQ(route.right == Right::Write, route.method == Method::Post) << route.pattern;
+    EXPECT_EQ(route.role == Role::Unknown, route.pace == Pace::Page || route.pace == Pace::SignIn);
   }
 }
 

@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Users of indurop-serve: passwords that Python's hashlib hashed, roles, limits to boards and variables, sessions that end,
+and what the audit log says. users_test.py PROGRAMS FAKE_NODE [TEST...]"""
+
+import hashlib
+import json
+import os
+import subprocess
+import time
+
+import harness
+from harness import wait_for
+
+API = "/api/v1"
+PASSWORD = "correct horse"
+ROLES = ("look", "operate", "tune", "program", "administer")
+
+
+def hash_of(password, salt=None):
+    """As users.xml keeps it; cheap, because these tests sign in often."""
+    salt = salt or os.urandom(16)
+    return "scrypt:10:8:1:" + salt.hex() + ":" + hashlib.scrypt(password.encode(), salt=salt, n=2**10, r=8, p=1, dklen=32).hex()
+
+
+class Users:
+    def __init__(self, setting, **users):
+        self.file = setting.folder / "users.xml"
+        self.write(**users)
+
+    def write(self, **users):
+        text = "".join(f'<user name="{name}" {attributes}/>' for name, attributes in users.items())
+        fresh = self.file.with_suffix(".new")
+        fresh.write_text(f"<users>{text}</users>")
+        fresh.chmod(0o640)
+        fresh.rename(self.file)
+
+
+def user(role, more="", password=PASSWORD):
+    return f'role="{role}" password="{hash_of(password)}" {more}'
+
+
+def sign_in(server, name, password=PASSWORD):
+    answer = server.post(f"{API}/session", {"user": name, "password": password}, token=None)
+    return answer.json().get("token") if answer.status == 200 else None
+
+
+def entries(setting):
+    path = setting.folder / "audit.jsonl"
+    return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+
+
+def serve(setting, users, *options):
+    return setting.start_server("--write", "--users", users.file, "--audit", setting.folder / "audit.jsonl", *options)
+
+
+def test_each_role_does_what_it_may(setting):
+    setting.start_node()
+    users = Users(setting, **{role: user(role) for role in ROLES})
+    server = serve(setting, users)
+    board = f"{API}/boards/{setting.node}"
+    requests = [  # the least role, and what it asks
+        ("look", "GET", f"{API}/boards", None),
+        ("operate", "POST", f"{board}/set", {"values": {"gain": 2.5}}),
+        ("tune", "POST", f"{board}/force", {"values": {"gain": 1.5}, "for_ns": 1_000_000_000}),
+        ("program", "POST", f"{board}/lock", {"lock": "none"}),
+        ("administer", "GET", f"{API}/users", None),
+    ]
+    for role in ROLES:
+        token = sign_in(server, role)
+        assert token, role
+        for least, method, path, body in requests:
+            answer = server.ask(method, path, body, token)
+            allowed = ROLES.index(role) >= ROLES.index(least)
+            # A force of the test before may still hold the variable: that is no question of rights.
+            assert answer.status != 403 if allowed else answer.status == 403, (role, path, answer.status, answer.body)
+        who = server.get(f"{API}/session", Authorization=f"Bearer {token}").json()
+        assert who == {"user": role, "role": role, "boards": [], "variables": []}, who
+    refused = [entry for entry in entries(setting) if entry["action"] == "refused"]
+    assert any(entry["who"] == "look" and entry["what"].endswith("/set") and "needs the role operate" in entry["outcome"]
+               for entry in refused), refused
+    assert any(entry["who"] == "operate" and entry["action"] == "set" and entry["outcome"] == "done"
+               for entry in entries(setting))
+
+
+def test_wrong_passwords_are_refused_slowly_and_logged(setting):
+    users = Users(setting, anna=user("operate"))
+    server = serve(setting, users)
+    for name, password in [("anna", "wrong"), ("eve", PASSWORD), ("anna", ""), ("", "")]:
+        answer = server.post(f"{API}/session", {"user": name, "password": password}, token=None)
+        assert answer.status == 401 and answer.json()["message"] == "the user or the password is wrong", answer.body
+    begin = time.monotonic()
+    for _ in range(3):
+        assert sign_in(server, "anna", "wrong") is None
+    assert time.monotonic() - begin > 1.5, "guesses are delayed"
+    assert sign_in(server, "anna"), "the right one is still accepted"
+    assert any(entry["action"] == "refused" and "anna" in entry["outcome"] for entry in entries(setting))
+    for body in ("", "{}", "[]", '{"user": 1, "password": 2}', '{"user": "anna"}'):
+        assert server.post(f"{API}/session", body, token=None).status == 400, body
+    text = (setting.folder / "audit.jsonl").read_text()
+    assert "wrong\"" not in text and PASSWORD not in text, "passwords are in no log"
+
+
+def test_limits_to_boards_and_variables(setting):
+    setting.start_node()
+    node = setting.node
+    users = Users(setting, here=user("administer", f'boards="{node}"'), there=user("administer", 'boards="other*"'),
+                  gain=user("administer", 'variables="gain"'), glob=user("program", 'variables="test::*"'))
+    server = serve(setting, users)
+    board = f"{API}/boards/{node}"
+    tokens = {name: sign_in(server, name) for name in ("here", "there", "gain", "glob")}
+    values = {"values": {"gain": 2.5}}
+    assert server.post(f"{board}/set", values, tokens["here"]).status == 200
+    refused = server.post(f"{board}/set", values, tokens["there"])
+    assert refused.status == 403 and "other*" in refused.json()["message"], refused.body
+    assert server.get(board, Authorization=f"Bearer {tokens['there']}").status == 200, "all may look"
+    full = server.post(f"{board}/set", values, tokens["here"]).json()["written"][0]
+    users.write(part=user("program", f'variables="{full}"'), none=user("program", 'variables="another::*"'))
+    part, none = sign_in(server, "part"), sign_in(server, "none")
+    assert server.post(f"{board}/set", values, part).status == 200, "its short name stands for the full one"
+    assert server.post(f"{board}/set", values, none).status == 403
+    others = [one["name"] for one in server.get(f"{board}/variables", Authorization=f"Bearer {part}").json()["variables"]
+              if one["name"] != full]
+    assert others, "the node has further variables"
+    answer = server.post(f"{board}/set", {"values": {"gain": 1, others[0]: 1}}, part)
+    assert answer.status in (403, 422), answer.body
+    for path, body in ((f"{board}/lock", {"lock": "none"}), (f"{board}/release", {"all": True})):
+        answer = server.post(path, body, part)
+        assert answer.status == 403 and full in answer.json()["message"], (path, answer.body)
+    assert any(entry["who"] == "none" and entry["action"] == "set" and "only" in entry["outcome"]
+               for entry in entries(setting))
+
+
+def test_a_change_of_the_list_counts_at_once(setting):
+    setting.start_node()
+    hashed = hash_of(PASSWORD)
+    users = Users(setting, anna=f'role="tune" password="{hashed}"')
+    server = serve(setting, users)
+    token = sign_in(server, "anna")
+    board = f"{API}/boards/{setting.node}"
+    held = server.post(f"{board}/force", {"values": {"gain": 4.5}, "lease": True}, token)
+    assert held.status == 200, held.body
+    lease = held.json()["lease"]
+    assert server.post(f"{board}/leases/{lease}/renew", None, token).status == 200
+    users.write(anna=f'role="operate" password="{hashed}"')
+    assert server.post(f"{board}/leases/{lease}/renew", None, token).status == 403, "she may not force any more"
+    wait_for(lambda: not server.get(f"{board}/forces").json()["forces"], "the force to end with its lease")
+    users.write(bob=user("look"))
+    answer = server.post(f"{board}/set", {"values": {"gain": 1}}, token)
+    assert answer.status == 401 and "session has ended" in answer.json()["message"], answer.body
+
+
+def test_sessions_are_ended_by_who_has_them_and_by_administrators(setting):
+    users = Users(setting, anna=user("operate"), ada=user("administer"))
+    server = serve(setting, users)
+    first, second, ada = sign_in(server, "anna"), sign_in(server, "anna"), sign_in(server, "ada")
+    assert server.post(f"{API}/session/end", None, first).json() == {"ended": True}
+    assert server.get(f"{API}/session", Authorization=f"Bearer {first}").status == 401
+    assert server.post(f"{API}/users/anna/end", None, second).status == 403
+    listed = {one["user"]: one for one in server.get(f"{API}/users", Authorization=f"Bearer {ada}").json()["users"]}
+    assert len(listed["anna"]["sessions"]) == 1 and listed["anna"]["sessions"][0]["from"] == "127.0.0.1", listed
+    assert server.post(f"{API}/users/anna/end", None, ada).json() == {"user": "anna", "ended": 1}
+    assert server.get(f"{API}/session", Authorization=f"Bearer {second}").status == 401
+    assert server.get(f"{API}/session", Authorization=f"Bearer {ada}").status == 200
+
+
+def test_the_command_line_makes_the_list(setting):
+    def indurop(*words, code=0, text=""):
+        done = subprocess.run([str(setting.programs / "indurop"), "users", *words, "--file", str(setting.folder / "u.xml")],
+                              input=text, capture_output=True, text=True, env=setting.environment, check=False)
+        assert done.returncode == code, (words, done.returncode, done.stdout, done.stderr)
+        return done.stdout, done.stderr
+
+    indurop("add", "anna", "--role", "administer", text="long enough\n")
+    indurop("add", "ben", "--role", "operate", "--boards", "press*,table", "--variables", "cell::*", text="another one\n")
+    indurop("add", "log.ger", "--role", "look", "--no-password")
+    token = indurop("token", "log.ger")[0].strip()
+    listed = json.loads(indurop("list", "-o", "json")[0])["users"]
+    assert [(one["user"], one["role"], one["boards"], one["signs_in_with"]) for one in listed] == [
+        ("anna", "administer", [], ["password"]), ("ben", "operate", ["press*", "table"], ["password"]),
+        ("log.ger", "look", [], ["token"])], listed
+    text = (setting.folder / "u.xml").read_text()
+    assert "long enough" not in text and token not in text
+    assert (setting.folder / "u.xml").stat().st_mode & 0o007 == 0, "others cannot read it"
+    users = Users(setting)
+    users.file = setting.folder / "u.xml"
+    server = serve(setting, users)
+    assert sign_in(server, "anna", "long enough") and sign_in(server, "ben", "another one")
+    assert server.get(f"{API}/session", Authorization=f"Bearer {token}").json()["user"] == "log.ger"
+    indurop("password", "anna", text="yet another\n")
+    assert sign_in(server, "anna", "long enough") is None
+    assert sign_in(server, "anna", "yet another")
+    indurop("role", "ben", "look")
+    assert json.loads(indurop("list", "-o", "json")[0])["users"][1]["boards"] == []
+    indurop("remove", "anna")
+    assert sign_in(server, "anna", "yet another") is None
+    before = (setting.folder / "u.xml").read_bytes()
+    for words, code, said in ((("add", "ben", "--role", "look"), 1, "there is a user 'ben' already"),
+                              (("add", "b n", "--role", "look"), 2, "is not a valid user name"),
+                              (("add", "eve", "--role", "boss"), 2, "boss"),
+                              (("add", "eve", "--role", "look"), 1, "a password has 8 to 200 characters"),
+                              (("remove", "bne"), 1, "ben"), (("password", "nobody"), 1, "there is no user")):
+        assert said in indurop(*words, code=code, text="short\n")[1], (words, said)
+    assert (setting.folder / "u.xml").read_bytes() == before, "what fails changes nothing"
+    (setting.folder / "u.xml").write_text("<users>\n<user name='x' role='boss'/></users>")
+    assert "u.xml:2:" in indurop("list", code=4)[1]
+
+
+def test_a_wrong_list_is_said_at_the_start(setting):
+    users = Users(setting, anna='role="boss"')
+    done = subprocess.run([str(setting.programs / "indurop-serve"), "--port", "0", "--users", str(users.file)],
+                          capture_output=True, text=True, env=setting.environment, timeout=harness.DEADLINE_S, check=False)
+    assert done.returncode == 1 and "users.xml:1:" in done.stderr and "'boss' is none of" in done.stderr, done
+
+
+if __name__ == "__main__":
+    harness.main(globals())

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop users: the people and programs that a plant's servers let in, and the role of each.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "config/users_reader.h"
+#include "core/base/file_problem.h"
+#include "core/base/replace_file.h"
+#include "core/keys/password.h"
+#include "core/keys/variable_rights.h"
+#include "tools/cli/command/password_prompt.h"
+#include "tools/cli/verbs/verbs.h"
+#include "tools/client/process/random_word.h"
+#include "tools/client/text/suggest.h"
+#include "tools/console/diagnostics.h"
+
+namespace indurop::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct UsersRequest {
+  fs::path file = "users.xml";
+  std::string name;
+  std::string role;
+  std::vector<std::string> boards;
+  std::vector<std::string> variables;
+  bool no_password = false;
+};
+
+std::vector<std::string> role_words() {
+  return {config::kUserRoleNames.begin(), config::kUserRoleNames.end()};
+}
+
+config::UserRole role_of(const std::string& word) {
+  const std::vector<std::string> words = role_words();
+  return static_cast<config::UserRole>(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
+// Returns the users of the file; of one that is not there yet none. Nothing after errors, with the exit code in `code`.
+std::optional<std::vector<config::PlantUser>> open_users(Context& context, const UsersRequest& request, int& code) {
+  std::error_code ignored;
+  if (!fs::exists(request.file, ignored)) {
+    return std::vector<config::PlantUser>();
+  }
+  config::ReadUsers read = config::read_users(request.file);
+  if (!read.ok()) {
+    print_diagnostics(context, read.diagnostics, false);
+    code = kCheckFailed;
+    return std::nullopt;
+  }
+  return std::move(read.users.users);
+}
+
+int save(Context& context, const UsersRequest& request, const std::vector<config::PlantUser>& users) {
+  constexpr mode_t kOwnerAndGroup = 0640;
+  const auto done = base::replace_file(request.file, config::users_text(users), base::Durable::Yes, kOwnerAndGroup);
+  if (!done) {
+    context.out.error(base::cannot_write(request.file.string(), done.error()));
+    return kFailed;
+  }
+  return kOk;
+}
+
+// Changes the user who was named, and saves the list. `change` returns an exit code.
+template <class Change>
+int change_user(Context& context, const UsersRequest& request, const Change& change) {
+  int code = kOk;
+  auto users = open_users(context, request, code);
+  if (!users) {
+    return code;
+  }
+  const auto at = std::find_if(users->begin(), users->end(), [&](const auto& one) { return one.name == request.name; });
+  if (at == users->end()) {
+    std::vector<std::string> names;
+    std::transform(users->begin(), users->end(), std::back_inserter(names), [](const auto& one) { return one.name; });
+    context.out.error(fmt::format("there is no user '{}' in {}.{}", request.name, request.file.string(),
+                                  did_you_mean(request.name, names)));
+    return kFailed;
+  }
+  code = change(*users, at);
+  return code == kOk ? save(context, request, *users) : code;
+}
+
+// Asks for a password. Returns its hash, or nothing after an error.
+std::optional<std::string> ask_password(Context& context, const std::string& name) {
+  const auto password = read_new_password(fmt::format("password of {}", name));
+  if (!password) {
+    context.out.error(password.error().text);
+    return std::nullopt;
+  }
+  if (password->size() < keys::kShortestPassword || password->size() > keys::kLongestPassword) {
+    context.out.error(
+        fmt::format("a password has {} to {} characters", keys::kShortestPassword, keys::kLongestPassword));
+    return std::nullopt;
+  }
+  return keys::hash_of_password(*password);
+}
+
+int list(Context& context, const UsersRequest& request) {
+  std::error_code ignored;
+  if (!fs::exists(request.file, ignored)) {
+    context.out.error(
+        fmt::format("there is no file {}; indurop users add NAME --role ROLE makes it", request.file.string()));
+    return kFailed;
+  }
+  int code = kOk;
+  const auto users = open_users(context, request, code);
+  if (!users) {
+    return code;
+  }
+  Table table({{"USER", "user"},
+               {"ROLE", "role"},
+               {"BOARDS", "boards"},
+               {"VARIABLES", "variables"},
+               {"SIGNS IN WITH", "signs_in_with"}});
+  for (const config::PlantUser& user : *users) {
+    std::vector<std::string> ways;
+    if (!user.password.empty()) {
+      ways.emplace_back("password");
+    }
+    if (!user.token.empty()) {
+      ways.emplace_back("token");
+    }
+    const auto patterns = [](const std::vector<std::string>& all) {
+      return Cell(all.empty() ? "all" : fmt::format("{}", fmt::join(all, " ")), all);
+    };
+    table.add({Cell(user.name), Cell(config::name_of(user.role)), patterns(user.boards), patterns(user.variables),
+               Cell(ways.empty() ? "certificate" : fmt::format("{}", fmt::join(ways, ", ")), ways)});
+  }
+  print_table(context, table, {{"file", request.file.string()}}, "users");
+  return kOk;
+}
+
+int add(Context& context, const UsersRequest& request) {
+  if (!config::is_user_name(request.name)) {
+    context.out.error(
+        fmt::format("'{}' is not a valid user name; use up to 40 letters, digits, '.', '_' and '-'", request.name));
+    return kUsage;
+  }
+  int code = kOk;
+  auto users = open_users(context, request, code);
+  if (!users) {
+    return code;
+  }
+  if (std::any_of(users->begin(), users->end(), [&](const auto& one) { return one.name == request.name; })) {
+    context.out.error(fmt::format("there is a user '{}' already; indurop users role {} ROLE changes the role",
+                                  request.name, request.name));
+    return kFailed;
+  }
+  config::PlantUser user{request.name, role_of(request.role), request.boards, request.variables, {}, {}};
+  if (!request.no_password) {
+    auto hash = ask_password(context, request.name);
+    if (!hash) {
+      return kFailed;
+    }
+    user.password = std::move(*hash);
+  }
+  users->push_back(std::move(user));
+  code = save(context, request, *users);
+  if (code == kOk) {
+    context.out.line(fmt::format("{} has the role {} now", request.name, request.role));
+  }
+  return code;
+}
+
+int set_role(Context& context, const UsersRequest& request) {
+  return change_user(context, request, [&](auto& /*users*/, auto at) {
+    at->role = role_of(request.role);
+    at->boards = request.boards;
+    at->variables = request.variables;
+    context.out.line(fmt::format("{} has the role {} now", request.name, request.role));
+    return kOk;
+  });
+}
+
+int set_password(Context& context, const UsersRequest& request) {
+  return change_user(context, request, [&](auto& /*users*/, auto at) {
+    auto hash = ask_password(context, request.name);
+    if (!hash) {
+      return kFailed;
+    }
+    at->password = std::move(*hash);
+    context.out.line(fmt::format("{} has a new password; sessions with the former one end", request.name));
+    return kOk;
+  });
+}
+
+int make_token(Context& context, const UsersRequest& request) {
+  return change_user(context, request, [&](auto& /*users*/, auto at) {
+    const std::string token = random_word();
+    if (token.empty()) {
+      context.out.error("the system has no random numbers");
+      return kFailed;
+    }
+    at->token = keys::hash_of_token(token);
+    context.out.line(token);
+    context.out.note(
+        "this token is shown once; a former one counts no more. Programs send it as "
+        "'Authorization: Bearer TOKEN'");
+    return kOk;
+  });
+}
+
+int remove(Context& context, const UsersRequest& request) {
+  return change_user(context, request, [&](auto& users, auto at) {
+    users.erase(at);
+    context.out.line(fmt::format("{} is removed; open sessions end", request.name));
+    return kOk;
+  });
+}
+
+void add_patterns(base::Options& verb, const char* option, std::vector<std::string>& to, const char* help) {
+  const auto take = [&to](const std::string& text) {
+    std::string wrong;
+    for (std::string& pattern : keys::pattern_list(text)) {
+      wrong = wrong.empty() ? keys::pattern_problem(pattern) : wrong;
+      to.push_back(std::move(pattern));
+    }
+    return wrong;
+  };
+  verb.add(option, "PATTERNS", take, help);
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto request = std::make_shared<UsersRequest>();
+  auto chosen = std::make_shared<Action>();
+  const auto verb = [&](const char* name, const char* help, int (*action)(Context&, const UsersRequest&),
+                        bool named) -> base::Options& {
+    base::Options& made = app.command(name, help, [request, chosen, action] {
+      *chosen = [request, action](Context& c) { return action(c, *request); };
+    });
+    if (named) {
+      made.add("user", "USER", request->name, "Name of the user").required();
+    }
+    made.add("--file", "FILE", request->file, "The list of users (default: ./users.xml)")
+        .completes(base::Completion::File);
+    return made;
+  };
+  const auto add_limits = [&request](base::Options& made) {
+    add_patterns(made, "--boards", request->boards,
+                 "Boards that the user may change: names and patterns, with commas between them (default: all)");
+    add_patterns(made, "--variables", request->variables,
+                 "Variables that the user may change; with it no modules, no locks (default: all)");
+  };
+  add_format_option(verb("list", "Show the users and their roles", &list, false), context,
+                    {Format::Table, Format::Json, Format::Csv});
+  base::Options& adding = verb("add", "Add a user; the password is asked for, or read from standard input", &add, true);
+  adding.add("--role", "ROLE", request->role, "What the user may do").choices(role_words()).required();
+  add_limits(adding);
+  adding.flag("--no-password", request->no_password, "For who has a certificate, or gets a token");
+  base::Options& changing = verb("role", "Change role and limits of a user", &set_role, true);
+  changing.add("role", "ROLE", request->role, "What the user may do").choices(role_words()).required();
+  add_limits(changing);
+  verb("password", "Change the password of a user", &set_password, true);
+  verb("token", "Make a token for a user, a program for example, and show it once", &make_token, true);
+  verb("remove", "Remove a user", &remove, true);
+  return [chosen](Context& c) { return (*chosen)(c); };
+}
+
+}  // namespace
+
+const Verb kUsersVerb{
+    "users", "Before it runs", "Manage who may do what by the page and over HTTP",
+    "indurop serve --users FILE lets the users of this file sign in. Each role includes those before it:\n"
+    "look: read. operate: set, load recipes, acknowledge alarms, jog. tune: force, save recipes, shelve\n"
+    "alarms. program: start and stop modules, lock, roll back. administer: end sessions of others.\n"
+    "The file holds hashes of passwords and tokens. A change counts from the next request on.\n"
+    "Examples:\n"
+    "  indurop users add anna --role administer\n"
+    "  indurop users add ben --role operate --boards 'press*' --variables 'press::*'\n"
+    "  indurop users add logger --role look --no-password && indurop users token logger\n",
+    &declare};
+
+}  // namespace indurop::tools
