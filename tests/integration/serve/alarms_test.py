@@ -52,7 +52,7 @@ class Press:
 
 def test_an_alarm_comes_is_acknowledged_and_goes(setting):
     press = Press(setting)
-    wait_for(lambda: press.server.get(press.base + "/alarms").json()["watched"], "somebody who looks")
+    wait_for(lambda: press.server.get(press.base + "/alarms").json()["watched"], "a process that evaluates alarms")
     assert press.list() == {} and set(press.list("?all=true")) == {OIL, "press::door_open"}
     client = WebSocket(press.server.port)
     press.set("press::oil", 91.5)
@@ -194,7 +194,7 @@ def test_a_module_that_is_stopped_is_an_alarm(setting):
     wait_for(lambda: alarms().get("module conveyor", {}).get("count") == 2, "the alarm after it was shelved")
     assert server.post(f"{base}/modules/conveyor/start", {}).status == 200
     wait_for(lambda: alarms()["module conveyor"]["state"] == "returned", "the end of the alarm")
-    assert code() == 4  # nobody has acknowledged it
+    assert code() == 4  # it is not acknowledged
     assert server.post(f"{base}/alarms/ack", {"all": True}).json()["alarms"] == ["module conveyor"]
     wait_for(lambda: code() == 0 and alarms() == {}, "that all is well")
 
