@@ -4,6 +4,7 @@ import { Browser, fill, command, press, sees, sees_no } from "./browser.mjs";
 
 const browser = await Browser.launch();
 const wide = { width: 1280, height: 800 };
+const phone = { width: 390, height: 844 };
 
 await browser.run({
   async "An alarm is raised, acknowledged and cleared"() {
@@ -88,6 +89,48 @@ await browser.run({
     await page.evaluate(() => { location.hash = "#token=the-next-token-of-this-server-0123456789"; });
     await sees(page, "writing as tester");
     await sees_no(page, "does not know the token");
+    await page.close();
+  },
+
+  async "Users sign in, do what their role permits, and sign out"() {
+    await command("kill-server");
+    await command("users");
+    await command("start-server");
+    const page = await browser.open("alarms", { ...phone, token: false });
+    await sees(page, "the door is open");
+    await sees_no(page, "Acknowledge all");
+    await press(page, "Sign in");
+    await fill(page, "User", "anna");
+    await fill(page, "Password", "wrong horse");
+    await browser.check_view(page, "sign-in");
+    await page.keyboard.press("Enter");
+    await sees(page, "the user or the password is wrong");
+    await fill(page, "Password", "correct horse");
+    await Promise.all([page.waitForNavigation(), page.keyboard.press("Enter")]);
+    await sees(page, "Acknowledge all");
+    await sees(page, "Sign out");
+    await browser.check_view(page, "signed-in");
+    await Promise.all([page.waitForNavigation(), press(page, "Sign out")]);
+    await sees_no(page, "Acknowledge all");
+    await press(page, "Sign in");
+    await fill(page, "User", "eve");
+    await fill(page, "Password", "correct horse");
+    await Promise.all([page.waitForNavigation(), page.keyboard.press("Enter")]);
+    await sees(page, "Sign out");
+    await sees_no(page, "Acknowledge all");
+    await page.close();
+  },
+
+  async "A user who is removed is signed out"() {
+    const page = await browser.open("alarms", { ...wide, token: false });
+    await press(page, "Sign in");
+    await fill(page, "User", "anna");
+    await fill(page, "Password", "correct horse");
+    await Promise.all([page.waitForNavigation(), page.keyboard.press("Enter")]);
+    await sees(page, "writing as anna");
+    await command("remove-anna");
+    await sees(page, "the session has ended");
+    await sees_no(page, "Acknowledge all");
     await page.close();
   },
 });

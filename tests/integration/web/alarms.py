@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The page's alarms in headless Chromium: alarms are raised, acknowledged, shelved and cleared; the server is killed in
-between, and started again with another token."""
+between, and started again with another token, and with users who sign in."""
 
 import os
 import pathlib
@@ -29,6 +29,13 @@ class Press(PageServer):
             self.start_node("many", "12")
         elif word == "other-token":
             (pathlib.Path(self.folder) / "tokens").write_text("tester the-next-token-of-this-server-0123456789\n")
+        elif word == "users":
+            for user, role in (("anna", "operate"), ("eve", "look")):
+                subprocess.run([f"{self.options.bin}/indurop", "users", "add", user, "--role", role], cwd=self.folder,
+                               env=self.environment, input="correct horse\n", text=True, check=True)
+            self.who = ("--users", "users.xml")
+        elif word == "remove-anna":
+            self.indurop("users", "remove", "anna", check=True)
         elif word == "start-server":
             self.start_server()
         else:

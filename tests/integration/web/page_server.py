@@ -50,6 +50,7 @@ class PageServer:
     """`indurop serve` for the node `node`. A derived class executes the script's commands in `obey`."""
 
     node = ""
+    who = ("--token-file", "tokens")  # options that say who may write; paths are those of the folder
 
     def __init__(self, options, folder):
         self.options, self.folder, self.port = options, pathlib.Path(folder), free_port()
@@ -64,10 +65,10 @@ class PageServer:
                               capture_output=True, timeout=60, check=check)
 
     def start_server(self, *more):
-        command = [f"{self.options.bin}/indurop-serve", *more, "--node", self.node, "--port", str(self.port), "--write",
-                   "--token-file", str(self.folder / "tokens"), "--web", str(self.options.page), "-q",
+        command = [f"{self.options.bin}/indurop-serve", *more, *self.who, "--node", self.node, "--port", str(self.port), "--write",
+                   "--web", str(self.options.page), "-q",
                    "--recordings", str(self.folder / "recordings")]
-        self.server = subprocess.Popen(command, env=self.environment, stdout=subprocess.DEVNULL)
+        self.server = subprocess.Popen(command, cwd=self.folder, env=self.environment, stdout=subprocess.DEVNULL)
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             with socket.socket() as probe:

@@ -30,6 +30,13 @@ export function token(): string {
   return sessionStorage.getItem(TOKEN_KEY) ?? "";
 }
 
+// Keeps the token for this tab; an empty one: none.
+export function set_token(fresh: string): void {
+  sessionStorage.removeItem(REJECTED_KEY);
+  if (fresh) sessionStorage.setItem(TOKEN_KEY, fresh);
+  else sessionStorage.removeItem(TOKEN_KEY);
+}
+
 // The server rejected the token of this page. The page continues without one: reading may need none.
 export function token_was_rejected(): boolean {
   return sessionStorage.getItem(REJECTED_KEY) !== null;

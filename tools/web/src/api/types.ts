@@ -3,12 +3,18 @@
 
 export type Quality = "good" | "stale" | "silent" | "unread";
 
+// What a client may do; each role includes those before it.
+export const ROLES = ["unknown", "look", "operate", "tune", "program", "administer"] as const;
+export type Role = typeof ROLES[number];
+
 export interface ServerStatus {
   version: string;
   api: string;
   write: boolean;
   may_write: boolean;
   who: string;
+  role: Role;
+  users: boolean;  // users can sign in
   max_rate_hz: number;
   plant: boolean;
   plc: boolean;

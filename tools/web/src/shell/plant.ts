@@ -3,7 +3,7 @@
 
 import { get, message_of, RequestError, token } from "../api/http";
 import { stream, type Link } from "../api/stream";
-import type { BoardSummary, ServerStatus } from "../api/types";
+import { ROLES, type BoardSummary, type Role, type ServerStatus } from "../api/types";
 import { place } from "../ui/address";
 import { reconnected, Store, useStore } from "../ui/store";
 
@@ -18,6 +18,12 @@ export interface Plant {
 }
 
 export const plant = new Store<Plant>({ link: "connecting", status: null, boards: null, error: "", admitted: true });
+
+// Returns whether this page may do what the role permits. The server decides again for each request.
+export function useMay(role: Role): boolean {
+  const { status } = useStore(plant);
+  return !!status?.write && ROLES.indexOf(status.role) >= ROLES.indexOf(role);
+}
 
 function update(part: Partial<Plant>): void {
   plant.set({ ...plant.get(), ...part });

@@ -2,11 +2,12 @@
 // The frame around all views: navigation, the selected board, and a notice if the server or the board cannot be reached.
 
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef } from "preact/hooks";
-import { token_was_rejected } from "../api/http";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { token, token_was_rejected } from "../api/http";
 import { address, change_query, place } from "../ui/address";
 import { useStore } from "../ui/store";
 import { plant, useBoard } from "./plant";
+import { sign_out, SignIn } from "./sign_in";
 import { set_theme, theme, THEMES, type Theme } from "./theme";
 
 export interface View {
@@ -40,12 +41,12 @@ function Navigation({ views }: { views: View[] }) {
 // Why the page cannot show current values, the most severe reason first; empty: it can.
 function why_not_current(): string {
   const { link, status, boards, error, admitted } = plant.get();
-  const unknown = token_was_rejected() ? "The server does not know the token of this page: the server was restarted, or has other tokens. " : "";
-  if (!admitted) return `${unknown}The server requires a token: open the address that it prints, which ends in #token=...`;
+  const unknown = token_was_rejected() ? "The server does not know the token of this page: the session has ended, or the server was restarted or has other tokens. " : "";
+  if (!admitted) return `${unknown}Sign in at the top right, or open the address that the server prints, which ends in #token=...`;
   if (link === "lost") return "The server cannot be reached. The page shows the last values, and reconnects automatically.";
   if (error) return `${error} Trying again.`;
   if (!status || !boards) return "";
-  if (unknown && !status.may_write) return `${unknown}The page is read-only. To write, open the address that the server prints.`;
+  if (unknown && !status.may_write) return `${unknown}The page is read-only. To write, ${status.users ? "sign in" : "open the address that the server prints"}.`;
   if (boards.length === 0 && !status.plant) return "No node is running on this host. Start one with: indurop run module.xml";
   return "";
 }
@@ -77,12 +78,24 @@ function BoardChoice() {
 
 function LinkState() {
   const { link, status, admitted } = useStore(plant);
-  const text = admitted ? { open: "connected", connecting: "connecting", lost: "not connected" }[link] : "no token";
+  const text = admitted ? { open: "connected", connecting: "connecting", lost: "not connected" }[link] : "not signed in";
   return (
     <span class={`link ${link}`}>
       <span class="dot" aria-hidden="true" />{text}
-      {status && admitted && <span class="rights">{status.may_write ? `, writing as ${status.who || "unknown user"}` : ", read-only"}</span>}
+      {status && admitted && <span class="rights">{status.may_write ? `, writing as ${status.who || "unknown user"}` : status.who ? `, ${status.who}, read-only` : ", read-only"}</span>}
     </span>);
+}
+
+function UserChoice() {
+  const { status, admitted } = useStore(plant);
+  const [asking, set_asking] = useState(false);
+  if (!status?.users && admitted) return null;
+  if (admitted && token()) return <button type="button" class="user" onClick={() => void sign_out()}>Sign out</button>;
+  return (
+    <>
+      <button type="button" class="user" onClick={() => set_asking(true)}>Sign in</button>
+      {asking && <SignIn close={() => set_asking(false)} />}
+    </>);
 }
 
 function ThemeChoice() {
@@ -112,6 +125,7 @@ export function Shell({ views, title, children }: { views: View[]; title: string
         <BoardChoice />
         <span class="space" />
         <LinkState />
+        <UserChoice />
         <ThemeChoice />
       </header>
       <Navigation views={views} />

@@ -5,7 +5,7 @@ import { useState } from "preact/hooks";
 import { board_path, get, message_of, post } from "../api/http";
 import type { Board, BoardSummary, Fault, Module } from "../api/types";
 import { NoBoard } from "../shell/no_board";
-import { plant } from "../shell/plant";
+import { plant, useMay } from "../shell/plant";
 import { address, place } from "../ui/address";
 import { count, percent, plural, span } from "../ui/format";
 import { useRequest, useStore } from "../ui/store";
@@ -120,7 +120,7 @@ function Problems({ summary, faults }: { summary: BoardSummary; faults: Fault[] 
 }
 
 function BoardCard({ summary }: { summary: BoardSummary }) {
-  const { status } = useStore(plant);
+  const may_command = useMay("program");
   const { value, error, refresh } = useRequest(summary.board, EVERY_MS, () => fetch_details(summary.board));
   const board = value?.board;
   const lost = board && number_of(board, "lost_ticks");
@@ -142,7 +142,7 @@ function BoardCard({ summary }: { summary: BoardSummary }) {
           <Fact name="Forced" value={count(summary.forces)} warn={summary.forces > 0} />
           <Fact name="Deployment" value={summary.deployment ? summary.deployment.slice(0, SHOWN_ID) : "started manually"} hint={summary.deployment || undefined} />
         </dl>
-        <Modules board={summary.board} modules={value.modules} may_write={!!status?.may_write} done={refresh} />
+        <Modules board={summary.board} modules={value.modules} may_write={may_command} done={refresh} />
         <p class="links">
           <a href={address("variables", { board: summary.board })}>Variables</a>{" "}
           <a href={address("schedule", { board: summary.board })}>Schedule</a>

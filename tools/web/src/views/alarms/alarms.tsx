@@ -5,11 +5,11 @@ import { useEffect, useState } from "preact/hooks";
 import { board_path, get, message_of, post } from "../../api/http";
 import type { Alarm, AlarmEvent, Alarms as All, Message } from "../../api/types";
 import { NoBoard } from "../../shell/no_board";
-import { plant, useBoard } from "../../shell/plant";
+import { useBoard, useMay } from "../../shell/plant";
 import { address } from "../../ui/address";
 import { clock, plural, span } from "../../ui/format";
 import { DataTable, Name, Panel, Waiting } from "../../ui/parts";
-import { useRequest, useStore } from "../../ui/store";
+import { useRequest } from "../../ui/store";
 
 const PURPOSE = "This view lists conditions that an operator has to act on, until they are acknowledged.";
 const EVERY_MS = 5000;  // in addition to changes, which the stream reports at once
@@ -21,14 +21,15 @@ const STATES = { normal: "normal", unacknowledged: "active, not acknowledged", a
 type Act = (act: "ack" | "shelve" | "unshelve", body: object) => void;
 
 function Actions({ alarm, for_ns, act }: { alarm: Alarm; for_ns: number; act: Act }) {
+  const may_shelve = useMay("tune");
   const alarms = [alarm.alarm];
   const needs = alarm.state === "unacknowledged" || alarm.state === "returned";
   return (
     <span class="actions">
       {needs && <button type="button" class="main" aria-label={`Acknowledge ${alarm.alarm}`} onClick={() => act("ack", { alarms })}>acknowledge</button>}
-      {alarm.state === "shelved"
+      {may_shelve && (alarm.state === "shelved"
         ? <button type="button" aria-label={`Unshelve ${alarm.alarm}`} onClick={() => act("unshelve", { alarms })}>unshelve</button>
-        : <button type="button" aria-label={`Shelve ${alarm.alarm}`} onClick={() => act("shelve", { alarms, for_ns })}>shelve</button>}
+        : <button type="button" aria-label={`Shelve ${alarm.alarm}`} onClick={() => act("shelve", { alarms, for_ns })}>shelve</button>)}
     </span>);
 }
 
@@ -100,7 +101,8 @@ function Messages({ board }: { board: string }) {
 }
 
 export function Alarms() {
-  const { status } = useStore(plant);
+  const may_acknowledge = useMay("operate");
+  const may_shelve = useMay("tune");
   const summary = useBoard();
   const board = summary?.board ?? "";
   const [all, set_all] = useState(false);
@@ -134,15 +136,15 @@ export function Alarms() {
         {value && (value.declared > 0 || value.alarms.length > 0) && (
           <div class="bar">
             <button type="button" aria-pressed={all} onClick={() => set_all(!all)}>Show all {value.declared}</button>
-            {status?.may_write && <>
+            {may_acknowledge && <>
               <button type="button" disabled={needs === 0} onClick={() => act("ack", { all: true })}>Acknowledge all</button>
-              <label>Shelve for <select value={shelve} onChange={(event) => set_shelve(Number(event.currentTarget.value))}>
-                {SHELVE_FOR.map(([name], i) => <option key={name} value={i}>{name}</option>)}</select></label>
+              {may_shelve && <label>Shelve for <select value={shelve} onChange={(event) => set_shelve(Number(event.currentTarget.value))}>
+                {SHELVE_FOR.map(([name], i) => <option key={name} value={i}>{name}</option>)}</select></label>}
               <label>Reason <input value={reason} onInput={(event) => set_reason(event.currentTarget.value)} /></label>
             </>}
           </div>)}
         <p role="status" class={result.bad ? "bad" : "good"}>{result.text}</p>
-        {value && value.alarms.length > 0 && <List board={board} alarms={value.alarms} for_ns={SHELVE_FOR[shelve][1]} act={status?.may_write ? act : null} />}
+        {value && value.alarms.length > 0 && <List board={board} alarms={value.alarms} for_ns={SHELVE_FOR[shelve][1]} act={may_acknowledge ? act : null} />}
         {value && value.alarms.length === 0 && <p class="good">All alarms are normal.</p>}
         </div>
       </Panel>

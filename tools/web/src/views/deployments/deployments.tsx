@@ -4,7 +4,7 @@
 import { useState } from "preact/hooks";
 import { get, message_of, post } from "../../api/http";
 import type { Deployment } from "../../api/types";
-import { plant } from "../../shell/plant";
+import { plant, useMay } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { clock } from "../../ui/format";
 import { DataTable, Name, Panel, Waiting } from "../../ui/parts";
@@ -23,7 +23,7 @@ interface Choice {
 }
 
 function Rows({ all, before, after, roll_back }: Choice) {
-  const { status } = useStore(plant);
+  const may_roll_back = useMay("program");
   return (
     <DataTable label="Deployments" more="deployments">
         <thead><tr><th scope="col">Compare</th><th scope="col">With</th><th scope="col">Deployment</th><th scope="col">Roll back</th><th scope="col">Plant</th><th scope="col">Deployed</th>
@@ -37,7 +37,7 @@ function Rows({ all, before, after, roll_back }: Choice) {
               <td><input type="radio" name="after" aria-label={`Compare to ${name}`} checked={after === one.deployment}
                 onChange={() => change_query({ after: one.deployment })} /></td>
               <th scope="row" title={one.deployment}>{shown_id(one.deployment)}{one.current && <span class="chip good">running</span>}</th>
-              <td>{status?.may_write && !one.current && one.outcome === "committed" &&
+              <td>{may_roll_back && !one.current && one.outcome === "committed" &&
                 <button type="button" aria-label={`Roll back to ${name}`} onClick={() => roll_back(one)}>Roll back</button>}</td>
               <td>{one.plant}</td><td>{clock(one.wall_ns)}<small>from {one.host}</small></td><td class="boards"><Name text={one.boards.join(", ")} /></td>
               <td class={one.outcome === "committed" ? "" : "warn"}>{one.outcome}</td>

@@ -5,7 +5,7 @@ import { useState } from "preact/hooks";
 import { board_path, get, message_of, post } from "../../api/http";
 import type { Recipe, RecipeValues } from "../../api/types";
 import { NoBoard } from "../../shell/no_board";
-import { plant, useBoard } from "../../shell/plant";
+import { useBoard, useMay } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { clock, plural, value_text } from "../../ui/format";
 import { DataTable, Panel, Waiting } from "../../ui/parts";
@@ -62,7 +62,8 @@ function Save({ act }: { act: Act }) {
 }
 
 export function Recipes() {
-  const { status } = useStore(plant);
+  const may_load = useMay("operate");
+  const may_save = useMay("tune");
   const chosen = useStore(place).query.get("r") ?? "";
   const board = useBoard()?.board ?? "";
   const [result, set_result] = useState<{ text: string; bad: boolean }>({ text: "", bad: false });
@@ -84,22 +85,22 @@ export function Recipes() {
       <Panel title="Recipes">
         {error && <p class="bad">{error}</p>}
         {!value && !error && <Waiting />}
-        {status?.may_write && <Save act={act} />}
+        {may_save && <Save act={act} />}
         <p role="status" class={result.bad ? "bad" : "good"}>{result.text}</p>
         {value && recipes.length === 0 && <p class="quiet">{PURPOSE} This board has no recipes yet.{" "}
-          {status?.may_write ? "" : "To save one, start the server with: indurop serve --write"}</p>}
+          {may_save ? "" : "To save one, start the server with: indurop serve --write"}</p>}
         {recipes.length > 0 && (
           <DataTable label="Recipes">
               <thead><tr><th scope="col">Recipe</th><th scope="col" class="number">Values</th><th scope="col">Saved</th><th scope="col">Comment</th>
-                {status?.may_write && <th scope="col">Actions</th>}</tr></thead>
+                {may_load && <th scope="col">Actions</th>}</tr></thead>
               <tbody>
                 {recipes.map(({ recipe, values, saved_wall_ns, who, comment }) => (
                   <tr key={recipe}>
                     <th scope="row"><button type="button" aria-pressed={recipe === chosen} onClick={() => change_query({ r: recipe })}>{recipe}</button></th>
                     <td class="number">{values}</td><td>{clock(saved_wall_ns)}{who && ` by ${who}`}</td><td>{comment || "-"}</td>
-                    {status?.may_write && <td><span class="actions">
+                    {may_load && <td><span class="actions">
                       <button type="button" class="main" aria-label={`Load ${recipe}`} onClick={() => act(recipe, "load", {})}>load</button>
-                      <button type="button" aria-label={`Remove ${recipe}`} onClick={() => act(recipe, "remove", {})}>remove</button>
+                      {may_save && <button type="button" aria-label={`Remove ${recipe}`} onClick={() => act(recipe, "remove", {})}>remove</button>}
                     </span></td>}
                   </tr>))}
               </tbody>

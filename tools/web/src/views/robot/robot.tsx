@@ -5,7 +5,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { board_path, get, message_of, RequestError } from "../../api/http";
 import type { Module, Robot as Description, Variables } from "../../api/types";
 import { NoBoard } from "../../shell/no_board";
-import { plant, useBoard } from "../../shell/plant";
+import { useBoard, useMay } from "../../shell/plant";
 import { colours_changed } from "../../shell/theme";
 import { address, change_query, place } from "../../ui/address";
 import { Fact, DataTable, Waiting } from "../../ui/parts";
@@ -131,7 +131,7 @@ function in_urdf(values: number[], kinds: string[]): number[] {
 
 export function Robot() {
   const board = useBoard();
-  const { status } = useStore(plant);
+  const may_jog = useMay("operate");
   const chosen = Number(useStore(place).query.get("r")) || 0;
   const { value, error } = useRequest(board ? `${board.board} ${board.layout}` : "", 0, () => fetch_robots(board!.board));
   const count = Math.max(value?.robots.length ?? 0, value?.scopes.length ?? 0);
@@ -179,7 +179,7 @@ export function Robot() {
         ) : (
           <p class="panel warn">{value.described ? "The arm's description (property urdf of its module) cannot be read, so only numbers are shown." : "This server does not provide the arm's description, so only numbers are shown."}</p>)}
         <div>
-        {status?.may_write && scope !== null && <Jog board={board.board} scope={scope} state={state} down={down} names={names} work_frames={robot?.frames ?? []} />}
+        {may_jog && scope !== null && <Jog board={board.board} scope={scope} state={state} down={down} names={names} work_frames={robot?.frames ?? []} />}
         <section class="panel" aria-label="Robot in numbers">
           <h2>{down ? "Last values" : "Current values"}</h2>
           {state ? <Numbers state={state} names={names} down={down} /> : <Waiting />}

@@ -5,7 +5,7 @@ import { useState } from "preact/hooks";
 import { board_path, get, message_of, post } from "../../api/http";
 import type { Force, Lock } from "../../api/types";
 import { leases } from "../../shell/leases";
-import { plant } from "../../shell/plant";
+import { useMay } from "../../shell/plant";
 import { change_query } from "../../ui/address";
 import { plural, span, value_text } from "../../ui/format";
 import { useRequest, useStore } from "../../ui/store";
@@ -24,7 +24,8 @@ function duration_text({ left_ns, lease }: Force): string {
 }
 
 export function Forces({ board }: { board: string }) {
-  const { status } = useStore(plant);
+  const may_lock = useMay("program");
+  const may_release = useMay("tune");
   const { lost } = useStore(leases);
   const { value, refresh } = useRequest(board, EVERY_MS,
     () => get<{ forces: Force[]; lock: Lock }>(board_path(board, "/forces")));
@@ -42,9 +43,9 @@ export function Forces({ board }: { board: string }) {
   const { forces, lock } = value;
   return (
     <>
-      {(status?.may_write || lock.lock !== "none") && (
+      {(may_lock || lock.lock !== "none") && (
         <p class={`bar lock ${lock.lock === "none" ? "quiet" : ""}`}>
-          {status?.may_write
+          {may_lock
             ? <label>Write lock <select value={lock.lock} onChange={(event) => send("/lock", { lock: event.currentTarget.value })}>
                 {Object.entries(MEANINGS).map(([word, meaning]) => <option key={word} value={word}>{`${word}: ${meaning}`}</option>)}
               </select></label>
@@ -61,10 +62,10 @@ export function Forces({ board }: { board: string }) {
               <li key={one.name}>
                 <a href={`#${one.name}`} onClick={(event) => { event.preventDefault(); change_query({ v: one.name }); }}>{one.name}</a> at {value_text(one.value)},{" "}
                 {duration_text(one)}{user_text(one)}{" "}
-                {status?.may_write && <button type="button" onClick={() => send("/release", { names: [one.name] })} aria-label={`Release ${one.name}`}>release</button>}
+                {may_release && <button type="button" onClick={() => send("/release", { names: [one.name] })} aria-label={`Release ${one.name}`}>release</button>}
               </li>))}
           </ul>
-          {status?.may_write && forces.length > 1 && <button type="button" onClick={() => send("/release", { all: true })}>Release all</button>}
+          {may_release && forces.length > 1 && <button type="button" onClick={() => send("/release", { all: true })}>Release all</button>}
         </section>)}
     </>);
 }

@@ -5,7 +5,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { board_path, message_of, post } from "../../api/http";
 import { add_lease } from "../../shell/leases";
-import { plant } from "../../shell/plant";
+import { plant, useMay } from "../../shell/plant";
 import { value_text } from "../../ui/format";
 import { has_parts, type Part } from "../../ui/paths";
 
@@ -70,6 +70,7 @@ interface Props {
 export function Write({ board, part, value, forced, done }: Props) {
   const is_local = plant.get().boards?.find((one) => one.board === board)?.here ?? true;
   const durations = is_local ? DURATIONS : DURATIONS.filter(([, ns]) => ns >= 0);  // leases are for boards of this host
+  const may_force = useMay("tune");
   const [text, set_text] = useState("");
   const touched = useRef(false);  // not a state: the effect needs it immediately
   const [duration, set_duration] = useState(0);
@@ -106,13 +107,13 @@ export function Write({ board, part, value, forced, done }: Props) {
         <Input part={part} text={text} write={write} /><span>{part.unit}</span>
         <button type="submit" class="main">Set</button>
       </div>
-      <div class="bar">
+      {may_force && <div class="bar">
         <button type="button" onClick={() => send_value("/force", until, `Forced to ${text} ${DURATIONS[duration][0]}.`)}>Force</button>
         <select aria-label="How long to force" value={duration} onChange={(event) => set_duration(Number(event.currentTarget.value))}>
           {durations.map(([name], i) => <option key={name} value={i}>{name}</option>)}
         </select>
         {forced && <button type="button" onClick={() => send("/release", { names: [part.name] }, "Released.")}>Release</button>}
-      </div>
+      </div>}
       <label class="reason">Reason, for the audit log <input value={reason} onInput={(event) => set_reason(event.currentTarget.value)} /></label>
       <p role="status" class={result.bad ? "bad" : "good"}>{result.text}</p>
     </form>);
