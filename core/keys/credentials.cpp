@@ -211,8 +211,11 @@ std::string make_authority(const std::string& key, const Identity& identity, con
   return ok ? pem_of(made.get()) : std::string{};
 }
 
-std::string make_certificate(const Authority& authority, const std::string& key, const Identity& identity,
-                             const Validity& validity) {
+namespace {
+
+// `names`: value of the extension subjectAltName; empty: the certificate has none.
+std::string issue(const Authority& authority, const std::string& key, const Identity& identity,
+                  const Validity& validity, const char* usage, const std::string& names) {
   const Key own = read_key(key);
   const Key signing = read_key(authority.key);
   const Cert issuer = read_cert(authority.certificate);
@@ -222,11 +225,24 @@ std::string make_certificate(const Authority& authority, const std::string& key,
                   ::X509_set_issuer_name(made.get(), ::X509_get_subject_name(issuer.get())) == 1 &&
                   add_extension(made.get(), issuer.get(), NID_basic_constraints, "critical,CA:FALSE") &&
                   add_extension(made.get(), issuer.get(), NID_key_usage, "critical,digitalSignature") &&
-                  // Not for mail: a document signed with it is none of DDS Security's.
-                  add_extension(made.get(), issuer.get(), NID_ext_key_usage, "serverAuth,clientAuth") &&
+                  add_extension(made.get(), issuer.get(), NID_ext_key_usage, usage) &&
+                  (names.empty() || add_extension(made.get(), issuer.get(), NID_subject_alt_name, names.c_str())) &&
                   add_extension(made.get(), issuer.get(), NID_authority_key_identifier, "keyid") &&
                   ::X509_sign(made.get(), signing.get(), ::EVP_sha256()) != 0;
   return ok ? pem_of(made.get()) : std::string{};
+}
+
+}  // namespace
+
+std::string make_certificate(const Authority& authority, const std::string& key, const Identity& identity,
+                             const Validity& validity) {
+  // Not for mail: a document signed with it is none of DDS Security's.
+  return issue(authority, key, identity, validity, "serverAuth,clientAuth", {});
+}
+
+std::string make_server_certificate(const Authority& authority, const std::string& key, const Identity& identity,
+                                    const std::string& names, const Validity& validity) {
+  return issue(authority, key, identity, validity, "serverAuth", names);
 }
 
 std::string make_revocation_list(const Authority& authority, const std::string& before,

@@ -52,6 +52,10 @@ std::string make_authority(const std::string& key, const Identity& identity, con
 // Makes a certificate for the owner of `key`. It can neither issue certificates nor sign documents.
 std::string make_certificate(const Authority& authority, const std::string& key, const Identity& identity,
                              const Validity& validity);
+// Makes a certificate with which the owner of `key` can be a TLS server, and nothing else. `names`: as in the extension
+// subjectAltName, "IP:192.168.1.5,DNS:cell.local".
+std::string make_server_certificate(const Authority& authority, const std::string& key, const Identity& identity,
+                                    const std::string& names, const Validity& validity);
 // Makes a list that revokes certificates with these serial numbers, in addition to those of `before`, which may be
 // empty.
 std::string make_revocation_list(const Authority& authority, const std::string& before,

@@ -6,6 +6,8 @@ and what the audit log says. users_test.py PROGRAMS FAKE_NODE [TEST...]"""
 import hashlib
 import json
 import os
+import socket
+import ssl
 import subprocess
 import time
 
@@ -204,6 +206,54 @@ def test_the_command_line_makes_the_list(setting):
     assert (setting.folder / "u.xml").read_bytes() == before, "what fails changes nothing"
     (setting.folder / "u.xml").write_text("<users>\n<user name='x' role='boss'/></users>")
     assert "u.xml:2:" in indurop("list", code=4)[1]
+
+
+def test_tls_by_the_authority_of_the_plant(setting):
+    def keys(*words, code=0):
+        done = subprocess.run([str(setting.programs / "indurop"), "keys", *words], cwd=setting.folder, capture_output=True,
+                              text=True, env=setting.environment, check=False)
+        assert done.returncode == code, (words, done.returncode, done.stdout, done.stderr)
+        return done.stdout + done.stderr
+
+    (setting.folder / "plant.xml").write_text('<plant name="cell"><board name="drive"></board></plant>')
+    keys("init", "plant.xml", "--dir", "keys")
+    keys("server", "desk", "--dir", "keys", "--host", "127.0.0.1", "cell.local", "*.desk.local")
+    folder = setting.folder / "keys" / "servers" / "desk"
+    assert (folder / "server.key").stat().st_mode & 0o077 == 0
+    users = Users(setting, anna=user("operate"))
+    server = serve(setting, users, "--cert", folder / "server.pem", "--key", folder / "server.key", "--client-ca",
+                   setting.folder / "keys" / "ca.pem")
+    trusting = ssl.create_default_context(cafile=str(folder / "ca.pem"))
+
+    def reach(name, context=trusting):
+        with socket.create_connection(("127.0.0.1", server.port), timeout=harness.DEADLINE_S) as raw:
+            with context.wrap_socket(raw, server_hostname=name) as secure:
+                secure.sendall(b"GET /api/v1/session HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+                received = b""
+                while part := secure.recv(4096):
+                    received += part
+                return received
+
+    for name in ("127.0.0.1", "cell.local", "b.desk.local"):
+        assert b'"role":"unknown"' in reach(name), name
+    for name in ("127.0.0.2", "other.local", "desk.local"):
+        try:
+            reach(name)
+        except ssl.SSLCertVerificationError:
+            continue
+        raise AssertionError(f"{name} is no name of this server")
+    as_client = ssl.create_default_context(cafile=str(folder / "ca.pem"))
+    as_client.load_cert_chain(folder / "server.pem", folder / "server.key")
+    try:
+        assert b'"role":"unknown"' in reach("127.0.0.1", as_client), "a server's certificate is no client's"
+    except ssl.SSLError:
+        pass
+    before = (folder / "server.key").read_bytes(), (folder / "server.pem").read_bytes()
+    keys("server", "desk", "--dir", "keys", "--host", "127.0.0.1")
+    assert (folder / "server.key").read_bytes() == before[0] and (folder / "server.pem").read_bytes() != before[1]
+    for host in ("a b", "https://cell", "-x", "cell,local"):
+        assert "is neither an address nor a name" in keys("server", "other", "--dir", "keys", "--host", host, code=2), host
+    assert not (setting.folder / "keys" / "servers" / "other").exists()
 
 
 def test_a_wrong_list_is_said_at_the_start(setting):

@@ -231,6 +231,12 @@ Action declare(base::Options& app, Context& context) {
       verb("rotate", "Give deployers a new key that signs deployments; the former one counts until --finish", &rotate);
   made->add("names", "NAME", request->boards, "Whose (default: deployer)");
   made->flag("--finish", request->finish, "Former keys count no more: all boards have deploy.pub");
+  made =
+      verb("server", "Make or renew the TLS certificate of an indurop serve, by which browsers trust it", &make_server);
+  made->add("name", "NAME", request->boards, "Name of the server; its files are in servers/NAME").required();
+  made->add("--host", "HOST", request->hosts, "Addresses and names under which it is reached").required();
+  made->add("--days", "N", request->server_days, fmt::format("How long it is valid (default: {})", kServerDays))
+      .range(1, kMostDays);
   return [chosen_action](Context& c) { return (*chosen_action)(c); };
 }
 
@@ -244,7 +250,8 @@ const Verb kKeysVerb{"keys", "Before it runs", "Make and list the keys of a plan
                      "  indurop keys init plant.xml --dir keys\n"
                      "  indurop keys list --dir keys\n"
                      "  indurop keys add --tool panel --read 'cell::*' --write cell::target\n"
-                     "  indurop keys add --deployer anna\n",
+                     "  indurop keys add --deployer anna\n"
+                     "  indurop keys server desk --host 192.168.1.5 cell.local\n",
                      &declare};
 
 }  // namespace indurop::tools

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop keys init and add: creates keys for the boards of a plant and for others.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "config/xml/plant_reader.h"
 #include "config/xml/plant_rules.h"
 #include "core/keys/plant_keys.h"
+#include "core/keys/server_keys.h"
 #include "tools/cli/verbs/keys_request.h"
 #include "tools/console/diagnostics.h"
 
@@ -207,6 +209,33 @@ int add_keys(Context& context, const KeysRequest& request) {
     }
     context.out.line(fmt::format("made {}", keys.board(board).string()));
   }
+  return kOk;
+}
+
+int make_server(Context& context, const KeysRequest& request) {
+  const keys::PlantKeys keys = keys_of(request);
+  if (!usable(context, keys) || !is_name(context, "server", request.boards.front())) {
+    return kFailed;
+  }
+  for (const std::string& host : request.hosts) {
+    if (!keys::is_host(host)) {
+      context.out.error(
+          fmt::format("'{}' is neither an address nor a name of a host; write 192.168.1.5 or cell.local", host));
+      return kUsage;
+    }
+  }
+  const keys::Instant end = keys::instant_now() + std::chrono::days(request.server_days);
+  const auto made = keys::make_server_keys(keys.folder(), request.boards.front(), request.hosts, end);
+  if (!made) {
+    context.out.error(made.error().text);
+    return kFailed;
+  }
+  context.out.line(fmt::format("made {} for {}, valid until {}", made->folder.string(), fmt::join(request.hosts, ", "),
+                               keys::utc_text(end).substr(0, 10)));
+  context.out.note(fmt::format(
+      "next: copy the folder to that host and start indurop serve --bind ADDRESS --cert {} --key {} --users "
+      "FILE there; browsers trust it once they have {}/ca.pem as an authority",
+      made->certificate.string(), made->key.string(), keys.folder().string()));
   return kOk;
 }
 

@@ -14,6 +14,7 @@ namespace indurop::tools {
 
 inline constexpr int kDefaultDays = 3650;
 inline constexpr int kMostDays = 36500;
+inline constexpr int kServerDays = 800;  // browsers refuse certificates of servers that are valid for longer than 825
 
 struct KeysRequest {
   std::string folder;               // --dir
@@ -24,7 +25,9 @@ struct KeysRequest {
   std::string deployer;             // for add
   std::vector<std::string> read;    // patterns of variables
   std::vector<std::string> write;
+  std::vector<std::string> hosts;  // for server
   int days = kDefaultDays;
+  int server_days = kServerDays;
   bool finish = false;  // for rotate
 };
 
@@ -36,5 +39,6 @@ bool usable(Context& context, const keys::PlantKeys& keys);
 
 int init_keys(Context& context, const KeysRequest& request);
 int add_keys(Context& context, const KeysRequest& request);
+int make_server(Context& context, const KeysRequest& request);
 
 }  // namespace indurop::tools

@@ -81,7 +81,7 @@ function LinkState() {
   const text = admitted ? { open: "connected", connecting: "connecting", lost: "not connected" }[link] : "not signed in";
   return (
     <span class={`link ${link}`}>
-      <span class="dot" aria-hidden="true" />{text}
+      <span class="dot" aria-hidden="true" /><span class="state">{text}</span>
       {status && admitted && <span class="rights">{status.may_write ? `, writing as ${status.who || "unknown user"}` : status.who ? `, ${status.who}, read-only` : ", read-only"}</span>}
     </span>);
 }
