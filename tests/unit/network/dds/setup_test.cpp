@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "network/dds/setup.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "network/dds/security.h"
 
@@ -39,6 +41,18 @@ TEST(Domain_configuration, Boards_of_one_host_are_found_by_one_message_to_all) {
   EXPECT_THAT(sut, HasSubstr("<AllowMulticast>spdp</AllowMulticast>"));
   EXPECT_THAT(sut, Not(HasSubstr("Peer")));
   EXPECT_THAT(sut, Not(HasSubstr("ParticipantIndex"))) << "there may be more than ports to try";
+}
+
+TEST(Joining, Programs_that_are_started_later_inherit_no_socket) {
+  NetworkSettings settings = plain();
+  settings.one_host = true;
+  const auto sut = join_network(settings);
+  ASSERT_TRUE(sut) << sut.error().text;
+  constexpr int kMostFiles = 1024;
+  for (int file = STDERR_FILENO + 1; file < kMostFiles; ++file) {
+    const int flags = ::fcntl(file, F_GETFD);
+    EXPECT_TRUE(flags < 0 || (flags & FD_CLOEXEC) != 0) << file;
+  }
 }
 
 NetworkSettings boards_of_one_host(std::size_t others) {
