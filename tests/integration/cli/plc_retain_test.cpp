@@ -62,7 +62,7 @@ TEST_F(PlcRetain, Values_go_on_in_variables_of_another_type) {
   run();
   const std::string said = program(
       "count : LINT; text : STRING[20]; list : ARRAY[1..9] OF DINT; part : Part; mode : Mode; large : INT;", ";\n");
-  EXPECT_THAT(said, HasSubstr("retained keep::main_gone: is no longer there"));
+  EXPECT_THAT(said, HasSubstr("retained keep::main_gone: is no longer there; its node keeps the value"));
   EXPECT_THAT(said,
               HasSubstr("retained keep::main_large: was int32_t, is int16_t; a node keeps of its value what fits"));
   EXPECT_THAT(said, Not(HasSubstr("main_part")));

@@ -53,7 +53,7 @@ std::vector<base::Diagnostic> retained_changes(const std::filesystem::path& glb,
   for (const auto& [name, old] : retained_of(before)) {
     const auto found = kept.find(name);
     if (found == kept.end()) {
-      warn(name + ": is no longer there; a node that has a value of it drops it at its next start, and keeps the file");
+      warn(name + ": is no longer there; its node keeps the value in its files until a version has it again");
       continue;
     }
     const auto lost = losses(old, found->second);
