@@ -54,6 +54,7 @@ make
 indurop check || fail "check of a fresh project with a PLC program"
 make test || fail "the tests of a fresh project with a PLC program"
 indurop check plant.xml || fail "check of a fresh plant"
+grep -q logic.st README.md && grep -q plant.xml README.md || fail "the README does not name all files"
 indurop run plant.xml --sim --until 2s || fail "the fresh plant in virtual time"
 [ "$(grep -c '<board' plant.xml)" = 3 ] || fail "not three boards"
 

@@ -64,8 +64,12 @@ struct Options {
 using Words = std::vector<std::pair<std::string, std::string>>;
 
 Words words_of(const Options& options, const std::string& name, const fs::path& programs, const fs::path& package) {
-  // @PLC@ first: its text contains placeholders itself.
+  // Texts that contain placeholders themselves come first.
   return {{"@PLC@", options.plc() ? plc_build() : ""},
+          {"@PLC_ROW@",
+           options.plc() ? "| `src/logic.st` | PLC program, a thread module; its `lamp` is `@NAMESPACE@_plc::lamp` |\n"
+                         : ""},
+          {"@PLANT_ROW@", options.boards > 1 ? "| `plant.xml` | the same modules on several boards |\n" : ""},
           {"@NAMESPACE@", namespace_of(name)},
           {"@NAME@", name},
           {"@GTEST@", "gtest/gtest.h"},

@@ -246,15 +246,15 @@ constexpr const char* kModuleXmlHead = R"text(<?xml version="1.0" encoding="UTF-
 
 constexpr const char* kReadme = R"text(# @NAME@
 
-An InduRoP project: two thread modules and a process module that share variables.
+An InduRoP project: modules that share variables.
 
 | file | what it is |
 |---|---|
 | `@NAMESPACE@.glb` | the shared variables |
 | `src/wave.cpp`, `src/smooth.cpp` | thread modules |
 | `src/monitor.cpp` | process module |
-| `module.xml` | periods, priorities, properties |
-| `tests/@NAME@_test.cpp` | what they do together, tested in virtual time |
+@PLC_ROW@| `module.xml` | periods, priorities, properties |
+@PLANT_ROW@| `tests/@NAME@_test.cpp` | what they do together, tested in virtual time |
 
     make                      # builds into build/
     indurop check             # mistakes, who reads and writes what
