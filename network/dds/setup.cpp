@@ -13,6 +13,7 @@
 
 #include "core/base/xml_text.h"
 #include "network/dds/endpoint.h"
+#include "network/dds/handshakes.h"
 #include "network/dds/interface.h"
 #include "network/dds/log.h"
 #include "network/dds/security.h"
@@ -187,6 +188,9 @@ Result<Joined, base::Problem> join_network(const NetworkSettings& settings) {
     interface->note =
         "other programs receive nothing from this one for as long as its clock was set back, because DDS uses that "
         "clock";
+  }
+  if (interface->note.empty() && settings.security.on() && !handshakes_are_unlimited()) {
+    interface->note = "a program that does not answer a handshake for 100 s can end this one (Cyclone DDS 0.10.2)";
   }
   return Joined{{std::move(domain), std::move(participant)}, std::move(interface->note)};
 }

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include "network/dds/handshakes.h"
 #include "network/dds/security.h"
 
 namespace indurop::dds {
@@ -53,6 +54,10 @@ TEST(Joining, Programs_that_are_started_later_inherit_no_socket) {
     const int flags = ::fcntl(file, F_GETFD);
     EXPECT_TRUE(flags < 0 || (flags & FD_CLOEXEC) != 0) << file;
   }
+}
+
+TEST(Joining, Cyclone_sets_no_limit_for_handshakes) {
+  EXPECT_TRUE(handshakes_are_unlimited());
 }
 
 NetworkSettings boards_of_one_host(std::size_t others) {
