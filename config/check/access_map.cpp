@@ -2,6 +2,7 @@
 #include "config/check/access_map.h"
 
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 
 #include "config/check/io_access.h"
@@ -125,8 +126,11 @@ class Builder {
         context_.report.error(safe.place, "<failsafe>: " + message);
         continue;
       }
-      std::vector<std::uint8_t> bytes(place.value().type.size());
-      if (!schema::parse_value(place.value().type, safe.value, bytes, message)) {
+      constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+      const schema::Range range = place->range.value_or(schema::Range{-kUnlimited, kUnlimited});
+      std::vector<std::uint8_t> bytes(place->type.size());
+      if (!schema::parse_value(place->type, safe.value, bytes, message) ||
+          !schema::check_range(range, place->type, bytes, message)) {
         context_.report.error(safe.place, "<failsafe>: " + message);
       }
     }

@@ -175,6 +175,17 @@ TEST_F(CheckAccess, Fail_safe_values_must_fit_their_variable) {
               ElementsAre(HasSubstr("error: <failsafe>: ")));
 }
 
+TEST_F(CheckAccess, Fail_safe_values_keep_the_range_of_their_variable) {
+  ModuleSpec spec;
+  spec.schema.variables.push_back(variable("n::x"));
+  spec.schema.variables.back().range = schema::Range{-1, 1};
+  spec.reads = spec.writes = {"n::x"};
+  write_module(folder_ / "w.so", spec);
+  EXPECT_THAT(check_lines(periodic("w.so", "1ms", 1, "<failsafe variable=\"x\">1</failsafe>")), IsEmpty());
+  EXPECT_THAT(check_lines(periodic("w.so", "1ms", 1, "<failsafe variable=\"x\">1.5</failsafe>")),
+              ElementsAre(HasSubstr("error: <failsafe>: 1.5 is outside -1..1")));
+}
+
 TEST_F(CheckAccess, Recorded_values_are_read_as_the_node_would) {
   write("reader.so", {"n::a"}, {});
   ModuleSpec io;
