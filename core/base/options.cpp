@@ -25,7 +25,6 @@ struct Option::State {
 
 namespace {
 
-constexpr const char* kUsual = "list";  // the command that is meant if none is named
 constexpr const char* kFormatFlag = "--help-format";
 constexpr const char* kHelpHelp = "Print help and exit";
 constexpr const char* kVersionHelp = "Print the version and exit";
@@ -264,6 +263,17 @@ Options& Options::command(const std::string& name, const std::string& purpose, s
   return *commands_.back();
 }
 
+void Options::usual_command(const std::string& name) {
+  usual_ = name;
+}
+
+void Options::moved(const std::string& name, const std::string& now) {
+  const auto given = [name, now](std::int64_t /*count*/) {
+    throw CLI::ValidationError(fmt::format("{} was replaced: use {}", name, now));
+  };
+  app_->add_flag_function(name, given)->group("");  // without a group it is in no help
+}
+
 void Options::details(std::string text) {
   text_.details = std::move(text);
   show_details();
@@ -303,9 +313,9 @@ Options::Result Options::parse(std::vector<std::string> words) {
     return std::any_of(commands_.begin(), commands_.end(), [&](const auto& one) { return one->text_.name == word; });
   };
   const auto asks = [](const std::string& word) { return word == "-h" || word == "--help" || word == "--version"; };
-  if (names(kUsual) && (words.empty() || words[0].starts_with('-')) &&
+  if (names(usual_) && (words.empty() || words[0].starts_with('-')) &&
       std::none_of(words.begin(), words.end(), names) && std::none_of(words.begin(), words.end(), asks)) {
-    words.insert(words.begin(), kUsual);
+    words.insert(words.begin(), usual_);
   }
   words = marked(std::move(words));
   std::reverse(words.begin(), words.end());  // CLI11 takes them from the back

@@ -99,6 +99,10 @@ class Options {
 
   // Declares a verb, one of which must be given; `chosen` is called after it was parsed.
   Options& command(const std::string& name, const std::string& purpose, std::function<void()> chosen);
+  // Sets which command is meant if none is named; without this call it is `list`.
+  void usual_command(const std::string& name);
+  // Declares an option of earlier versions: no help shows it, and its error names `now`, the words to use.
+  void moved(const std::string& name, const std::string& now);
   void details(std::string text);
   void exit_codes(std::vector<int> codes);
   void version(const std::string& text);  // adds --version
@@ -128,6 +132,7 @@ class Options {
   CommandText text_;
   std::vector<std::unique_ptr<Option::State>> options_;
   std::vector<std::unique_ptr<Options>> commands_;
+  std::string usual_ = "list";
 };
 
 }  // namespace indurop::base

@@ -13,6 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using Outcome = Options::Outcome;
 
 struct Sample {
@@ -153,6 +154,26 @@ TEST(Options, Words_that_name_no_command_mean_list) {
   EXPECT_EQ(chosen_by({"--all", "make"}), "make all");
   EXPECT_EQ(chosen_by({"mak"}), "there is no command 'mak'; did you mean make?");
   EXPECT_THAT(chosen_by({"--help"}), HasSubstr("List them"));
+}
+
+TEST(Options, Another_command_than_list_can_be_meant) {
+  Options sut("sample", "Show how it is done");
+  std::string chosen;
+  sut.usual_command("show");
+  sut.command("list", "List them", [&] { chosen = "list"; });
+  sut.command("show", "Show them", [&] { chosen = "show"; });
+  EXPECT_EQ(sut.parse({}).outcome, Outcome::Parsed);
+  EXPECT_EQ(chosen, "show");
+}
+
+TEST(Options, The_error_of_a_moved_option_names_its_new_form) {
+  Sample sut;
+  sut.options.moved("--all", "sample list");
+  const auto result = sut.parse({"in.xml", "--all", "x"});
+  EXPECT_EQ(result.outcome, Outcome::Wrong);
+  EXPECT_EQ(result.text, "--all was replaced: use sample list");
+  EXPECT_THAT(sut.parse({"--help"}).text, Not(HasSubstr("--all")));
+  EXPECT_EQ(sut.parse({"in.xml"}).outcome, Outcome::Parsed);
 }
 
 TEST(Options, Help_and_version_are_told) {
