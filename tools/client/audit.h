@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The audit log, who wrote what and from where: a file of JSON lines that `indurop serve` appends to and `indurop log
-// --audit` shows.
+// The audit log, who wrote what and from where: a file of JSON lines that `indurop serve` and verbs append to and
+// `indurop audit` shows.
 
 #pragma once
 

@@ -32,7 +32,7 @@ void add_node_option(base::Options& app, Context& context) {
 }
 
 void add_reason_option(base::Options& app, Context& context) {
-  app.add("--reason", "TEXT", context.reason, "Why; it is kept with your name (indurop log --audit)");
+  app.add("--reason", "TEXT", context.reason, "Why; it is kept with your name (indurop audit)");
 }
 
 void add_remote_options(base::Options& app, Context& context) {

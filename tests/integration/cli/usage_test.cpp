@@ -20,7 +20,7 @@ TEST_F(CommandLine, Help_lists_every_verb_and_each_has_its_own) {
   const auto all = indurop({"help"});
   EXPECT_EQ(all.code, 0);
   for (const char* verb : {"new", "check", "plan", "doctor", "stop", "reset", "clean", "status", "nodes", "vars", "get",
-                           "set", "watch", "hz", "jitter", "overruns", "log"}) {
+                           "set", "watch", "hz", "jitter", "overruns", "log", "audit"}) {
     EXPECT_THAT(all.out, HasSubstr(std::string("\n  ") + verb + " "));
     const auto one = indurop({"help", verb});
     EXPECT_EQ(one.code, 0) << verb;
@@ -58,7 +58,7 @@ TEST_F(CommandLine, Options_may_stand_before_the_verb) {
 }
 
 TEST_F(CommandLine, Without_a_node_it_says_how_to_start_one) {
-  for (const char* verb : {"status", "vars", "jitter", "overruns", "log"}) {
+  for (const char* verb : {"status", "vars", "jitter", "overruns", "log", "audit"}) {
     const auto sut = indurop({verb});
     EXPECT_EQ(sut.code, 6) << verb;
     EXPECT_THAT(sut.err, HasSubstr("indurop run module.xml")) << verb;
@@ -122,6 +122,28 @@ TEST_F(CommandLine, Doctor_grades_every_check_in_json) {
   EXPECT_GE(json["checks"].size(), 10U);
   for (const auto& check : json["checks"]) {
     EXPECT_TRUE(check["grade"] == "OK" || check["grade"] == "WARN" || check["grade"] == "FAIL");
+  }
+}
+
+TEST_F(CommandLine, Doctor_tune_shows_settings_in_json) {
+  const auto sut = indurop({"doctor", "tune", "--core", "0", "-o", "json"});
+  EXPECT_EQ(sut.code, 0) << sut.err;
+  const auto json = sut.json();
+  EXPECT_EQ(json["core"], 0);
+  EXPECT_TRUE(json["settings"].is_array()) << sut.out;
+}
+
+TEST_F(CommandLine, Options_that_were_replaced_by_verbs_name_these) {
+  for (const auto& [words, now] : std::vector<std::pair<std::vector<std::string>, const char*>>{
+           {{"doctor", "--tune"}, "use indurop doctor tune (see"},
+           {{"doctor", "--tune", "--apply"}, "use indurop doctor tune"},
+           {{"doctor", "--apply", "--core", "1"}, "use indurop doctor tune --apply (see"},
+           {{"doctor", "--undo"}, "use indurop doctor undo (see"},
+           {{"log", "--audit", "-n", "5"}, "use indurop audit (see"},
+           {{"log", "--audit-file", "audit.jsonl"}, "use indurop audit --file (see"}}) {
+    const auto sut = indurop(words);
+    EXPECT_EQ(sut.code, 2) << now;
+    EXPECT_THAT(sut.err, HasSubstr(now));
   }
 }
 

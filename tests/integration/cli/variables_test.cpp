@@ -126,7 +126,7 @@ TEST_F(WithNode, Of_a_struct_is_held_what_was_said) {
     EXPECT_EQ(one["lease"], false);
   }
   EXPECT_THAT(indurop({"status"}).out, HasSubstr("gauge is broken"));
-  EXPECT_THAT(indurop({"log", "--audit"}).out, ContainsRegex("force.*gauge is broken"));
+  EXPECT_THAT(indurop({"audit"}).out, ContainsRegex("force.*gauge is broken"));
   EXPECT_EQ(indurop({"unforce", "joints[1]"}).code, 0);
   EXPECT_EQ(indurop({"force", "joints=" + indurop({"get", "joints"}).out, "station::name=123456789012345"}).code, 0);
   EXPECT_EQ(indurop({"forces", "-o", "json"}).json()["forces"].size(), 31U);
@@ -193,7 +193,7 @@ TEST_F(WithNode, A_locked_node_is_written_as_far_as_its_lock_goes) {
   EXPECT_EQ(indurop({"set", "gain", "2.5"}).code, 1) << "the lock outlives the node";
   ASSERT_EQ(indurop({"lock", "none"}).code, 0);
   EXPECT_EQ(indurop({"set", "gain", "2.5"}).code, 0);
-  EXPECT_THAT(indurop({"log", "--audit"}).out, ContainsRegex("lock.*production"));
+  EXPECT_THAT(indurop({"audit"}).out, ContainsRegex("lock.*production"));
 }
 
 TEST_F(WithNode, Force_explains_what_cannot_be_forced) {

@@ -334,7 +334,7 @@ def test_a_certificate_that_is_revoked_counts_no_more(setting):
     assert received.endswith(b"\x88\x02\x03\xf0"), received[-20:]  # its stream ends with 1008
     follows.close()
     noted = wait_for(lambda: json.loads(subprocess.run(
-        [setting.programs / "indurop", "log", "--audit", "-o", "json"], env=setting.environment, capture_output=True,
+        [setting.programs / "indurop", "audit", "-o", "json"], env=setting.environment, capture_output=True,
         text=True, check=True).stdout)["audit"], "a note")
     assert noted[0]["who"] == "bob" and "revoked" in noted[0]["outcome"], noted
 

@@ -98,7 +98,7 @@ def test_writes_for_those_who_may(setting):
         ("set", "knu::Robot::gain", "2.5"), ("set", "knu::Robot::mode", "AUTO"), ("set", "station::name", '"A 1"'),
         ("force", "knu::Robot::gain", "4"), ("unforce", "knu::Robot::gain", ""), ("set", "knu::Robot::gain", "1")], orders
     assert {(one["who"], one["from"]) for one in orders} == {("ana", "127.0.0.1")}, orders
-    shown = subprocess.run([setting.programs / "indurop", "log", "--audit", "-o", "json"], env=setting.environment,
+    shown = subprocess.run([setting.programs / "indurop", "audit", "-o", "json"], env=setting.environment,
                            capture_output=True, text=True, check=True).stdout
     assert len(json.loads(shown)["audit"]) == len(audit)
 

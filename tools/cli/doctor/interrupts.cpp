@@ -174,7 +174,7 @@ Finding examine_interrupts(const std::vector<int>& cores, const fs::path& root,
   std::vector<std::string> advice;
   for (const int core : to_move) {
     advice.push_back(
-        fmt::format("sudo indurop doctor --tune --apply --core {} gives those that can be moved to other cores", core));
+        fmt::format("sudo indurop doctor tune --apply --core {} gives those that can be moved to other cores", core));
   }
   if (!fixed.empty()) {
     advice.push_back(fmt::format("the kernel does not let interrupt {} be moved: give the node another core (--core N)",

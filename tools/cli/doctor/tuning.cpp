@@ -105,7 +105,7 @@ class Examination {
     want("/sys/kernel/mm/transparent_hugepage/enabled", "madvise",
          "making huge pages stops processes for milliseconds");
     want("/proc/sys/kernel/nmi_watchdog", "0", "it interrupts every core each few seconds");
-    want("/proc/sys/vm/stat_interval", "120", "each second every core counts its pages");
+    want("/proc/sys/vm/stat_interval", "120", "each core updates VM statistics every second");
     if (cores_.size() > 1) {
       keep_free();
     }
@@ -267,7 +267,8 @@ Result<std::vector<std::string>, base::Problem> apply_tuning(const Tuning& tunin
 
 Result<Undone, base::Problem> undo_tuning(const fs::path& record, const fs::path& root) {
   if (std::error_code error; !fs::exists(record, error)) {
-    return base::Problem{fmt::format("there is no {}: nothing was set by indurop doctor --apply", record.string())};
+    return base::Problem{
+        fmt::format("there is no {}: nothing was set by indurop doctor tune --apply", record.string())};
   }
   const std::vector<Kept> kept = kept_in(record, root);
   Undone undone;

@@ -26,9 +26,7 @@ namespace {
 struct Options {
   LatencyTest test;
   bool no_test = false;
-  bool tune = false;
   bool apply = false;
-  bool undo = false;
   std::optional<int> core;
 };
 
@@ -138,19 +136,19 @@ int report_refused(Context& context, const std::vector<std::string>& refused) {
   return kOk;
 }
 
-int undo(Context& context) {
+int undo(Context& context, const Options& /*options*/) {
   const auto undone = undo_tuning(tuning_record());
   if (!undone) {
     context.out.error(undone.error().text);
     return kFailed;
   }
-  context.out.note(fmt::format("{} settings put back", undone->settings));
+  context.out.note(fmt::format("{} settings restored", undone->settings));
   return report_refused(context, undone->refused);
 }
 
 int apply(Context& context, const Options& options, const Tuning& tuning) {
   if (::geteuid() != 0) {
-    context.out.error("settings of the kernel need root: sudo indurop doctor --tune --apply");
+    context.out.error("settings of the kernel need root: sudo indurop doctor tune --apply");
     return kFailed;
   }
   const std::string before = options.no_test ? "" : wake_up_test(options);
@@ -159,7 +157,7 @@ int apply(Context& context, const Options& options, const Tuning& tuning) {
     context.out.error(refused.error().text);
     return kFailed;
   }
-  context.out.note(fmt::format("{} settings made; indurop doctor --undo puts them back, as does a new start",
+  context.out.note(fmt::format("{} settings made; indurop doctor undo or a reboot restores the previous ones",
                                tuning.settings.size() - refused->size()));
   if (!options.no_test) {
     context.out.note(fmt::format("wake-ups were late by {} before, {} now", before, wake_up_test(options)));
@@ -196,13 +194,7 @@ int tune(Context& context, const Options& options) {
   return options.apply ? apply(context, options, tuning) : kOk;
 }
 
-int doctor(Context& context, const Options& options) {
-  if (options.undo) {
-    return undo(context);
-  }
-  if (options.tune || options.apply) {
-    return tune(context, options);
-  }
+int check(Context& context, const Options& options) {
   auto findings = examine_machine();
   findings.push_back(examine_interrupts(cores_of_ticks(options)));
   if (context.format == Format::Table) {
@@ -227,16 +219,29 @@ int doctor(Context& context, const Options& options) {
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  add_time_option(app, "--duration", options->test.duration_ns, "Length of the wake-up test (default 2 s)");
-  app.flag("--no-test", options->no_test, "Without the wake-up test");
-  app.flag("--tune", options->tune, "Show the settings of the kernel that real time wants and that are different here");
-  app.flag("--apply", options->apply, "Make these settings, until the machine starts again; as root");
-  app.flag("--undo", options->undo, "Put back what --apply has set");
-  app.add("--core", "N", options->core,
-          "Core of the node, which interrupts are kept off (default: those of the nodes that run, with "
-          "--tune the last)");
+  auto chosen = std::make_shared<Action>();
+  const auto verb = [&](const char* name, const char* help, int (*act)(Context&, const Options&)) -> base::Options& {
+    return app.command(name, help,
+                       [options, chosen, act] { *chosen = [options, act](Context& c) { return act(c, *options); }; });
+  };
+  const auto with_test = [&](base::Options& made) {
+    add_time_option(made, "--duration", options->test.duration_ns, "Length of the wake-up test (default 2 s)");
+    made.flag("--no-test", options->no_test, "Without the wake-up test");
+  };
+  base::Options& checking = verb("check", "Check the machine and measure how late threads are woken", &check);
+  with_test(checking);
+  checking.add("--core", "N", options->core, "Core that interrupts must not reach (default: those of running nodes)");
+  base::Options& tuning = verb("tune", "Show kernel settings that real time needs and that differ here", &tune);
+  tuning.flag("--apply", options->apply, "Apply these settings until the next reboot (needs root)");
+  tuning.add("--core", "N", options->core, "Core to keep free of interrupts (default: the last)");
+  with_test(tuning);
+  verb("undo", "Restore the settings that tune --apply has changed (needs root)", &undo);
+  app.usual_command("check");
+  app.moved("--tune", "indurop doctor tune");
+  app.moved("--apply", "indurop doctor tune --apply");
+  app.moved("--undo", "indurop doctor undo");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
-  return [options](Context& c) { return doctor(c, *options); };
+  return [chosen](Context& c) { return (*chosen)(c); };
 }
 
 }  // namespace
@@ -245,13 +250,13 @@ const Verb kDoctorVerb{
     "doctor", "Before it runs", "Show whether this machine is fit for real time, and what to do if not",
     "Checks the kernel, clocks, cores, rights, memory and disk, then measures for two seconds how late a thread is\n"
     "woken up every millisecond. `indurop status` shows what a running node was granted.\n"
-    "--tune shows settings of the kernel instead, --apply makes them and measures before and after, --undo puts back\n"
-    "what was there.\n"
     "Exit code 0 if nothing is marked FAIL, else 1.\n"
     "Examples:\n"
     "  indurop doctor\n"
     "  indurop doctor -o json\n"
-    "  indurop doctor --tune --apply\n",
+    "  indurop doctor tune\n"
+    "  sudo indurop doctor tune --apply\n"
+    "  sudo indurop doctor undo\n",
     &declare};
 
 }  // namespace indurop::tools

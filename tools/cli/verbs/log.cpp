@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop log: which module ran when, from the ring that the real-time threads write; with --audit who wrote what.
+// indurop log: which module ran when, from the ring that the real-time threads write.
 #include <fmt/format.h>
 
 #include "core/base/replace_file.h"
 #include "tools/cli/pictures/trace.h"
 #include "tools/cli/plant/board_run.h"
 #include "tools/cli/verbs/verbs.h"
-#include "tools/client/audit.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
@@ -16,8 +15,6 @@ struct Options {
   BoardChoice board;
   std::string glob;
   std::string trace_file;
-  bool audit = false;
-  std::filesystem::path audit_file;
   std::uint64_t count = 0;
 };
 constexpr std::uint64_t kDefaultLines = 40;
@@ -48,37 +45,7 @@ Table table_of(const RunView& run, const std::vector<SlotSample>& samples) {
   return table;
 }
 
-int show_audit(Context& context, const Options& options) {
-  const auto file = options.audit_file.empty() ? usual_audit_file() : options.audit_file;
-  Table table({{"WHEN", "wall_ns"},
-               {"WHO", "who"},
-               {"FROM", "from"},
-               {"BOARD", "board"},
-               {"ACTION", "action"},
-               {"WHAT", "what"},
-               {"OUTCOME", "outcome"},
-               {"REASON", "reason"}});
-  for (const AuditEntry& entry : read_audit(file, options.count > 0 ? options.count : kDefaultLines)) {
-    table.add({{local_time(entry.wall_ns), entry.wall_ns},
-               {printable(entry.who), entry.who},
-               {printable(entry.from), entry.from},
-               {printable(entry.board), entry.board},
-               {printable(entry.action), entry.action},
-               {printable(entry.what), entry.what},
-               {printable(entry.outcome), entry.outcome},
-               {printable(entry.reason), entry.reason}});
-  }
-  if (table.empty()) {
-    context.out.note(fmt::format("nothing was written through indurop serve; {} would tell", file.string()));
-  }
-  print_table(context, table, JsonValue::object(), "audit");
-  return kOk;
-}
-
 int show_log(Context& context, Options& options) {
-  if (options.audit) {
-    return show_audit(context, options);
-  }
   const auto chosen = open_run(context, options.board);
   if (!chosen) {
     return report(context.out, chosen.error());
@@ -116,10 +83,8 @@ Action declare(base::Options& app, Context& context) {
   app.add("module", "GLOB", options->glob, "Only modules that match").completes(base::Completion::Module);
   app.add("-n,--count", "COUNT", options->count, "The newest COUNT runs (default 40)");
   app.add("--trace", "FILE", options->trace_file, "Write a trace for Perfetto (all runs in the log) to FILE");
-  app.flag("--audit", options->audit, "Show who wrote what through indurop serve, and from where, instead");
-  app.add("--audit-file", "FILE", options->audit_file, "The file of indurop serve --audit, if it was given one")
-      .implies(options->audit)
-      .completes(base::Completion::File);
+  app.moved("--audit", "indurop audit");
+  app.moved("--audit-file", "indurop audit --file");
   add_node_option(app, context);
   add_board_options(app, options->board);
   add_kept_option(app, options->board);
@@ -135,8 +100,7 @@ const Verb kLogVerb{"log", "Timing", "Show which module ran when, as table or as
                     "Examples:\n"
                     "  indurop log -n 50\n"
                     "  indurop log --trace trace.json   # for ui.perfetto.dev\n"
-                    "  indurop log --board control\n"
-                    "  indurop log --audit\n",
+                    "  indurop log --board control\n",
                     &declare};
 
 }  // namespace indurop::tools

@@ -9,6 +9,7 @@ namespace indurop::tools {
 
 extern const Verb kAgeVerb;
 extern const Verb kAlarmsVerb;
+extern const Verb kAuditVerb;
 extern const Verb kBlackboxVerb;
 extern const Verb kBoardsVerb;
 extern const Verb kChartVerb;

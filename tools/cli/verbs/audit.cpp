@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop audit: who wrote what to the boards of this host, from where and why.
+#include "tools/client/audit.h"
+
+#include <fmt/format.h>
+
+#include "tools/cli/verbs/verbs.h"
+#include "tools/client/text/units.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::filesystem::path file = usual_audit_file();
+  std::uint64_t count = 40;
+};
+
+int show_audit(Context& context, const Options& options) {
+  Table table({{"WHEN", "wall_ns"},
+               {"WHO", "who"},
+               {"FROM", "from"},
+               {"BOARD", "board"},
+               {"ACTION", "action"},
+               {"WHAT", "what"},
+               {"OUTCOME", "outcome"},
+               {"REASON", "reason"}});
+  for (const AuditEntry& entry : read_audit(options.file, options.count)) {
+    table.add({{local_time(entry.wall_ns), entry.wall_ns},
+               {printable(entry.who), entry.who},
+               {printable(entry.from), entry.from},
+               {printable(entry.board), entry.board},
+               {printable(entry.action), entry.action},
+               {printable(entry.what), entry.what},
+               {printable(entry.outcome), entry.outcome},
+               {printable(entry.reason), entry.reason}});
+  }
+  if (table.empty()) {
+    context.out.note(fmt::format("{} has no entries", options.file.string()));
+  }
+  print_table(context, table, JsonValue::object(), "audit");
+  return kOk;
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add("-n,--count", "COUNT", options->count, "The newest COUNT entries (default 40)");
+  app.add("--file", "FILE", options->file, "The file that indurop serve --audit names (default: in the state folder)");
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [options](Context& c) { return show_audit(c, *options); };
+}
+
+}  // namespace
+
+const Verb kAuditVerb{
+    "audit", "A running node", "Show who wrote what, from where and why",
+    "Verbs that write (set, force, lock, recipe load, stop ...) and indurop serve note it: user or name of the\n"
+    "token, host, board, values and --reason.\n"
+    "Examples:\n"
+    "  indurop audit\n"
+    "  indurop audit -n 100 -o csv\n",
+    &declare};
+
+}  // namespace indurop::tools
