@@ -105,22 +105,33 @@ Joints change_for(const Jacobian& j, const Twist& twist) noexcept {
   return change + directions * normal.ldlt().solve(turning.transpose() * turn);
 }
 
+// The result of an iteration that reaches the position first: the squares of the remaining errors, and whether it came
+// to an end. Where it does not, the closest orientation is about to be that of another posture, or a limit is in the
+// way.
+struct PlaceFirst {
+  double place = 0, turn = 0;
+  bool settled = false;
+};
+
 // Reaches the position exactly, and among all joint angles for it those with the orientation closest to the requested
-// one. Returns the remaining errors of both, as squares.
-std::pair<double, double> place_first(const Arm& arm, const Pose& pose, Joints& q) noexcept {
+// one.
+PlaceFirst place_first(const Arm& arm, const Pose& pose, Joints& q) noexcept {
   constexpr int kMostSteps = 40;
   constexpr double kStill = 1e-12;
+  constexpr double kSettled = 1e-11;
   Twist twist;
+  double moved = 0;
   for (int step = 0; step < kMostSteps; ++step) {
     error_of(arm, pose, q, twist);
     const Joints change = shortened(change_for(arm.jacobian(q), twist));
     q = within_limits(arm, q + change);
-    if (change.squaredNorm() < kStill * kStill) {
+    moved = change.norm();
+    if (moved < kStill) {
       break;
     }
   }
   error_of(arm, pose, q, twist);
-  return {twist.head<3>().squaredNorm(), twist.tail<3>().squaredNorm()};
+  return {twist.head<3>().squaredNorm(), twist.tail<3>().squaredNorm(), moved < kSettled};
 }
 
 // Shifts each angle by the full turns that bring it nearest to `near`; returns false if that is beyond the limits.
@@ -156,8 +167,8 @@ double missed(const Arm& arm, const Pose& pose, const Search& how, Joints& q) no
   if (arm.count() >= 6) {
     return descend(arm, pose, {kSteps, true, how.held}, q) < kExact * kExact ? 0 : HUGE_VAL;
   }
-  const auto [place, turn] = place_first(arm, pose, q);
-  return place < kExact * kExact ? turn : HUGE_VAL;
+  const PlaceFirst found = place_first(arm, pose, q);
+  return found.place < kExact * kExact ? found.turn : HUGE_VAL;
 }
 
 }  // namespace
@@ -185,7 +196,8 @@ NumericSolution solve_numerically(const Arm& arm, const Pose& pose, const Joints
   Joints q = near;
   double error = 0;
   if (arm.count() < 6) {
-    error = place_first(arm, pose, q).first;
+    const PlaceFirst found = place_first(arm, pose, q);
+    error = found.settled ? found.place : HUGE_VAL;
   } else {
     error = descend(arm, pose, {kSteps, true, redundant_axes(arm)}, q);
   }

@@ -102,7 +102,7 @@ void Planner::begin(const Joints& from, double acceleration) noexcept {
   narrow_.fill({0, from});
   slowest_ = HUGE_VAL;
   stretches_ = 0;
-  unseen_ = false;
+  unseen_ = narrows_ = false;
   constexpr int kStepByStep = 4;
   work_ = 0;
   weight_ = places_.inverse().closed_form() ? 1 : kStepByStep;
@@ -196,7 +196,16 @@ Fault Planner::check_next() noexcept {
   }
   volumes_[static_cast<std::size_t>(next_)] = volume(here);
   note_volume(volume(here), spacing * next_, here);
+  narrows_ = narrows_ || misses_orientation(spacing * next_, here);
   return {};
+}
+
+// An arm with few axes may not reach the orientation: compares it with the one that it reaches.
+bool Planner::misses_orientation(double place, const Joints& q) const noexcept {
+  constexpr double kTurned = 2e-3;  // rad
+  const Arm& arm = places_.arm();
+  return arm.count() < 6 &&
+         rotation_between(arm.forward(q).orientation, segment_.pose_at(place).orientation).norm() > kTurned;
 }
 
 // Goes from one place to another in as many steps as it takes to stay in the same posture: next to a singular position
@@ -270,10 +279,7 @@ Fault Planner::look(int& places) noexcept {
   }
   segment_.to = samples_[static_cast<std::size_t>(count_)];
   measure_tip();
-  // An arm with few axes may not reach the orientation: compare with the one it reaches.
-  constexpr double kTurned = 2e-3;  // rad
-  const Quat turned_to = places_.arm().forward(segment_.to).orientation;
-  if (places_.arm().count() < 6 && rotation_between(turned_to, segment_.end.orientation).norm() > kTurned) {
+  if (misses_orientation(segment_.length, segment_.to)) {
     return {ErrorCode::Unreachable};
   }
   begin_clear();

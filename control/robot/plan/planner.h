@@ -87,6 +87,7 @@ class Planner {
   Fault check_next() noexcept;
   Fault walk(double from, const Joints& start, double to, Joints& q) noexcept;
   [[nodiscard]] Fault check_joint_way() const noexcept;
+  [[nodiscard]] bool misses_orientation(double place, const Joints& q) const noexcept;
   Fault look_closer() noexcept;
   [[nodiscard]] double volume(const Joints& q) const noexcept;
   void choose_windows(const Joints* places, const double* volumes, int count, double from, double spacing,
@@ -120,7 +121,8 @@ class Planner {
   int noted_ = 0;
   int rehearsals_ = 0;
   int searches_ = 0;
-  bool unseen_ = false;  // the last rehearsal did not reach the end
+  bool unseen_ = false;   // the last rehearsal did not reach the end
+  bool narrows_ = false;  // an orientation is missed on the path, and the closest one may change fast
   // Work done so far, in places; with an arm without a closed form one place counts as several. A motion is rejected
   // before kMostWork or not at all, except for collisions and torques, which are always checked.
   int work_ = 0;

@@ -9,8 +9,9 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kStep = 0.002;      // s between checked instants of a motion
-constexpr double kFineStep = 0.001;  // for chains, whose corners may be narrow, and near singular positions
+constexpr double kStep = 0.002;  // s between checked instants of a motion
+// s, for chains, whose corners may be narrow, near singular positions, and where an orientation is missed
+constexpr double kFineStep = 0.001;
 constexpr double kNearlyOne = 1.02;
 constexpr int kMostSearches = 3;  // another search is worthwhile, since slowing down everywhere costs time
 constexpr int kMostRehearsals = 3;
@@ -74,7 +75,7 @@ void Planner::begin_rehearsal(double duration) noexcept {
 
 double Planner::rehearsal_step() const noexcept {
   constexpr double kNear = 0.1;
-  return segment_.chain != nullptr || least_volume_ < kNear * usual_volume_ ? kFineStep : kStep;
+  return segment_.chain != nullptr || narrows_ || least_volume_ < kNear * usual_volume_ ? kFineStep : kStep;
 }
 
 void Planner::rehearse() noexcept {
