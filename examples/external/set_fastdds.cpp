@@ -51,13 +51,13 @@ int set_target(fast::DomainParticipant& participant, double wanted) {
 
   // A value written before the axis listens is lost.
   fast::PublicationMatchedStatus listeners;
-  const bool heard = wait_until([&] {
+  const bool discovered = wait_until([&] {
     writer->get_publication_matched_status(listeners);
     fast::SubscriptionMatchedStatus speakers;
     reader->get_subscription_matched_status(speakers);
     return listeners.current_count >= 2 && speakers.current_count >= 2;  // the axis, and we ourselves
   });
-  if (!heard) {
+  if (!discovered) {
     std::fprintf(stderr, "no node reads station/target: is the node running, in this domain?\n");
     return 1;
   }

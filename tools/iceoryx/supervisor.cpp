@@ -40,10 +40,10 @@ class Supervisor {
       if (worker_ < 0) {
         start_if_roudi();
       } else {
-        look_after_worker();
+        monitor_worker();
       }
       if (early_aborts_ >= kHopeless) {
-        return give_up();
+        return abandon();
       }
       tools::wait_until(rt::now_ns() + kLookEvery);
     }
@@ -88,7 +88,7 @@ class Supervisor {
     std::exit(getppid() == parent ? publish(context_, source_, hz_) : kOk);
   }
 
-  void look_after_worker() {
+  void monitor_worker() {
     int status = 0;
     if (waitpid(worker_, &status, WNOHANG) == worker_) {
       worker_ = -1;
@@ -127,7 +127,7 @@ class Supervisor {
     }
   }
 
-  int give_up() {
+  int abandon() {
     const auto values = source_.values();
     const auto largest = std::max_element(values.begin(), values.end(),
                                           [](const auto& a, const auto& b) { return a.bytes.size() < b.bytes.size(); });

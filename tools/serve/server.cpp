@@ -273,42 +273,42 @@ int Server::run() {
   tools::be_gentle(options_.node);
   sampling_ = std::make_unique<Door::Alarm>(*door_, [this] { hub_.run(rt::now_ns()); });
   // Also ensures that a signal is noticed when nothing else happens.
-  constexpr std::int64_t kLookNs = 500'000'000;
-  std::unique_ptr<Door::Alarm> looking;
+  constexpr std::int64_t kUpdateNs = 500'000'000;
+  std::unique_ptr<Door::Alarm> updating;
   if (options_.plant) {
     plant_ = std::make_unique<Plant>(options_.link, options_.node, remote_boards_);
   }
-  looking = std::make_unique<Door::Alarm>(*door_, [this, &looking] {
-    hub_.look_around();
-    (void)holds_.worker.add_if_idle([this] { leases_.look(); });
-    looking->set(kLookNs);
+  updating = std::make_unique<Door::Alarm>(*door_, [this, &updating] {
+    hub_.update_boards();
+    (void)holds_.worker.add_if_idle([this] { leases_.end_overdue(); });
+    updating->set(kUpdateNs);
   });
-  constexpr std::int64_t kHearNs = 125'000'000;
-  Door::Alarm hearing(*door_, [this, &hearing] {
+  constexpr std::int64_t kPollNs = 125'000'000;
+  Door::Alarm polling(*door_, [this, &polling] {
     if (plant_ != nullptr) {
       (void)plant_->worker.add_if_idle([this] {
-        plant_->watch.look();
-        remote_boards_.look(plant_->watch);
+        plant_->watch.update();
+        remote_boards_.poll(plant_->watch);
       });
-      hearing.set(kHearNs);
+      polling.set(kPollNs);
     }
   });
-  hearing.set(kHearNs);
-  looking->set(kLookNs);
+  polling.set(kPollNs);
+  updating->set(kUpdateNs);
   constexpr std::int64_t kAlarmsNs = 100'000'000;
   Door::Alarm watching(*door_, [this, &watching] {
-    alarms_.look(boards_.local());
+    alarms_.check(boards_.local());
     for (const std::string& word : alarms_.news()) {
-      hub_.tell_all(word);
+      hub_.send_to_all(word);
     }
     if (jogs_.busy()) {
-      (void)holds_.worker.add([this] { jogs_.look(); });
+      (void)holds_.worker.add([this] { jogs_.end_overdue(); });
     }
     watching.set(kAlarmsNs);
   });
   watching.set(kAlarmsNs);
   door_->serve([] { return tools::interrupted(); });
-  looking.reset();
+  updating.reset();
   sampling_.reset();
   return tools::interrupt_code();
 }

@@ -118,20 +118,20 @@ class Cutter {
     double step = (high - low) / kPlaces;
     double at_best = low;
     double least = std::numeric_limits<double>::infinity();
-    const auto look = [&](double at) {
+    const auto try_at = [&](double at) {
       if (const double waste = waste_after(some, {normal, at}, frames); waste < least) {
         least = waste;
         at_best = at;
       }
     };
     for (int i = 1; i < kPlaces; ++i) {
-      look(low + i * step);
+      try_at(low + i * step);
     }
     for (int closer = 0; closer < 5; ++closer) {
       step /= 2;
       const double middle = at_best;
-      look(middle - step);
-      look(middle + step);
+      try_at(middle - step);
+      try_at(middle + step);
     }
     if (least < best.waste) {
       best = {Plane{normal, at_best}, least};

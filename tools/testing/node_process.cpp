@@ -86,9 +86,9 @@ void NodeProcess::end() noexcept {
   if (commands_ >= 0) {
     ::close(commands_);  // it ends at the end of its input
   }
-  const rt::MonoTime give_up = rt::MonoClock::now() + kEnd;
+  const rt::MonoTime deadline = rt::MonoClock::now() + kEnd;
   while (!has_ended()) {
-    if (rt::MonoClock::now() > give_up) {
+    if (rt::MonoClock::now() > deadline) {
       ::kill(pid_, SIGKILL);
     }
     std::this_thread::sleep_for(kLook);
@@ -132,7 +132,7 @@ void NodeProcess::find_boards() {
 }
 
 // A board that was killed by a script and has returned has new memory.
-void NodeProcess::look_for_returned() {
+void NodeProcess::check_returned() {
   for (Board& board : boards_) {
     const pid_t pid = vars::running_node(board.node);
     if (pid == 0 || pid == board.run().node_pid.load()) {
@@ -184,14 +184,14 @@ void NodeProcess::fail(const std::string& what) const {
 
 // Waits until it has stopped just before the next tick: everything of the last tick is done.
 void NodeProcess::wait_until_it_stands() {
-  const rt::MonoTime give_up = rt::MonoClock::now() + patience_;
+  const rt::MonoTime deadline = rt::MonoClock::now() + patience_;
   for (;;) {
     const bool ended = has_ended();
     if (boards_.empty() && !ended) {
       find_boards();
     }
     if (plant_) {
-      look_for_returned();
+      check_returned();
     }
     if (!boards_.empty() && stands()) {
       return;
@@ -199,7 +199,7 @@ void NodeProcess::wait_until_it_stands() {
     if (ended) {
       fail(ticks_ == 0 ? "the configuration cannot be run" : fmt::format("the node ended before tick {}", ticks_));
     }
-    if (rt::MonoClock::now() > give_up) {
+    if (rt::MonoClock::now() > deadline) {
       fail(fmt::format("tick {} was not reached within {} s", ticks_, patience_.count()));
     }
     std::this_thread::sleep_for(kLook);

@@ -47,7 +47,7 @@ class NodeProcess {
  private:
   void wait_until_it_stands();
   void find_boards();
-  void look_for_returned();
+  void check_returned();
   [[nodiscard]] bool stands() const;
   bool has_ended();
   void end() noexcept;

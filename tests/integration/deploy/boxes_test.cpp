@@ -120,7 +120,7 @@ TEST_F(Boxes, A_user_may_want_one_of_all_boards) {
   EXPECT_TRUE(wait_until([&] { return report("b").is_null(); }));
   const Outcome part = indurop({"blackbox", "fetch", path("part.mcap"), "--remote"});
   EXPECT_EQ(part.code, 1);
-  EXPECT_THAT(part.err, HasSubstr("of board " + board("b") + " there is no black box of that moment"));
+  EXPECT_THAT(part.err, HasSubstr("board " + board("b") + " has no black box of that moment"));
 }
 
 }  // namespace

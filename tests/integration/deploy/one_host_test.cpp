@@ -264,7 +264,7 @@ TEST_F(Deploying, Two_agents_of_one_name_are_refused) {
   const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
   EXPECT_TRUE(wait_until([&] {
     const Outcome refused = deploy(file, {"--timeout", "1s"});
-    return refused.code == 1 && refused.err.find("two agents call themselves " + board("a")) != std::string::npos;
+    return refused.code == 1 && refused.err.find("two agents are named " + board("a")) != std::string::npos;
   }));
   stop_agent("a", SIGTERM);
   adopt_agent("a", known);

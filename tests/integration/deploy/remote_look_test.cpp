@@ -322,7 +322,7 @@ TEST_F(RemoteLook, Who_is_not_there_is_named) {
   start_boards();
   const Outcome unknown = indurop({"log", "--board", "nobody"});
   EXPECT_EQ(unknown.code, 6);
-  EXPECT_THAT(unknown.err, HasSubstr("no agent calls itself nobody"));
+  EXPECT_THAT(unknown.err, HasSubstr("no agent is named nobody"));
   EXPECT_THAT(unknown.err, HasSubstr(board("a") + ", " + board("b")));
   const Outcome which = indurop({"jitter", "--remote"});
   EXPECT_EQ(which.code, 2);

@@ -136,7 +136,7 @@ TEST_F(SecuredLink, Who_has_no_keys_hears_nothing_and_is_told_what_to_do) {
   const Outcome boards = indurop({"boards", "-o", "json"});
   EXPECT_EQ(boards.code, 6);
   EXPECT_TRUE(boards.json()["boards"].empty());
-  EXPECT_THAT(boards.err, HasSubstr("boards that have keys speak only to who has keys of their plant: --keys DIR"));
+  EXPECT_THAT(boards.err, HasSubstr("secured boards answer only clients with keys of their plant: --keys DIR"));
   const Outcome deployed = deploy(file(), {"--timeout", "1s"});
   EXPECT_EQ(deployed.code, 6);
   EXPECT_THAT(deployed.err, HasSubstr("--keys DIR"));

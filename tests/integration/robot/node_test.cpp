@@ -110,7 +110,7 @@ TEST_F(RobotNode, Jobs_are_read_anew_while_it_stands) {
   set("PLC_ROBOT::ROBOT_MODULE_SERVICE",
       "{eOpCode: 5, p_Target: 1, t_speed: 1, nRequest: " + std::to_string(next_request()) + "}");
   ASSERT_TRUE(wait_until([&] { return state() == 2; }));
-  EXPECT_THAT(indurop({"robot", "reload"}).err, testing::HasSubstr("only while it stands"));
+  EXPECT_THAT(indurop({"robot", "reload"}).err, testing::HasSubstr("only at standstill"));
 }
 
 TEST_F(RobotNode, A_hand_at_a_terminal_moves_it_and_is_missed_when_it_is_killed) {

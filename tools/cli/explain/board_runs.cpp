@@ -23,7 +23,7 @@ BoardRuns::BoardRuns(std::string board, std::vector<std::string> modules, std::v
   }
 }
 
-void BoardRuns::tell(std::uint32_t module, std::size_t variable, tape::EntryKind kind, std::uint64_t value) {
+void BoardRuns::add_value(std::uint32_t module, std::size_t variable, tape::EntryKind kind, std::uint64_t value) {
   if (module >= modules_.size()) {
     return;
   }
@@ -147,7 +147,7 @@ void FollowedBoard::take() {
         }
         const auto& type = store_.schema().variables[store_.directory()[value.variable].schema_index].type;
         if (recording::to_cdr(type, value.bytes, cdr)) {
-          runs_.tell(run.module, place->second, value.kind, value_number(cdr));
+          runs_.add_value(run.module, place->second, value.kind, value_number(cdr));
         }
       }
       runs_.end(run.module, run.tail, 0);
@@ -198,8 +198,8 @@ Result<std::vector<BoardRuns>, Problem> recorded_runs(const std::filesystem::pat
       const auto variable = std::find(wanted.begin(), wanted.end(), place.name);
       const auto words = recorder::from_sequence(message.sequence);
       if (variable != wanted.end()) {
-        boards[place.source].tell(words.module, static_cast<std::size_t>(variable - wanted.begin()), words.kind,
-                                  value_number(message.data.view));
+        boards[place.source].add_value(words.module, static_cast<std::size_t>(variable - wanted.begin()), words.kind,
+                                       value_number(message.data.view));
       }
     }
   });

@@ -30,7 +30,7 @@ class BoardRuns {
   [[nodiscard]] const std::string& board() const noexcept { return board_; }
   [[nodiscard]] const std::vector<std::string>& wanted() const noexcept { return wanted_; }
   // Adds a value that belongs to the next run of the module. Equal values have equal `value`, which is not 0.
-  void tell(std::uint32_t module, std::size_t variable, tape::EntryKind kind, std::uint64_t value);
+  void add_value(std::uint32_t module, std::size_t variable, tape::EntryKind kind, std::uint64_t value);
   // Ends that run; `shift_ns` is added to its times.
   void end(std::uint32_t module, const tape::RunTail& tail, std::int64_t shift_ns);
 

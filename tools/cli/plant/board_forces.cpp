@@ -25,7 +25,7 @@ class Orders {
   Orders(Context& context, BoardForces& options) : context_(context), options_(options) {}
 
   // Returns the exit code, after a message if it is not kOk.
-  int give(deploy::Action action, const std::string& target) {
+  int send(deploy::Action action, const std::string& target) {
     if (!commander_) {
       auto made = BoardCommander::make(context_.out, options_.board.link.keys);
       if (!made) {
@@ -39,7 +39,7 @@ class Orders {
     }
     const deploy::BoardReport& there = (*board)->report;
     const auto answered =
-        commander_->give(*options_.board.open, options_.board.link.self, there, action, target, kForcePatienceNs);
+        commander_->send(*options_.board.open, options_.board.link.self, there, action, target, kForcePatienceNs);
     if (!answered) {
       context_.out.error(fmt::format("board {}: {}", there.board, answered.error().text));
       return answered.error().code;
@@ -81,12 +81,12 @@ void add_board_force_options(base::Options& app, BoardForces& options) {
 int force_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments, std::int64_t for_ns) {
   deploy::WriteOrder order = order_of(context, as_lines(std::move(assignments)));
   order.for_ns = for_ns;
-  return Orders(context, options).give(deploy::Action::Force, text_of(order));
+  return Orders(context, options).send(deploy::Action::Force, text_of(order));
 }
 
 int set_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments) {
   return Orders(context, options)
-      .give(deploy::Action::Set, text_of(order_of(context, as_lines(std::move(assignments)))));
+      .send(deploy::Action::Set, text_of(order_of(context, as_lines(std::move(assignments)))));
 }
 
 int hold_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments) {
@@ -94,7 +94,7 @@ int hold_on_board(Context& context, BoardForces& options, std::vector<std::strin
   deploy::WriteOrder order = order_of(context, as_lines(std::move(assignments)));
   order.for_ns = kRemoteLeaseNs;
   order.lease = true;
-  if (const int code = orders.give(deploy::Action::Force, text_of(order)); code != kOk) {
+  if (const int code = orders.send(deploy::Action::Force, text_of(order)); code != kOk) {
     return code;
   }
   context.out.note("held while this command runs; Ctrl-C releases");
@@ -102,21 +102,21 @@ int hold_on_board(Context& context, BoardForces& options, std::vector<std::strin
   again.for_ns = kRemoteLeaseNs;
   again.renew = true;
   while (wait_until(rt::now_ns() + kRemoteLeaseNs / 4) != Woken::Signal) {
-    if (const int code = orders.give(deploy::Action::Force, text_of(again)); code != kOk) {
+    if (const int code = orders.send(deploy::Action::Force, text_of(again)); code != kOk) {
       return interrupted() ? kOk : code;
     }
   }
   take_interrupt();
   again.end = true;
-  return orders.give(deploy::Action::Force, text_of(again));
+  return orders.send(deploy::Action::Force, text_of(again));
 }
 
 int lock_board(Context& context, BoardForces& options, const std::string& word) {
-  return Orders(context, options).give(deploy::Action::SetLock, text_of(order_of(context, {word})));
+  return Orders(context, options).send(deploy::Action::SetLock, text_of(order_of(context, {word})));
 }
 
 int unforce_on_board(Context& context, BoardForces& options, const std::vector<std::string>& names) {
-  return Orders(context, options).give(deploy::Action::Unforce, text_of(order_of(context, names)));
+  return Orders(context, options).send(deploy::Action::Unforce, text_of(order_of(context, names)));
 }
 
 }  // namespace indurop::tools

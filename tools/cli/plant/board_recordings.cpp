@@ -42,16 +42,16 @@ std::uint64_t bytes_of(const std::string& list, const std::string& name) {
 BoardRecordings::BoardRecordings(std::unique_ptr<deploy::DeployLink> link, std::uint64_t self, BoardCommander commander)
     : link_(std::move(link)), self_(self), name_(fmt::format("{:016x}", self)), commander_(std::move(commander)) {}
 
-void BoardRecordings::hear(const std::vector<std::string>& boards) {
+void BoardRecordings::discover(const std::vector<std::string>& boards) {
   roster_.gather(*link_, std::chrono::nanoseconds(kHear).count(), [&] {
     return std::all_of(boards.begin(), boards.end(),
                        [&](const std::string& board) { return roster_.find(board) != nullptr; });
   });
 }
 
-Result<Answered, Failure> BoardRecordings::give(const One& one, deploy::Action action,
+Result<Answered, Failure> BoardRecordings::send(const One& one, deploy::Action action,
                                                 std::chrono::nanoseconds timeout) {
-  return commander_.give(*link_, self_, one.board, action, action == deploy::Action::Record ? one.target : name_,
+  return commander_.send(*link_, self_, one.board, action, action == deploy::Action::Record ? one.target : name_,
                          timeout.count());
 }
 
@@ -69,7 +69,7 @@ Result<std::vector<std::string>, Failure> BoardRecordings::begin(const std::stri
   for (const std::string& name : names) {
     one.target += "\n" + name;
   }
-  const auto answered = give(one, deploy::Action::Record, kLastWords);
+  const auto answered = send(one, deploy::Action::Record, kLastWords);
   if (!answered) {
     return answered.error();
   }
@@ -95,7 +95,7 @@ void BoardRecordings::repeat(const std::stop_token& stop) {
   while (!wake.wait_for(lock, stop, kRepeat, [&] { return stop.stop_requested(); })) {
     for (const One& one : all_) {
       if (!stop.stop_requested()) {
-        (void)give(one, deploy::Action::Record, kPatience);
+        (void)send(one, deploy::Action::Record, kPatience);
       }
     }
   }
@@ -121,7 +121,7 @@ std::string BoardRecordings::end(const One& one) {
     return agent_of(one.board.board) == 0 ? "it no longer reports"
                                           : "its agent was restarted, and the recording ended with the previous agent";
   }
-  const auto answered = give(one, deploy::Action::EndRecord, kLastWords);
+  const auto answered = send(one, deploy::Action::EndRecord, kLastWords);
   if (!answered) {
     return answered.error().text;
   }
@@ -142,7 +142,7 @@ void BoardRecordings::refresh() {
     boards.push_back(one.board.board);
   }
   roster_.listen(*link_, rt::now_ns());
-  hear(boards);
+  discover(boards);
 }
 
 std::uint64_t BoardRecordings::agent_of(const std::string& board) {
@@ -188,7 +188,7 @@ std::pair<std::vector<std::filesystem::path>, std::vector<std::string>> BoardRec
 
 void BoardRecordings::drop() {
   for (const One& one : all_) {
-    (void)give(one, deploy::Action::DropRecord, kPatience);  // if it fails, the next recording there deletes it
+    (void)send(one, deploy::Action::DropRecord, kPatience);  // if it fails, the next recording there deletes it
   }
 }
 

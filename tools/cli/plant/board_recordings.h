@@ -29,7 +29,7 @@ class BoardRecordings {
   ~BoardRecordings() = default;
 
   // Receives until these boards are discovered, at most for three seconds.
-  void hear(const std::vector<std::string>& boards);
+  void discover(const std::vector<std::string>& boards);
   // `names`: variables or globs to record; none: all. Returns those without a match on the board; if these are all, the
   // board is not recorded. Fails if the board was not discovered, runs another plant or refuses.
   Result<std::vector<std::string>, Failure> begin(const std::string& board, const std::string& plant,
@@ -49,7 +49,7 @@ class BoardRecordings {
     deploy::BoardReport board;
     std::string target;  // of the command that started it
   };
-  Result<Answered, Failure> give(const One& one, deploy::Action action, std::chrono::nanoseconds timeout);
+  Result<Answered, Failure> send(const One& one, deploy::Action action, std::chrono::nanoseconds timeout);
   void repeat(const std::stop_token& stop);
   std::string end(const One& one);
   void refresh();

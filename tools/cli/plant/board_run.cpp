@@ -17,25 +17,25 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kHearNs = 3'000'000'000;  // agents report twice a second
+constexpr std::int64_t kDiscoverNs = 3'000'000'000;  // agents report twice a second
 
-Failure not_heard(const BoardChoice& choice) {
-  std::vector<std::string> heard;
+Failure not_found(const BoardChoice& choice) {
+  std::vector<std::string> discovered;
   for (const auto& [key, entry] : choice.roster.all()) {
-    heard.push_back(key.first);
+    discovered.push_back(key.first);
   }
-  if (choice.board.empty() && !heard.empty()) {
-    return {kUsage, fmt::format("there are several boards; say which with --board: {}", fmt::join(heard, ", "))};
+  if (choice.board.empty() && !discovered.empty()) {
+    return {kUsage, fmt::format("there are several boards; say which with --board: {}", fmt::join(discovered, ", "))};
   }
-  const std::string others = heard.empty() ? "Agents are started with indurop-agent --board NAME"
-                                           : fmt::format("Boards heard: {}", fmt::join(heard, ", "));
+  const std::string others = discovered.empty() ? "Agents are started with indurop-agent --board NAME"
+                                                : fmt::format("Boards heard: {}", fmt::join(discovered, ", "));
   if (choice.board.empty() || !choice.roster.complete()) {
     return {kUnreachable, fmt::format("{} was heard on domain {} within {}. {}",
                                       choice.board.empty() ? "no board" : "nothing of board " + choice.board,
-                                      choice.link.network.domain, human_age(kHearNs), others)};
+                                      choice.link.network.domain, human_age(kDiscoverNs), others)};
   }
   return {kUnreachable,
-          fmt::format("no agent calls itself {}.{} {}", choice.board, did_you_mean(choice.board, heard), others)};
+          fmt::format("no agent is named {}.{} {}", choice.board, did_you_mean(choice.board, discovered), others)};
 }
 
 const BoardRoster::Entry* chosen(const BoardChoice& choice) {
@@ -81,7 +81,7 @@ Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardCho
     const auto enough = [&] {
       return (!choice.board.empty() && chosen(choice) != nullptr) || choice.roster.complete();
     };
-    choice.roster.gather(*choice.open, kHearNs, enough);
+    choice.roster.gather(*choice.open, kDiscoverNs, enough);
   } else {
     choice.roster.listen(*choice.open, rt::now_ns());
   }
@@ -90,11 +90,11 @@ Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardCho
   }
   const BoardRoster::Entry* board = chosen(choice);
   if (board == nullptr) {
-    return with_keys_hint(not_heard(choice), choice.link);
+    return with_keys_hint(not_found(choice), choice.link);
   }
   if (const std::string hosts = choice.roster.twins(board->report.board, rt::now_ns()); !hosts.empty()) {
     return Failure{kFailed,
-                   fmt::format("two agents call themselves {}, on {}; stop one of them", board->report.board, hosts)};
+                   fmt::format("two agents are named {}, on {}; stop one of them", board->report.board, hosts)};
   }
   return board;
 }

@@ -23,7 +23,7 @@ using deploy::Action;
 using deploy::Outcome;
 using scheduler::ModuleCommand;
 
-constexpr std::int64_t kHearNs = 5'000'000'000;
+constexpr std::int64_t kDiscoverNs = 5'000'000'000;
 
 Action action_of(ModuleCommand what, bool module) {
   switch (what) {
@@ -62,20 +62,21 @@ int conclude(Context& context, ModuleCommand what, const CommandTarget& target, 
 // Fails if boards are missing or have the same name, and names them.
 Result<void, Failure> all_there(Context& context, const BoardRoster& roster, const std::vector<CommandTarget>& targets,
                                 const std::string& keys) {
-  std::vector<std::string> heard;
+  std::vector<std::string> discovered;
   for (const auto& [key, entry] : roster.all()) {
-    heard.push_back(key.first);
+    discovered.push_back(key.first);
   }
   int code = kOk;
   for (const CommandTarget& target : targets) {
     if (roster.find(target.board) == nullptr) {
       context.out.error(fmt::format(
           "board {} was not heard within {}.{} Boards heard: {}; a node of this machine is meant with --node{}",
-          target.board, human_age(kHearNs), did_you_mean(target.board, heard),
-          heard.empty() ? "none" : fmt::format("{}", fmt::join(heard, ", ")), heard.empty() ? keys : ""));
+          target.board, human_age(kDiscoverNs), did_you_mean(target.board, discovered),
+          discovered.empty() ? "none" : fmt::format("{}", fmt::join(discovered, ", ")),
+          discovered.empty() ? keys : ""));
       code = kUnreachable;
     } else if (const std::string hosts = roster.twins(target.board, rt::now_ns()); !hosts.empty()) {
-      context.out.error(fmt::format("two agents call themselves {}, on {}; stop one of them", target.board, hosts));
+      context.out.error(fmt::format("two agents are named {}, on {}; stop one of them", target.board, hosts));
       code = kFailed;
     }
   }
@@ -98,7 +99,7 @@ int command_remote(Context& context, ModuleCommand what, const std::vector<Comma
     return kUnreachable;
   }
   BoardRoster roster;
-  roster.gather(*link, std::min(options.timeout_ns, kHearNs), [&] {
+  roster.gather(*link, std::min(options.timeout_ns, kDiscoverNs), [&] {
     return std::all_of(targets.begin(), targets.end(),
                        [&](const CommandTarget& target) { return roster.find(target.board) != nullptr; });
   });
@@ -114,7 +115,7 @@ int command_remote(Context& context, ModuleCommand what, const std::vector<Comma
   for (const CommandTarget& target : targets) {
     const deploy::BoardReport& board = roster.find(target.board)->report;
     words.lines.assign(target.module.empty() ? 0 : 1, target.module);
-    const auto answered = commander->give(*link, options.link.self, board, action_of(what, !target.module.empty()),
+    const auto answered = commander->send(*link, options.link.self, board, action_of(what, !target.module.empty()),
                                           deploy::module_target(words, board.release), options.timeout_ns);
     if (!answered) {
       context.out.error(fmt::format("{} was not {}: {}", name_of(target), past_of(what), answered.error().text));

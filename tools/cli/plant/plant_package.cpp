@@ -66,7 +66,7 @@ std::string changelog_of(const PlantPackage& package) {
 
 std::string copyright_of(const PlantPackage& package) {
   return fmt::format(
-      "The files of the plant {} belong to who made them; this package says nothing about their copyright.\n",
+      "The files of the plant {} belong to their authors; this package says nothing about their copyright.\n",
       package.plant);
 }
 
@@ -92,8 +92,8 @@ Result<void, Problem> run_tool(const std::vector<std::string>& words, const Path
   if (*code == 0) {
     return {};
   }
-  const auto said = base::read_file(output);
-  return Problem{fmt::format("{} failed ({}): {}", fmt::join(words, " "), *code, said ? *said : std::string())};
+  const auto printed = base::read_file(output);
+  return Problem{fmt::format("{} failed ({}): {}", fmt::join(words, " "), *code, printed ? *printed : std::string())};
 }
 
 // Folders 0755 and files 0644, whatever the umask is.

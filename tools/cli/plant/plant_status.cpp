@@ -90,7 +90,7 @@ int PlantStatus::show(Context& context) {
   const std::int64_t now = rt::now_ns();
   roster_.listen(*open_, now);
   const Table table = board_table(roster_, now, &read);
-  const std::vector<std::string> missing = boards_not_heard(roster_);
+  const std::vector<std::string> missing = missing_boards(roster_);
   if (table.empty()) {
     context.out.error(
         fmt::format("no board was heard on domain {} within {}; agents are started with indurop-agent "

@@ -34,7 +34,7 @@ int begin(Context& context, const RecordRequest& request, const deploy::LinkSett
   for (const BoardElsewhere& board : request.boards) {
     boards.push_back(board.name);
   }
-  recordings.hear(boards);
+  recordings.discover(boards);
   int code = kOk;
   for (const BoardElsewhere& board : request.boards) {
     const auto unknown = recordings.begin(board.name, request.plant, request.names, request.past);
@@ -50,7 +50,7 @@ int begin(Context& context, const RecordRequest& request, const deploy::LinkSett
   return code;
 }
 
-int tell(Context& context, const std::vector<std::string>& problems) {
+int print_problems(Context& context, const std::vector<std::string>& problems) {
   for (const std::string& problem : problems) {
     context.out.error(problem);
   }
@@ -68,9 +68,9 @@ void wait(std::int64_t duration_ns) {
 int join(Context& context, const RecordRequest& request, BoardRecordings& recordings, const fs::path& parts) {
   const int interrupt = interrupted() ? interrupt_code() : kOk;
   take_interrupt();  // it ended the recording, and must not end what follows
-  int code = tell(context, recordings.end());
+  int code = print_problems(context, recordings.end());
   auto [files, problems] = recordings.fetch(parts);
-  code = std::max(code, tell(context, problems));
+  code = std::max(code, print_problems(context, problems));
   std::error_code ignored;
   if (fs::exists(parts / kHere, ignored)) {
     files.insert(files.begin(), parts / kHere);

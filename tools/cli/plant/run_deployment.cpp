@@ -61,7 +61,7 @@ class Run {
         transaction_.receive(entry->report, rt::MonoClock::now());
       }
     }
-    say(true);
+    print_progress(true);
     while (!transaction_.finished()) {
       if (!busy_) {
         link_.wait(rt::mono_time(rt::now_ns() + kDeployPollNs));
@@ -72,7 +72,7 @@ class Run {
       }
       listen(now);
       busy_ = server_.serve(link_, now);
-      say(transaction_.time(now, rt::WallClock::now()));
+      print_progress(transaction_.time(now, rt::WallClock::now()));
       show(now);
     }
     return finish();
@@ -97,7 +97,7 @@ class Run {
     }
   }
 
-  void say(bool changed) {
+  void print_progress(bool changed) {
     const rt::MonoTime now = rt::MonoClock::now();
     if (changed || now - said_ >= kSay) {
       said_ = now;
@@ -255,7 +255,7 @@ Result<std::vector<std::string>, Failure> present_boards(Context& context, deplo
   for (const std::string& board : wanted) {
     (roster.find(board) != nullptr ? present : missing).push_back(board);
     if (const std::string hosts = roster.twins(board, rt::now_ns()); !hosts.empty()) {
-      context.out.error(fmt::format("two agents call themselves {}, on {}; stop one of them", board, hosts));
+      context.out.error(fmt::format("two agents are named {}, on {}; stop one of them", board, hosts));
       unique = false;
     }
   }

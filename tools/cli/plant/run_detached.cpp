@@ -48,7 +48,7 @@ bool runs(const std::string& node, pid_t pid) {
 }
 
 // The node ended before its modules ran: prints its output, returns its exit code.
-int tell_end(Context& context, const std::string& node, const std::filesystem::path& log, int status) {
+int report_end(Context& context, const std::string& node, const std::filesystem::path& log, int status) {
   if (const auto text = base::read_file(log); text.ok()) {
     context.out.message_line(std::string_view(*text).substr(0, text->find_last_not_of('\n') + 1));
   }
@@ -91,10 +91,10 @@ int run_detached(Context& context, const std::filesystem::path& program, const c
   for (;;) {
     int status = 0;
     if (::waitpid(*pid, &status, WNOHANG) == *pid) {
-      return tell_end(context, node, log, status);
+      return report_end(context, node, log, status);
     }
     if (runs(node, *pid)) {
-      context.out.note(fmt::format("node '{}' runs (pid {}); what it says: {}", node, *pid, log.string()));
+      context.out.note(fmt::format("node '{}' runs (pid {}); its messages: {}", node, *pid, log.string()));
       return kOk;
     }
     wait_until(rt::now_ns() + kStartPollNs);

@@ -112,7 +112,7 @@ class Plant {
 
   // Collects boards that have ended: returns the first exit code that is not 0. One that was killed is treated like a
   // board without power: the others continue.
-  int collect(bool tell) {
+  int collect(bool report_ends) {
     int code = kOk;
     for (Child& child : children_) {
       int status = 0;
@@ -122,7 +122,7 @@ class Plant {
       child.pid = -1;
       if (WIFSIGNALED(status)) {
         killed_ = true;
-        if (tell) {
+        if (report_ends) {
           context_.out.error(fmt::format(
               "board {} was ended by signal {} ({}), the others go on; bring it back with indurop run {} --board {} "
               "--one-host",
@@ -131,7 +131,7 @@ class Plant {
         continue;
       }
       const int its = WEXITSTATUS(status);
-      if (its != kOk && tell) {
+      if (its != kOk && report_ends) {
         context_.out.error(fmt::format("board {} ended with exit code {}; ending the others", child.board, its));
       }
       code = code == kOk ? its : code;

@@ -14,7 +14,7 @@
 
 namespace indurop::tools {
 
-Result<RunningPlant, Failure> running_plant(HeardBoards& boards, std::uint64_t self, const std::string& plant) {
+Result<RunningPlant, Failure> running_plant(DiscoveredBoards& boards, std::uint64_t self, const std::string& plant) {
   auto name = choose_plant(boards.roster, plant);
   if (!name) {
     return std::move(name).error();
@@ -47,7 +47,7 @@ Result<RunningPlant, Failure> running_plant(HeardBoards& boards, std::uint64_t s
                  fmt::format("no board of plant {} answers with a valid list of its files", running.plant)};
 }
 
-Result<deploy::OpenedProject, Failure> fetch_project(HeardBoards& boards, std::uint64_t self,
+Result<deploy::OpenedProject, Failure> fetch_project(DiscoveredBoards& boards, std::uint64_t self,
                                                      const RunningPlant& running, const std::filesystem::path& folder) {
   const auto& files = running.package.files;
   const auto found =

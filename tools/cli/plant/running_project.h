@@ -10,7 +10,7 @@
 
 #include "deploy/bundle/project.h"
 #include "deploy/transaction/package.h"
-#include "tools/cli/plant/heard_boards.h"
+#include "tools/cli/plant/discovered_boards.h"
 #include "tools/client/failure.h"
 
 namespace indurop::tools {
@@ -24,11 +24,11 @@ struct RunningPlant {
 
 // Chooses the plant by its name (`plant`; empty: the only one), asks its boards for what they committed last. Errors:
 // no such plant, several plants, boards that run different deployments, no answer.
-Result<RunningPlant, Failure> running_plant(HeardBoards& boards, std::uint64_t self, const std::string& plant);
+Result<RunningPlant, Failure> running_plant(DiscoveredBoards& boards, std::uint64_t self, const std::string& plant);
 
 // Fetches the sources of the deployment and unpacks them into `folder`, which must exist and be empty. Errors: the
 // deployment has none; the board does not answer; what came is damaged.
-Result<deploy::OpenedProject, Failure> fetch_project(HeardBoards& boards, std::uint64_t self,
+Result<deploy::OpenedProject, Failure> fetch_project(DiscoveredBoards& boards, std::uint64_t self,
                                                      const RunningPlant& running, const std::filesystem::path& folder);
 
 }  // namespace indurop::tools

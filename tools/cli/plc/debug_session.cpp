@@ -105,7 +105,7 @@ bool DebugSession::meet(const DebugStop& stop) {
   stop_line_ = code_.line(table(), stop_.line).name;
   frame_ = 0;
   std::erase_if(breakpoints_, [](const Breakpoint& one) { return one.once; });
-  tell_place();
+  print_place();
   return prompt();
 }
 
@@ -146,7 +146,7 @@ std::string DebugSession::time_of(const DebugStop& stop) const {
   return plc::duration_text(stop.time_ns - *began_ns_);
 }
 
-void DebugSession::tell_place() {
+void DebugSession::print_place() {
   Output& out = context_.out;
   if (stop_.kind == DebugStop::Kind::Fault) {
     out.line(out.paint(Style::Bad, fmt::format("{}  fault: {}", time_of(stop_), stop_.why)));
@@ -193,7 +193,7 @@ std::optional<bool> DebugSession::obey(const std::string& line) {
   if (const auto gone = travel(verb, rest)) {
     return gone;
   }
-  look(verb, rest);
+  show_values(verb, rest);
   return std::nullopt;
 }
 
@@ -224,7 +224,7 @@ std::optional<bool> DebugSession::travel(const std::string& verb, const std::str
   return std::nullopt;
 }
 
-void DebugSession::look(const std::string& verb, const std::string& rest) {
+void DebugSession::show_values(const std::string& verb, const std::string& rest) {
   if (verb == "b" || verb == "break") {
     add_breakpoint(rest, false);
   } else if (verb == "d" || verb == "delete") {

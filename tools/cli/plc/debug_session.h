@@ -39,8 +39,8 @@ class DebugSession {
   std::optional<bool> obey(const std::string& line);
   bool aim(Aim aim);
   std::optional<bool> travel(const std::string& verb, const std::string& rest);
-  void look(const std::string& verb, const std::string& rest);
-  void tell_place();
+  void show_values(const std::string& verb, const std::string& rest);
+  void print_place();
   void print(const std::string& names);
   void where();
   void add_breakpoint(const std::string& what, bool once);

@@ -49,16 +49,16 @@ bool run_compiler(Context& context, const std::vector<std::string>& arguments, c
     fs::remove(log, ignored);
     return true;
   }
-  const auto said = base::read_file(log);
-  if (said && blames_code(*said, code)) {
+  const auto printed = base::read_file(log);
+  if (printed && blames_code(*printed, code)) {
     context.out.error(
         fmt::format("internal error: what indurop plc made of {} does not compile. This is a mistake of indurop, not "
                     "of the program: please report it with the program, {} and {}",
                     sources, code.string(), log.string()));
     return false;
   }
-  if (said && !said->empty()) {
-    context.out.error(*said);
+  if (printed && !printed->empty()) {
+    context.out.error(*printed);
   }
   context.out.error(fmt::format("{} failed with exit code {}", arguments[0], *done));
   return false;

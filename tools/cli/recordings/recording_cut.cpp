@@ -32,7 +32,7 @@ int cut(Context& context, const Options& options) {
   if (done->runs > 0 && !done->from_first_run) {
     context.out.note(
         "it does not begin with the first run: a replay begins with each module at its first keyframe. Cut from 0 if a "
-        "module without keyframes keeps something inside");
+        "module without keyframes keeps values between runs");
   }
   return kOk;
 }
@@ -41,13 +41,13 @@ int cut(Context& context, const Options& options) {
 
 void add_recording_cut(base::Options& app, const std::shared_ptr<Action>& chosen) {
   auto options = std::make_shared<Options>();
-  base::Options& verb = app.command("cut", "Make a recording of a part of one", [options, chosen] {
+  base::Options& verb = app.command("cut", "Copy a part of a recording into a new one", [options, chosen] {
     *chosen = [options](Context& c) { return cut(c, *options); };
   });
   verb.add("file", "FILE.mcap", options->file, "The recording").required().completes(base::Completion::File);
   verb.add("-o,--file", "FILE.mcap", options->to, "The new file; it must not be there yet").required();
-  add_time_option(verb, "--from", options->from_ns, "Time since the begin of the recording (default: 0)");
-  add_time_option(verb, "--to", options->to_ns, "Likewise (default: its end)");
+  add_time_option(verb, "--from", options->from_ns, "First time, since the beginning of the recording (default: 0)");
+  add_time_option(verb, "--to", options->to_ns, "Last time, since its beginning (default: its end)");
   verb.details(
       "Takes the runs that ended between these times, each with all it read and wrote, and before them the\n"
       "values of that time, so that the part can be drawn and replayed on its own.\n");

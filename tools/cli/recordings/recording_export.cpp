@@ -32,7 +32,7 @@ bool save(Context& context, const std::string& file, const Result<Exported, base
 
 int export_recording(Context& context, const ExportOptions& options) {
   if (options.csv.empty() && options.trace.empty()) {
-    context.out.error("what is to be made of it? --csv FILE, --trace FILE, or both");
+    context.out.error("name the output: --csv FILE, --trace FILE, or both");
     return kUsage;
   }
   bool good = true;
@@ -57,7 +57,8 @@ void add_recording_export(base::Options& app, const std::shared_ptr<Action>& cho
   verb.add("names", "GLOB", options->names, "With --csv: variables, or globs; none: all");
   verb.add("--csv", "FILE", options->csv, "Write values: a row for each time at which one changed");
   verb.add("--trace", "FILE", options->trace, "Write when each module ran, for https://ui.perfetto.dev");
-  add_time_option(verb, "--every", options->every_ns, "With --csv: a row each so much time instead");
+  add_time_option(verb, "--every", options->every_ns,
+                  "With --csv: interval of the rows (default: a row whenever a value changed)");
   verb.flag("--units", options->units, "With --csv: headings as \"NAME [unit]\", for chart");
   verb.details(
       "Each number of a variable is a column, as joints[1].y; a value stands until it changes. time_ns is wall-clock\n"

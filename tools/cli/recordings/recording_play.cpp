@@ -198,16 +198,16 @@ void add_recording_play(base::Options& app, Context& context, const std::shared_
   constexpr double kMinSpeed = 0.001;
   constexpr double kMaxSpeed = 1000;
   auto options = std::make_shared<Options>();
-  base::Options& verb = app.command("play", "Write recorded values into a running node, in time", [options, chosen] {
-    *chosen = [options](Context& c) { return play(c, *options); };
-  });
+  base::Options& verb =
+      app.command("play", "Write recorded values into a running node at their times",
+                  [options, chosen] { *chosen = [options](Context& c) { return play(c, *options); }; });
   verb.add("file", "FILE.mcap", options->file, "The recording").required().completes(base::Completion::File);
   verb.add("names", "GLOB", options->names, "Variables, or globs; none: those that no module of the node writes");
-  verb.add("--board", "NAME", options->board, "The board whose values are meant, if the recording is of several");
+  verb.add("--board", "NAME", options->board, "Board whose values are written, if the recording has several");
   verb.add("--speed", "N", options->speed, "Times the speed of the recording (default: 1)").range(kMinSpeed, kMaxSpeed);
   add_node_option(verb, context);
   verb.details(
-      "Inputs of yesterday for the modules of today, which run as ever: variables that no module of the node writes\n"
+      "Feeds recorded inputs to the modules of today: variables that no module of the node writes\n"
       "get their recorded values at their times. A module that writes a named variable overwrites it in its next run.\n"
       "To repeat runs exactly, see indurop replay.\n");
 }

@@ -72,7 +72,7 @@ int draw(Context& context, const ReplayOptions& options, const std::filesystem::
     context.out.error(base::cannot_write(options.svg, saved.error()));
     return kFailed;
   }
-  context.out.note(fmt::format("drew what differs into {}{}", options.svg,
+  context.out.note(fmt::format("wrote a chart of the differences to {}{}", options.svg,
                                left_out > 0 ? fmt::format(", but for {} more columns", left_out) : ""));
   return code;
 }
@@ -134,8 +134,9 @@ int replay_recording(Context& context, const ReplayOptions& options) {
   run.node = options.node;
   std::error_code ignored;
   if (!std::filesystem::exists(run.config, ignored)) {
-    context.out.error(fmt::format("{} was recorded with {}, which is not here; name the configuration with --config",
-                                  options.file.string(), run.config.string()));
+    context.out.error(
+        fmt::format("{} was recorded with {}, which is missing here; name the configuration with --config",
+                    options.file.string(), run.config.string()));
     return kFailed;
   }
   return options.svg.empty() && !options.comes_back ? become_node(context, program, run)

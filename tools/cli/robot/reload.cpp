@@ -28,7 +28,7 @@ class Robot {
       : context_(context), store_(store), space_(choice.space) {}
 
   // Returns the exit code.
-  int look(Answer& to) {
+  int read_answer(Answer& to) {
     const std::string state = space_ + "::ROBOT_MODULE_STATE.";
     std::vector<Item> items;
     if (const int code = select_items(
@@ -79,7 +79,7 @@ int reload_jobs(Context& context, const RobotChoice& choice) {
   }
   Robot sut(context, *store, choice);
   Answer answer;
-  if (const int code = sut.look(answer); code != kOk) {
+  if (const int code = sut.read_answer(answer); code != kOk) {
     return code;
   }
   const std::uint32_t number = answer.acknowledged + 1;
@@ -87,22 +87,23 @@ int reload_jobs(Context& context, const RobotChoice& choice) {
     return code;
   }
   constexpr std::int64_t kMaxReadNs = 30 * kSecond;
-  constexpr std::int64_t kLook = kSecond / 50;
+  constexpr std::int64_t kPollNs = kSecond / 50;
   const std::int64_t began = rt::now_ns();
   while (answer.done != number) {
     const std::int64_t now = rt::now_ns();
-    const bool heard = answer.acknowledged == number;
-    if (now - began > (heard ? kMaxReadNs : 2 * kSecond)) {
-      context.out.error(heard ? "the robot has not read its jobs within 30 s"
-                              : fmt::format("the robot does not take the request; does it run, or does another program "
-                                            "write {}::ROBOT_MODULE_SERVICE?",
-                                            choice.space));
+    const bool acknowledged = answer.acknowledged == number;
+    if (now - began > (acknowledged ? kMaxReadNs : 2 * kSecond)) {
+      context.out.error(acknowledged
+                            ? "the robot has not read its jobs within 30 s"
+                            : fmt::format("the robot does not take the request; does it run, or does another program "
+                                          "write {}::ROBOT_MODULE_SERVICE?",
+                                          choice.space));
       return kFailed;
     }
-    if (wait_until(now + kLook) == Woken::Signal) {
+    if (wait_until(now + kPollNs) == Woken::Signal) {
       return interrupt_code();
     }
-    if (const int code = sut.look(answer); code != kOk) {
+    if (const int code = sut.read_answer(answer); code != kOk) {
       return code;
     }
   }
@@ -110,7 +111,7 @@ int reload_jobs(Context& context, const RobotChoice& choice) {
     const bool files = answer.error == static_cast<std::uint32_t>(robot::ErrorCode::Line) ||
                        answer.error == static_cast<std::uint32_t>(robot::ErrorCode::Tool);
     context.out.error(files ? answer.message
-                            : "the robot takes jobs only while it stands and nothing else is asked of it");
+                            : "the robot reads jobs only at standstill and while no other request is pending");
     return files ? kCheckFailed : kFailed;
   }
   context.out.note("the robot has read its jobs again");

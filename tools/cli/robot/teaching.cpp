@@ -44,7 +44,7 @@ int teach_point(Context& context, const RobotChoice& choice, const robot::TeachO
     return code;
   }
   if (place.moves) {
-    context.out.error("the robot moves: teach when it stands");
+    context.out.error("the robot moves: teach at standstill");
     return kFailed;
   }
   const robot::TaughtPoint taught = robot::teach_point(files->names, order, place.stand);

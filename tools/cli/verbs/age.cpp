@@ -288,8 +288,8 @@ bool add_row(Context& context, const Measurement& measurement, const Chain& chai
 }
 
 // Prints the measurements of all chains. Returns the exit code.
-int tell(Context& context, const Options& options, const ChainPlant& plant, const std::vector<Chain>& found,
-         const Runs& runs) {
+int print_result(Context& context, const Options& options, const ChainPlant& plant, const std::vector<Chain>& found,
+                 const Runs& runs) {
   // Current measurements of boards do not apply to a recording.
   const auto boards = options.files.empty() ? plant.boards() : std::span<const config::BoardView>{};
   const NetworkTime network =
@@ -352,28 +352,27 @@ int age(Context& context, const Options& options) {
   const std::vector<std::string> names(wanted.begin(), wanted.end());
   const auto runs =
       options.files.empty() ? follow_nodes(*asked, boards, names, options.duration_ns) : read_files(options, names);
-  return runs ? tell(context, options, plant, *found, *runs) : report(context.out, runs.error());
+  return runs ? print_result(context, options, plant, *found, *runs) : report(context.out, runs.error());
 }
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  app.add("begin", "FROM", options->from, "The variable where it begins, a sensor's")
+  app.add("begin", "FROM", options->from, "Variable at which the chain begins, for example of a sensor")
       .required()
       .completes(base::Completion::Variable);
-  app.add("end", "TO", options->to, "The variable where it ends, an actuator's")
+  app.add("end", "TO", options->to, "Variable at which the chain ends, for example of an actuator")
       .required()
       .completes(base::Completion::Variable);
   add_time_option(app, "--duration", options->duration_ns,
-                  "Follow from now on for so long (default: what is on the tape, two seconds or more)");
+                  "Follow from now on for this duration (default: what is on the tape, two seconds or more)");
   app.add("--from", "FILE.mcap", options->files,
           "Follow in a recording; of a plant, in one of each board or in a joined one")
       .completes(base::Completion::File);
   app.add("--config", "FILE", options->config, "The configuration (default: what the node or the recording names)")
       .completes(base::Completion::File);
-  add_time_option(
-      app, "--network", options->network_ns,
-      "What a way between boards takes at most, for what is predicted (default: as measured by the boards of "
-      "this host, else 1 ms)");
+  add_time_option(app, "--network", options->network_ns,
+                  "Maximum time from board to board, for the prediction (default: as measured by the boards of "
+                  "this host, else 1 ms)");
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return age(c, *options); };
@@ -382,12 +381,12 @@ Action declare(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kAgeVerb{
-    "age", "Timing", "Measure end-to-end data age between two variables, and compare with what is predicted",
+    "age", "Timing", "Measure end-to-end data age between two variables, and compare it with the prediction",
     "Follows values from run to run, over modules and boards: from the release of the run that wrote FROM to the "
     "release\n"
     "of the run that wrote TO. BEST and WORST are what indurop check --chain predicts with the times the modules took\n"
     "meanwhile, the rest is measured. Boards that do not run on this machine are followed in recordings.\n"
-    "Exit code 0 if all is within what is predicted, 4 if not.\n"
+    "Exit code 0 if all is within the prediction, 4 if not.\n"
     "Examples:\n"
     "  indurop age cell::encoder cell::torque\n"
     "  indurop age cell::encoder cell::torque --duration 10s\n"

@@ -180,12 +180,12 @@ Action declare(base::Options& app, Context& context) {
     return made;
   };
   base::Options& list = verb("list", "Show the alarms that are not normal", &show_list);
-  list.flag("--all", options->all, "Normal ones, too");
+  list.flag("--all", options->all, "Include normal alarms");
   base::Options& history = verb("history", "Show what happened", &show_history);
   history.add("-n,--count", "COUNT", options->count, "The newest COUNT events (default 20)");
   ordering("ack", "Acknowledge alarms", alarms::AlarmEvent::Acknowledged);
   base::Options& shelve = ordering("shelve", "Do not raise alarms for a while", alarms::AlarmEvent::Shelved);
-  add_time_option(shelve, "--for", options->for_ns, "For so long (default 1h)");
+  add_time_option(shelve, "--for", options->for_ns, "Shelve for this duration (default 1h)");
   ordering("unshelve", "Raise shelved alarms again", alarms::AlarmEvent::Unshelved);
   verb("watch", "Evaluate the alarms until Ctrl-C", &watch);
   add_node_option(app, context);

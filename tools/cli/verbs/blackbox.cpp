@@ -16,7 +16,7 @@
 #include "store/vars/retain.h"
 #include "tools/cli/plant/board_boxes.h"
 #include "tools/cli/plant/board_file.h"
-#include "tools/cli/plant/heard_boards.h"
+#include "tools/cli/plant/discovered_boards.h"
 #include "tools/cli/recordings/recording_export.h"
 #include "tools/cli/recordings/recording_info.h"
 #include "tools/cli/recordings/recording_replay.h"
@@ -45,11 +45,11 @@ struct Options {
   [[nodiscard]] bool is_remote() const noexcept { return remote || !board.empty(); }
 };
 
-Result<HeardBoards, Failure> hear(Context& context, Options& options) {
+Result<DiscoveredBoards, Failure> discover(Context& context, Options& options) {
   if (!context.node.empty() && options.when.empty()) {
     return Failure{kUsage, "--node names a node of this machine; a board in the network is chosen with --board"};
   }
-  return hear_boards(context, options.link, options.board);
+  return discover_boards(context, options.link, options.board);
 }
 
 // Returns the boxes of this host, as if their nodes were boards.
@@ -68,7 +68,7 @@ std::filesystem::path file_here(const BoardBox& box) {
 int list(Context& context, Options& options) {
   std::vector<BoardBox> boxes;
   if (options.is_remote()) {
-    const auto boards = hear(context, options);
+    const auto boards = discover(context, options);
     if (!boards) {
       return report(context.out, boards.error());
     }
@@ -129,7 +129,7 @@ int fetch_local(Context& context, const Options& options) {
 }
 
 // Returns the boards of the plant without a box among these.
-std::vector<std::string> missing(const HeardBoards& boards, const BoardBox& first,
+std::vector<std::string> missing(const DiscoveredBoards& boards, const BoardBox& first,
                                  const std::vector<BoardBox>& chosen) {
   const auto of = std::find_if(boards.reports.begin(), boards.reports.end(),
                                [&](const deploy::BoardReport& report) { return report.agent == first.agent; });
@@ -141,7 +141,7 @@ std::vector<std::string> missing(const HeardBoards& boards, const BoardBox& firs
 }
 
 int fetch_remote(Context& context, Options& options) {
-  const auto boards = hear(context, options);
+  const auto boards = discover(context, options);
   if (!boards) {
     return report(context.out, boards.error());
   }
@@ -174,7 +174,7 @@ int fetch_remote(Context& context, Options& options) {
   int code = join_to(context, files, options.what);
   if (options.board.empty()) {
     for (const std::string& name : missing(*boards, first, chosen)) {
-      context.out.error(fmt::format("of board {} there is no black box of that moment", printable(name)));
+      context.out.error(fmt::format("board {} has no black box of that moment", printable(name)));
       code = kFailed;
     }
   }
@@ -269,7 +269,7 @@ int keep(Context& context, const std::string& why) {
     context.out.error(fmt::format("node '{}' does not run", *node));
     return kUnreachable;
   }
-  if (const Status requested = vars::request_box(*node, why.empty() ? "wanted by a user" : why); !requested) {
+  if (const Status requested = vars::request_box(*node, why.empty() ? "requested by a user" : why); !requested) {
     context.out.error(requested.error().code == Errc::Busy
                           ? fmt::format("node '{}': {}", *node, vars::kBoxesTooClose)
                           : fmt::format("{} cannot be written", vars::state_directory(*node).string()));
@@ -287,7 +287,7 @@ int keep_remote(Context& context, Options& options) {
   if (!commander) {
     return report(context.out, commander.error());
   }
-  auto boards = hear(context, options);
+  auto boards = discover(context, options);
   if (!boards) {
     return report(context.out, boards.error());
   }
@@ -297,9 +297,9 @@ int keep_remote(Context& context, Options& options) {
   boards->refresh(options.board);
   int code = kOk;
   for (const deploy::BoardReport& board : boards->reports) {
-    const auto answered =
-        commander->give(*boards->link, options.link.self, board, deploy::Action::KeepBox,
-                        options.what.empty() ? "wanted by a user of " + deploy::host_name() : options.what, kTimeoutNs);
+    const auto answered = commander->send(
+        *boards->link, options.link.self, board, deploy::Action::KeepBox,
+        options.what.empty() ? "requested by a user of " + deploy::host_name() : options.what, kTimeoutNs);
     if (!answered) {
       context.out.error(fmt::format("board {}: {}", printable(board.board), answered.error().text));
       code = answered.error().code;
@@ -333,7 +333,7 @@ Action declare(base::Options& app, Context& context) {
   };
   const auto of_a_box = [&](const char* name, const char* help, int (*act)(Context&, Options&)) -> base::Options& {
     base::Options& made = verb(name, help, act);
-    made.add("--at", "BOX", options->at, "This box, as listed, or its moment (default: the newest)");
+    made.add("--at", "BOX", options->at, "The box, as listed, or its time (default: the newest)");
     return made;
   };
   verb("list", "Show what was kept, the newest first", [](Context& c, Options& o) { return list(c, o); });
@@ -345,14 +345,15 @@ Action declare(base::Options& app, Context& context) {
   again.add("--with", "FILE.so", options->with, "Use this file for the module of its name")
       .completes(base::Completion::File);
   again.add("--svg", "FILE", options->svg, "Draw what differs");
-  base::Options& keeping = verb("keep", "Keep what there is now", &keep_any);
-  keeping.add("reason", "TEXT", options->what, "Why, for the list");
-  keeping.add("--when", "NAME", options->when, "Wait until this variable of a node of this machine is not 0 any more")
+  base::Options& keeping = verb("keep", "Save a black box now", &keep_any);
+  keeping.add("reason", "TEXT", options->what, "Reason, for the list");
+  keeping.add("--when", "NAME", options->when, "Wait until this local variable becomes non-zero")
       .completes(base::Completion::Variable);
   base::Options& fetching = of_a_box("fetch", "Write the boxes of one moment of all boards into one file", &fetch);
   fetching.add("file", "FILE.mcap", options->what, "The file to write").required().completes(base::Completion::File);
-  app.flag("--remote", options->remote, "All boards that are heard, by their agents, not the nodes of this machine");
-  app.add("--board", "NAME", options->board, "Only this one of them; implies --remote");
+  app.flag("--remote", options->remote,
+           "All boards of the network, by their agents, instead of the nodes of this machine");
+  app.add("--board", "NAME", options->board, "Only this board; implies --remote");
   deploy::add_link_options(app, options->link);
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
@@ -362,7 +363,7 @@ Action declare(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kBlackboxVerb{
-    "blackbox", "Timing", "List what nodes kept after a fault, keep it now, or fetch it from all boards",
+    "blackbox", "Timing", "List black boxes of nodes, save one now, or fetch those of all boards",
     "When a module faults, has many overruns, or a node starts again that crashed, the last seconds of its tape are\n"
     "kept as a recording: what every run saw and wrote; agents have it kept on all boards of the plant. The newest\n"
     "ten of each node stay. They are read by `indurop explain --from`, `replay`, `recording`, Foxglove and\n"

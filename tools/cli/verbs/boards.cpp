@@ -49,7 +49,8 @@ int show(Context& context, Options& options) {
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   deploy::add_link_options(app, options->link);
-  add_time_option(app, "--wait", options->wait_ns, "Listen at most so long before the first table (default: 1s)");
+  add_time_option(app, "--wait", options->wait_ns,
+                  "Maximum time to wait for boards before the first table (default: 1s)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   add_repeat_options(app, options->repeat);
   return [options](Context& c) { return repeat_rounds(c, options->repeat, [&] { return show(c, *options); }); };
@@ -59,7 +60,7 @@ Action declare(base::Options& app, Context& context) {
 
 const Verb kBoardsVerb{
     "boards", "Plants", "Show all boards of the network and what they run",
-    "HEARD is the time since the board's last word; agents speak twice a second. Exit code 6 if none was heard.\n"
+    "HEARD is the time since the last report of the board; agents report twice a second. Exit code 6 if none came.\n"
     "Examples:\n"
     "  indurop boards\n"
     "  indurop boards -w\n"

@@ -87,7 +87,7 @@ int check(Context& context, const Options& options) {
       .files = true, .adjust = options.adjust, .simulation = options.simulation, .times = &options.times};
   if (!options.chain.empty()) {
     if (options.chain.size() != 2) {
-      context.out.error("--chain wants two variables: where it begins and where it ends");
+      context.out.error("--chain needs two variables: where it begins and where it ends");
       return kUsage;
     }
     ChainQuestion question{options.chain[0], options.chain[1], {}};
@@ -106,10 +106,10 @@ Action declare(base::Options& app, Context& context) {
   app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
   app.flag("--sim", options->simulation, "Also note what a simulation (run --sim) cannot repeat");
   app.add("--chain", "NAME", options->chain,
-          "Two variables: how old what one says is when it has become the other, over modules and boards")
+          "Show the worst-case age of data from the first variable to the second, over modules and boards")
       .completes(base::Completion::Variable);
   add_time_option(app, "--network", options->network_ns,
-                  "With --chain: what a way between boards takes at most (default: as measured by the boards of this "
+                  "With --chain: maximum time from board to board (default: as measured by the boards of this "
                   "host, else 1 ms)");
   config::add_times_option(app, options->times);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});

@@ -51,12 +51,12 @@ bool among(const std::vector<std::string>& names, const std::string& name) {
 // at the same switch and return if it is rolled back.
 void add_left_out(Context& context, deploy::DeployLink& link, BoardRoster& roster, const deploy::Package& package,
                   std::vector<std::string>& boards) {
-  const auto heard = [&](const auto& entry) {
+  const auto is_discovered = [&](const auto& entry) {
     const deploy::BoardReport& report = entry.second.report;
     return report.plant != package.plant || std::all_of(report.members.begin(), report.members.end(),
                                                         [&](const auto& m) { return roster.find(m) != nullptr; });
   };
-  roster.gather(link, kLeftOutNs, [&] { return std::all_of(roster.all().begin(), roster.all().end(), heard); });
+  roster.gather(link, kLeftOutNs, [&] { return std::all_of(roster.all().begin(), roster.all().end(), is_discovered); });
   std::set<std::string> silent;
   for (const auto& [key, entry] : roster.all()) {
     const deploy::BoardReport& report = entry.report;
@@ -115,7 +115,7 @@ std::optional<deploy::BlobServer::Blob> blob_of(const deploy::PackedPlant& packe
   return found != packed.sources.end() ? std::optional(deploy::BlobServer::Blob{found->second, {}}) : std::nullopt;
 }
 
-void tell_size(Context& context, const Deployment& deployment, const deploy::Package& package) {
+void print_size(Context& context, const Deployment& deployment, const deploy::Package& package) {
   std::uint64_t bytes = 0;
   for (const deploy::PackageFile& file : package.files) {
     bytes += file.size;
@@ -189,7 +189,7 @@ int deploy_plant(Context& context, Options& options) {
   deployment.head = {
       {"plant", packed->package.plant}, {"deployment", packed->id}, {"generation", deployment.order.generation}};
   deployment.files = [&packed](const std::string& name) { return blob_of(*packed, name); };
-  tell_size(context, deployment, packed->package);
+  print_size(context, deployment, packed->package);
   return run_deployment(context, *link, roster, std::move(deployment));
 }
 
@@ -200,7 +200,7 @@ Action declare(base::Options& app, Context& context) {
   add_time_option(app, "--timeout", options->timeout_ns,
                   "How long to wait for boards to be heard or to answer (default: 5s)");
   add_time_option(app, "--health", options->health_ns,
-                  "How long to watch the new deployment before it is committed (default: 3s)");
+                  "How long to monitor the new deployment before it is committed (default: 3s)");
   add_comment_option(app, options->comment);
   add_also_option(app, options->also);
   app.flag("--allow-missing", options->allow_missing,
@@ -213,9 +213,9 @@ Action declare(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kDeployVerb{
-    "deploy", "Plants", "Put a plant to work on all its boards, or change nothing",
+    "deploy", "Plants", "Deploy a plant on all its boards, or change nothing",
     "Checks the plant, sends what the boards lack, lets every board check its own copy, switches all of them at\n"
-    "one instant, watches them for a while and commits. If anything goes wrong on any board, all of them go back.\n"
+    "one instant, monitors them for a while and commits. If anything fails on any board, all of them roll back.\n"
     "Every board needs a running agent: indurop-agent --board NAME.\n"
     "Exit codes: 0 committed, 1 not deployed (another deployment is under way, a board could not fetch it, the\n"
     "bundle is older than what runs), 4 the check found errors, 5 rolled back, 6 boards are missing. Keys are those\n"

@@ -71,7 +71,7 @@ std::size_t compare(const char* kind, const Digests& here, const Digests& there,
 }
 
 // Compares the sources, if both sides have them.
-Result<std::size_t, Failure> compare_sources(HeardBoards& boards, std::uint64_t self, const RunningPlant& running,
+Result<std::size_t, Failure> compare_sources(DiscoveredBoards& boards, std::uint64_t self, const RunningPlant& running,
                                              const std::optional<Project>& project, Table& table) {
   const bool deployed = std::any_of(running.package.files.begin(), running.package.files.end(),
                                     [](const auto& file) { return file.path == deploy::kProjectPath; });
@@ -100,7 +100,7 @@ int diff(Context& context, Options& options) {
     return report(context.out, not_done(source.error(), "compared"));
   }
   options.link.network.multicast = source->plant.multicast;
-  auto boards = hear_boards(context, options.link, {});
+  auto boards = discover_boards(context, options.link, {});
   if (!boards) {
     return report(context.out, boards.error());
   }

@@ -108,7 +108,7 @@ std::string how_it_ended(const Facts& facts) {
     return {};
   }
   return facts.stop_reason.empty()
-             ? "; there what is known ends without a reason: the node or its recorder was killed or lost its power"
+             ? "; there the data ends without a reason: the node or its recorder was killed or lost its power"
              : "; then the node ended: " + facts.stop_reason;
 }
 
@@ -276,9 +276,9 @@ int explain_it(Context& context, const Options& options) {
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   app.add("what", "NAME", options->what, "A module, a variable or a board").required();
-  app.add("--tick", "N", options->tick, "Ask about this tick (default: the last one in which something was wrong)");
+  app.add("--tick", "N", options->tick, "Explain this tick (default: the last one in which something was wrong)");
   app.add("--from", "FILE.mcap", options->files,
-          "Ask a recording or a black box instead of a node; of a plant, give one of each board, or one of all")
+          "Use a recording or a black box instead of a node; of a plant, one of each board, or one of all")
       .completes(base::Completion::File);
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json});
@@ -287,7 +287,7 @@ Action declare(base::Options& app, Context& context) {
 
 }  // namespace
 
-const Verb kExplainVerb{"explain", "Timing", "Say why a module was late, a value is old or a board is gone",
+const Verb kExplainVerb{"explain", "Timing", "Explain why a module was late, a value is old or a board is gone",
                         "Of a module: why it did not run in a tick, or ended late. Of a variable: why its value is "
                         "old, and who wrote, set\n"
                         "or forced it last. Of a board: why it is silent. The answer names a culprit only if what "

@@ -205,13 +205,13 @@ Action declare_forces(base::Options& app, Context& context) {
 
 const Verb kForceVerb{
     "force", "Variables", "Hold values against all writers",
-    "What modules, processes, drivers and other boards write to a forced number is dropped, so an\n"
-    "input can be simulated and an output be held while the program runs. Programs see the forced\n"
-    "value, and boards that mirror the variable do too: force on the board that owns it. Of a struct\n"
-    "that is held what the value says; other elements and fields go on. A force ends with unforce,\n"
-    "after --for, with this command (--lease), or when the node ends; the value then stays until it is written. "
-    "'indurop status' shows what is forced. With --board it is done by the\n"
-    "agent of a board anywhere in the network; a board that has keys obeys only who has them too.\n"
+    "Values that modules, processes, drivers and other boards write to a forced number are discarded, so an\n"
+    "input can be simulated and an output be held while the program runs. Programs see the forced value, and so\n"
+    "do boards that mirror the variable: force it on the board that owns it. Of a struct, the elements and fields\n"
+    "that the value names are held; the others continue. A force ends with unforce, after --for, with this\n"
+    "command (--lease), or when the node ends; the value then stays until it is written. 'indurop status' shows\n"
+    "what is forced. With --board the agent of a board anywhere in the network forces; a secured board accepts\n"
+    "commands only from clients with its keys.\n"
     "Examples:\n"
     "  indurop force PLC_ROBOT::I0 true --for 30s\n"
     "  indurop force 'joints[1].y=-0.5' mode=AUTO\n"
@@ -219,7 +219,7 @@ const Verb kForceVerb{
     "  indurop force motor_on=false --board control --keys keys\n",
     &declare_force};
 
-const Verb kUnforceVerb{"unforce", "Variables", "Let forced values go",
+const Verb kUnforceVerb{"unforce", "Variables", "Release forced values",
                         "Examples:\n"
                         "  indurop unforce PLC_ROBOT::I0 'joints[1]'\n"
                         "  indurop unforce --all --board control\n",

@@ -80,13 +80,13 @@ int history(Context& context, Options& options) {
   const auto histories = fetch_histories(*link, options.link.self, roster.agents());
   roster.listen(*link, rt::now_ns());
   std::vector<Row> rows;
-  std::vector<std::string> missing = options.board.empty() ? boards_not_heard(roster) : std::vector<std::string>();
-  bool heard = false;
+  std::vector<std::string> missing = options.board.empty() ? missing_boards(roster) : std::vector<std::string>();
+  bool found = false;
   for (const auto& [key, entry] : roster.all()) {
     if (!options.board.empty() && key.first != options.board) {
       continue;
     }
-    heard = true;
+    found = true;
     const auto reported = histories.find(key.second);
     if (reported == histories.end()) {
       missing.push_back(key.first);
@@ -97,7 +97,7 @@ int history(Context& context, Options& options) {
       merge(rows, key.first, past, current && past.outcome == "committed");
     }
   }
-  if (!heard) {
+  if (!found) {
     context.out.error(
         (options.board.empty() ? "no board was heard" : fmt::format("board {} was not heard", options.board)) +
         keys_hint(options.link));
@@ -107,8 +107,8 @@ int history(Context& context, Options& options) {
                    [](const Row& a, const Row& b) { return a.past.generation < b.past.generation; });
   const Table table = table_of(rows);
   for (const std::string& board : missing) {
-    context.out.error(fmt::format("board {} was not heard or did not answer: what it remembers is not in this list",
-                                  printable(board)));
+    context.out.error(
+        fmt::format("board {} was not heard or did not answer: its history is not in this list", printable(board)));
   }
   if (table.empty() && missing.empty()) {
     context.out.note("nothing was deployed yet");
@@ -119,9 +119,9 @@ int history(Context& context, Options& options) {
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  app.add("--board", "NAME", options->board, "Only what this board remembers");
+  app.add("--board", "NAME", options->board, "Only the history of this board");
   deploy::add_link_options(app, options->link);
-  add_time_option(app, "--wait", options->wait_ns, "Listen at most so long for boards (default: 3s)");
+  add_time_option(app, "--wait", options->wait_ns, "Maximum time to wait for boards (default: 3s)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return history(c, *options); };
 }
@@ -129,7 +129,7 @@ Action declare(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kHistoryVerb{
-    "history", "Plants", "Show what was deployed to the boards before, and what became of it",
+    "history", "Plants", "Show the deployments of the boards and their outcomes",
     "Oldest first; * marks what runs now. indurop rollback ID goes back to one that was committed.\n"
     "Exit code 6 if a board is not heard or does not answer: it is named, and the list is without it.\n"
     "Examples:\n"

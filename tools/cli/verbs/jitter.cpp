@@ -209,7 +209,7 @@ int show(Context& context, Options& options) {
     }
   }
   if (!run->node_alive()) {
-    context.out.note(fmt::format("node '{}' does not run: these are its last figures", node));
+    context.out.note(fmt::format("node '{}' does not run: these are its last values", node));
   }
   return kOk;
 }

@@ -223,14 +223,14 @@ Action declare(base::Options& app, Context& context) {
   add_format_option(*verb("list", "Show who has keys, and until when they are valid", &list), context,
                     {Format::Table, Format::Json, Format::Csv});
   made = verb("renew", "Issue new certificates for the same private keys", &renew);
-  made->add("names", "NAME", request->boards, "Whose (default: all)");
+  made->add("names", "NAME", request->boards, "Names of their owners (default: all)");
   add_days(*made, *request);
   made = verb("revoke", "Make certificates void", &revoke);
   made->add("names", "NAME", request->boards, "Whose").required();
   made =
       verb("rotate", "Give deployers a new key that signs deployments; the former one counts until --finish", &rotate);
-  made->add("names", "NAME", request->boards, "Whose (default: deployer)");
-  made->flag("--finish", request->finish, "Former keys count no more: all boards have deploy.pub");
+  made->add("names", "NAME", request->boards, "Names of the deployers (default: deployer)");
+  made->flag("--finish", request->finish, "End the validity of previous keys; all boards must have deploy.pub");
   made =
       verb("server", "Make or renew the TLS certificate of an indurop serve, by which browsers trust it", &make_server);
   made->add("name", "NAME", request->boards, "Name of the server; its files are in servers/NAME").required();

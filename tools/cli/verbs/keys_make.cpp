@@ -50,7 +50,7 @@ bool usable(Context& context, const keys::PlantKeys& keys) {
 
 namespace {
 
-void say_what_is_there(Context& context, const keys::PlantKeys& keys) {
+void report_existing(Context& context, const keys::PlantKeys& keys) {
   std::string names;
   for (const keys::KeyListing& each : keys.list(keys::instant_now())) {
     names += (names.empty() ? "" : ", ") + each.name;
@@ -76,7 +76,7 @@ int init_keys(Context& context, const KeysRequest& request) {
   }
   const keys::PlantKeys keys = keys_of(request);
   if (keys.exist()) {
-    say_what_is_there(context, keys);
+    report_existing(context, keys);
     return kFailed;
   }
   std::vector<std::string> boards;

@@ -58,7 +58,7 @@ int lock(Context& context, Options& options) {
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  app.add("lock", "none|tune|all", options->word, "What it is from now on; left out: show it");
+  app.add("lock", "none|tune|all", options->word, "New lock; without it: show the present one");
   add_reason_option(app, context);
   add_node_option(app, context);
   add_board_force_options(app, options->board);
@@ -72,8 +72,8 @@ const Verb kLockVerb{
     "lock", "Variables", "Keep a node from being written to by accident",
     "none: everybody with the rights to do so may set, force, load recipes and stop modules. tune: parameters\n"
     "(variables declared with a value) may be set, nothing else. all: nothing. The lock holds for every tool, the\n"
-    "page and orders from the network, until it is changed; it outlives the node's restart, not that of the machine.\n"
-    "Modules and boards of the plant write as ever, forces that are there go on, and a whole node can be stopped.\n"
+    "page and commands from the network, until it is changed; it outlives a restart of the node, not of the machine.\n"
+    "Modules and boards of the plant continue to write, existing forces stay, and a whole node can be stopped.\n"
     "Every user who may write may also unlock: it guards against slips, not against people.\n"
     "Examples:\n"
     "  indurop lock tune --reason production\n"

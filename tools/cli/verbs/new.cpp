@@ -150,7 +150,7 @@ Action declare(base::Options& app, Context& /*context*/) {
   auto options = std::make_shared<Options>();
   app.add("name", "NAME", options->where, "Name of the project, or the path of its folder").required();
   app.add("--with", "WHAT", options->with, "plc: a program in Structured Text, too").choices({"plc"});
-  app.add("--boards", "N", options->boards, "Also a plant.xml that deals the modules out to N boards")
+  app.add("--boards", "N", options->boards, "Also a plant.xml that distributes the modules to N boards")
       .range(1, kMaxBoards);
   return [options](Context& c) { return make_project(c, *options); };
 }

@@ -40,7 +40,7 @@ std::string description_of(const JsonValue& about) {
 }
 
 int pull(Context& context, Options& options) {
-  auto boards = hear_boards(context, options.link, {});
+  auto boards = discover_boards(context, options.link, {});
   if (!boards) {
     return report(context.out, boards.error());
   }

@@ -119,7 +119,7 @@ Result<void, base::Problem> go_on(const Options& options, const Nodes& nodes, re
 }
 
 // Returns false if something is missing in the recording.
-bool tell_missing(Context& context, const Recorded& node, const recorder::Recorder& recorder) {
+bool report_missing(Context& context, const Recorded& node, const recorder::Recorder& recorder) {
   for (const std::string& name : recorder.too_large()) {
     context.out.error(
         fmt::format("{} is too large for the tape and was not recorded; start the node with a larger --tape", name));
@@ -134,7 +134,7 @@ bool tell_missing(Context& context, const Recorded& node, const recorder::Record
 }
 
 // Returns false if the node did not end normally. If it did, its recording is complete.
-bool tell_death(Context& context, const Recorded& node) {
+bool report_death(Context& context, const Recorded& node) {
   const RunView& run = node.chosen.run;
   const auto state = run.block().state.load();
   if (run.node_alive() || state == scheduler::NodeState::Stopped || state == scheduler::NodeState::Failed) {
@@ -146,15 +146,15 @@ bool tell_death(Context& context, const Recorded& node) {
   return false;
 }
 
-int tell(Context& context, const Nodes& nodes, const recorder::Parts& parts) {
+int report_result(Context& context, const Nodes& nodes, const recorder::Parts& parts) {
   bool whole = true;
   std::uint64_t runs = 0;
   std::uint64_t values = 0;
   std::size_t variables = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const recorder::Recorder& recorder = parts.recorders()[i];
-    whole = tell_missing(context, *nodes[i], recorder) && whole;
-    whole = tell_death(context, *nodes[i]) && whole;
+    whole = report_missing(context, *nodes[i], recorder) && whole;
+    whole = report_death(context, *nodes[i]) && whole;
     runs += recorder.counts().runs;
     values += recorder.counts().values;
     variables += recorder.variables();
@@ -189,8 +189,8 @@ std::optional<Failure> add_node(Context& context, const std::string& board, Node
     return no_tape(chosen->node, Error{Errc::NotFound, 0, "of another run"});
   }
   nodes.push_back(std::make_unique<Recorded>(Recorded{std::move(*chosen), std::move(*store), board}));
-  recorder::About said = about(nodes.back()->chosen, nodes.back()->store);
-  taped.push_back({board.empty() ? "" : board + "/", std::move(said), &nodes.back()->store, std::move(*follower)});
+  recorder::About facts = about(nodes.back()->chosen, nodes.back()->store);
+  taped.push_back({board.empty() ? "" : board + "/", std::move(facts), &nodes.back()->store, std::move(*follower)});
   return std::nullopt;
 }
 
@@ -223,7 +223,7 @@ int record_here(Context& context, const Options& options, const std::filesystem:
     parts->learn();
   }
   const auto done = go_on(options, nodes, *parts);
-  int code = tell(context, nodes, *parts);
+  int code = report_result(context, nodes, *parts);
   if (!done) {
     context.out.error(done.error().text + "; the recording ends here");
     code = kFailed;
@@ -293,9 +293,9 @@ Action declare(base::Options& app, Context& context) {
   app.flag("--past", options->past, "Begin with the oldest run that the node still has on its tape");
   add_time_option(app, "--duration", options->duration_ns, "End after this time");
   add_amount_option(app, "--split", options->limits.split_ns, options->limits.split_bytes,
-                    "Begin a new file, run.0002.mcap and so on, after so much: 10min, 100MB");
+                    "Start a new file (run.0002.mcap, ...) after this time or size: 10min, 100MB");
   add_amount_option(app, "--keep", options->limits.keep_ns, options->limits.keep_bytes,
-                    "Keep the newest so much, 1h or 2GB, in files that --split says (default: 8); older ones go");
+                    "Keep only the last 1h or 2GB; older files are deleted (default: split into 8 files)");
   app.add("--plant", "FILE", options->plant,
           "Record all boards of this plant in one file; agents record those that do not run on this host")
       .completes(base::Completion::File);

@@ -13,15 +13,14 @@ Action declare(base::Options& app, Context& /*context*/) {
       .completes(base::Completion::File);
   app.add("--with", "FILE.so", options->with, "Use this file for the module of its name; may be given several times")
       .completes(base::Completion::File);
-  app.add("-o,--file", "FILE.mcap", options->output,
-          "Write what the modules leave now to this recording, to be laid over the other")
+  app.add("-o,--file", "FILE.mcap", options->output, "Write the values that modules write now to this MCAP file")
       .completes(base::Completion::File);
-  app.add("--svg", "FILE", options->svg, "Draw what differs, recorded and now, one over the other");
+  app.add("--svg", "FILE", options->svg, "Draw the recorded and the new values that differ");
   app.add("--from", "TICK", options->from,
           "Compare the runs of this tick and later ones; begins at the keyframes before");
   app.add("--to", "TICK", options->to, "Compare the runs up to this tick");
   app.add("--at", "TICK", options->at, "Compare the runs of this tick only");
-  app.add("--board", "NAME", options->board, "The board whose runs are meant, if the recording is of several");
+  app.add("--board", "NAME", options->board, "Board to replay, if the recording has several");
   app.add("--node", "NAME", options->node, "Name of the replaying node (default: replay)");
   return [options](Context& c) { return replay_recording(c, *options); };
 }
@@ -31,7 +30,7 @@ Action declare(base::Options& app, Context& /*context*/) {
 const Verb kReplayVerb{
     "replay", "Start and stop", "Run a recording again and compare the results",
     "Each run of the recording is repeated by the real modules, with what it began with and at its time; then what it\n"
-    "leaves is compared bit by bit. Modules that speak to devices or the network do not run. Exit code 0: all is\n"
+    "leaves is compared bit by bit. Modules that use devices or the network do not run. Exit code 0: all is\n"
     "equal; 4: the first difference is reported with tick, module, variable, recorded and new value.\n"
     "Examples:\n"
     "  indurop run module.xml --duration 60s --record run.mcap\n"

@@ -17,14 +17,14 @@ struct Options {
 };
 
 void add_choice(base::Options& app, Context& context, Options& options) {
-  app.add("--space", "NAMESPACE", options.choice.space, "Of the robot's variables (default: PLC_ROBOT)");
+  app.add("--space", "NAMESPACE", options.choice.space, "Namespace of the robot's variables (default: PLC_ROBOT)");
   add_node_option(app, context);
 }
 
 void add_files(base::Options& app, Options& options) {
   app.add("--module", "NAME", options.choice.module, "The robot, if the node has several");
   app.add("--config", "FILE", options.choice.config,
-          "module.xml or plant.xml whose files are meant (default: what the node runs)")
+          "module.xml or plant.xml that names the files (default: what the node runs)")
       .completes(base::Completion::File);
 }
 
@@ -38,7 +38,7 @@ void declare_points(base::Options& app, Context& context, Options& options) {
 }
 
 void declare_teach(base::Options& app, Context& context, Options& options) {
-  base::Options& teach = app.command("teach", "Write where it stands into its files as a point", [&options] {
+  base::Options& teach = app.command("teach", "Write the robot's position into its files as a point", [&options] {
     options.chosen = [&options](Context& c) { return teach_point(c, options.choice, options.order); };
   });
   robot::TeachOrder& order = options.order;
@@ -47,7 +47,7 @@ void declare_teach(base::Options& app, Context& context, Options& options) {
   teach.flag("--joint", order.as_joint, "As joint angles (a new point), whatever it was");
   teach.flag("--pose", order.as_pose, "As the pose of the present tool's tip, whatever it was");
   teach.add("--in", "FRAME", order.frame, "As a pose in this work frame");
-  teach.add("--file", "FILE", order.file, "Where a new point goes to").completes(base::Completion::File);
+  teach.add("--file", "FILE", order.file, "File of a new point").completes(base::Completion::File);
   add_choice(teach, context, options);
   add_files(teach, options);
 }
@@ -60,14 +60,15 @@ void declare_reload(base::Options& app, Context& context, Options& options) {
 }
 
 void declare_jog(base::Options& app, Context& context, Options& options) {
-  base::Options& command = app.command("jog", "Move it by hand, as long as the command runs", [&options] {
+  base::Options& command = app.command("jog", "Jog the robot as long as the command runs", [&options] {
     options.chosen = [&options](Context& c) { return jog(c, options.choice, options.hand); };
   });
   Hand& hand = options.hand;
   command.add("direction", "AXIS+|AXIS-", hand.direction, "J1+ to J8-, or of the tip x+ y+ z+ rx+ ry+ rz+ and with -")
       .required();
   command.add("--frame", "base|tool|FRAME", hand.frame, "Whose axes x to rz are: a work frame by name (default: base)");
-  command.add("--speed", "PERCENT", hand.percent, "Of the fastest by hand, 250 mm/s (default: 10)").range(0.1, 100);
+  command.add("--speed", "PERCENT", hand.percent, "Share of the maximum by hand, 250 mm/s (default: 10)")
+      .range(0.1, 100);
   add_time_option(command, "--for", hand.for_ns, "Stop after this time (default: Ctrl-C)");
   add_choice(command, context, options);
   add_remote_options(command, context);

@@ -27,7 +27,7 @@ struct Options {
   bool allow_missing = false;
 };
 
-constexpr std::int64_t kHearNs = 3'000'000'000;  // less if all are discovered
+constexpr std::int64_t kDiscoverNs = 3'000'000'000;  // less if all are discovered
 constexpr std::size_t kShortestId = 4;
 
 // Returns the ids that were committed on the board and begin with `begin`.
@@ -85,7 +85,7 @@ int roll_back(Context& context, Options& options) {
     return kUnreachable;
   }
   BoardRoster roster;
-  roster.gather(*link, kHearNs, [&] { return roster.complete(); });
+  roster.gather(*link, kDiscoverNs, [&] { return roster.complete(); });
   const auto meant = choose_plant(roster, options.plant);
   if (!meant) {
     return report(context.out, with_keys_hint(meant.error(), options.link));
@@ -139,12 +139,12 @@ Action declare(base::Options& app, Context& context) {
         const bool hex = text.find_first_not_of("0123456789abcdef") == std::string::npos;
         return hex && text.size() >= kShortestId ? std::string{} : "an id is 4 to 64 of the digits 0-9 and a-f";
       });
-  app.add("--plant", "NAME", options->plant, "Plant that is meant (default: the only one)");
+  app.add("--plant", "NAME", options->plant, "Name of the plant (default: the only one)");
   deploy::add_link_options(app, options->link);
   add_time_option(app, "--timeout", options->timeout_ns,
                   "How long to wait for boards to be heard or to answer (default: 5s)");
   add_time_option(app, "--health", options->health_ns,
-                  "How long to watch the deployment before it is committed (default: 3s)");
+                  "How long to monitor the deployment before it is committed (default: 3s)");
   app.flag("--allow-missing", options->allow_missing,
            "Roll back the boards that are heard; the others follow when they appear");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
@@ -154,8 +154,8 @@ Action declare(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kRollbackVerb{
-    "rollback", "Plants", "Put all boards of a plant back to what they ran before",
-    "This is a deployment like any other, of files the boards still have: it is watched, and if a board is not\n"
+    "rollback", "Plants", "Roll all boards of a plant back to their previous deployment",
+    "This is a deployment like any other, of files the boards still have: it is monitored, and if a board is not\n"
     "healthy, all boards go back to what they run now. A second rollback goes forward again.\n"
     "The exit codes are those of indurop deploy.\n"
     "Examples:\n"

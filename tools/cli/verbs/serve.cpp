@@ -19,9 +19,9 @@ Action declare(base::Options& app, Context& /*context*/) {
 
 const Verb kServeVerb{
     "serve", "A running node", "Show boards of this host to browsers and programs, over HTTP and WebSocket",
-    "Becomes indurop-serve and prints its address. Shows the nodes that run and those that come; no tick notices it.\n"
+    "Becomes indurop-serve and prints its address. Shows running nodes and those that start later, and disturbs none.\n"
     "Without options it can be reached from this machine only, and nothing can be written. With --write it prints a\n"
-    "token: who has it may set, force, start and stop. The interface is described in docs/serve.md.\n"
+    "token: clients that have it may set, force, start and stop. The interface is described in docs/serve.md.\n"
     "Examples:\n"
     "  indurop serve\n"
     "  indurop serve --write --port 9000\n"

@@ -165,7 +165,7 @@ const Verb kStatusVerb{
     "status", "A running node", "Show the state of the node and its modules",
     "EXEC is the execution time of run(), JITTER |J_n|: how far a start was from its place on the grid. A state in\n"
     "brackets is the last one of a node that has ended. On a narrow terminal some columns are left out.\n"
-    "Exit code 0 if the node runs, 6 if it does not (then the last figures are shown). With --check it is 4 if the\n"
+    "Exit code 0 if the node runs, 6 if it does not (then its last values are shown). With --check it is 4 if the\n"
     "node runs and something is wrong now (lines 'wrong'): a module is stopped, faulted or has not started, another\n"
     "board is not there, an alarm is active or not acknowledged. Overruns, lost ticks and faults that are over do\n"
     "not count.\n"

@@ -171,7 +171,7 @@ int stream(Context& context, const Options& options) {
     return stream_to_foxglove(context, options);
   }
   if (!options.plotjuggler) {
-    context.out.error("to whom? --plotjuggler or --foxglove (see: indurop help stream)");
+    context.out.error("name a receiver: --plotjuggler or --foxglove (see: indurop help stream)");
     return kUsage;
   }
   auto sender = Sender::open(options.to);

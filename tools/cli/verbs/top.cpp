@@ -37,7 +37,7 @@ class Top {
       if (i > 0) {
         wait_until(rt::now_ns() + interval_ns());
       }
-      look();
+      update();
       constexpr int kRows = 24;
       for (const TopLine& line : page(context_.out.extent().columns, kRows)) {
         context_.out.line(context_.out.paint(line.style, line.text));
@@ -59,7 +59,7 @@ class Top {
           return kOk;
         }
         if (!look_.paused) {
-          look();
+          update();
         }
         next = now + interval_ns();
       }
@@ -77,7 +77,7 @@ class Top {
  private:
   [[nodiscard]] std::int64_t interval_ns() const { return static_cast<std::int64_t>(options_.seconds * 1e9); }
 
-  void look() {
+  void update() {
     look_.nodes = vars::running_nodes();
     auto run = open_run(node_);
     if (!run) {
@@ -104,7 +104,7 @@ class Top {
     const auto at = std::find(look_.nodes.begin(), look_.nodes.end(), sample_ ? sample_->report.node : node_);
     node_ = at == look_.nodes.end() || at + 1 == look_.nodes.end() ? look_.nodes.front() : *(at + 1);
     look_.first = 0;
-    look();
+    update();
   }
 
   // Returns false if the user wants to quit.
@@ -159,9 +159,8 @@ Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   constexpr double kLeastSeconds = 0.1;
   constexpr double kMostSeconds = 3600;
-  app.add("-d,--delay", "SECONDS", options->seconds, "Look again after so long (default 1)")
-      .range(kLeastSeconds, kMostSeconds);
-  app.add("-n,--count", "COUNT", options->count, "Stop after COUNT looks (in a pipe: 1)");
+  app.add("-d,--delay", "SECONDS", options->seconds, "Update interval (default 1)").range(kLeastSeconds, kMostSeconds);
+  app.add("-n,--count", "COUNT", options->count, "Stop after COUNT updates (in a pipe: 1)");
   add_node_option(app, context);
   return [options](Context& c) { return top(c, *options); };
 }
@@ -169,7 +168,7 @@ Action declare(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kTopVerb{"top", "A running node", "Follow a node and its modules on the whole screen, the busiest first",
-                    "LOAD% is the share of a core that a module took since the last look, JIT 99% the jitter that 99 "
+                    "LOAD% is the share of a core that a module took since the last update, JIT 99% the jitter that 99 "
                     "of 100 runs keep.\n"
                     "Keys: q (F10) quits, n (Tab) goes to the next node, s (F6) sorts by load, name, overruns or "
                     "jitter, the space bar\n"

@@ -9,7 +9,7 @@
 #include "core/rt/clock.h"
 #include "deploy/disk/state_check.h"
 #include "store/vars/retain.h"
-#include "tools/cli/plant/heard_boards.h"
+#include "tools/cli/plant/discovered_boards.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/board/board_texts.h"
 #include "tools/client/process/interrupt.h"
@@ -33,7 +33,7 @@ bool is_state_folder(const std::filesystem::path& folder) {
   return std::filesystem::is_directory(folder / "deployments", ignored);
 }
 
-Result<Findings, Failure> look_here() {
+Result<Findings, Failure> verify_local() {
   Findings found;
   const std::filesystem::path root = vars::state_directory("x").parent_path();
   std::error_code error;
@@ -59,8 +59,8 @@ Result<Findings, Failure> look_here() {
 
 // Requests until all have answered; boards without an answer in time, or of a release that does not support it, are in
 // `silent`.
-Result<Findings, Failure> look_there(Context& context, Options& options, std::vector<std::string>& silent) {
-  auto boards = hear_boards(context, options.link, options.board);
+Result<Findings, Failure> verify_remote(Context& context, Options& options, std::vector<std::string>& silent) {
+  auto boards = discover_boards(context, options.link, options.board);
   if (!boards) {
     return boards.error();
   }
@@ -97,7 +97,7 @@ Result<Findings, Failure> look_there(Context& context, Options& options, std::ve
   return interrupted() ? Result<Findings, Failure>(Failure{interrupt_code(), {}}) : std::move(found);
 }
 
-void tell(Context& context, const std::string& board, const JsonValue& finding) {
+void report_finding(Context& context, const std::string& board, const JsonValue& finding) {
   for (const JsonValue& one : finding["damaged"].values()) {
     deploy::Damage damage;
     std::string file;
@@ -109,14 +109,14 @@ void tell(Context& context, const std::string& board, const JsonValue& finding) 
     read(one, "repaired", repaired);
     damage.file = file;
     context.out.error(
-        fmt::format("{}: {}{}", board, describe(damage), repaired ? "; it was made again from another copy" : ""));
+        fmt::format("{}: {}{}", board, describe(damage), repaired ? "; it was restored from another copy" : ""));
   }
 }
 
 int verify(Context& context, Options& options) {
   std::vector<std::string> silent;
   const bool remote = options.plant || !options.board.empty();
-  const auto found = remote ? look_there(context, options, silent) : look_here();
+  const auto found = remote ? verify_remote(context, options, silent) : verify_local();
   if (!found) {
     return report(context.out, found.error());
   }
@@ -127,7 +127,7 @@ int verify(Context& context, Options& options) {
                {"DAMAGED", "damaged", Align::Right}});
   bool sound = true;
   for (const auto& [board, finding] : *found) {
-    tell(context, board, finding);
+    report_finding(context, board, finding);
     const std::size_t damaged = finding["damaged"].values().size();
     const std::uint64_t bytes = finding["bytes"].natural().value_or(0);
     const std::uint64_t files = finding["files"].natural().value_or(0);
@@ -171,7 +171,7 @@ const Verb kVerifyVerb{
     "Reads everything a board keeps of its deployments: what is committed, its files and their copies that run. "
     "Without\n"
     "--plant or --board it reads those of the boards of this machine and changes nothing. An agent that is asked also\n"
-    "drops what is damaged and makes it again from what the board has besides.\n"
+    "deletes what is damaged and restores it from other copies on the board.\n"
     "Exit codes: 0 all is as it was deployed, 4 something is not, 6 a board is not there or does not answer.\n"
     "Examples:\n"
     "  indurop verify\n"

@@ -85,15 +85,15 @@ int stream(Context& context, WatchSource& source, const Options& options) {
   if (context.format == Format::Csv) {
     print_csv_heading(context, source, options.units);
   }
-  std::string said;
+  std::string absence;
   bool first = true;
   bool key = false;
   while (rounds.wait(-1, key)) {
     source.sample(context, 0, kAll);
-    const bool was_gone = !said.empty();
+    const bool was_gone = !absence.empty();
     if (source.alive() == was_gone) {
-      said = source.absence();
-      context.out.note(source.alive() ? context.values->back() : context.values->gone(said));
+      absence = source.absence();
+      context.out.note(source.alive() ? context.values->back() : context.values->gone(absence));
     }
     switch (context.format) {
       case Format::Json:

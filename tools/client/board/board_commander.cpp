@@ -31,7 +31,7 @@ Result<BoardCommander, Failure> BoardCommander::make(Messages& messages, const s
   return BoardCommander(std::move(key).value());
 }
 
-Result<Answered, Failure> BoardCommander::give(deploy::DeployLink& link, std::uint64_t self,
+Result<Answered, Failure> BoardCommander::send(deploy::DeployLink& link, std::uint64_t self,
                                                const deploy::BoardReport& board, deploy::Action action,
                                                const std::string& target, std::int64_t timeout_ns) {
   if (commands_ == nullptr) {
@@ -44,13 +44,13 @@ Result<Answered, Failure> BoardCommander::give(deploy::DeployLink& link, std::ui
   deploy::Command command{self, deploy::host_name(), board.board, board.agent, board.plant, action, target, 0, {}};
   bool taken = false;
   const std::int64_t begin = rt::now_ns();
-  std::int64_t say_ns = 0;
+  std::int64_t send_ns = 0;
   while (!interrupted() && rt::now_ns() < begin + timeout_ns) {
-    if (rt::now_ns() >= say_ns) {
+    if (rt::now_ns() >= send_ns) {
       commands_->send(command);
-      say_ns = rt::now_ns() + kRepeatNs;
+      send_ns = rt::now_ns() + kRepeatNs;
     }
-    link.wait(rt::mono_time(std::min(say_ns, begin + timeout_ns)));
+    link.wait(rt::mono_time(std::min(send_ns, begin + timeout_ns)));
     for (const deploy::CommandReply& reply : commands_->take_replies()) {
       if (reply.commander != command.commander || reply.board != command.board || reply.agent != command.agent) {
         continue;
@@ -58,7 +58,7 @@ Result<Answered, Failure> BoardCommander::give(deploy::DeployLink& link, std::ui
       if (reply.outcome == Outcome::Nonce && !taken) {
         command.nonce = reply.nonce;
         command.signature = key_.empty() ? "" : keys::signature_of(deploy::command_text(command), key_);
-        say_ns = 0;
+        send_ns = 0;
       } else if (reply.nonce == command.nonce && reply.outcome == Outcome::UnderWay) {
         taken = true;
       } else if (reply.nonce == command.nonce && reply.outcome != Outcome::Nonce) {
@@ -71,7 +71,7 @@ Result<Answered, Failure> BoardCommander::give(deploy::DeployLink& link, std::ui
   }
   return Failure{kUnreachable,
                  fmt::format("{} within {}",
-                             taken ? "the board is still at it, not done"
+                             taken ? "the board is still working on it"
                                    : "its agent did not answer (agents of older releases do not know all commands)",
                              human_age(timeout_ns))};
 }

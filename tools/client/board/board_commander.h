@@ -28,7 +28,7 @@ class BoardCommander {
   static Result<BoardCommander, Failure> make(Messages& messages, const std::filesystem::path& keys);
 
   // `self`: session of the link. Fails if no final answer comes in time, or the user interrupts.
-  Result<Answered, Failure> give(deploy::DeployLink& link, std::uint64_t self, const deploy::BoardReport& board,
+  Result<Answered, Failure> send(deploy::DeployLink& link, std::uint64_t self, const deploy::BoardReport& board,
                                  deploy::Action action, const std::string& target, std::int64_t timeout_ns);
 
  private:

@@ -35,7 +35,7 @@ std::unique_ptr<deploy::DeployLink> open_link(Messages& messages, deploy::LinkSe
 
 std::string keys_hint(const deploy::LinkSettings& settings) {
   if (!settings.network.security.on()) {
-    return "; boards that have keys speak only to who has keys of their plant: --keys DIR";
+    return "; secured boards answer only clients with keys of their plant: --keys DIR";
   }
   // It is random which of the two sides refuses, and reports the reason.
   const std::string refusal = dds::last_refusal();

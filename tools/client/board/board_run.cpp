@@ -49,7 +49,7 @@ Result<BoardRun, Failure> read_run(const std::string& who, const std::string& te
   bool running = false;
   std::int64_t now_ns = 0;
   if (line == std::string::npos || !read(head, "running", running) || !read(head, "now_ns", now_ns)) {
-    return Failure{kFailed, fmt::format("{} does not say how a node does", who)};
+    return Failure{kFailed, fmt::format("{} does not report the state of a node", who)};
   }
   if (line + 1 == text.size()) {
     return Failure{kUnreachable, fmt::format("{} has no node that runs or ran", who)};
@@ -58,7 +58,7 @@ Result<BoardRun, Failure> read_run(const std::string& who, const std::string& te
   if (!run) {
     return run.error().code == Errc::VersionMismatch
                ? Failure{kSchemaMismatch, fmt::format("{} is of another release of InduRoP", who)}
-               : Failure{kFailed, fmt::format("what {} says is damaged ({})", who, run.error().where)};
+               : Failure{kFailed, fmt::format("the data of {} is damaged ({})", who, run.error().where)};
   }
   const std::string node = fixed_text(run->block().node_name);
   return BoardRun{{node, std::move(run).value()}, forces_in(head), lock_in(head)};

@@ -145,7 +145,7 @@ JsonValue json_of_impostors(const BoardRoster& roster) {
   return all;
 }
 
-std::vector<std::string> boards_not_heard(const BoardRoster& roster) {
+std::vector<std::string> missing_boards(const BoardRoster& roster) {
   std::set<std::string> missing;
   for (const auto& [key, entry] : roster.all()) {
     for (const std::string& member : entry.report.members) {

@@ -25,6 +25,6 @@ void note_others(Messages& messages, const BoardRoster& roster);
 JsonValue json_of_others(const BoardRoster& roster);
 JsonValue json_of_impostors(const BoardRoster& roster);
 // Boards that others name as members of their plant and that were not discovered.
-std::vector<std::string> boards_not_heard(const BoardRoster& roster);
+std::vector<std::string> missing_boards(const BoardRoster& roster);
 
 }  // namespace indurop::tools

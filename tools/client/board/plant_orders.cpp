@@ -82,15 +82,15 @@ Result<std::string, Failure> PlantWatch::order(const std::string& board, const R
   if (!open()) {
     return Failure{kUnreachable, problem_};
   }
-  KeptMessages said;
+  KeptMessages messages;
   if (commander_ == nullptr) {
-    auto made = BoardCommander::make(said, settings_.keys);
+    auto made = BoardCommander::make(messages, settings_.keys);
     if (!made) {
-      return Failure{kFailed, said.texts.empty() ? made.error().text : said.texts.front()};
+      return Failure{kFailed, messages.texts.empty() ? made.error().text : messages.texts.front()};
     }
     commander_ = std::make_unique<BoardCommander>(std::move(made).value());
   }
-  look();
+  update();
   const BoardRoster::Entry* entry = roster_.find(board);
   if (entry != nullptr && entry->report.plant.empty()) {
     // A command names the plant, and a recent deployment may not have been reported yet.
@@ -103,7 +103,7 @@ Result<std::string, Failure> PlantWatch::order(const std::string& board, const R
   if (entry == nullptr) {
     return Failure{kUnreachable, fmt::format("board {} is not heard", board)};
   }
-  const auto answered = commander_->give(*link_, settings_.self, entry->report, action_of(order.what),
+  const auto answered = commander_->send(*link_, settings_.self, entry->report, action_of(order.what),
                                          target_of(order, entry->report.release), kPatienceNs);
   if (!answered) {
     return Failure{answered.error().code, fmt::format("board {}: {}", board, answered.error().text)};

@@ -16,7 +16,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kHearNs = 1'500'000'000;  // agents report twice a second
+constexpr std::int64_t kDiscoverNs = 1'500'000'000;  // agents report twice a second
 constexpr std::int64_t kLateNs = 3'000'000'000;
 
 }  // namespace
@@ -32,11 +32,11 @@ bool PlantWatch::open() {
     return false;
   }
   link_ = std::move(opened->link);
-  roster_.gather(*link_, kHearNs, [this] { return roster_.complete(); });
+  roster_.gather(*link_, kDiscoverNs, [this] { return roster_.complete(); });
   return true;
 }
 
-void PlantWatch::look() {
+void PlantWatch::update() {
   if (!open()) {
     return;
   }
@@ -71,7 +71,7 @@ base::Json PlantWatch::json() const {
   out["problem"] = problem_;
   out["trouble"] = troubles(boards);
   out["boards"] = std::move(boards);
-  out["not_heard"] = base::Json(boards_not_heard(roster_));
+  out["not_heard"] = base::Json(missing_boards(roster_));
   out["other_releases"] = json_of_others(roster_);
   return out;
 }
@@ -102,7 +102,7 @@ base::Json PlantWatch::troubles(const base::Json& boards) const {
       rest.push_back(fmt::format("board {}: {} ticks were lost", name, number("lost_ticks")));
     }
   }
-  for (const std::string& name : boards_not_heard(roster_)) {
+  for (const std::string& name : missing_boards(roster_)) {
     if (!silent.contains(name)) {
       worst.push_back(fmt::format("board {} belongs to the plant and is not heard", name));
     }

@@ -25,7 +25,7 @@ class PlantWatch {
 
   // Processes received messages; the first call waits until the boards are discovered, at most 1.5 s. To be called
   // twice a second.
-  void look();
+  void update();
   // The boards as `indurop boards -o json` prints them, with "heard": false for those that were present and are not
   // now. "problem": why none can be discovered; "trouble": what is wrong with the plant, as texts, worst first.
   [[nodiscard]] base::Json json() const;

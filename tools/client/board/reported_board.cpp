@@ -114,7 +114,7 @@ bool ReportedBoard::take_variables(std::string_view text) {
   const std::lock_guard<std::mutex> guard(mutex_);
   store_ = std::move(fresh).value();
   views_ = std::move(views);
-  said_.layout = layout;
+  report_.layout = layout;
   forced_.clear();
   next_ns_ = 0;
   generation_.fetch_add(1, std::memory_order_release);
@@ -128,7 +128,7 @@ ReportedBoard::Taken ReportedBoard::take_values(std::string_view text, std::int6
     return Taken::Nonsense;
   }
   const std::lock_guard<std::mutex> guard(mutex_);
-  if (!store_ || layout != said_.layout) {
+  if (!store_ || layout != report_.layout) {
     return Taken::OtherVariables;
   }
   const auto& variables = store_->schema().variables;
@@ -151,10 +151,10 @@ ReportedBoard::Taken ReportedBoard::take_values(std::string_view text, std::int6
     hold(reported);
     forced_ = forced;
   }
-  said_.forces = shown_forces(reported);
-  said_.lock = parts->first["lock"];
-  said_.alarms = parts->first["alarms"];
-  said_.values = true;
+  report_.forces = shown_forces(reported);
+  report_.lock = parts->first["lock"];
+  report_.alarms = parts->first["alarms"];
+  report_.values = true;
   node_runs_ = parts->first["running"].boolean().value_or(false);
   next_ns_ = now_ns +
              std::max<std::int64_t>(kEveryNs, static_cast<std::int64_t>(text.size()) * kSecondNs / kMostBytesPerSecond);
@@ -200,19 +200,19 @@ void ReportedBoard::write(std::string_view bytes, std::int64_t now_ns) {
 
 void ReportedBoard::update(const base::Json& row) {
   const std::lock_guard<std::mutex> guard(mutex_);
-  said_.row = row;
-  said_.heard = row["heard"].boolean().value_or(false);
+  report_.row = row;
+  report_.heard = row["heard"].boolean().value_or(false);
   const std::string state = row["state"].text().value_or("");
   // An agent does not control a node that was started by hand; its values show that it runs.
-  said_.running = said_.heard && (state == "running" || (said_.values && node_runs_));
-  said_.state = !said_.heard    ? fmt::format("not heard, last {} ago", human_age(row["age_ns"].integer().value_or(0)))
-                : said_.running ? "running"
-                                : state;
+  report_.running = report_.heard && (state == "running" || (report_.values && node_runs_));
+  report_.state = !report_.heard ? fmt::format("not heard, last {} ago", human_age(row["age_ns"].integer().value_or(0)))
+                  : report_.running ? "running"
+                                    : state;
 }
 
 void ReportedBoard::silent() {
   const std::lock_guard<std::mutex> guard(mutex_);
-  said_.values = false;
+  report_.values = false;
   next_ns_ = rt::now_ns() + kSecondNs;
   for (const vars::DirectoryEntry& entry : store_ ? store_->directory() : std::span<const vars::DirectoryEntry>()) {
     auto& confirmed = abi::confirmed_of(store_->entry(entry.name_hash, entry.type_hash), entry.kind);
@@ -241,9 +241,9 @@ Result<vars::Store> ReportedBoard::attach(std::size_t reader) {
   return view;
 }
 
-ReportedBoard::Said ReportedBoard::said() const {
+ReportedBoard::Report ReportedBoard::report() const {
   const std::lock_guard<std::mutex> guard(mutex_);
-  return said_;
+  return report_;
 }
 
 }  // namespace indurop::tools

@@ -48,7 +48,7 @@ class ReportedBoard {
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_.load(std::memory_order_acquire); }
   // Errors: NotFound (nothing was received yet), Busy (this reader has it already).
   Result<vars::Store> attach(std::size_t reader);
-  struct Said {
+  struct Report {
     base::Json row;
     base::Json forces = base::Json::array();  // format of json_of(ForceView)
     base::Json lock;
@@ -59,7 +59,7 @@ class ReportedBoard {
     bool running = false;  // the node runs and the board is received
     bool values = false;   // values are being received
   };
-  [[nodiscard]] Said said() const;
+  [[nodiscard]] Report report() const;
 
  private:
   void hold(const base::Json& forces);
@@ -70,7 +70,7 @@ class ReportedBoard {
   std::atomic<std::uint64_t> generation_{0};
 
   mutable std::mutex mutex_;  // protects all members below
-  Said said_;
+  Report report_;
   std::optional<vars::Store> store_;  // the one that is written
   std::array<std::optional<vars::Store>, kReaders> views_;
   bool node_runs_ = false;  // as received with its values

@@ -127,7 +127,7 @@ Result<Commanded, Failure> command_module(const std::string& node, ModuleCommand
   }
   return Failure{kUnreachable,
                  run->node_alive()
-                     ? fmt::format("module '{}' was not {} within {}; the node is still at it (indurop status)",
+                     ? fmt::format("module '{}' was not {} within {}; the node is still working on it (indurop status)",
                                    printable(module), past_of(command), human_age(timeout_ns))
                      : fmt::format("node '{}' has ended meanwhile", node)};
 }

@@ -52,7 +52,7 @@ PlcFiles files_of(const std::string& words) {
 struct PlcPictures::Program {
   // A view of one node.
   struct Watched {
-    KeptMessages said;
+    KeptMessages messages;
     Access access;
     std::unique_ptr<PlcView> view;
   };
@@ -77,7 +77,7 @@ struct PlcPictures::Program {
     }
     const std::string hint =
         compile.glb_files.empty()
-            ? fmt::format("; .glb files whose variables it uses stand behind it: --plc {},robot.glb",
+            ? fmt::format("; .glb files whose variables it uses are named after it: --plc {},robot.glb",
                           compile.files.front())
             : std::string();
     return Failure{kCheckFailed, fmt::format("the PLC program has errors: {}{}", first, hint)};
@@ -94,13 +94,14 @@ struct PlcPictures::Program {
     }
     watched = std::make_unique<Watched>();
     watched->access.node = node;
-    watched->access.messages = &watched->said;
+    watched->access.messages = &watched->messages;
     plc::Diagnostics quiet;  // errors were reported already
     auto view =
         std::make_unique<PlcView>(watched->access, *plan, plc::live_bodies(plan->document, "", quiet), ViewChoice{});
     if (auto opened = view->open(); !opened) {
       const Failure& why = opened.error();
-      return Failure{why.code, why.text.empty() ? fmt::format("{}", fmt::join(watched->said.texts, "; ")) : why.text};
+      return Failure{why.code,
+                     why.text.empty() ? fmt::format("{}", fmt::join(watched->messages.texts, "; ")) : why.text};
     }
     watched->view = std::move(view);
     return watched->view.get();
@@ -136,8 +137,8 @@ PlcPictures::PlcPictures(const std::vector<PlcFiles>& programs) {
 
 PlcPictures::~PlcPictures() = default;
 
-Result<base::Json, Failure> PlcPictures::tell(const std::string& node, const std::string& program, bool check_node,
-                                              Tell what) {
+Result<base::Json, Failure> PlcPictures::answer(const std::string& node, const std::string& program, bool check_node,
+                                                Answer what) {
   std::optional<Failure> failure;
   base::Json names = base::Json::array();
   for (const auto& one : programs_) {
@@ -165,11 +166,11 @@ Result<base::Json, Failure> PlcPictures::tell(const std::string& node, const std
 }
 
 Result<base::Json, Failure> PlcPictures::pictures(const std::string& node, const std::string& program) {
-  return tell(node, program, true, &PlcView::pictures);
+  return answer(node, program, true, &PlcView::pictures);
 }
 
 Result<base::Json, Failure> PlcPictures::live(const std::string& node, const std::string& program) {
-  return tell(node, program, false, &PlcView::live);
+  return answer(node, program, false, &PlcView::live);
 }
 
 }  // namespace indurop::tools

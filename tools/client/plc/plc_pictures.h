@@ -45,9 +45,9 @@ class PlcPictures {
   Result<base::Json, Failure> live(const std::string& node, const std::string& program);
 
  private:
-  using Tell = base::Json (PlcView::*)() const;
+  using Answer = base::Json (PlcView::*)() const;
   struct Program;
-  Result<base::Json, Failure> tell(const std::string& node, const std::string& program, bool check_node, Tell what);
+  Result<base::Json, Failure> answer(const std::string& node, const std::string& program, bool check_node, Answer what);
 
   std::vector<std::unique_ptr<Program>> programs_;
 };

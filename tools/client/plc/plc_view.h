@@ -71,8 +71,8 @@ class PlcView {
   [[nodiscard]] std::string output_value(const Shown& shown, const plc::network::Source& source) const;
 
   [[nodiscard]] JsonValue networks_of(const Shown& shown) const;
-  void tell_networks(const Shown& shown, JsonValue& one) const;
-  void tell_steps(const Shown& shown, JsonValue& one) const;
+  void add_networks(const Shown& shown, JsonValue& one) const;
+  void add_steps(const Shown& shown, JsonValue& one) const;
 
   Access& access_;
   const plc::WatchPlan& plan_;

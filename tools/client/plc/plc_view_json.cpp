@@ -173,7 +173,7 @@ JsonValue PlcView::pictures() const {
   return out;
 }
 
-void PlcView::tell_networks(const Shown& shown, JsonValue& one) const {
+void PlcView::add_networks(const Shown& shown, JsonValue& one) const {
   const plc::draw::Live live = live_of(shown);
   JsonValue networks = JsonValue::array();
   for (const plc::draw::Picture& picture : shown.body->pictures) {
@@ -200,7 +200,7 @@ void PlcView::tell_networks(const Shown& shown, JsonValue& one) const {
   one["networks"] = std::move(networks);
 }
 
-void PlcView::tell_steps(const Shown& shown, JsonValue& one) const {
+void PlcView::add_steps(const Shown& shown, JsonValue& one) const {
   std::vector<bool> active;
   JsonValue times = JsonValue::array();
   for (const plc::network::Step& step : shown.body->chart->steps) {
@@ -224,9 +224,9 @@ JsonValue PlcView::live() const {
   for (const Shown& shown : shown_) {
     JsonValue one = JsonValue::object();
     if (shown.body->drawn()) {
-      tell_networks(shown, one);
+      add_networks(shown, one);
     } else if (shown.body->chart) {
-      tell_steps(shown, one);
+      add_steps(shown, one);
     } else if (is_text(*shown.body)) {
       JsonValue values = JsonValue::array();
       for (const plc::LiveLine& line : plc::live_lines(first_indent(*shown.body) + shown.body->body->text,

@@ -26,7 +26,7 @@ bool has(std::span<const std::uint32_t> indices, std::uint32_t one) {
 
 // Returns the tracks on which the variable is known best: those of its writers; else that of the reader that runs most
 // often.
-std::vector<std::size_t> tellers(const tape::Follower& follower, const RunView& run, std::uint32_t variable) {
+std::vector<std::size_t> writers_of(const tape::Follower& follower, const RunView& run, std::uint32_t variable) {
   std::vector<std::size_t> writers;
   std::optional<std::size_t> reader;
   for (std::size_t track = 0; track < follower.tracks(); ++track) {
@@ -67,7 +67,7 @@ Result<void, Problem> TickSampler::choose_tracks(const RunView& run, const vars:
     const auto variable = static_cast<std::uint32_t>(entry - directory.begin());
     const auto tracks = entry == directory.end() || follower_.variables()[variable].taped == 0
                             ? std::vector<std::size_t>()
-                            : tellers(follower_, run, variable);
+                            : writers_of(follower_, run, variable);
     if (tracks.empty()) {
       return Problem{fmt::format("{} is too large for the tape; start the node with a larger --tape",
                                  store.schema().variables[inputs_[input].variable].name)};

@@ -100,7 +100,7 @@ bool Scope::add(std::uint64_t tick, std::span<const double> inputs) {
   }
   rows_.push_back(std::move(row));
   newest_tick_ = tick;
-  const bool hit = !plan_.trigger || plan_.trigger->look(inputs);
+  const bool hit = !plan_.trigger || plan_.trigger->evaluate(inputs);
   if (!live_ && !(order_.past && tick > order_.after_tick)) {
     return false;
   }

@@ -30,7 +30,7 @@ Result<Trigger, base::Problem> Trigger::parse(std::string_view text, const FindO
   return Trigger(std::move(formula).value(), edge);
 }
 
-bool Trigger::look(std::span<const double> inputs) {
+bool Trigger::evaluate(std::span<const double> inputs) {
   const double now = formula_.value(inputs);
   if (std::isnan(now)) {
     return false;  // the previous value remains valid

@@ -20,7 +20,7 @@ class Trigger {
   static Result<Trigger, base::Problem> parse(std::string_view text, const FindOperand& find);
 
   // Evaluates the next sample; returns true if the trigger fires. It never fires at the first sample.
-  bool look(std::span<const double> inputs);
+  bool evaluate(std::span<const double> inputs);
 
  private:
   enum class Edge { Rises, Falls, Changes };

@@ -11,11 +11,11 @@
 
 namespace indurop::serve {
 
-void AlarmDesk::look(std::vector<std::string> boards) {
-  (void)worker_.add_if_idle([this, boards = std::move(boards)] { look_now(boards); });
+void AlarmDesk::check(std::vector<std::string> boards) {
+  (void)worker_.add_if_idle([this, boards = std::move(boards)] { check_now(boards); });
 }
 
-void AlarmDesk::look_now(const std::vector<std::string>& boards) {
+void AlarmDesk::check_now(const std::vector<std::string>& boards) {
   constexpr std::uint64_t kIdleRounds = 10;  // a board without alarms is checked every second
   ++round_;
   for (const std::string& board : boards) {

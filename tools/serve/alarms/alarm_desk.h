@@ -18,7 +18,7 @@ namespace indurop::serve {
 class AlarmDesk {
  public:
   // Starts a check of these boards, unless the previous check is still running. Called by the door's thread.
-  void look(std::vector<std::string> boards);
+  void check(std::vector<std::string> boards);
   // May be called by any thread.
   [[nodiscard]] alarms::AlarmCounts counts(const std::string& board) const;
   // Returns one stream message for each board whose alarms changed since the last call. Called by the door's thread.
@@ -30,7 +30,7 @@ class AlarmDesk {
     std::uint64_t revision = 0;
     std::uint64_t reported = 0;
   };
-  void look_now(const std::vector<std::string>& boards);
+  void check_now(const std::vector<std::string>& boards);
 
   mutable std::mutex lock_;
   std::map<std::string, Figures, std::less<>> figures_;

@@ -19,7 +19,7 @@ Reply about_hand(Api& api, const Call& call,
   }
   const std::string& name = call.part.find("jog")->second;
   if (!(api.jogs().*what)((*found)->name(), name, call.who)) {
-    return refusal(status::kNotFound, "that hand is not at the switch any more: it was not heard in time");
+    return refusal(status::kNotFound, "this jog has ended: it was not renewed in time");
   }
   base::Json body = about(**found);
   body["jog"] = name;
@@ -44,7 +44,7 @@ Reply begin_jog(Api& api, const Call& call) {
     jog.speed.push_back(one.number().value_or(0));
   }
   if (!sound || jog.speed.empty()) {
-    return write.failed(status::kBadRequest, "robot, frame and speed are wanted");
+    return write.failed(status::kBadRequest, "robot, frame and speed are needed");
   }
   write.about(call.request->body, "");
   if (!(*found)->alive()) {

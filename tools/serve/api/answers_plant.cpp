@@ -18,13 +18,13 @@
 namespace indurop::serve::answers {
 namespace {
 
-struct Said {
+struct Printed {
   int code = kFailed;
   std::vector<std::string> lines;
 };
 
 // Runs in a separate process, because this one already uses the same DDS domain.
-Said roll_back(const deploy::LinkSettings& link, const std::string& id, const std::string& plant) {
+Printed roll_back(const deploy::LinkSettings& link, const std::string& id, const std::string& plant) {
   std::vector<std::string> words{base::program_folder() / "indurop", "--color", "never", "rollback", id};
   if (!plant.empty()) {
     words.insert(words.end(), {"--plant", plant});
@@ -49,7 +49,7 @@ bool is_id(const std::string& text) {
 }  // namespace
 
 Reply plant(Api& /*api*/, const Call& call) {
-  call.plant->look();
+  call.plant->update();
   return json_reply(call.plant->json());
 }
 
@@ -87,16 +87,17 @@ Reply plant_rollback(Api& api, const Call& call) {
   if (const auto unnoted = write.begin({{}, true})) {
     return write.failed(*unnoted);
   }
-  const Said said = roll_back(*call.link, id, plant);
-  if (said.code != kOk) {
-    std::vector<std::string> why = said.lines;
+  const Printed printed = roll_back(*call.link, id, plant);
+  if (printed.code != kOk) {
+    std::vector<std::string> why = printed.lines;
     std::reverse(why.begin(), why.end());  // the result is printed last
-    return why.empty() ? write.failed(status::kConflict, "it was not rolled back")
-                       : write.failed(Refused{said.code == kUnreachable ? status::kNoAnswer : status::kConflict, why});
+    return why.empty()
+               ? write.failed(status::kConflict, "it was not rolled back")
+               : write.failed(Refused{printed.code == kUnreachable ? status::kNoAnswer : status::kConflict, why});
   }
   base::Json body = base::Json::object();
   body["deployment"] = id;
-  body["messages"] = base::Json(said.lines);
+  body["messages"] = base::Json(printed.lines);
   return write.done(body);
 }
 

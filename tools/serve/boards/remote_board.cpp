@@ -42,14 +42,14 @@ RemoteBoard::RemoteBoard(std::shared_ptr<tools::ReportedBoard> reported, std::si
     : Board(reported->name()), reported_(std::move(reported)), reader_(reader), watch_(watch) {}
 
 void RemoteBoard::refresh() {
-  const auto said = reported_->said();
+  const auto report = reported_->report();
   if (reported_->generation() != generation()) {
     const std::uint64_t current = reported_->generation();
     if (auto fresh = reported_->attach(reader_); fresh.ok()) {
       attach(std::move(fresh).value(), current);
     }
   }
-  set_absence(said.running ? std::string() : said.state);
+  set_absence(report.running ? std::string() : report.state);
 }
 
 void RemoteBoard::want() const {
@@ -57,11 +57,11 @@ void RemoteBoard::want() const {
 }
 
 std::string RemoteBoard::state() const {
-  return absence().empty() ? reported_->said().state : absence();
+  return absence().empty() ? reported_->report().state : absence();
 }
 
 std::string RemoteBoard::steady_state() const {
-  return alive() || reported_->said().heard ? state() : "not heard";
+  return alive() || reported_->report().heard ? state() : "not heard";
 }
 
 std::string RemoteBoard::no_store() const {
@@ -69,25 +69,25 @@ std::string RemoteBoard::no_store() const {
 }
 
 Json RemoteBoard::forces() const {
-  return reported_->said().forces;
+  return reported_->report().forces;
 }
 
 Json RemoteBoard::lock() const {
-  return reported_->said().lock;
+  return reported_->report().lock;
 }
 
 std::optional<alarms::AlarmCounts> RemoteBoard::reported_alarms() const {
-  return alarms::counts_in(reported_->said().alarms);
+  return alarms::counts_in(reported_->report().alarms);
 }
 
 Json RemoteBoard::reported() const {
-  const auto said = reported_->said();
+  const auto report = reported_->report();
   return {{"here", false},
-          {"host", said.row["host"].text().value_or("")},
-          {"deployment", said.row["deployment"].text().value_or("")},
-          {"overruns", number_of(said.row, "overruns")},
-          {"faults", number_of(said.row, "faults")},
-          {"lost_ticks", number_of(said.row, "lost_ticks")}};
+          {"host", report.row["host"].text().value_or("")},
+          {"deployment", report.row["deployment"].text().value_or("")},
+          {"overruns", number_of(report.row, "overruns")},
+          {"faults", number_of(report.row, "faults")},
+          {"lost_ticks", number_of(report.row, "lost_ticks")}};
 }
 
 Result<Json, Refused> RemoteBoard::ask(const char* text, const char* what) {

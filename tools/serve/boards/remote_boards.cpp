@@ -48,7 +48,7 @@ std::shared_ptr<tools::ReportedBoard> RemoteBoards::find(const std::string& name
   return known != boards_.end() && !runs_here(name) ? known->second : nullptr;
 }
 
-void RemoteBoards::hear(const tools::PlantWatch& watch) {
+void RemoteBoards::update(const tools::PlantWatch& watch) {
   for (const base::Json& row : watch.rows()) {
     const std::string name = row["board"].text().value_or("");
     if (name.empty() || runs_here(name)) {
@@ -62,7 +62,7 @@ void RemoteBoards::hear(const tools::PlantWatch& watch) {
       board = known;
     }
     board->update(row);
-    if (const auto said = board->said(); !said.heard && said.values) {
+    if (const auto report = board->report(); !report.heard && report.values) {
       board->silent();
     }
   }
@@ -103,12 +103,12 @@ void RemoteBoards::ask(tools::PlantWatch& watch, const Some& boards) {
   }
 }
 
-void RemoteBoards::look(tools::PlantWatch& watch) {
-  hear(watch);
+void RemoteBoards::poll(tools::PlantWatch& watch) {
+  update(watch);
   const std::int64_t now = rt::now_ns();
   Some due;
   for (const auto& board : all()) {
-    const bool heard = board->said().heard && !runs_here(board->name());
+    const bool heard = board->report().heard && !runs_here(board->name());
     const bool wanted = board->knows_variables() ? board->due(now) : now >= learn_ns_[board->name()];
     if (heard && wanted) {
       learn_ns_[board->name()] = now + kLearnAgainNs;
@@ -121,9 +121,9 @@ void RemoteBoards::look(tools::PlantWatch& watch) {
 }
 
 void RemoteBoards::fetch(tools::PlantWatch& watch, const std::string& name) {
-  hear(watch);
+  update(watch);
   const auto board = find(name);
-  if (board == nullptr || !board->said().heard) {
+  if (board == nullptr || !board->report().heard) {
     return;
   }
   board->want(rt::now_ns());

@@ -20,7 +20,7 @@ class RemoteBoards {
  public:
   // Requests what is due; takes up to two seconds if a board does not answer. Called by the thread that receives from
   // boards.
-  void look(tools::PlantWatch& watch);
+  void poll(tools::PlantWatch& watch);
   // Fetches the current values of this board, as far as it answers.
   void fetch(tools::PlantWatch& watch, const std::string& name);
 
@@ -31,7 +31,7 @@ class RemoteBoards {
 
  private:
   using Some = std::vector<std::shared_ptr<tools::ReportedBoard>>;
-  void hear(const tools::PlantWatch& watch);
+  void update(const tools::PlantWatch& watch);
   void ask(tools::PlantWatch& watch, const Some& boards);
   static void learn(tools::PlantWatch& watch, const Some& boards);
   [[nodiscard]] Some all() const;

@@ -87,7 +87,7 @@ bool Connection::go_on(std::int64_t now_ns) {
     case Phase::Body:
       return body_came(now_ns);
     case Phase::Stream:
-      return hear(now_ns);
+      return read_frames(now_ns);
     case Phase::Closing:
       input_.clear();
       return true;

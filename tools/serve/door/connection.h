@@ -76,8 +76,8 @@ class Connection final : public Line {
   bool sent_all(std::int64_t now_ns);
   bool upgrade(const Head& head, Request request, std::int64_t now_ns);
   bool open_stream(const std::string& accept, std::int64_t now_ns);
-  bool hear(std::int64_t now_ns);
-  int heard(FrameKind kind, const std::string& data);
+  bool read_frames(std::int64_t now_ns);
+  int take_frame(FrameKind kind, const std::string& data);
   bool next_message();
   [[nodiscard]] std::string_view rest_of_message() const;
   bool close_stream(int code, std::int64_t now_ns);
@@ -110,7 +110,7 @@ class Connection final : public Line {
   std::size_t message_begin_ = 0;  // index in the frame
   std::size_t message_sent_ = 0;   // bytes of that
   bool asked_ = false;             // next() may have a message
-  std::int64_t heard_ns_ = 0;
+  std::int64_t received_ns_ = 0;
 };
 
 }  // namespace indurop::serve

@@ -60,28 +60,29 @@ bool Connection::open_stream(const std::string& accept, std::int64_t now_ns) {
   visitor_ = common_.house->receive(request_, *this);
   ++common_.streams;
   common_.unknown_streams += request_.client.role == Role::Unknown ? 1 : 0;
-  heard_ns_ = now_ns;
+  received_ns_ = now_ns;
   enter(Phase::Stream, kPingNs, now_ns);
   asked_ = true;
-  return hear(now_ns);
+  return read_frames(now_ns);
 }
 
-bool Connection::hear(std::int64_t now_ns) {
+bool Connection::read_frames(std::int64_t now_ns) {
   if (!input_.empty()) {
-    heard_ns_ = now_ns;
+    received_ns_ = now_ns;
   }
   const std::string bytes = std::exchange(input_, {});
-  const int code = frames_.feed(bytes, [this](FrameKind kind, const std::string& data) { return heard(kind, data); });
+  const int code =
+      frames_.feed(bytes, [this](FrameKind kind, const std::string& data) { return take_frame(kind, data); });
   if (output_.size() > kMostOutput) {
     return false;  // it keeps sending pings without reading the answers
   }
   return code == 0 || close_stream(code, now_ns);
 }
 
-int Connection::heard(FrameKind kind, const std::string& data) {
+int Connection::take_frame(FrameKind kind, const std::string& data) {
   switch (kind) {
     case FrameKind::Text:
-      return visitor_->heard(data);
+      return visitor_->receive(data);
     case FrameKind::Ping:
       output_ += frame_header(FrameKind::Pong, data.size()) + data;
       return 0;
@@ -136,7 +137,7 @@ bool Connection::close_stream(int code, std::int64_t now_ns) {
 }
 
 bool Connection::stream_on_time(std::int64_t now_ns) {
-  if (now_ns - heard_ns_ >= kSilentNs) {
+  if (now_ns - received_ns_ >= kSilentNs) {
     return false;
   }
   deadline_ns_ = now_ns + kPingNs;

@@ -64,7 +64,7 @@ struct Door::Impl {
   void turn();
   [[nodiscard]] int patience_ms() const;
   void let_in();
-  void give_replies();
+  void send_replies();
   void ring_alarms();
   void end_late();
 
@@ -166,7 +166,7 @@ void Door::Impl::turn() {
   }
   std::uint64_t ignored = 0;
   (void)!::read(wake.get(), &ignored, sizeof ignored);
-  give_replies();
+  send_replies();
   for (std::size_t i = 0; i < whose.size(); ++i) {
     const auto found = connections.find(whose[i]);
     if (found != connections.end() && (files[first + i].revents != 0 || found->second->holds_input()) &&
@@ -228,7 +228,7 @@ void Door::Impl::let_in() {
   }
 }
 
-void Door::Impl::give_replies() {
+void Door::Impl::send_replies() {
   std::vector<std::pair<Ticket, Reply>> given;
   {
     const std::lock_guard guard(lock);

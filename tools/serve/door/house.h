@@ -66,7 +66,7 @@ class Visitor {
   Visitor& operator=(const Visitor&) = delete;
   virtual ~Visitor() = default;
   // Receives a text message. A result other than 0 is the code to close with.
-  virtual int heard(std::string_view text) = 0;
+  virtual int receive(std::string_view text) = 0;
   // Returns the message to send now, null: none. It is called again until it returns null.
   virtual SharedMessage next() = 0;
 };

@@ -131,7 +131,7 @@ std::optional<Reply> read_first_line(std::string_view line, Head& head) {
   }
   const std::string_view version = line.substr(last + 1);
   if (version != "HTTP/1.1" && version != "HTTP/1.0") {
-    return bad("only HTTP/1.1 is spoken here");
+    return bad("only HTTP/1.1 is supported");
   }
   head.keeps_open = version == "HTTP/1.1";
   head.method = line.substr(0, first);
@@ -157,7 +157,7 @@ std::optional<Reply> read_field(std::string_view line, Head& head) {
   const bool known =
       std::any_of(head.fields.begin(), head.fields.end(), [&small](const auto& field) { return field.first == small; });
   if (known && std::find(kOnce.begin(), kOnce.end(), small) != kOnce.end()) {
-    return refusal(status::kBadRequest, fmt::format("the header {} stands there twice", small));
+    return refusal(status::kBadRequest, fmt::format("the header {} is given twice", small));
   }
   if (head.fields.size() >= kMostFields) {
     return refusal(status::kHeadTooLarge, "there are too many headers");

@@ -63,7 +63,7 @@ Result<JogDesk::Switch, Problem> JogDesk::switch_of(const vars::Store& store, co
   const auto speed = schema::find_place(store.schema(), name + ".dSpeed", message);
   if (!beat || !speed || speed->type.dims.size() != 1 || beat->type.base != schema::Base::UInt32) {
     return Problem{
-        fmt::format("{} has no nBeat: its robot was built before there was one, and is not moved from afar", name)};
+        fmt::format("{} has no nBeat: its robot was built with an older release and cannot be jogged remotely", name)};
   }
   return Switch{entry, variable->type, beat->offset, speed->type.dims[0]};
 }
@@ -141,7 +141,7 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
 }
 
 bool JogDesk::keep(const std::string& board, const std::string& name, const std::string& who) {
-  look();
+  end_overdue();
   return desk_.keep(board, name, who, [&board](Hand& hand) -> const char* {
     hand.count_beat();
     const bool written = !hand.store.retired() && vars::lock_of(board).lock == vars::WriteLock::None &&
@@ -160,7 +160,7 @@ bool JogDesk::end(const std::string& board, const std::string& name, const std::
   return desk_.end(board, name, who, [](Hand& hand) { hand.release(); });
 }
 
-void JogDesk::look() {
+void JogDesk::end_overdue() {
   desk_.expire([](Hand& hand) { hand.release(); }, "ended: its client did not renew it in time");
 }
 

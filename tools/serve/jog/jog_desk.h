@@ -41,7 +41,7 @@ class JogDesk {
   bool keep(const std::string& board, const std::string& name, const std::string& who);
   bool end(const std::string& board, const std::string& name, const std::string& who);
   // Releases switches whose client did not renew in time.
-  void look();
+  void end_overdue();
   [[nodiscard]] bool busy() const noexcept { return !desk_.is_empty(); }
 
  private:

@@ -33,7 +33,7 @@ std::string LeaseDesk::take(const std::string& board, const operate::Who& who, c
 }
 
 bool LeaseDesk::renew(const std::string& board, const std::string& name, const std::string& who) {
-  look();
+  end_overdue();
   return desk_.keep(board, name, who, [&board](Held& held) -> const char* {
     auto store = vars::Store::attach(board, vars::Mode::ReadWrite);
     return store && held.bind(*store) && operate::renew(held.lease, *store, kLeaseNs)
@@ -51,7 +51,7 @@ bool LeaseDesk::end(const std::string& board, const std::string& name, const std
   });
 }
 
-void LeaseDesk::look() {
+void LeaseDesk::end_overdue() {
   desk_.expire([](Held& /*held*/) {}, "ended: its client did not renew it in time");
 }
 

@@ -31,7 +31,7 @@ class LeaseDesk {
   bool renew(const std::string& board, const std::string& name, const std::string& who);
   bool end(const std::string& board, const std::string& name, const std::string& who);
   // Removes leases that were not renewed in time, and logs it.
-  void look();
+  void end_overdue();
 
  private:
   struct Held : HeldBase {

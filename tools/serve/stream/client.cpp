@@ -9,19 +9,19 @@
 namespace indurop::serve {
 StreamClient::StreamClient(Hub& hub, Line& line, std::uint64_t id, std::string address)
     : hub_(&hub), outbox_(line, id, std::move(address)) {
-  tell(hub.hello());
-  tell(hub.boards_word());
+  send_word(hub.hello());
+  send_word(hub.boards_word());
 }
 
 StreamClient::~StreamClient() {
   hub_->leave(*this);
 }
 
-void StreamClient::tell(std::string_view word) {
+void StreamClient::send_word(std::string_view word) {
   outbox_.add(word);
 }
 
-int StreamClient::heard(std::string_view text) {
+int StreamClient::receive(std::string_view text) {
   if (outbox_.is_full()) {
     return Outbox::kTooManyAnswers;
   }
@@ -30,12 +30,12 @@ int StreamClient::heard(std::string_view text) {
     if (word.error().garbage) {
       return close_code::kBadText;
     }
-    tell(error_word(word.error().id, "bad_request", word.error().message).dump());
+    send_word(error_word(word.error().id, "bad_request", word.error().message).dump());
     return 0;
   }
   if (word->kind == ClientWord::Kind::Unsubscribe) {
     subscriptions_.erase(word->id);
-    tell(fmt::format(R"({{"type":"unsubscribed","id":{}}})", word->id));
+    send_word(fmt::format(R"({{"type":"unsubscribed","id":{}}})", word->id));
     return 0;
   }
   subscribe(*word);
@@ -45,12 +45,13 @@ int StreamClient::heard(std::string_view text) {
 void StreamClient::subscribe(const ClientWord& word) {
   subscriptions_.erase(word.id);
   if (subscriptions_.size() >= kMostStreams) {
-    tell(error_word(word.id, "too_many", fmt::format("a client has at most {} subscriptions", kMostStreams)).dump());
+    send_word(
+        error_word(word.id, "too_many", fmt::format("a client has at most {} subscriptions", kMostStreams)).dump());
     return;
   }
   auto feed = hub_->feed_for(word);
   if (!feed) {
-    tell(error_word(word.id, feed.error().error, feed.error().message).dump());
+    send_word(error_word(word.id, feed.error().error, feed.error().message).dump());
     return;
   }
   std::size_t variables = (*feed)->size();
@@ -58,10 +59,11 @@ void StreamClient::subscribe(const ClientWord& word) {
     variables += other.feed->size();
   }
   if (variables > kMostVariables) {
-    tell(error_word(word.id, "too_many", fmt::format("a client follows at most {} variables", kMostVariables)).dump());
+    send_word(
+        error_word(word.id, "too_many", fmt::format("a client follows at most {} variables", kMostVariables)).dump());
     return;
   }
-  tell((*feed)->subscribed(word.id, word.binary).dump());
+  send_word((*feed)->subscribed(word.id, word.binary).dump());
   Subscription& mine = subscriptions_[word.id];
   mine.feed = *feed;
   mine.binary = word.binary;
@@ -95,8 +97,9 @@ void StreamClient::ended(const Feed& feed, const Board* board) {
     }
   }
   if (!ids.empty()) {
-    tell(fmt::format(R"({{"type":"layout_changed","board":{},"layout":"{}","ids":[{}]}})",
-                     base::Json(feed.board()).dump(), board != nullptr ? board->layout() : "", fmt::join(ids, ",")));
+    send_word(fmt::format(R"({{"type":"layout_changed","board":{},"layout":"{}","ids":[{}]}})",
+                          base::Json(feed.board()).dump(), board != nullptr ? board->layout() : "",
+                          fmt::join(ids, ",")));
   }
 }
 

@@ -22,13 +22,13 @@ class StreamClient final : public Follower {
   StreamClient& operator=(const StreamClient&) = delete;
   ~StreamClient() override;
 
-  int heard(std::string_view text) override;
+  int receive(std::string_view text) override;
   SharedMessage next() override;
 
-  void tell(std::string_view word) override;
+  void send_word(std::string_view word) override;
   void sampled(const Feed& feed) override;
   void ended(const Feed& feed, const Board* board) override;
-  void looked_around() override {}  // the hub's message reports it
+  void boards_updated() override {}  // the hub's message reports it
   [[nodiscard]] ClientFigures figures() const override;
 
  private:

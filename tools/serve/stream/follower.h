@@ -18,9 +18,9 @@ class Follower : public Visitor {
   // Called when names or types of the feed's board have changed: the feed has ended. `board`: null if it has gone.
   virtual void ended(const Feed& feed, const Board* board) = 0;
   // Sends a message for all clients: boards that came or went, alarms.
-  virtual void tell(std::string_view word) = 0;
+  virtual void send_word(std::string_view word) = 0;
   // Called after a check for boards that came, went or changed.
-  virtual void looked_around() = 0;
+  virtual void boards_updated() = 0;
   [[nodiscard]] virtual ClientFigures figures() const = 0;
 };
 

@@ -36,19 +36,19 @@ std::vector<tools::Item> items_of(const Board& board, const std::vector<std::str
 FoxgloveClient::FoxgloveClient(Hub& hub, Line& line, std::uint64_t id, std::string address,
                                const FoxgloveSettings& settings)
     : hub_(&hub), settings_(&settings), outbox_(line, id, std::move(address)) {
-  say(foxglove::server_info(hub.version(), rt::now_ns()));
-  looked_around();
+  send(foxglove::server_info(hub.version(), rt::now_ns()));
+  boards_updated();
 }
 
 FoxgloveClient::~FoxgloveClient() {
   hub_->leave(*this);
 }
 
-void FoxgloveClient::say(const std::string& text) {
+void FoxgloveClient::send(const std::string& text) {
   outbox_.add(text);
 }
 
-void FoxgloveClient::looked_around() {
+void FoxgloveClient::boards_updated() {
   const std::vector<std::string> names = hub_->boards().names();
   for (auto at = offered_.begin(); at != offered_.end();) {
     const bool there = std::find(names.begin(), names.end(), at->first) != names.end();
@@ -82,7 +82,7 @@ void FoxgloveClient::offer(const Board& board) {
     channels_[channel] = {board.name(), item.name};
     offered.channels.push_back(channel);
   }
-  say(foxglove::advertise(std::move(channels)));
+  send(foxglove::advertise(std::move(channels)));
   offered_[board.name()] = std::move(offered);
 }
 
@@ -100,11 +100,11 @@ void FoxgloveClient::withdraw(const Offered& offered) {
     unsubscribe(id);
   }
   if (!offered.channels.empty()) {
-    say(foxglove::unadvertise(offered.channels));
+    send(foxglove::unadvertise(offered.channels));
   }
 }
 
-int FoxgloveClient::heard(std::string_view text) {
+int FoxgloveClient::receive(std::string_view text) {
   if (outbox_.is_full()) {
     return Outbox::kTooManyAnswers;
   }
@@ -113,7 +113,7 @@ int FoxgloveClient::heard(std::string_view text) {
     return close_code::kBadText;
   }
   if (word->op != "subscribe" && word->op != "unsubscribe") {
-    say(foxglove::warning(fmt::format("'{}' is not served: variables can only be followed", word->op)));
+    send(foxglove::warning(fmt::format("'{}' is not served: variables can only be followed", word->op)));
   }
   for (const auto& [id, channel] : word->subscribe) {
     subscribe(id, channel);
@@ -130,10 +130,10 @@ void FoxgloveClient::subscribe(std::uint32_t id, std::uint32_t channel) {
     return;  // it was withdrawn just before
   }
   if (subscriptions_.contains(id) || subscriptions_.size() >= kMostSubscriptions) {
-    say(foxglove::warning(fmt::format("subscription {} is refused: {}", id,
-                                      subscriptions_.contains(id)
-                                          ? std::string("there is one of this id")
-                                          : fmt::format("a client has at most {}", kMostSubscriptions))));
+    send(foxglove::warning(fmt::format("subscription {} is refused: {}", id,
+                                       subscriptions_.contains(id)
+                                           ? std::string("there is one of this id")
+                                           : fmt::format("a client has at most {}", kMostSubscriptions))));
     return;
   }
   ClientWord word;
@@ -142,11 +142,11 @@ void FoxgloveClient::subscribe(std::uint32_t id, std::uint32_t channel) {
   word.rate_hz = settings_->rate_hz;
   auto feed = hub_->feed_for(word);
   if (!feed || (*feed)->size() != 1) {
-    say(foxglove::warning(fmt::format("{}: {}", wanted->second.name, feed ? "it has gone" : feed.error().message)));
+    send(foxglove::warning(fmt::format("{}: {}", wanted->second.name, feed ? "it has gone" : feed.error().message)));
     return;
   }
   if (!of_feed_.emplace(feed->get(), id).second) {
-    say(foxglove::warning(fmt::format("subscription {} is refused: channel {} has one", id, channel)));
+    send(foxglove::warning(fmt::format("subscription {} is refused: channel {} has one", id, channel)));
     return;
   }
   subscriptions_[id] = {channel, *feed, (*feed)->readable(0)};
@@ -177,7 +177,7 @@ void FoxgloveClient::sampled(const Feed& feed) {
 void FoxgloveClient::ended(const Feed& feed, const Board* /*board*/) {
   if (const auto found = of_feed_.find(&feed); found != of_feed_.end()) {
     unsubscribe(found->second);
-    looked_around();
+    boards_updated();
   }
 }
 
@@ -193,7 +193,7 @@ SharedMessage FoxgloveClient::message_of(std::uint32_t id, Subscription& subscri
 
 SharedMessage FoxgloveClient::next() {
   if (const std::int64_t now = rt::now_ns(); dropped_ > 0 && now - warned_ns_ > kTellEveryNs) {
-    say(foxglove::warning(fmt::format("{} messages were left out: they came faster than they were taken", dropped_)));
+    send(foxglove::warning(fmt::format("{} messages were left out: they came faster than they were taken", dropped_)));
     dropped_ = 0;
     warned_ns_ = now;
   }

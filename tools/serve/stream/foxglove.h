@@ -24,14 +24,14 @@ class FoxgloveClient final : public Follower {
   FoxgloveClient& operator=(const FoxgloveClient&) = delete;
   ~FoxgloveClient() override;
 
-  int heard(std::string_view text) override;
+  int receive(std::string_view text) override;
   SharedMessage next() override;
 
-  void tell(std::string_view /*word*/) override {}  // part of another protocol
+  void send_word(std::string_view /*word*/) override {}  // part of another protocol
   void sampled(const Feed& feed) override;
   void ended(const Feed& feed, const Board* board) override;
   // Advertises the variables of boards that came or changed, withdraws those of boards that went.
-  void looked_around() override;
+  void boards_updated() override;
   [[nodiscard]] ClientFigures figures() const override;
 
  private:
@@ -49,7 +49,7 @@ class FoxgloveClient final : public Follower {
     bool waiting = false;  // its sample has to be sent
   };
 
-  void say(const std::string& text);
+  void send(const std::string& text);
   void offer(const Board& board);
   void withdraw(const Offered& offered);
   void subscribe(std::uint32_t id, std::uint32_t channel);

@@ -14,7 +14,7 @@
 namespace indurop::serve {
 std::unique_ptr<Visitor> Hub::receive(const Request& request, Line& line) {
   if (boards_word_.empty()) {
-    look_around();
+    update_boards();
   }
   std::unique_ptr<Follower> client;
   if (is_foxglove(request.subprotocol)) {
@@ -109,7 +109,7 @@ void Hub::wake() {
   }
 }
 
-void Hub::look_around() {
+void Hub::update_boards() {
   base::Json list = base::Json::array();
   for (const std::string& name : boards_->names()) {
     const Board* const board = boards_->find(name);
@@ -127,19 +127,19 @@ void Hub::look_around() {
   word["type"] = "boards";
   word["boards"] = std::move(list);
   for (Follower* const client : clients_) {
-    client->looked_around();
+    client->boards_updated();
   }
   std::string text = word.dump();
   if (text == boards_word_) {
     return;
   }
   boards_word_ = std::move(text);
-  tell_all(boards_word_);
+  send_to_all(boards_word_);
 }
 
-void Hub::tell_all(const std::string& word) {
+void Hub::send_to_all(const std::string& word) {
   for (Follower* const client : clients_) {
-    client->tell(word);
+    client->send_word(word);
   }
 }
 

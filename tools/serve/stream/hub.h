@@ -42,9 +42,9 @@ class Hub {
   // Samples the feeds that are due.
   void run(std::int64_t now_ns);
   // Checks for boards that came, went or changed, and notifies all clients.
-  void look_around();
+  void update_boards();
   // Sends the same message to all clients.
-  void tell_all(const std::string& word);
+  void send_to_all(const std::string& word);
   [[nodiscard]] std::vector<ClientFigures> clients() const;
 
   // The following functions are for clients.

@@ -70,13 +70,13 @@ TEST_F(RemoteBoardTest, Holds_what_the_store_over_there_holds) {
       }
       ASSERT_TRUE(there.write(entry, 0, bytes).ok());
     }
-    deploy::BoardValues said(node_);
+    deploy::BoardValues report(node_);
     const std::int64_t now = rt::now_ns();
     if (round % 2 == 0) {
-      EXPECT_NE(sut.take_values(said.values(rt::mono_time(now)), now), Taken::Yes) << "of other variables";
+      EXPECT_NE(sut.take_values(report.values(rt::mono_time(now)), now), Taken::Yes) << "of other variables";
     }
-    ASSERT_TRUE(sut.take_variables(said.variables()));
-    ASSERT_EQ(sut.take_values(said.values(rt::mono_time(now)), now), Taken::Yes);
+    ASSERT_TRUE(sut.take_variables(report.variables()));
+    ASSERT_EQ(sut.take_values(report.values(rt::mono_time(now)), now), Taken::Yes);
     const auto here = sut.attach(1);
     ASSERT_TRUE(here.ok());
     EXPECT_FALSE(sut.attach(1).ok()) << "each reader once";
@@ -106,10 +106,10 @@ TEST_F(RemoteBoardTest, Tells_ages_silence_and_forces) {
   const auto& forced = there.directory().front();
   const double five = 5;
   ASSERT_TRUE(there.force(forced, 0, {reinterpret_cast<const std::uint8_t*>(&five), sizeof five}, vars::kForever).ok());
-  deploy::BoardValues said(node_);
+  deploy::BoardValues report(node_);
   ReportedBoard sut("there");
-  ASSERT_TRUE(sut.take_variables(said.variables()));
-  const std::string text = said.values(rt::mono_time(begun));
+  ASSERT_TRUE(sut.take_variables(report.variables()));
+  const std::string text = report.values(rt::mono_time(begun));
   const std::int64_t later = rt::now_ns() + 1'000'000'000;  // the clock over there is another one
   ASSERT_EQ(sut.take_values(text, later), Taken::Yes);
   const auto here = sut.attach(0);
@@ -126,24 +126,24 @@ TEST_F(RemoteBoardTest, Tells_ages_silence_and_forces) {
   ASSERT_EQ(here.value().forces().size(), 1U);
   EXPECT_EQ(here.value().forces().front().variable->name_hash, forced.name_hash);
   ASSERT_TRUE(there.release(forced, 0).ok());
-  ASSERT_EQ(sut.take_values(said.values(rt::MonoClock::now() + deploy::BoardValues::kKeep), later), Taken::Yes);
+  ASSERT_EQ(sut.take_values(report.values(rt::MonoClock::now() + deploy::BoardValues::kKeep), later), Taken::Yes);
   EXPECT_TRUE(here.value().forces().empty());
   sut.silent();
   EXPECT_EQ(confirmed("own"), -later);
-  EXPECT_FALSE(sut.said().values);
+  EXPECT_FALSE(sut.report().values);
 }
 
 TEST_F(RemoteBoardTest, Words_that_make_no_sense_change_nothing) {
   std::mt19937 rng(17);
   vars::Store there = random_store(rng);
-  deploy::BoardValues said(node_);
+  deploy::BoardValues report(node_);
   ReportedBoard sut("there");
   for (const char* text : {"", "\n", "{}\n{}", "[]\n", "{\"layout\": 1}\n", "{\"layout\": \"x\"}\nnothing"}) {
     EXPECT_FALSE(sut.take_variables(text)) << text;
   }
   EXPECT_FALSE(sut.attach(0).ok());
-  ASSERT_TRUE(sut.take_variables(said.variables()));
-  const std::string good = said.values(rt::MonoClock::now());
+  ASSERT_TRUE(sut.take_variables(report.variables()));
+  const std::string good = report.values(rt::MonoClock::now());
   const auto here = sut.attach(0);
   ASSERT_EQ(sut.take_values(good, 1000), Taken::Yes);
   const auto before = bytes_of(here.value(), here.value().directory().front());

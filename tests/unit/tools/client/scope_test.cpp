@@ -97,7 +97,7 @@ std::vector<int> fires(std::string_view text, const std::vector<double>& samples
   EXPECT_TRUE(trigger) << text;
   std::vector<int> out;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (trigger->look(std::vector<double>{samples[i], 0, 0, samples[i]})) {
+    if (trigger->evaluate(std::vector<double>{samples[i], 0, 0, samples[i]})) {
       out.push_back(static_cast<int>(i));
     }
   }

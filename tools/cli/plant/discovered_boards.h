@@ -16,7 +16,7 @@
 namespace indurop::tools {
 
 // The discovered boards, and the links to them.
-struct HeardBoards {
+struct DiscoveredBoards {
   std::unique_ptr<deploy::DeployLink> link;
   BoardRoster roster;
   std::vector<deploy::BoardReport> reports;
@@ -27,6 +27,7 @@ struct HeardBoards {
 
 // Discovers boards for up to 3 s, or until all boards of the plant, or `only`, are found; fills in missing settings of
 // `link`. Errors: no board was found; interrupted.
-Result<HeardBoards, Failure> hear_boards(Context& context, deploy::LinkSettings& link, const std::string& only);
+Result<DiscoveredBoards, Failure> discover_boards(Context& context, deploy::LinkSettings& link,
+                                                  const std::string& only);
 
 }  // namespace indurop::tools
