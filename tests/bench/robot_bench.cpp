@@ -175,8 +175,8 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// A controller that runs a job of all kinds of motions in periods of 1 ms, planning beside it; the times of its steps
-// by the clock of its thread.
+// A controller that runs a job of all kinds of motions in periods of 1 ms, planning in the background; the times of its
+// steps by the clock of its thread.
 void controller_steps(benchmark::State& state) {
   const auto job = std::filesystem::temp_directory_path() / "robot_bench.job";
   std::ofstream(job) << "POINT A = JOINT 20 10 -20 0 60 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\n"

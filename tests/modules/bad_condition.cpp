@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sporadic: nobody knows whether its event has occurred.
+// Sporadic, but without a function that says whether its event has occurred.
 #include <indurop/indurop.h>
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a number inside that begins anew with each start, and shows it.
+// Keeps a number inside that begins again with each start, and shows it.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes 5 ms now and then, and tells the tick and the release that it was told: those behind such a run come late.
+// Takes 5 ms now and then, and writes its tick and its release: those after such a run are late.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 

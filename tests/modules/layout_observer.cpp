@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program beside the node: attaches as often as it reads a line and prints the result and what it sees.
+// A program outside of the node: attaches as often as it reads a line and prints the result and what it sees.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 

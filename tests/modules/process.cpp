@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A process module that behaves as its first argument says.
-//   count           runs until it is told to end
+//   count           runs until it is commanded to end
 //   exit N          ends at once with this code
 //   never           lives, but never enrols
 //   deaf            enrols, then neither waits again nor minds SIGTERM

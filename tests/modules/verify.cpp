@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks at what writer.exe writes: all words of one version are alike, whoever was killed in between.
+// Checks what writer.exe writes: all words of one version are equal, even if a process was killed in between.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 

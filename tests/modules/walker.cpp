@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks on, from what counter.so counted, a state of its own and the time it was told. STEP is 3, and 4 in
+// Walks on, from what counter.so counted, a state of its own and the time that it read. STEP is 3, and 4 in
 // new/walker.so.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>

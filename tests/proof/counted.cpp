@@ -12,7 +12,7 @@ using Many = INDUROP_TYPEOF(counted::bytes256)::value_type;
 Three three;
 Many many;
 
-// Keeps the compiler from leaving out what nobody looks at.
+// Keeps the compiler from removing results that are not used.
 template <class T>
 void used(const T& value) {
   asm volatile("" : : "m"(value) : "memory");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded into a node: counts what each thread allocates and, at the end, writes one line per real-time thread:
-// name, calls of the allocator. Threads are told apart by their names (irp-tick-1, irp-band-88, irp-events).
+// name, calls of the allocator. Threads are distinguished by their names (irp-tick-1, irp-band-88, irp-events).
 
 #include <dlfcn.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // DDS domains for tests that run at the same time: no two of one build get the same. A domain is taken by locking a
-// file beside the test programs; the kernel gives it back when the test ends, however it ends.
+// file next to the test programs; the kernel releases it when the test ends, however it ends.
 
 #pragma once
 

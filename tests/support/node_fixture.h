@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of indurop-node from outside: nodes with names of their own, started and looked at as a user would, and what
+// Tests of indurop-node from outside: nodes with names of their own, started and inspected as a user would, and what
 // they leave is removed in any case.
 
 #pragma once
@@ -16,8 +16,8 @@
 
 #include "scheduler/run_block.h"
 #include "store/vars/run_file.h"
-#include "tests/support/as_nobody.h"
 #include "tests/support/program.h"
+#include "tests/support/unprivileged.h"
 
 // Named as GoogleTest names its own.
 // NOLINTBEGIN(cppcoreguidelines-macro-usage,readability-identifier-naming)
@@ -97,7 +97,7 @@ class NodeTest : public ::testing::Test {
 };
 
 // The slot log, per tick the modules in the order they started, without ticks at the rim of the log and those in which
-// somebody was missing because of a lost basic period.
+// a module did not run because of a lost basic period.
 struct Started {
   std::uint64_t tick;
   std::uint32_t module;

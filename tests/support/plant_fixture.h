@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plant of the test's own: a folder with a state directory, names of boards that nobody else on this machine has, a
-// DDS domain, programs. All of it is gone when the test ends, and so is what the programs have started.
+// A plant of the test's own: a folder with a state directory, names of boards that are unique on this machine, a
+// DDS domain, programs. All of it is gone when the test ends, and so is
+// what the programs have started.
 
 #pragma once
 

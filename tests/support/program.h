@@ -46,7 +46,7 @@ class Program {
   [[nodiscard]] bool running();
   void signal(int number) const;
   void kill();
-  // Exit code or 128 + signal once it has ended by itself; -1 if it does not.
+  // Exit code or 128 + signal once it has ended; -1 if it does not.
   int wait(std::chrono::milliseconds patience = kPatience);
   // Ends its stdin and waits for its end, at most twice as long as for other things; kills it then.
   Outcome finish();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes a thousand variables every millisecond, for `indurop watch '*'` to look at.
+// Changes a thousand variables every millisecond, for `indurop watch '*'` to show.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one message costs, from its writing to its reader's having it, both in one thread: nobody is waited for, so no
+// What one message costs, from its writing to its reader's having it, both in one thread: no thread waits, so no
 // wake-up and no other program counts. The figure is the median of batches. Before the first one: what it took until a
 // message had arrived since the program was started, and the memory by then.
 
@@ -15,9 +15,9 @@ namespace peers {
 
 // PEERS_STARTED: when the program was started, nanoseconds of CLOCK_MONOTONIC.
 inline void tell_start() {
-  static bool told = false;
+  static bool reported = false;
   const char* const started = std::getenv("PEERS_STARTED");
-  std::FILE* const file = told ? nullptr : std::fopen("/proc/self/statm", "re");
+  std::FILE* const file = reported ? nullptr : std::fopen("/proc/self/statm", "re");
   unsigned long resident = 0;
   if (file != nullptr && started != nullptr && std::fscanf(file, "%*u %lu", &resident) == 1) {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
@@ -28,7 +28,7 @@ inline void tell_start() {
   if (file != nullptr) {
     std::fclose(file);
   }
-  told = true;
+  reported = true;
 }
 
 // `exchange`: writes a message and reads it; false: it did not arrive.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cyclone DDS by itself: a reliable writer and a reader in one participant, which no network is between.
+// Cyclone DDS alone: a reliable writer and a reader in one participant, which no network is between.
 #include <dds/dds.h>
 
 #include <cstdint>

@@ -38,7 +38,7 @@ TEST_F(BadInput, Module_of_another_abi) {
 }
 
 TEST_F(BadInput, Module_with_an_undefined_symbol) {
-  expect_refused(run_to_end({{.file = "undefined.so"}}), "[0-9]+:[0-9]+", "function_nobody_wrote");
+  expect_refused(run_to_end({{.file = "undefined.so"}}), "[0-9]+:[0-9]+", "function_without_body");
 }
 
 TEST_F(BadInput, A_node_starts_after_one_that_could_not_load_its_modules) {
@@ -136,11 +136,11 @@ TEST_F(BadInput, Unknown_failsafe_variable) {
                  "9:[0-9]+", "nt::countd");
 }
 
-TEST_F(BadInput, Configuration_nobody_may_read) {
+TEST_F(BadInput, Configuration_without_read_permission) {
   const std::string file = write("module.xml", xml({{.file = "counter.so"}}));
   std::filesystem::permissions(file, std::filesystem::perms::none);
   Environment without_rights = environment();
-  without_rights.user = nobody_instead_of_root();
+  without_rights.user = unprivileged_instead_of_root();
   const auto sut = start_file(file, {}, without_rights).finish();
   if (sut.code == 126 || sut.code == 127) {
     GTEST_SKIP() << "the build directory is closed to others";

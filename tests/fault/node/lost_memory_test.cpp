@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node whose shared memory is cut by somebody who may write it ends in a defined state; one whose files were removed
-// says so and keeps its name.
+// A node whose shared memory is cut by a process with write access ends in a defined state; one whose files were
+// removed says so and keeps its name.
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -85,7 +85,7 @@ TEST_F(LostMemory, The_run_block_or_the_tape_counts_as_well) {
   EXPECT_THAT(sut_->err(), HasSubstr(vars::tape_file(node()) + " truncated it"));
 }
 
-TEST_F(LostMemory, Of_removed_names_is_told_and_nobody_takes_them) {
+TEST_F(LostMemory, Removed_files_are_reported_and_not_taken_over) {
   for (const std::string& file : files_left()) {
     std::filesystem::remove("/dev/shm/" + file);
   }

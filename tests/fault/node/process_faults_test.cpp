@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Process modules that end, hang, die or are killed: named, restarted within their limits, and nobody else suffers.
+// Process modules that end, hang, die or are killed: named, restarted within their limits, and no other module is
+// affected.
 
 #include <csignal>
 #include <string>
@@ -165,7 +166,7 @@ TEST_F(ProcessFaults, Stopped_process_is_an_overrun_and_goes_on_afterwards) {
   EXPECT_EQ(sut.wait(), 0);
 }
 
-TEST_F(ProcessFaults, Program_of_an_older_schema_is_told_which_field_changed) {
+TEST_F(ProcessFaults, A_program_of_an_older_schema_gets_the_name_of_the_changed_field) {
   Program& sut = start_and_wait({{.file = "layout_old.so", .name = "good"}});
   ASSERT_TRUE(runs_reach("good", 3));
   Program observer({std::string(MODULE_DIR) + "/layout_observer.exe"}, environment());

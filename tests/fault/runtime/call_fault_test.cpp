@@ -129,7 +129,7 @@ TEST(CallFault, Servers_killed_at_random_never_give_a_wrong_answer) {
   expect_all_slots_usable();
 }
 
-TEST(CallFault, A_second_implementation_is_told_so) {
+TEST(CallFault, A_second_implementation_is_rejected_with_the_reason) {
   TestNode node;
   const Hosted hosted(node);
   Program first = hosted_program(SERVER_PROGRAM, node.name(), "");

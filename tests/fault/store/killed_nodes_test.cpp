@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes start and are killed at random instants, sometimes with another layout, while modules write: every start just
-// works, modules find the present block by themselves, and values survive.
+// works, modules find the current block on their own, and values survive.
 
 #include <gtest/gtest.h>
 

@@ -213,7 +213,7 @@ TEST(KilledWriters, Never_leave_a_torn_or_older_value) {
               static_cast<unsigned long long>(score->reads), static_cast<unsigned long long>(score->timeouts));
 }
 
-TEST(KilledWriters, Killed_readers_disturb_nobody) {
+TEST(KilledWriters, Killed_readers_disturb_no_writer_and_no_reader) {
   const TestNode node("killed-readers");
   const test::Shared<WriterScore> score;
   auto store = Store::create(node.name(), fault_schema());

@@ -86,7 +86,7 @@ void write_until_stopped(Store& store, Score& score, int fifo_priority) {
 }
 
 // On the core of the reader, so that a write comes between any two of its instructions.
-void write_beside_reader(Store& store, Score& score) {
+void write_while_read(Store& store, Score& score) {
   (void)rt::pin_to_core(rt::allowed_cores().front());
   write_until_stopped(store, score, 10);
 }
@@ -168,7 +168,7 @@ TEST(ManyReads, Of_what_other_processes_write_are_never_torn_or_older) {
   const test::Shared<Score> score;
   auto store = Store::create(node.name(), both());
   ASSERT_TRUE(store.ok());
-  Forked steady([&] { return attached(node, [&](Store& mine) { write_beside_reader(mine, *score); }); });
+  Forked steady([&] { return attached(node, [&](Store& mine) { write_while_read(mine, *score); }); });
   Forked reader([&] { return attached(node, [&](Store& mine) { read_until(mine, *score, wanted_reads()); }); });
   const int kills = kill_writers(node, *score);
   EXPECT_EQ(reader.wait(), 0);
@@ -183,7 +183,7 @@ TEST(ManyReads, Of_what_a_thread_of_the_same_process_writes_are_never_torn_or_ol
   ASSERT_TRUE(store.ok());
   Forked process([&] {
     return attached(node, [&](Store& mine) {
-      std::thread steady([&] { write_beside_reader(mine, *score); });
+      std::thread steady([&] { write_while_read(mine, *score); });
       read_until(mine, *score, wanted_reads());
       steady.join();
     });

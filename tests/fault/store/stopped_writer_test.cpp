@@ -93,7 +93,7 @@ TEST_F(StoppedWriter, Its_death_frees_the_lock_and_drops_its_version) {
   EXPECT_EQ(rest, std::vector<std::uint8_t>(232, 0));
 }
 
-TEST_F(StoppedWriter, New_node_adopts_the_block_beside_it) {
+TEST_F(StoppedWriter, A_new_node_adopts_the_block_in_its_presence) {
   auto sut = Store::create(node_.name(), one_variable());
   ASSERT_TRUE(sut.ok());
   EXPECT_EQ(sut->origin(), Origin::Adopted);

@@ -29,7 +29,7 @@ bool is_control(char c) {
 }
 
 // Line by line as anybody else would read it: ends of lines are CR LF, no line is folded, no field counts twice.
-void look_at_lines(std::string_view text, const Head& head) {
+void check_lines(std::string_view text, const Head& head) {
   std::size_t lines = 0;
   std::size_t hosts = 0;
   std::size_t lengths = 0;
@@ -88,7 +88,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   demand(!head->method.empty() && head->path.starts_with('/') && head->path.find('\0') == std::string::npos);
-  look_at_lines(input.substr(0, length), *head);
+  check_lines(input.substr(0, length), *head);
   read_again(*head);
   if (const auto body = indurop::serve::body_length(*head)) {
     demand(*body <= indurop::serve::kMostBody && (*body == 0 || head->method == "POST"));

@@ -161,10 +161,10 @@ def main():
             two = cell.tour()
         cores = sorted(os.sched_getaffinity(0))
         on_two_cores(folder, cores)
-        on_two_cores = one
+        two_core_tour = one
         if len(cores) > 1:
             with RunningCell(arguments, folder, ["cores.xml", "--node", "cell_test"], "cell_test", "cell_test") as cell:
-                on_two_cores = cell.tour()
+                two_core_tour = cell.tour()
         values = without_devices(folder, "module.xml", arguments)
         assert values == without_devices(folder, "cores.xml", arguments), "not the values of one core"
     states = {state for state, _ in one}
@@ -173,8 +173,8 @@ def main():
     common = min(len(jobs(one)), len(jobs(two))) - 1  # the last one is whatever was on when it ended
     assert common >= 6, (jobs(one), jobs(two))
     assert jobs(one)[:common] == jobs(two)[:common], f"one board: {jobs(one)}\ntwo boards: {jobs(two)}"
-    common = min(common, len(jobs(on_two_cores)) - 1)
-    assert common >= 6 and jobs(one)[:common] == jobs(on_two_cores)[:common], f"one core: {jobs(one)}\ntwo cores: {jobs(on_two_cores)}"
+    common = min(common, len(jobs(two_core_tour)) - 1)
+    assert common >= 6 and jobs(one)[:common] == jobs(two_core_tour)[:common], f"one core: {jobs(one)}\ntwo cores: {jobs(two_core_tour)}"
     print(f"one board and two: {' '.join(jobs(one)[:common])}")
     return 0
 

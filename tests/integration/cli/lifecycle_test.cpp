@@ -30,7 +30,7 @@ TEST_F(CommandLine, Stop_gives_up_on_a_node_that_does_not_listen) {
   EXPECT_THAT(sut.err, HasSubstr("kill -9 " + std::to_string(node.pid())));
 }
 
-TEST_F(WithNode, Reset_asks_first_where_nobody_can_answer_it_refuses) {
+TEST_F(WithNode, Reset_asks_for_a_confirmation_and_refuses_without_a_terminal) {
   EXPECT_EQ(indurop({"set", "gain=3", "starts=9"}).code, 0);
   const auto sut = indurop({"reset", "--cold"});
   EXPECT_EQ(sut.code, 2);

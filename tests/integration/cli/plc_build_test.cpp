@@ -62,7 +62,7 @@ TEST_F(PlcBuild, What_check_refuses_is_not_exported) {
   EXPECT_EQ(indurop({"plc", "export", file("motor.st"), "-o", file("motor.xml")}).code, 0);
 }
 
-// A project of somebody else names, or is, what lies elsewhere: nothing of it is read or shown.
+// A third-party project refers to, or is a link to, files elsewhere: nothing of them is read or shown.
 TEST_F(PlcBuild, A_project_takes_no_files_from_outside_of_its_folder) {
   namespace fs = std::filesystem;
   fs::create_directories(file("foreign/pous"));

@@ -89,7 +89,7 @@ class PlcWatchText : public CommandLine {
   std::unique_ptr<Program> node_;
 };
 
-TEST_F(PlcWatchText, Values_stand_beside_the_lines_and_steps_are_active) {
+TEST_F(PlcWatchText, Values_are_next_to_the_lines_and_steps_are_active) {
   EXPECT_TRUE(wait_for({}, "list[2] = 7"));
   const std::string all = watch({}).out;
   EXPECT_THAT(all, HasSubstr("  m(on := go);     go = FALSE"));
@@ -105,7 +105,7 @@ TEST_F(PlcWatchText, Values_stand_beside_the_lines_and_steps_are_active) {
   EXPECT_THAT(none.err, HasSubstr("there is no instance 'main.x'"));
 }
 
-TEST_F(PlcWatchText, Another_program_than_the_one_that_runs_is_told) {
+TEST_F(PlcWatchText, A_program_other_than_the_running_one_is_reported) {
   put(file("line.st"), "PROGRAM main VAR x : INT; END_VAR x := x + 1; END_PROGRAM\n");
   const Outcome other = watch({"--namespace", "line"});
   EXPECT_NE(other.code, 0);

@@ -21,7 +21,7 @@ TEST_F(WithNode, Jitter_has_four_quantities_per_module) {
   EXPECT_THAT(sut.out, ContainsRegex("MODULE +QUANTITY +RUNS +LAST +MIN +MEAN +P50 +P99 +P99.9 +MAX"));
   EXPECT_THAT(sut.out, ContainsRegex("exec +[0-9]+ +20.0 us +20.0 us"));
   EXPECT_THAT(sut.out, Not(HasSubstr("output")));
-  EXPECT_EQ(indurop({"jitter", "nobody"}).code, 1);
+  EXPECT_EQ(indurop({"jitter", "missing"}).code, 1);
 }
 
 TEST_F(WithNode, Jitter_as_json_uses_the_names_of_the_report) {

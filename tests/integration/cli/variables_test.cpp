@@ -153,14 +153,14 @@ TEST_F(WithNode, A_lease_ends_with_its_client) {
   }
 }
 
-TEST_F(WithNode, A_lease_does_not_touch_what_somebody_else_did_meanwhile) {
+TEST_F(WithNode, A_lease_leaves_forces_of_other_users_alone) {
   Program sut(indurop_command({"force", "tick=7", "gain=3", "--lease"}), background());
   ASSERT_TRUE(sut.prints("held while this runs")) << sut.out();
   ASSERT_EQ(indurop({"force", "tick=9"}).code, 0);
   EXPECT_EQ(sut.wait(), 1) << "it has lost one, and says so";
   EXPECT_EQ(indurop({"get", "tick"}).out, "9\n") << "the other's force goes on";
   const auto forces = indurop({"forces", "-o", "json"}).json()["forces"];
-  ASSERT_EQ(forces.size(), 1U) << "its others were let go";
+  ASSERT_EQ(forces.size(), 1U) << "its others were released";
   EXPECT_EQ(forces[0]["left_ns"], nullptr);
   EXPECT_EQ(indurop({"force", "tick=1", "--lease", "--for", "2s"}).code, 2);
 }
@@ -219,15 +219,15 @@ TEST_F(WithNode, Set_explains_what_is_no_assignment) {
 
 TEST_F(WithNode, Another_user_may_look_but_not_change) {
   if (geteuid() != 0) {
-    GTEST_SKIP() << "needs root to become somebody else";
+    GTEST_SKIP() << "needs root to become another user";
   }
-  constexpr uid_t kNobody = 65534;
-  const auto get = indurop({"get", "gain"}, {.user = kNobody});
+  constexpr uid_t kUnprivileged = 65534;
+  const auto get = indurop({"get", "gain"}, {.user = kUnprivileged});
   if (get.code == 127 || get.code == 126) {
     GTEST_SKIP() << "the build directory is closed to others";
   }
   EXPECT_EQ(get.out, "1\n") << get.err;
-  const auto set = indurop({"set", "gain", "2"}, {.user = kNobody});
+  const auto set = indurop({"set", "gain", "2"}, {.user = kUnprivileged});
   EXPECT_EQ(set.code, 1);
   EXPECT_THAT(set.err, HasSubstr("no permission to change values"));
   EXPECT_EQ(indurop({"get", "gain"}).out, "1\n");

@@ -118,7 +118,7 @@ class AgentsTest : public PlantTest {
     return one.is_object() && one["state"] == "running" && one["deployment"] == deployment && one["phase"] == "steady";
   }
 
-  // Of tools that are not told otherwise.
+  // The default of tools.
   void speak_with_keys(const std::string& folder) { keys_ = folder; }
   // Keys of a manifest's plant in `keys`, and its boards' where their agents find them from now on.
   void bring_keys(const std::string& file, const std::vector<std::string>& boards) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clocks that are an hour off, of a board and of a deployer: nothing waits for them, and it is told.
+// Clocks that are an hour off, of a board and of a deployer: nothing waits for them, and they are reported.
 
 #include <cstdlib>
 #include <fstream>
@@ -71,7 +71,7 @@ TEST_F(Clock, Of_a_board_is_an_hour_ahead) {
   EXPECT_TRUE(wait_until([&] { return runs("b", id); }));
 }
 
-TEST_F(Clock, That_is_put_back_while_an_agent_runs_costs_nobody_its_sight) {
+TEST_F(Clock, Set_back_while_an_agent_runs_makes_no_board_lose_another) {
   const std::filesystem::path clock = folder() / "clock";
   const auto put = [&](std::int64_t seconds) {
     std::fstream file(clock, std::ios::in | std::ios::out | std::ios::binary);

@@ -50,7 +50,7 @@ TEST_F(Commands, The_node_tells_what_was_deployed) {
   EXPECT_THAT(indurop_here({"status", "--node", board("a")}).out, HasSubstr("deployed  " + id_.substr(0, 12)));
 }
 
-TEST_F(Commands, A_board_stopped_by_command_stays_down_until_it_is_told_to_start) {
+TEST_F(Commands, A_board_stopped_by_command_stays_down_until_it_is_commanded_to_start) {
   start_plant();
   const pid_t first = vars::running_node(board("b"));
   ASSERT_EQ(indurop({"stop", "@" + board("b")}).code, 0);
@@ -108,9 +108,9 @@ TEST_F(Commands, A_process_that_died_once_does_not_spoil_later_deployments) {
 
 TEST_F(Commands, Unknown_boards_and_modules_are_named) {
   start_plant();
-  const Outcome board_wrong = indurop({"stop", "steady@nobody", "--timeout", "1s"});
+  const Outcome board_wrong = indurop({"stop", "steady@missing", "--timeout", "1s"});
   EXPECT_EQ(board_wrong.code, 6);
-  EXPECT_THAT(board_wrong.err, HasSubstr("board nobody was not heard"));
+  EXPECT_THAT(board_wrong.err, HasSubstr("board missing was not heard"));
   const Outcome module_wrong = indurop({"stop", "stedy@" + board("a")});
   EXPECT_EQ(module_wrong.code, 1);
   EXPECT_THAT(module_wrong.err, HasSubstr("it has no module stedy; it has steady"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of a board that the disk has changed by one bit: they are not run, and come again from another board or from
-// whoever deploys.
+// any deployer.
 
 #include <algorithm>
 #include <fstream>

@@ -106,7 +106,7 @@ class FullDisk : public AgentsTest {
   bool mounted_ = false;
 };
 
-TEST_F(FullDisk, Is_told_and_changes_nothing) {
+TEST_F(FullDisk, Is_reported_and_changes_nothing) {
   std::filesystem::create_directories(folder() / "small");
   mounted_ = ::mount("tmpfs", path("small").c_str(), "tmpfs", 0, "size=2m") == 0;
   if (!mounted_) {

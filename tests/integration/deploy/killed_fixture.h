@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two boards with a committed deployment and a next one, for tests that kill somebody on the way from one to the other.
+// Two boards with a committed deployment and a next one, for tests that kill a process on the way from one to the
+// other.
 
 #pragma once
 
@@ -14,7 +15,7 @@ namespace indurop::test {
 class Killed : public AgentsTest {
  protected:
   void SetUp() override {
-    // A process module that is a script: whoever checks it has to open it, see phases_test.cpp.
+    // A process module that is a script: a check has to open it, see phases_test.cpp.
     std::ofstream(folder() / "nap.sh") << "#!/bin/sh\nexec sleep 1000\n";
     ::chmod(path("nap.sh").c_str(), 0755);
     start_agent("a");

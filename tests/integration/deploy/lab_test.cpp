@@ -115,7 +115,7 @@ TEST_F(Network, Lost_packets_cost_time_only) {
   EXPECT_TRUE(all_run(done.json()["deployment"]));
 }
 
-TEST_F(Network, A_flood_of_garbage_at_the_ports_of_boards_and_deployer_disturbs_nobody) {
+TEST_F(Network, A_flood_of_garbage_at_the_ports_disturbs_no_board_and_no_deployer) {
   std::vector<Program*> floods;
   for (const int host : {1, 2, 4}) {  // a, b, desk
     std::vector<std::string> words = on("c");

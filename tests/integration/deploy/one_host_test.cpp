@@ -174,7 +174,7 @@ TEST_F(Deploying, A_missing_board_takes_over_what_it_missed_when_it_comes) {
   EXPECT_TRUE(wait_until([&] { return runs("b", done.json()["deployment"]); }));
 }
 
-TEST_F(Deploying, Errors_of_the_manifest_are_told_before_anything_moves) {
+TEST_F(Deploying, Errors_of_the_manifest_are_reported_before_anything_is_sent) {
   start_both();
   const Outcome refused = deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "gone"}}));
   EXPECT_EQ(refused.code, 4);
@@ -214,8 +214,8 @@ TEST_F(Deploying, A_comment_stays_with_its_deployment) {
   EXPECT_EQ(indurop({"rollback", "--health", "500ms"}).code, 0);
   EXPECT_EQ(report("b")["comment"], "as it was: 20 °C");
   std::vector<std::string> comments;
-  const Json told = indurop({"history", "-o", "json"}).json();
-  for (const Json& past : told["deployments"]) {
+  const Json answer = indurop({"history", "-o", "json"}).json();
+  for (const Json& past : answer["deployments"]) {
     comments.push_back(past["comment"]);
   }
   EXPECT_THAT(comments, testing::ElementsAre("as it was: 20 °C", "wider", "as it was: 20 °C"));
@@ -224,7 +224,7 @@ TEST_F(Deploying, A_comment_stays_with_its_deployment) {
   EXPECT_TRUE(wait_until([&] { return report("a").is_object() && report("a")["comment"] == "as it was: 20 °C"; }));
 }
 
-TEST_F(Deploying, A_board_whose_history_is_not_told_is_named) {
+TEST_F(Deploying, A_board_that_does_not_report_its_history_is_named) {
   start_both();
   deployed(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}));
   agent("b").signal(SIGSTOP);
@@ -236,7 +236,7 @@ TEST_F(Deploying, A_board_whose_history_is_not_told_is_named) {
   EXPECT_EQ(past.json()["deployments"].size(), 1U);
 }
 
-TEST_F(Deploying, Of_two_deployers_at_once_one_is_told_that_it_is_busy) {
+TEST_F(Deploying, The_second_of_two_deployers_gets_the_answer_busy) {
   start_both();
   const std::string one = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
   const std::string two = manifest("v2.xml", {{"a", "other"}, {"b", "steady"}});

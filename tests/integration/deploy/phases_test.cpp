@@ -76,11 +76,11 @@ class Phases : public Killed {
   Program& deploy_until_healthy() {
     const std::string slow = manifest("slow.xml", {{"a", "other"}, {"b", "slow"}});
     Program& deployer = start_indurop({"deploy", slow, "--health", "300ms"});
-    EXPECT_TRUE(wait_until([&] { return told(deployer, board("a"), "healthy"); }));
-    EXPECT_FALSE(told(deployer, board("b"), "healthy"));
+    EXPECT_TRUE(wait_until([&] { return has_printed(deployer, board("a"), "healthy"); }));
+    EXPECT_FALSE(has_printed(deployer, board("b"), "healthy"));
     return deployer;
   }
-  // Deploys `next_` until a has committed it; whether b has, nobody knows.
+  // Deploys `next_` until a has committed it; whether b has is not known.
   Program& deploy_until_committed() {
     Program& deployer = start_indurop({"deploy", next_, "--health", "500ms", "-o", "json"});
     const std::string file = (folder() / "state" / board("a") / "committed.json").string();
@@ -88,7 +88,7 @@ class Phases : public Killed {
     EXPECT_TRUE(wait_until([&] { return base::read_file(file).value() != before; }));
     return deployer;
   }
-  static bool told(const Program& deployer, const std::string& name, const std::string& phase) {
+  static bool has_printed(const Program& deployer, const std::string& name, const std::string& phase) {
     std::istringstream lines(deployer.err());
     for (std::string line; std::getline(lines, line);) {
       if (line.find(name) != std::string::npos && line.find(phase) != std::string::npos) {
@@ -179,7 +179,7 @@ TEST_F(Phases, A_deployer_killed_while_one_board_checks_and_the_other_is_prepare
   EXPECT_EQ(deploy(next_).code, 0) << "the next one finds the boards free";
 }
 
-// Somebody else in the network of agents: whom it has lost, the others have lost, too.
+// Another participant in the network of agents: boards that it has lost, the others have lost, too.
 class Witness {
  public:
   explicit Witness(int domain) {

@@ -53,16 +53,16 @@ class Record : public AgentsTest {
   std::string plant_;
 };
 
-// The yardstick is a recorder beside the node.
+// The reference is a recorder on the same host.
 TEST_F(Record, Boards_elsewhere_come_into_one_file_with_what_they_did) {
   start_boards();
-  Program& beside = start({INDUROP_PROGRAM, "record", "--node", board("a"), "--past", "-o", path("near.mcap")});
+  Program& local = start({INDUROP_PROGRAM, "record", "--node", board("a"), "--past", "-o", path("near.mcap")});
   ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(path("near.mcap")); }));
   const Outcome done = indurop(words("remote.mcap", {"--duration", "1s"}));
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_THAT(done.err, HasSubstr("messages of " + board("a") + ", " + board("b")));
-  beside.signal(SIGINT);
-  ASSERT_EQ(beside.wait(), 130);
+  local.signal(SIGINT);
+  ASSERT_EQ(local.wait(), 130);
 
   const Json remote = info(path("remote.mcap"));
   std::map<std::string, std::uint64_t> runs;
@@ -81,7 +81,7 @@ TEST_F(Record, Boards_elsewhere_come_into_one_file_with_what_they_did) {
   EXPECT_EQ(indurop(words("remote.mcap", {"--duration", "1s"})).code, 1) << "it is there already";
 }
 
-TEST_F(Record, What_somebody_wants_may_be_on_one_board_only) {
+TEST_F(Record, A_recorded_variable_may_be_on_one_board_only) {
   start_boards();
   const Outcome one = indurop(words("one.mcap", {"cell::encoder", "--duration", "300ms"}));
   EXPECT_EQ(one.code, 0) << one.err;
@@ -127,7 +127,7 @@ TEST_F(Record, Boards_that_fail_meanwhile_give_what_they_have_and_are_named) {
   const Outcome done = desk.finish();
   EXPECT_EQ(done.code, 1);
   EXPECT_THAT(done.err, HasSubstr("board " + board("a") + ": its agent"));
-  // Its agent may not have noticed yet that the recorder has ended by itself.
+  // Its agent may not have noticed yet that the recorder has ended.
   EXPECT_THAT(done.err, HasSubstr("board " + board("b") + ": "));
   EXPECT_THAT(done.err, HasSubstr("node " + board("b") + " crashed or was killed"));
   EXPECT_EQ(info(path("run.mcap"))["nodes"].size(), 2U);

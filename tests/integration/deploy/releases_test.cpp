@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board with an older release in the network, whose protocol is another one: it is named, and disturbs nobody.
+// A board with an older release in the network, whose protocol is another one: it is named, and disturbs no board.
 
 #include "agents_fixture.h"
 #include "core/schema/topic_name.h"

@@ -243,7 +243,7 @@ TEST_F(RemoteLook, A_refusal_is_worded_as_on_the_board) {
   }
 }
 
-TEST_F(RemoteLook, A_lease_ends_with_whoever_holds_it_remotely) {
+TEST_F(RemoteLook, A_lease_ends_with_its_remote_client) {
   start_boards();
   Program& holder = start_indurop({"force", "echo=7", "--lease", "--board", board("a")});
   ASSERT_TRUE(wait_until([&] { return here({"forces"})["forces"].size() == 1; })) << holder.out();
@@ -320,9 +320,9 @@ TEST_F(RemoteLook, What_a_node_did_before_it_died_is_kept) {
 
 TEST_F(RemoteLook, Who_is_not_there_is_named) {
   start_boards();
-  const Outcome unknown = indurop({"log", "--board", "nobody"});
+  const Outcome unknown = indurop({"log", "--board", "missing"});
   EXPECT_EQ(unknown.code, 6);
-  EXPECT_THAT(unknown.err, HasSubstr("no agent is named nobody"));
+  EXPECT_THAT(unknown.err, HasSubstr("no agent is named missing"));
   EXPECT_THAT(unknown.err, HasSubstr(board("a") + ", " + board("b")));
   const Outcome which = indurop({"jitter", "--remote"});
   EXPECT_EQ(which.code, 2);

@@ -74,8 +74,8 @@ class SecuredLink : public AgentsTest {
   }
   const std::string& file() const { return file_; }
 
-  // Deploys while somebody listens to the wire: which of the deployment's name and a text in a module's file it reads.
-  // Null if nobody may listen here.
+  // Deploys while the wire is recorded: which of the deployment's name and a text in a module's file it reads.
+  // Null if recording is not permitted here.
   std::optional<std::pair<bool, bool>> overheard() {
     const std::string text = "a secret of " + std::to_string(::getpid());
     std::ofstream(folder() / "steady.so", std::ios::app) << text;
@@ -95,7 +95,7 @@ class SecuredLink : public AgentsTest {
   std::string file_;
 };
 
-TEST_F(SecuredLink, A_plant_is_deployed_looked_at_and_commanded_with_keys) {
+TEST_F(SecuredLink, A_plant_is_deployed_inspected_and_commanded_with_keys) {
   start_with_keys();
   const Outcome done = deploy(file());
   ASSERT_EQ(done.code, 0) << done.err;
@@ -129,7 +129,7 @@ TEST_F(SecuredLink, On_the_wire_a_deployment_is_secret_with_keys) {
   EXPECT_EQ(*found, std::pair(false, false));
 }
 
-TEST_F(SecuredLink, Who_has_no_keys_hears_nothing_and_is_told_what_to_do) {
+TEST_F(SecuredLink, Without_keys_nothing_is_received_and_a_message_says_what_to_do) {
   start_with_keys();
   ASSERT_TRUE(wait_until([&] { return report("b").is_object(); }));
   speak_with_keys("");
@@ -215,7 +215,7 @@ TEST_F(SecuredLink, A_viewer_looks_and_commands_nothing) {
   EXPECT_THAT(stop.err, HasSubstr("deploy.key is missing"));
 }
 
-// What somebody brings to the boards after keys have changed.
+// What a user copies to the boards after keys have changed.
 TEST_F(SecuredLink, A_deployer_that_was_revoked_is_replaced) {
   start_with_keys();
   speak_with_keys(path("keys/deployer"));
@@ -240,7 +240,7 @@ TEST_F(SecuredLink, A_deployer_that_was_revoked_is_replaced) {
   ASSERT_TRUE(wait_until([&] { return report("a").is_object() && report("b").is_object(); }));
   const Outcome done = deploy(next);
   EXPECT_EQ(done.code, 0) << done.err;
-  // The key that signs is not enough any more, whoever's certificate comes with it.
+  // The key that signs is not enough any more, with any certificate.
   std::filesystem::copy_file(folder() / "keys/deployer/deploy.key", folder() / "keys/deployers/bob/deploy.key",
                              std::filesystem::copy_options::overwrite_existing);
   const Outcome refused = deploy(manifest("v3.xml", {{"a", "steady"}, {"b", "other"}}));

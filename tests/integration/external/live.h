@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A running node of examples/external and programs that look at it: on one host, and as two machines.
+// A running node of examples/external and programs that observe it: on one host, and as two machines.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The external plane of a store of this test's own, and a participant that looks at it.
+// The external plane of a store of this test's own, and a participant that receives it.
 
 #pragma once
 

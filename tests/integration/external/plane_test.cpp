@@ -95,7 +95,7 @@ TEST_F(Plane, A_late_joiner_gets_the_last_value) {
   ASSERT_TRUE(receives<kinds_All>(first, [](const kinds_All& value) { return value.u8 == 200; }));
   const dds_entity_t second = reader(kinds_All_desc, "kinds/all");
   EXPECT_TRUE(receives<kinds_All>(second, [](const kinds_All& value) { return value.u8 == 200; }));
-  // Not even asking for it: the value is said again for whoever has come.
+  // Not even asking for it: the value is sent again to a participant that has joined.
   const dds_entity_t third = reader(kinds_All_desc, "kinds/all", false);
   EXPECT_TRUE(receives<kinds_All>(third, [](const kinds_All& value) { return value.u8 == 200; }));
 }
@@ -112,7 +112,7 @@ TEST_F(Plane, What_does_not_change_is_not_repeated) {
     words += take<kinds_word_>(word) ? 1 : 0;
   }
   EXPECT_GE(words, 1);
-  EXPECT_LE(words, 3) << "when it was discovered, and once more";
+  EXPECT_LE(words, 3) << "when it was discovered, and again";
 }
 
 TEST_F(Plane, Texts_without_an_end_get_one) {
@@ -206,7 +206,7 @@ TEST_F(Plane, What_is_not_marked_cannot_be_set) {
   EXPECT_EQ(get<double>("kinds::rigid"), 3);
 }
 
-TEST_F(Plane, Of_very_many_variables_the_topics_are_made_when_somebody_asks) {
+TEST_F(Plane, Topics_of_very_many_variables_are_created_on_request) {
   start(600);
   EXPECT_EQ(block().topics, 609U);
   const dds_entity_t listing = dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
@@ -251,7 +251,7 @@ TEST_P(PlaneNames, Of_very_many_variables_indurop_gets_those_it_asks_for_without
 
 INSTANTIATE_TEST_SUITE_P(Ros2, PlaneNames, ::testing::Bool());
 
-TEST_F(Plane, Somebody_who_wants_what_is_not_offered_is_named) {
+TEST_F(Plane, A_participant_that_requests_a_qos_that_is_not_offered_is_named) {
   start();
   const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), &dds_delete_qos);
   dds_qset_durability(qos.get(), DDS_DURABILITY_PERSISTENT);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `indurop` looks at boards from a machine without a node and without their types.
+// `indurop` reads boards from a machine without a node and without their types.
 
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -151,10 +151,10 @@ TEST_F(Remote, Hz_counts_what_comes_over_the_network) {
   EXPECT_GT(Json::parse(sut.out)["rate_hz"].get<double>(), 5);
 }
 
-TEST_F(Remote, Nobody_there_is_told_in_bounded_time) {
-  const Outcome nobody = remote({"get", "station::target", "--wait", "300ms"});
-  EXPECT_EQ(nobody.code, 6);
-  EXPECT_CONTAINS(nobody.err, "no board shows variables in DDS domain " + domain());
+TEST_F(Remote, Without_participants_the_answer_comes_in_bounded_time) {
+  const Outcome alone = remote({"get", "station::target", "--wait", "300ms"});
+  EXPECT_EQ(alone.code, 6);
+  EXPECT_CONTAINS(alone.err, "shows variables in DDS domain " + domain());
   start_axis();
   const Outcome wrong = remote({"get", "station::targt"});
   EXPECT_EQ(wrong.code, 1);

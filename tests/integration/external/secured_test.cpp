@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An external plane that only holders of keys take part in: indurop itself, programs of Cyclone DDS and of Fast DDS, as
-// friends with lists of variables and as strangers with no keys, wrong ones or somebody else's.
+// friends with lists of variables and as strangers with no keys, wrong ones or those of another user.
 
 #include <dlfcn.h>
 
@@ -152,7 +152,7 @@ TEST_F(Secured, A_viewer_reads_everything_and_sets_nothing) {
   EXPECT_CONTAINS(get("station::target"), "100");
 }
 
-TEST_F(Secured, Who_has_no_keys_or_wrong_ones_is_told_what_to_do) {
+TEST_F(Secured, Without_keys_or_with_wrong_ones_a_message_says_what_to_do) {
   start_plant();
   const Outcome none = remote({"get", "station::state", "--wait", "1s"}, "none");
   EXPECT_EQ(none.code, 6);

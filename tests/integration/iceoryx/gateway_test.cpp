@@ -252,7 +252,7 @@ TEST_F(Gateway, A_RouDi_that_does_not_answer_is_named) {
   EXPECT_TRUE(reads(start_watch("watch_iceoryx"))) << sut.err();
 }
 
-// Everything of iceoryx is killed again and again. iceoryx itself may then stand still until its daemon is started anew
+// Everything of iceoryx is killed again and again. iceoryx itself may then stand still until its daemon is restarted
 // (killed programs leave locks behind); the node must not notice, and after a new start all is well.
 class Storm : public Gateway {
  protected:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program beside the I/O module: what comes in goes out again, changed so that it cannot be mistaken.
+// A program in addition to the I/O module: inputs are written to outputs, changed so that it cannot be mistaken.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 

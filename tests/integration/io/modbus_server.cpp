@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Modbus device for the tests, good and bad as it is told on stdin:
+// A Modbus device for the tests, good and bad as commanded on stdin:
 //   modbus_server tcp|rtu      prints "at ADDRESS"
 //   set coil|discrete|input|holding NUMBER VALUE
 //   get coil|holding NUMBER    prints "coil 3 = 1"
 //   serve | hang | garbage | trickle | refuse | stranger     how requests are answered; each prints its word when it is
-//   in force leave | return             nobody listens at the address any more, and again
+//   in force leave | return             the address is closed, and opened again
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -76,7 +76,8 @@ class Server {
     ::cfmakeraw(&raw);
     ::tcsetattr(terminal_, TCSANOW, &raw);
     const std::string path = ::ptsname(terminal_);
-    keeper_ = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);  // nobody at the other end would be an error
+    keeper_ =
+        ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);  // without a process at the other end reads would fail
     std::cout << "at " << path << std::endl;
     add_client(terminal_);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Modbus against a second process that behaves and misbehaves: values arrive, bad ones are marked, everything comes
-// back by itself, and the tick is never held up.
+// back on its own, and the tick is never delayed.
 #include <csignal>
 
 #include "io_fixture.h"
@@ -46,7 +46,7 @@ class Modbus : public IoTest {
     EXPECT_TRUE(has(*server, "coil 5", 1));
   }
 
-  // The device misbehaves: bad quality, held value, good again by itself.
+  // The device misbehaves: bad quality, held value, good again on its own.
   void survives(const std::string& how, std::uint8_t quality) {
     server->input("set discrete 3 1\nserve\n");
     ASSERT_TRUE(becomes<std::int16_t>("TEST_CELL::I0", 1)) << how;
@@ -171,7 +171,7 @@ TEST_F(Modbus, Outputs_get_their_stop_value_while_the_tick_stands_still) {
   std::string xml = device("modbus_tcp", address);
   xml.insert(xml.find("timeout="), "watchdog='50ms' ");
   auto both = modules(xml);
-  both[0].period = "500ms";  // for most of the time nobody refreshes the outputs
+  both[0].period = "500ms";  // for most of the time the outputs are not refreshed
   server->input("set discrete 3 1\n");
   node_ = &start_and_wait(both);
   for (int i = 0; i < 2; ++i) {

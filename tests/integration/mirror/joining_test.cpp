@@ -67,7 +67,7 @@ TEST_F(JoiningTest, What_went_half_way_is_torn_down_before_the_next_try) {
   EXPECT_EQ(closed, 3) << "it has left already";
 }
 
-TEST_F(JoiningTest, Ends_when_it_is_told_to_and_says_why_it_waits) {
+TEST_F(JoiningTest, Ends_on_request_and_reports_why_it_waits) {
   Settings settings = on_loopback();
   settings.network.one_host = false;
   settings.network.interface_name = "nosuch0";

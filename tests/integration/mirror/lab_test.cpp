@@ -92,7 +92,7 @@ TEST_F(Lab, A_standby_takes_over_and_keeps_the_lead) {
 TEST_F(Lab, Two_boards_of_one_name_say_so) {
   NEEDS_LAB("a b");
   start({"a", "t::count", "-", "plain"}, {"c"}, lab());
-  start_as("b", {"a", "t::count", "-", "plain"}, {"c"}, lab());  // board a once more, on another machine
+  start_as("b", {"a", "t::count", "-", "plain"}, {"c"}, lab());  // a second board a, on another machine
   for (const char* place : {"a", "b"}) {
     EXPECT_TRUE(wait_until([&] { return block(place).problem.get().find("runs as board a") != std::string::npos; }));
   }
@@ -100,7 +100,7 @@ TEST_F(Lab, Two_boards_of_one_name_say_so) {
   EXPECT_TRUE(wait_until([&] { return block("a").problem.get().empty(); }));
 }
 
-TEST_F(Lab, A_flood_of_garbage_at_the_ports_disturbs_nobody) {
+TEST_F(Lab, A_flood_of_garbage_at_the_ports_disturbs_no_board) {
   NEEDS_LAB("a b evil");
   start({"a", "t::count", "-", "plain"}, {"b"}, lab());
   start({"b", "-", "t::count@a", "plain"}, {"a"}, lab());

@@ -67,7 +67,7 @@ TEST_F(Snapshots, Are_of_one_tick_of_the_other_board) {
   start_writer();
   start_reader();
   ASSERT_TRUE(see_ticks(500)) << coherent_ << " of " << looks_ << " looks were coherent";
-#ifndef __SANITIZE_THREAD__  // under it a look at 400 variables takes longer than a tick: how often is a matter of
+#ifndef __SANITIZE_THREAD__  // under it reading 400 variables takes longer than a tick: how often is a matter of
                              // speed
   EXPECT_GT(coherent_, looks_ / 2);
 #endif

@@ -38,7 +38,7 @@ TEST_F(Functions, Of_a_process_module_answer_a_thread) {
   stop(sut);
 }
 
-TEST_F(Functions, Nobody_implements_fail_with_a_clear_error) {
+TEST_F(Functions, Without_an_implementation_fail_with_a_clear_error) {
   Program& sut = start_and_wait({{.file = "counter.so", .name = "counter"}, kCaller});
   EXPECT_TRUE(wait_until([&] { return value<std::uint32_t>("nt::failures") >= 5; }));
   EXPECT_EQ(value<std::int32_t>("nt::failure"), static_cast<int>(Errc::NotFound));

@@ -36,7 +36,7 @@ TEST_F(ModuleCommands, A_stopped_module_leaves_its_place_empty_and_its_failsafe_
   EXPECT_EQ(module("out").state.load(), ModuleState::Stopped);
   EXPECT_EQ(value<std::int32_t>("nt::output"), -7);
   EXPECT_TRUE(rests("out", "counter"));
-  EXPECT_LE(module("out").skipped.load(), run()->lost_ticks.load()) << "beside periods that nobody had";
+  EXPECT_LE(module("out").skipped.load(), run()->lost_ticks.load()) << "in addition to lost periods";
   EXPECT_TRUE(sut.prints("stop called\n"));
   EXPECT_CONTAINS(indurop({"status", "--node", node()}).out, "stopped");
 
@@ -163,9 +163,9 @@ TEST_F(ModuleCommands, A_faulted_module_starts_again) {
   EXPECT_TRUE(wait_until([&] { return module("bad").faults.load() == 2; })) << "it runs, and faults again";
 }
 
-TEST_F(ModuleCommands, A_module_whose_start_fails_stays_out_and_the_cause_is_told) {
+TEST_F(ModuleCommands, A_module_whose_start_fails_stays_out_and_the_cause_is_reported) {
   SKIP_CRASHES_UNDER_TSAN();
-  // Throws in stop() too: that is told, and does not keep it from being stopped.
+  // Throws in stop() too: that is reported, and it is stopped nevertheless.
   start_and_wait(
       {{.file = "counter.so", .name = "counter"},
        {.file = "faulty.so", .name = "bad", .priority = 2, .properties = {{"fault", "throw"}, {"at", "stop"}}}});
@@ -176,7 +176,7 @@ TEST_F(ModuleCommands, A_module_whose_start_fails_stays_out_and_the_cause_is_tol
   EXPECT_TRUE(rests("bad", "counter"));
 }
 
-TEST_F(ModuleCommands, Unknown_names_and_absent_nodes_are_told) {
+TEST_F(ModuleCommands, Unknown_names_and_absent_nodes_are_reported) {
   Program& sut = start_and_wait({{.file = "counter.so", .name = "counter"}});
   const Outcome wrong = command("stop", "conter");
   EXPECT_EQ(wrong.code, 1);

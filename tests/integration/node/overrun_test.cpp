@@ -32,8 +32,8 @@ class Overrun : public NodeTest {
 };
 
 TEST_F(Overrun, Skip_leaves_out_releases_and_goes_on) {
-  for (const auto& beside : {kOverrunCounter, kFast}) {
-    Program& sut = start_and_wait({beside, slow("skip", "1ms", "2500")});
+  for (const auto& other : {kOverrunCounter, kFast}) {
+    Program& sut = start_and_wait({other, slow("skip", "1ms", "2500")});
     EXPECT_TRUE(wait_until([&] { return module("slow").overruns.load() > 5 && module("slow").skipped.load() > 5; }));
     EXPECT_TRUE(runs_reach("slow", module("slow").runs.load() + 10));
     stop(sut);
@@ -43,8 +43,8 @@ TEST_F(Overrun, Skip_leaves_out_releases_and_goes_on) {
 }
 
 TEST_F(Overrun, Catch_up_makes_good_what_was_missed) {
-  for (const auto& beside : {kOverrunCounter, kFast}) {
-    Program& sut = start_and_wait({beside, slow("catch-up")});
+  for (const auto& other : {kOverrunCounter, kFast}) {
+    Program& sut = start_and_wait({other, slow("catch-up")});
     ASSERT_TRUE(wait_until([&] { return module("slow").overruns.load() > 20; }));
     stop(sut);
     const auto& record = module("slow");
@@ -56,10 +56,10 @@ TEST_F(Overrun, Catch_up_makes_good_what_was_missed) {
 }
 
 TEST_F(Overrun, Stop_module_shuts_it_out_and_writes_its_failsafe_values) {
-  for (const auto& beside : {kOverrunCounter, kFast}) {
-    Program& sut = start_and_wait({beside, slow("stop-module")});
+  for (const auto& other : {kOverrunCounter, kFast}) {
+    Program& sut = start_and_wait({other, slow("stop-module")});
     ASSERT_TRUE(wait_until([&] { return module("slow").state.load() == ModuleState::Faulted; }));
-    EXPECT_TRUE(runs_reach(beside.name, module(beside.name).runs.load() + 50));
+    EXPECT_TRUE(runs_reach(other.name, module(other.name).runs.load() + 50));
     EXPECT_EQ(module("slow").overruns.load(), 1U);
     EXPECT_TRUE(sut.says("policy stop-module"));
     EXPECT_TRUE(wait_until([&] { return value<std::int32_t>("nt::output") == -7; }))
@@ -70,8 +70,8 @@ TEST_F(Overrun, Stop_module_shuts_it_out_and_writes_its_failsafe_values) {
 }
 
 TEST_F(Overrun, Stop_node_ends_the_run) {
-  for (const auto& beside : {kOverrunCounter, kFast}) {
-    const auto sut = run_to_end({beside, slow("stop-node")});
+  for (const auto& other : {kOverrunCounter, kFast}) {
+    const auto sut = run_to_end({other, slow("stop-node")});
     EXPECT_EQ(sut.code, 1);
     EXPECT_CONTAINS(sut.err, "module slow: overrun (policy stop-node)");
     EXPECT_CONTAINS(sut.out, "counter stops after");

@@ -135,7 +135,7 @@ TEST_F(RecordingParts, Are_put_together_again) {
   EXPECT_CONTAINS(again.out, ", " + std::to_string(runs) + " runs, ");
   EXPECT_FALSE(contains(joined.err, "missing")) << joined.err;
 
-  // What ran in a part that is gone, or beside a recorder that could not follow, is not taken for a machine that stood.
+  // What ran in a part that is gone, or while a recorder could not follow, does not count as a suspended machine.
   const Outcome holed = join({"run.0001.mcap", "run.0003.mcap"}, "holed.mcap");
   ASSERT_EQ(holed.code, 0) << holed.err;
   EXPECT_CONTAINS(holed.err, "1 part is missing between ");
@@ -209,7 +209,7 @@ TEST_F(RecordingParts, Of_a_killed_recorder_are_readable) {
 }
 
 // As one whose disk does not answer.
-TEST_F(RecordingParts, A_recorder_that_stands_still_says_what_it_lost_and_disturbs_nobody) {
+TEST_F(RecordingParts, A_recorder_that_is_stopped_reports_what_it_lost_and_disturbs_no_module) {
   Program& sut = start_and_wait(kPartsCounter, {"--tape", "1"});
   ASSERT_TRUE(runs_reach("counter", 20));
   const std::string file = (folder() / "slow.mcap").string();
@@ -220,15 +220,15 @@ TEST_F(RecordingParts, A_recorder_that_stands_still_says_what_it_lost_and_distur
   }));
   recorder.signal(SIGSTOP);
   const std::uint64_t runs = module("counter").runs.load();
-  ASSERT_TRUE(runs_reach("counter", runs + 5000)) << "the node waits for nobody";
+  ASSERT_TRUE(runs_reach("counter", runs + 5000)) << "the node does not wait";
   recorder.signal(SIGCONT);
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 0);
   const Outcome slow = recorder.finish();
   EXPECT_EQ(slow.code, 1) << slow.err;
   EXPECT_CONTAINS(slow.err, " runs of counter are not in the recording: they were overwritten before they were read");
-  const auto told = nlohmann::json::parse(indurop({"recording", "info", file, "-o", "json"}).out);
-  const auto lost = told["modules"][0]["lost_runs"].get<std::uint64_t>();
+  const auto info = nlohmann::json::parse(indurop({"recording", "info", file, "-o", "json"}).out);
+  const auto lost = info["modules"][0]["lost_runs"].get<std::uint64_t>();
   EXPECT_GT(lost, 0U);
   EXPECT_CONTAINS(slow.err, std::to_string(lost) + " runs of counter") << "the numbers of the runs in the file say so";
 }
@@ -262,7 +262,7 @@ TEST_F(RecordingParts, Two_recorders_have_the_same) {
   EXPECT_EQ(values, last_values(second));
 }
 
-TEST_F(RecordingParts, A_full_disk_ends_the_recording_and_disturbs_nobody) {
+TEST_F(RecordingParts, A_full_disk_ends_the_recording_and_disturbs_no_module) {
   Program& sut = start_and_wait(kPartsCounter);
   const fs::path disk = folder() / "disk";
   fs::create_directory(disk);
@@ -280,7 +280,7 @@ TEST_F(RecordingParts, A_full_disk_ends_the_recording_and_disturbs_nobody) {
   EXPECT_EQ(full.code, 1) << full.err;
   EXPECT_CONTAINS(full.err, "No space left on device");
   EXPECT_CONTAINS(full.err, "the recording ends here");
-  EXPECT_CONTAINS(full.err, " runs, ") << "what it has is told";
+  EXPECT_CONTAINS(full.err, " runs, ") << "what it has is reported";
   const Outcome again = replay(copy);
   EXPECT_EQ(again.code, 0) << again.out << again.err;
   const std::uint64_t runs = module("counter").runs.load();
@@ -310,7 +310,7 @@ TEST_F(RecordingParts, Only_a_full_disk_takes_the_oldest) {
 // A disk of 300 kB, of which the recorder alone knows.
 class RecordingPartsOnASmallDisk : public RecordingParts {
  protected:
-  // What is on the disk in the end is copied; the recorder's pid is told at once.
+  // What is on the disk in the end is copied; the recorder's pid is printed at once.
   Program recorder(const std::vector<std::string>& more) {
     const fs::path disk = folder() / "disk";
     fs::create_directory(disk);

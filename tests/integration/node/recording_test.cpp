@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs are recorded, and run again: with the same modules they leave the same, with another one it is told where not.
+// Runs are recorded, and run again: with the same modules they leave the same, with another one the difference is
+// reported.
 
 #include <csignal>
 #include <cstdlib>
@@ -40,7 +41,7 @@ TEST_F(Recording, Of_a_simulation_runs_again_with_the_same_result) {
   const Outcome recorded = run_to_end(kPlant, {"--sim", "--until", "2s", "--record", file()});
   ASSERT_EQ(recorded.code, 0) << recorded.err;
   EXPECT_CONTAINS(recorded.out + recorded.err, "recorded 3686 runs")
-      << "2000 + 1000 + 400 + 285, and a look at what nobody reads or writes";
+      << "2000 + 1000 + 400 + 285, and the variables without readers or writers";
   const Outcome again = replay();
   EXPECT_EQ(again.code, 0) << again.out << again.err;
   EXPECT_CONTAINS(again.out, "2000 ticks, 3685 runs, ");
@@ -50,7 +51,7 @@ TEST_F(Recording, Of_a_simulation_runs_again_with_the_same_result) {
 
 TEST_F(Recording, Of_a_run_in_real_time_runs_again_with_the_same_result) {
   std::vector<Module> modules = kPlant;
-  modules.back().properties.emplace_back("busy_us", "200");  // it looks at the clock until then
+  modules.back().properties.emplace_back("busy_us", "200");  // it reads the clock until then
   const Outcome recorded = run_to_end(modules, {"--duration", "1s", "--record", file()});
   ASSERT_EQ(recorded.code, 0) << recorded.err;
   const Outcome again = replay();
@@ -76,7 +77,7 @@ TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
   EXPECT_CONTAINS(picture, "run.mcap: recorded, and what is left now");
   EXPECT_CONTAINS(picture, ">walked<");
   EXPECT_FALSE(contains(picture, "counted")) << "is equal";
-  // What walker leaves by itself: in each run one more of STEP, as the next one begins with what was recorded.
+  // What walker leaves when it runs live: in each run one more of STEP, as the next one begins with what was recorded.
   const auto column = [&](const std::filesystem::path& of) {
     EXPECT_EQ(indurop({"recording", "export", of, "nt::pace", "--csv", folder() / "c.csv"}).code, 0);
     std::ifstream csv(folder() / "c.csv");
@@ -95,9 +96,9 @@ TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
   }
   const Outcome same = replay({"--with", std::string(MODULE_DIR) + "/walker.so"});
   EXPECT_EQ(same.code, 0) << same.out << same.err;
-  const Outcome nobody = replay({"--with", "/nowhere/stranger.so"});
-  EXPECT_EQ(nobody.code, 1);
-  EXPECT_CONTAINS(nobody.err, "no module has this name or such a file");
+  const Outcome unknown = replay({"--with", "/nowhere/stranger.so"});
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_CONTAINS(unknown.err, "no module has this name or such a file");
   const std::string walker = std::string(MODULE_DIR) + "/walker.so";
   const Outcome twice = replay({"--with", std::string(MODULE_DIR) + "/new/walker.so", "--with", walker});
   EXPECT_EQ(twice.code, 1);
@@ -145,7 +146,7 @@ TEST_F(Recording, A_run_that_does_not_return_is_ended_in_the_replay_too) {
   EXPECT_CONTAINS(again.out, "values: equal");
 }
 
-TEST_F(Recording, Tells_which_modules_were_started_anew) {
+TEST_F(Recording, Reports_which_modules_were_restarted) {
   std::vector<Module> modules = {{.file = "counter.so", .name = "counter"},
                                  {.file = "keeper.so", .name = "keeper", .priority = 2},
                                  {.file = "process.exe", .name = "process", .type = "process", .priority = 3}};
@@ -214,9 +215,9 @@ TEST_F(Recording, Of_a_node_that_runs_is_taken_by_record) {
   const std::string one = folder() / "one.mcap";
   EXPECT_CONTAINS(indurop({"record", "nt::wal*", "-o", one, "--past", "--duration", "100ms"}).err, " of 1 variables");
   EXPECT_CONTAINS(indurop({"record", "-o", file()}).err, file()) << "it is there already";
-  const Outcome wrong = indurop({"record", "nobody", "-o", (folder() / "x.mcap").string()});
+  const Outcome wrong = indurop({"record", "missing", "-o", (folder() / "x.mcap").string()});
   EXPECT_EQ(wrong.code, 1);
-  EXPECT_CONTAINS(wrong.err, "has no variable 'nobody'");
+  EXPECT_CONTAINS(wrong.err, "has no variable 'missing'");
   EXPECT_FALSE(std::filesystem::exists(folder() / "x.mcap"));
   // Begun in the middle: what walker kept inside before is not known, and that is said.
   sut.signal(SIGTERM);
@@ -271,7 +272,7 @@ TEST_F(Recording, Is_not_said_to_be_kept_when_it_is_not) {
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 0);
   Program& next = start_and_wait(threads());
-  EXPECT_EQ(indurop({"blackbox", "keep", "ours", "--node", node()}).code, 0) << "another run begins anew";
+  EXPECT_EQ(indurop({"blackbox", "keep", "ours", "--node", node()}).code, 0) << "another run begins again";
   ASSERT_TRUE(next.says("ours: the black box is in ")) << next.err();
   next.signal(SIGTERM);
   EXPECT_EQ(next.wait(), 0);

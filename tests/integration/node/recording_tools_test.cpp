@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is done with recordings that are there: looked at, exported, cut, played into a node; whole, cut and damaged
+// What is done with existing recordings: shown, exported, cut, played into a node; whole, cut and damaged
 // ones.
 
 #include <algorithm>
@@ -37,9 +37,9 @@ class RecordingTools : public NodeTest {
 };
 
 TEST_F(RecordingTools, Info_counts_runs_and_messages) {
-  const Outcome told = recording({"info", file(), "-o", "json"});
-  ASSERT_EQ(told.code, 0) << told.err;
-  const nlohmann::json all = told.json();
+  const Outcome info = recording({"info", file(), "-o", "json"});
+  ASSERT_EQ(info.code, 0) << info.err;
+  const nlohmann::json all = info.json();
   EXPECT_EQ(all["closed"], true);
   EXPECT_EQ(all["nodes"][0]["node"], node());
   EXPECT_EQ(all["attachments"][0], "module.xml");
@@ -72,7 +72,7 @@ TEST_F(RecordingTools, Export_writes_values_and_runs) {
   const std::string rows = text_of(path("b.csv"));
   EXPECT_EQ(rows.substr(0, rows.find('\n')), "time_ns,nt::pace.walked,nt::pace.own");
   EXPECT_LE(std::count(rows.begin(), rows.end(), '\n'), 12);
-  EXPECT_CONTAINS(recording({"export", file(), "nobody", "--csv", path("c.csv")}).err, "no variable 'nobody'");
+  EXPECT_CONTAINS(recording({"export", file(), "missing", "--csv", path("c.csv")}).err, "no variable 'missing'");
   EXPECT_EQ(recording({"export", file()}).code, 2);
 }
 
@@ -104,10 +104,10 @@ TEST_F(RecordingTools, Play_gives_a_running_node_what_no_module_writes) {
   EXPECT_EQ(played.code, 0) << played.err;
   EXPECT_CONTAINS(played.err, "wrote ");
   EXPECT_EQ(value<std::uint32_t>("nt::counted"), 1000U);
-  EXPECT_CONTAINS(recording({"play", file(), "nobody", "--node", node()}).err, "none of the recorded variables");
+  EXPECT_CONTAINS(recording({"play", file(), "missing", "--node", node()}).err, "none of the recorded variables");
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 0);
-  EXPECT_EQ(recording({"play", file(), "--node", node()}).code, 1) << "nobody runs";
+  EXPECT_EQ(recording({"play", file(), "--node", node()}).code, 1) << "no node runs";
 }
 
 TEST_F(RecordingTools, Play_refuses_what_is_forced) {
@@ -123,7 +123,7 @@ TEST_F(RecordingTools, Play_refuses_what_is_forced) {
 }
 
 // Whatever is wrong with a file: a message, no crash, and what was begun is removed.
-TEST_F(RecordingTools, Damaged_files_are_told_and_read_as_far_as_they_go) {
+TEST_F(RecordingTools, Damaged_files_are_reported_and_read_up_to_the_damage) {
   const std::string whole = text_of(file());
   std::mt19937 random(7);
   for (int i = 0; i < 24; ++i) {

@@ -61,7 +61,7 @@ TEST_F(ReplayOfLess, Nothing_that_a_module_wrote_is_no_comparison_of_it) {
                   "runs of keeper were repeated, but not compared: the recording has no values of its outputs");
 }
 
-// counter knows only what it reads: after a gap it has to be given that anew.
+// counter knows only what it reads: after a gap it has to get that again.
 TEST_F(ReplayOfLess, Runs_after_missing_ones_wait_for_what_they_read) {
   Program& sut = start_and_wait({kCounter});
   Program recorder({INDUROP_PROGRAM, "record", "-o", file(), "--node", node()}, environment());
@@ -82,8 +82,8 @@ TEST_F(ReplayOfLess, Runs_after_missing_ones_wait_for_what_they_read) {
   EXPECT_CONTAINS(again.err, "runs of counter before tick ");
 }
 
-// The releases after a run that took too long are caught up; each is told its own tick, live and replayed.
-TEST_F(ReplayOfLess, Late_runs_are_told_their_own_release) {
+// The releases after a run that took too long are caught up; each gets its own tick, live and replayed.
+TEST_F(ReplayOfLess, Late_runs_get_their_own_release) {
   const Module late{
       .file = "late.so", .name = "late", .period = "2ms", .priority = 2, .more = "<overrun>catch-up</overrun>"};
   Program& sut = start_and_wait({kCounter, late});
@@ -152,7 +152,7 @@ TEST_F(ReplayOfLess, Says_that_another_schedule_changes_nothing) {
   EXPECT_TRUE(replay().err.empty()) << "the same schedule";
 }
 
-// A recording that does not say its format is one of before there were some.
+// A recording that does not say its format is older than format numbers.
 TEST_F(ReplayOfLess, Says_that_an_older_recording_tells_less) {
   ASSERT_EQ(run_to_end({kCounter}, {"--sim", "--until", "100ms", "--record", file()}).code, 0);
   std::ifstream in(file(), std::ios::binary);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Without rights, without space, with files of somebody else: it works as far as it can, and says what is missing.
+// Without rights, without space, with files of another user: a node works as far as it can, and reports what is
+// missing.
 
 #include <unistd.h>
 
@@ -20,7 +21,7 @@ class Rights : public NodeTest {
     if (::geteuid() != 0) {
       return result;
     }
-    result.user = kNobody;
+    result.user = kUnprivileged;
     Program probe({"/usr/bin/test", "-x", NODE_PROGRAM, "-a", "-r", std::string(MODULE_DIR) + "/counter.so", "-a", "-w",
                    folder()},
                   result);
@@ -38,13 +39,13 @@ std::vector<Module> three() {
           {.file = "label.so", .name = "c", .period = "2ms", .priority = 3}};
 }
 
-TEST_F(Rights, Ordinary_user_gets_the_order_and_is_told_what_is_missing) {
+TEST_F(Rights, An_ordinary_user_gets_the_order_and_a_message_about_what_is_missing) {
   std::string why;
-  const auto nobody = without_rights(why);
-  if (!nobody) {
+  const auto unprivileged = without_rights(why);
+  if (!unprivileged) {
     GTEST_SKIP() << why;
   }
-  Program& sut = start_file(write("module.xml", xml(three())), {"--report", folder() / "r.json"}, *nobody);
+  Program& sut = start_file(write("module.xml", xml(three())), {"--report", folder() / "r.json"}, *unprivileged);
   ASSERT_TRUE(wait_until_running(sut));
   for (const char* name : {"a", "b", "c"}) {
     ASSERT_TRUE(runs_reach(name, 100)) << name;
@@ -61,11 +62,11 @@ TEST_F(Rights, Ordinary_user_gets_the_order_and_is_told_what_is_missing) {
 
 TEST_F(Rights, Required_and_not_obtained_is_exit_code_7) {
   std::string why;
-  const auto nobody = without_rights(why);
-  if (!nobody) {
+  const auto unprivileged = without_rights(why);
+  if (!unprivileged) {
     GTEST_SKIP() << why;
   }
-  Program& sut = start_file(write("module.xml", xml(three())), {"--require-rt", "--duration", "10ms"}, *nobody);
+  Program& sut = start_file(write("module.xml", xml(three())), {"--require-rt", "--duration", "10ms"}, *unprivileged);
   const int code = sut.wait();
   if (code == 0) {
     GTEST_SKIP() << "this user has real-time rights";
@@ -76,13 +77,13 @@ TEST_F(Rights, Required_and_not_obtained_is_exit_code_7) {
 
 TEST_F(Rights, Name_of_another_users_node_is_refused) {
   std::string why;
-  const auto nobody = without_rights(why);
-  if (::geteuid() != 0 || !nobody) {
+  const auto unprivileged = without_rights(why);
+  if (::geteuid() != 0 || !unprivileged) {
     GTEST_SKIP() << "needs two users";
   }
   const std::string file = write("module.xml", xml({{.file = "counter.so", .name = "counter"}}));
   ASSERT_EQ(start_file(file, {"--duration", "10ms"}).finish().code, 0);
-  const auto sut = start_file(file, {"--duration", "10ms"}, *nobody).finish();
+  const auto sut = start_file(file, {"--duration", "10ms"}, *unprivileged).finish();
   EXPECT_EQ(sut.code, 1);
   EXPECT_CONTAINS(sut.err, "choose another name with --node");
 }

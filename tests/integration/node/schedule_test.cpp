@@ -131,7 +131,7 @@ TEST_F(Schedule, Interrupts_a_long_module_for_those_with_a_higher_priority) {
   EXPECT_EQ(order_violations(*run()), 0);
 }
 
-TEST_F(Schedule, On_several_cores_keeps_the_total_order_if_told_so) {
+TEST_F(Schedule, On_several_cores_keeps_the_total_order_if_configured) {
   const auto cores = rt::allowed_cores();
   if (cores.size() < 2) {
     GTEST_SKIP() << "needs two cores";

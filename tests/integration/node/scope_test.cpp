@@ -78,7 +78,7 @@ TEST_F(Scope, Saves_what_others_read) {
   EXPECT_EQ(indurop({"chart", folder() / "run.csv"}).code, 0);
   EXPECT_EQ(scope({"nt::counted", "--save", mcap}).code, 1) << "it is there already";
   EXPECT_EQ(scope({"nt::counted", "--save", "run.txt"}).code, 2);
-  EXPECT_EQ(scope({"nobody"}).code, 1);
+  EXPECT_EQ(scope({"missing"}).code, 1);
   EXPECT_EQ(scope({"nt::counted", "--post", "1000000"}).code, 2);
   node.signal(SIGTERM);
   EXPECT_EQ(node.wait(), 0);

@@ -47,7 +47,7 @@ TEST_F(Simulation, Takes_as_long_as_wcet_says_and_shows_overruns_that_are_not_th
   EXPECT_EQ(slow["exec_ns"]["max"], 7'100'000) << "preempted seven times: 5 ms and 7 x 300 us";
   EXPECT_EQ(slow["response_ns"]["max"], 7'400'000);
   EXPECT_EQ(slow["overruns"], 0);
-  // Measured by another run: 8 ms beside 30 % of load do not fit into 10 ms.
+  // Measured by another run: 8 ms in addition to 30 % of load do not fit into 10 ms.
   auto measured = report();
   measured["modules"][1]["exec_ns"]["max"] = 8'000'000;
   const std::string file = write("longer.json", measured.dump());
@@ -105,7 +105,7 @@ TEST_F(Simulation, Ends_a_module_that_does_not_return) {
   EXPECT_STREQ(module("stuck").last_fault, "did not return");
 }
 
-TEST_F(Simulation, Keeps_time_with_the_real_one_when_told) {
+TEST_F(Simulation, Keeps_time_with_the_real_clock_on_request) {
   Program& sut = start({{.file = "counter.so", .name = "one"}}, {"--sim", "--speed", "2"});
   ASSERT_TRUE(wait_until_running(sut));
   const auto began = std::chrono::steady_clock::now();
@@ -117,15 +117,15 @@ TEST_F(Simulation, Keeps_time_with_the_real_one_when_told) {
 }
 
 TEST_F(Simulation, Check_names_what_it_cannot_repeat) {
-  const std::string file =
-      write("chance.xml", xml({{.file = "counter.so", .name = "plain"},
-                               {.file = "process.exe", .name = "beside", .type = "process", .operation = "non-real"}}));
+  const std::string file = write(
+      "chance.xml", xml({{.file = "counter.so", .name = "plain"},
+                         {.file = "process.exe", .name = "background", .type = "process", .operation = "non-real"}}));
   const Outcome notes = indurop({"check", "--sim", file});
   EXPECT_EQ(notes.code, 0) << notes.err;
-  EXPECT_CONTAINS(notes.out + notes.err, "module beside: it runs outside the schedule, at any time");
+  EXPECT_CONTAINS(notes.out + notes.err, "module background: it runs outside the schedule, at any time");
   EXPECT_FALSE(contains(notes.out + notes.err, "module plain:"));
   const Outcome none = indurop({"check", file});
-  EXPECT_FALSE(contains(none.out + none.err, "module beside:"));
+  EXPECT_FALSE(contains(none.out + none.err, "module background:"));
 }
 
 TEST_F(Simulation, Refuses_what_makes_no_sense) {

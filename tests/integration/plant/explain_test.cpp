@@ -16,12 +16,12 @@ class ExplainPlant : public TurningTable {
 
   [[nodiscard]] std::string recording(const std::string& name) const { return path("r." + board(name) + ".mcap"); }
 
-  void run(const std::string& befalls) {
+  void run(const std::string& events) {
     for (const char* name : {"sensor", "control"}) {
       std::filesystem::remove(recording(name));
     }
     const std::string script = path("script.txt");
-    std::ofstream(script) << befalls;
+    std::ofstream(script) << events;
     const Outcome sut =
         indurop({"run", plant_, "--sim", "-q", "--until", "4s", "--script", script, "--record", path("r.mcap")})
             .finish();
@@ -72,8 +72,9 @@ TEST_F(ExplainPlant, Tells_a_board_without_power_from_a_pulled_cable) {
   }
 }
 
-// A chain of three boards: each reads of the one before it only. Whoever ends first is not blamed for the end.
-TEST_F(ExplainPlant, Blames_nobody_where_nothing_happened) {
+// A chain of three boards: each reads of the one before it only. The board that ends first is not reported as the
+// cause.
+TEST_F(ExplainPlant, Names_no_cause_where_nothing_happened) {
   std::string boards;
   const std::vector<std::string> names{"one", "two", "three"};
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -54,8 +54,8 @@ TEST_F(Local, All_boards_are_recorded_in_one_file_and_each_is_replayed) {
   EXPECT_THAT(recorded.err, HasSubstr(" of 2 boards, "));
   const std::string parts = (folder() / "parts.mcap").string();
   EXPECT_EQ(indurop({"record", "--plant", plant, "-o", parts, "--split", "300ms", "--duration", "1s"}).wait(), 0);
-  const Outcome wrong = indurop({"record", "nobody", "--plant", plant, "-o", (folder() / "x.mcap").string()}).finish();
-  EXPECT_THAT(wrong.err, HasSubstr("no board has a variable 'nobody'"));
+  const Outcome wrong = indurop({"record", "missing", "--plant", plant, "-o", (folder() / "x.mcap").string()}).finish();
+  EXPECT_THAT(wrong.err, HasSubstr("no board has a variable 'missing'"));
   sut.signal(SIGINT);
   EXPECT_EQ(sut.wait(), 130);
   for (const std::string& each : {file, (folder() / "parts.0002.mcap").string()}) {
@@ -183,7 +183,7 @@ TEST_F(Local, A_standby_keeps_the_loop_closed) {
       // Right after the change it may push the other way for a moment.
       EXPECT_TRUE(wait_until([&] { return torque("sensor") > 0 && torque("sensor") < 1; })) << torque("sensor");
     } else {
-      EXPECT_TRUE(wait_until([&] { return torque("sensor") == 0; })) << "nobody is left";
+      EXPECT_TRUE(wait_until([&] { return torque("sensor") == 0; })) << "no board is left";
     }
   }
 }
@@ -227,9 +227,9 @@ TEST_F(Local, Options_that_would_do_nothing_are_refused) {
 }
 
 TEST_F(Local, A_board_the_plant_does_not_have_is_named_with_those_it_has) {
-  Program& sut = indurop({"run", two_boards(), "--board", "nobody"});
+  Program& sut = indurop({"run", two_boards(), "--board", "missing"});
   EXPECT_EQ(sut.wait(), 2);
-  EXPECT_THAT(sut.err(), HasSubstr("has no board nobody; it has " + board("sensor") + ", " + board("control")));
+  EXPECT_THAT(sut.err(), HasSubstr("has no board missing; it has " + board("sensor") + ", " + board("control")));
 }
 
 TEST_F(Local, Status_tells_of_the_other_board) {

@@ -53,7 +53,7 @@ TEST_F(SilentBoard, Is_named_and_the_others_are_not_waited_for) {
 }
 
 TEST_F(SilentBoard, Of_which_nothing_is_known_is_named_with_what_was_asked_for) {
-  // A board that runs alone: the other one never did, so nobody has told what it shows.
+  // A board that runs alone: the other one never did, so no peer has announced what it shows.
   start({INDUROP_PROGRAM, "run", plant(), "--board", board("left"), "--one-host", "-q"});
   ASSERT_TRUE(wait_until([&] { return remote({"get", "left.number"}).code == 0; }));
   for (const std::string& name : {std::string("elsewhere"), "elsewhere@" + board("middle"), std::string("else*")}) {
@@ -64,13 +64,13 @@ TEST_F(SilentBoard, Of_which_nothing_is_known_is_named_with_what_was_asked_for) 
   EXPECT_THAT(remote({"get", "left@" + board("middle")}, "1s").err, HasSubstr(board("middle")));
 }
 
-TEST_F(SilentBoard, Peers_that_are_no_machines_are_told_at_once) {
+TEST_F(SilentBoard, Peers_that_are_no_machines_are_reported_at_once) {
   const Outcome sut = remote({"get", "left.number", "--peer", "no such machine"});
   EXPECT_EQ(sut.code, 2);
   EXPECT_THAT(sut.err, HasSubstr("--peer no such machine: "));
 }
 
-TEST_F(SilentBoard, Peers_whose_name_nobody_resolves_are_waited_for_no_longer_than_the_boards) {
+TEST_F(SilentBoard, Peers_with_names_that_cannot_be_resolved_delay_no_longer_than_the_boards) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the library that takes name servers away cannot be loaded before that of the sanitizer";
 #endif

@@ -55,10 +55,10 @@ TEST_F(SimulatedPlant, Closes_its_loop_and_ends_after_its_time) {
 }
 
 TEST_F(SimulatedPlant, Is_the_same_to_the_last_bit_on_every_run) {
-  const std::string befalls = script("300ms kill " + board("control") + "\n900ms return " + board("control") +
-                                     "\n1500ms cut " + board("sensor") + "\n2s return " + board("sensor") + "\n");
+  const std::string events = script("300ms kill " + board("control") + "\n900ms return " + board("control") +
+                                    "\n1500ms cut " + board("sensor") + "\n2s return " + board("sensor") + "\n");
   const std::vector<std::string> words = {"--until", "3s",        "--script",
-                                          befalls,   "--network", "delay=150us,jitter=900us,loss=0.05,seed=5"};
+                                          events,    "--network", "delay=150us,jitter=900us,loss=0.05,seed=5"};
   const auto first = record(words);
   const std::string returned = recording("control", ".2");
   EXPECT_GT(first.first.size(), 100'000U);
@@ -76,10 +76,10 @@ TEST_F(SimulatedPlant, Waits_longer_for_values_when_the_network_is_slow) {
 }
 
 TEST_F(SimulatedPlant, What_a_board_without_power_sent_is_too_old_soon) {
-  const std::string befalls = script("1s kill " + board("control") + "\n");
-  EXPECT_EQ(run({"-q", "--until", "1005ms", "--script", befalls}).wait(), 0);
+  const std::string events = script("1s kill " + board("control") + "\n");
+  EXPECT_EQ(run({"-q", "--until", "1005ms", "--script", events}).wait(), 0);
   EXPECT_GT(at_end("sensor", "cell::torque"), 0.03);
-  EXPECT_EQ(run({"-q", "--until", "1300ms", "--script", befalls}).wait(), 0);
+  EXPECT_EQ(run({"-q", "--until", "1300ms", "--script", events}).wait(), 0);
   EXPECT_EQ(at_end("sensor", "cell::torque"), 0) << "the declared fallback";
 }
 

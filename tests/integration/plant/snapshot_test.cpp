@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables of another board that are read together: by boards that run, and once more in a replay.
+// Variables of another board that are read together: by boards that run, and again in a replay.
 
 #include "turning_table_fixture.h"
 

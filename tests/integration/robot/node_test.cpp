@@ -80,7 +80,7 @@ TEST_F(RobotNode, Where_it_stands_is_written_into_its_files) {
   }
 }
 
-TEST_F(RobotNode, Jobs_are_read_anew_while_it_stands) {
+TEST_F(RobotNode, Jobs_are_read_again_at_standstill) {
   begin("POINT A = JOINT 30 10 -10 0 40 -20\nMOVJ A\nSET O8 ON\n");
   ASSERT_EQ(serve("eOpCode: 1"), 0);
   ASSERT_EQ(serve("eOpCode: 11, nJob: 1"), 0);
@@ -130,7 +130,7 @@ TEST_F(RobotNode, A_hand_at_a_terminal_moves_it_and_is_missed_when_it_is_killed)
   ASSERT_TRUE(wait_until([&] { return joint(1) > 1; }));
   hand.kill();
   EXPECT_TRUE(wait_until([&] { return state() == 1; }));
-  EXPECT_EQ(number("PLC_ROBOT::ROBOT_JOG.bEnable"), 1);  // nobody let go
+  EXPECT_EQ(number("PLC_ROBOT::ROBOT_JOG.bEnable"), 1);  // it was not released
   const double rests = joint(1);
   EXPECT_EQ(indurop({"robot", "jog", "J1-", "--speed", "30", "--for", "500ms"}).code, 0);
   EXPECT_TRUE(wait_until([&] { return joint(1) < rests - 0.5 && state() == 1; }));
@@ -162,7 +162,7 @@ TEST_F(RobotNode, Manual_mode_moves_it_slowly_and_only_with_the_enabling_switch)
   EXPECT_EQ(number("PLC_ROBOT::ROBOT_MODULE_STATE.nError"), 27) << "ROBOT_ERR_MODE";
 }
 
-TEST_F(RobotNode, The_emergency_stop_is_told_in_its_tick_and_the_robot_brakes_on_its_path) {
+TEST_F(RobotNode, The_emergency_stop_is_reported_in_its_tick_and_the_robot_brakes_on_its_path) {
   begin("");
   ASSERT_EQ(serve("eOpCode: 1"), 0);
   const int wanted = next_request();
@@ -219,7 +219,7 @@ TEST_F(RobotNode, Every_block_of_products_that_move) {
   run_blocks("track_blocks");
 }
 
-TEST_F(RobotNode, Two_robots_in_one_node_move_by_themselves) {
+TEST_F(RobotNode, Two_robots_in_one_node_move_independently) {
   start_and_wait(two_robots());
   set("PLC_ROBOT::I14", "1");
   set("PLC_ROBOT::I15", "1");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boards of a secured plant on loopback, and strangers, viewers and boards with wrong keys beside them.
+// Boards of a secured plant on loopback, and strangers, viewers and boards with wrong keys.
 
 #include <indurop/idl/wire.h>
 

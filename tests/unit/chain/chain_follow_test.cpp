@@ -145,7 +145,7 @@ TEST(ChainFollow, Finds_the_right_run_or_none_in_random_plants) {
   EXPECT_GT(younger, 0U) << "no run began so late that it used what was released after it";
 }
 
-TEST(ChainFollow, A_run_that_was_not_read_makes_nobody_elses_value_its_own) {
+TEST(ChainFollow, A_run_that_was_not_read_claims_no_value_of_another_writer) {
   // The second of three writers' runs is missing; what it left is seen.
   const std::vector<ChainRun> writers{{0, 0, 0, 10, 0, 1}, {2, 200, 200, 210, 0, 3}};
   const std::vector<ChainRun> readers{{0, 0, 20, 30, 1, 0}, {1, 100, 120, 130, 2, 0}, {2, 200, 220, 230, 3, 0}};
@@ -157,7 +157,7 @@ TEST(ChainFollow, A_run_that_was_not_read_makes_nobody_elses_value_its_own) {
   EXPECT_EQ(sut.unread, 0U);
 }
 
-TEST(ChainFollow, A_value_that_somebody_else_wrote_is_nobodys) {
+TEST(ChainFollow, A_value_of_an_unknown_writer_belongs_to_no_module) {
   const std::vector<ChainRun> writers{{0, 0, 0, 10, 0, 1}, {1, 100, 100, 110, 0, 2}};
   const std::vector<ChainRun> readers{{0, 0, 20, 30, 1, 0}, {1, 100, 120, 130, 99, 0}};
   const ChainAges sut = follow_chain(std::vector<ChainStage>{{writers, false}, {readers, false}});
@@ -175,7 +175,7 @@ Facts board_of(std::vector<RunFact> runs) {
   return facts;
 }
 
-TEST(Keeping, Tells_what_modules_took_by_themselves_and_how_late_ticks_began) {
+TEST(Keeping, Reports_execution_times_of_modules_and_how_late_ticks_began) {
   const Keeping sut = keeping_of(board_of({{0, 0, 0, 5, 20, false},
                                            {1, 0, 0, 20, 130, false},
                                            {0, 1, 100, 103, 120, false},

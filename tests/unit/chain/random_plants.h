@@ -39,7 +39,7 @@ struct World {
   bool overrun = false;
 };
 
-// One board by itself: values do not change when its modules run. Nothing if one does not end before its next release.
+// One board alone: values do not change when its modules run. Nothing if one does not end before its next release.
 inline std::optional<Runs> run(const std::vector<Timed>& board) {
   std::vector<scheduler::Task> tasks;
   for (std::size_t i = 0; i < board.size(); ++i) {

@@ -86,7 +86,7 @@ TEST_F(CheckAccess, Read_but_never_written_with_a_value_of_its_own_is_a_paramete
               ElementsAre(HasSubstr("note: 'n::gain' is read by a but no module writes it: a parameter")));
 }
 
-TEST_F(CheckAccess, Sensor_control_and_motor_in_the_wrong_order_are_told_how_to_swap) {
+TEST_F(CheckAccess, For_sensor_control_and_motor_in_the_wrong_order_a_message_says_what_to_swap) {
   write("RS.so", {}, {"n::sensor"});
   write("GC.so", {"n::sensor"}, {"n::command"});
   write("WM.so", {"n::command"}, {});
@@ -125,7 +125,7 @@ TEST_F(CheckAccess, Modules_never_released_together_have_no_wrong_order) {
   EXPECT_THAT(check_lines(periodic("r.so", "2ms", 1) + periodic("w.so", "2ms", 2, "<offset>1ms</offset>")), IsEmpty());
 }
 
-TEST_F(CheckAccess, Age_is_told_for_every_pair) {
+TEST_F(CheckAccess, The_age_is_reported_for_every_pair) {
   write("w.so", {}, {"n::x", "n::y"});
   write("r.so", {"n::x", "n::y"}, {});
   EXPECT_THAT(checked(periodic("w.so", "500us", 1) + periodic("r.so", "100us", 2)).lines(),

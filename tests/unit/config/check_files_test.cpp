@@ -8,7 +8,7 @@
 
 #include "configuration.h"
 #include "module_file.h"
-#include "tests/support/as_nobody.h"
+#include "tests/support/unprivileged.h"
 
 namespace indurop::config {
 namespace {
@@ -39,7 +39,7 @@ TEST_F(CheckFiles, Complete_configuration_has_nothing_to_complain_about) {
               IsEmpty());
 }
 
-TEST_F(CheckFiles, Missing_file_is_told_with_the_nearest_name) {
+TEST_F(CheckFiles, A_missing_file_is_reported_with_the_nearest_name) {
   write("control.so", {});
   EXPECT_THAT(check_lines(periodic("contrl.so", "1ms", 1)),
               ElementsAre(AllOf(HasSubstr("module.xml:2:19: error: no such file: 'contrl.so'"),
@@ -68,7 +68,7 @@ TEST_F(CheckFiles, A_pipe_is_refused_and_not_waited_for) {
               Contains(HasSubstr("'pipe.exe' is not an ordinary file")));
 }
 
-TEST_F(CheckFiles, Unreadable_file_is_told) {
+TEST_F(CheckFiles, An_unreadable_file_is_reported) {
   write("a.so", {});
   ::chmod((folder_ / "a.so").c_str(), 0);
   ::chmod((folder_ / ".").c_str(), 0755);
@@ -124,7 +124,7 @@ TEST_F(CheckFiles, Process_must_be_executable_and_know_when_to_run) {
       IsEmpty());
 }
 
-TEST_F(CheckFiles, Layouts_that_differ_are_told_with_variable_and_both_modules) {
+TEST_F(CheckFiles, Layouts_that_differ_are_reported_with_variable_and_both_modules) {
   ModuleSpec a;
   a.schema.variables = {variable("knu::Robot::speed")};
   ModuleSpec b;
@@ -138,7 +138,7 @@ TEST_F(CheckFiles, Layouts_that_differ_are_told_with_variable_and_both_modules) 
                         HasSubstr("and output (old/knuRobot.glb:3): double / float"))));
 }
 
-TEST_F(CheckFiles, Damaged_description_is_told) {
+TEST_F(CheckFiles, A_damaged_description_is_reported) {
   ModuleSpec a;
   a.schema.variables = {variable("knu::Robot::speed")};
   std::string bytes = ElfWriter(a).bytes();
@@ -147,7 +147,7 @@ TEST_F(CheckFiles, Damaged_description_is_told) {
   EXPECT_THAT(check_lines(periodic("a.so", "1ms", 1)), Contains(HasSubstr("damaged description")));
 }
 
-TEST_F(CheckFiles, Calling_shared_functions_nobody_implements_is_a_warning) {
+TEST_F(CheckFiles, Calling_shared_functions_without_an_implementation_is_a_warning) {
   write("caller.so", {.imports = {"indurop_call"}});
   EXPECT_THAT(check_lines(periodic("caller.so", "1ms", 1)),
               ElementsAre(HasSubstr("warning: caller calls shared functions")));

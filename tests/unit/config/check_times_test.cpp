@@ -17,7 +17,7 @@ std::string wcet(const char* time) {
   return std::string("<wcet>") + time + "</wcet>";
 }
 
-TEST(Times, Are_not_looked_at_where_no_module_says_how_long_it_executes) {
+TEST(Times, Are_not_checked_if_no_module_declares_its_execution_time) {
   const Checked sut = check(root(periodic("a.so", "1ms", 1)), kTimesOnly);
   EXPECT_EQ(sut.result.dispatch_share, 0);
   EXPECT_FALSE(sut.result.timings[0].known);

@@ -105,7 +105,7 @@ TEST(Writers_first, Sensor_control_motor_whatever_order_they_come_in) {
   EXPECT_THAT(writers_first(3, {}), ElementsAre(0, 1, 2));
 }
 
-TEST(Writers_first, Circles_keep_their_order_and_lose_nobody) {
+TEST(Writers_first, Circles_keep_their_order_and_lose_no_module) {
   EXPECT_THAT(writers_first(4, {{0, 1}, {1, 0}, {3, 0}}), ElementsAre(1, 2, 3, 0));
   EXPECT_THAT(writers_first(2, {{0, 1}, {1, 0}}), ElementsAre(0, 1));
 }

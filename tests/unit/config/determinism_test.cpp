@@ -20,7 +20,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// This program is the module that is looked at: it really asks for these things.
+// This program is the module that is checked: it really asks for these things.
 void ask_the_system() {
   std::random_device device;
   std::ifstream file("/proc/self/comm");

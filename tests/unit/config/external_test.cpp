@@ -57,7 +57,7 @@ TEST(External, Of_a_module_xml_is_off_without_types_and_domain_0_with_them) {
   EXPECT_FALSE(read_root("<external>off</external><types>./libt.so</types>").config.external.domain);
 }
 
-TEST(External, Mistakes_in_a_module_xml_are_told) {
+TEST(External, Errors_in_a_module_xml_are_reported) {
   EXPECT_THAT(said(read_root("<external>2</external>")), ElementsAre(HasSubstr("shows nothing without <types>")));
   EXPECT_THAT(said(read_root("<external>300</external><types>./t.so</types>")),
               ElementsAre(HasSubstr("is not a DDS domain")));
@@ -144,7 +144,7 @@ TEST(External, Arrays_of_texts_are_named_because_Debians_fastddsgen_misreads_the
                                                   "fastddsgen 2.3 (Debian 12)"));
   EXPECT_THAT(said[0].text, HasSubstr("a::names and a::deep;"));
   check_foreign_types({}, {}, schema, report);
-  EXPECT_EQ(said.size(), 1U) << "nobody is shown anything";
+  EXPECT_EQ(said.size(), 1U) << "nothing is shown";
 }
 
 }  // namespace

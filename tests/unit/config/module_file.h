@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes module files as a compiler would, as far as anybody looks at them before they are loaded.
+// Writes module files as a compiler would, as far as they are read before they are loaded.
 
 #pragma once
 

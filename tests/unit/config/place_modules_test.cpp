@@ -56,7 +56,7 @@ TEST_F(PlaceModules, Keeps_together_what_shares_data_and_spreads_the_rest) {
                     HasSubstr("No module waits for one of another core")));
 }
 
-TEST_F(PlaceModules, Splits_it_if_told_and_says_what_waits) {
+TEST_F(PlaceModules, Splits_it_on_request_and_reports_what_waits) {
   write("w.so", {}, {"n::x"});
   write("q.so", {"n::x"}, {});
   write("r.so", {"n::x"}, {});
@@ -86,7 +86,7 @@ TEST_F(PlaceModules, A_core_that_is_given_stays) {
   EXPECT_EQ(core(sut, "b"), 0);
 }
 
-TEST_F(PlaceModules, Times_that_nobody_knows_are_assumed_and_said) {
+TEST_F(PlaceModules, Unknown_times_are_assumed_and_reported) {
   write("a.so", {}, {});
   write("b.so", {}, {});
   EXPECT_THAT(of(periodic("a.so", "1ms", 1, wcet("100us")) + periodic("b.so", "1ms", 2)).lines(),

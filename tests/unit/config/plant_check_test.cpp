@@ -232,7 +232,7 @@ TEST_F(CheckPlant, Layouts_that_differ_between_boards_are_an_error_naming_both) 
                                 HasSubstr(") and r@b ("), HasSubstr("double"), HasSubstr("float"))));
 }
 
-TEST_F(CheckPlant, Layouts_that_differ_on_one_board_are_told_once) {
+TEST_F(CheckPlant, Layouts_that_differ_on_one_board_are_reported_once) {
   write("w.so", {}, {"n::x"});
   write("r.so", {"n::x"}, {}, 0, schema::Base::Float);
   EXPECT_THAT(check_lines(board("a", periodic("w.so", "1ms", 1) + periodic("r.so", "1ms", 2))),
@@ -345,7 +345,7 @@ TEST_F(CheckPlant, Files_are_those_of_the_board_s_architecture) {
 #endif
 }
 
-TEST_F(CheckPlant, Type_libraries_are_looked_at) {
+TEST_F(CheckPlant, Type_libraries_are_checked) {
   write("lib_types.so", {}, {});
   write_channel("p.exe", {}, "4read");
   EXPECT_THAT(check_lines("<types>lib_types.so</types>" + board("a", "")), IsEmpty());
@@ -371,7 +371,7 @@ TEST_F(CheckPlant, Each_board_has_its_own_schedule_and_its_own_errors) {
   EXPECT_FALSE(sut.result.ok());
 }
 
-TEST_F(CheckPlant, Without_files_only_schedules_are_looked_at) {
+TEST_F(CheckPlant, Without_files_only_schedules_are_checked) {
   const CheckedPlant sut =
       checked(board("a", periodic("none.so", "1ms", 1)) + "<variable name=\"x\" owner=\"a\"/>", {.files = false});
   EXPECT_THAT(sut.lines(), IsEmpty());

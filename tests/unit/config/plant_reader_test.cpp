@@ -150,7 +150,7 @@ TEST(PlantReader, Board_names_differ_in_more_than_case) {
   EXPECT_THAT(with_board(board("name=\"" + std::string(40, 'a') + "\"")), IsEmpty());
 }
 
-TEST(PlantReader, Unknown_and_second_names_are_told_with_what_was_meant) {
+TEST(PlantReader, Unknown_and_second_names_are_reported_with_what_was_probably_meant) {
   EXPECT_THAT(with_board("<domian>3</domian>\n"), ElementsAre(HasSubstr("in <plant>; did you mean 'domain'?")));
   EXPECT_THAT(with_board("<module/>\n"), ElementsAre(HasSubstr("unknown element '<module>' in <plant>; known are: ")));
   EXPECT_THAT(with_board(board("name=\"b\" adress=\"a\"")), ElementsAre(HasSubstr("did you mean 'address'?")));
@@ -256,7 +256,7 @@ TEST(PlantReader, Type_libraries_are_files_named_once) {
   EXPECT_THAT(with_board("<types/>"), ElementsAre(HasSubstr("<types> is empty")));
 }
 
-TEST(PlantReader, The_two_kinds_of_files_are_told_apart) {
+TEST(PlantReader, The_two_kinds_of_files_are_distinguished) {
   EXPECT_THAT(lines_of(root(periodic("a.so", "1ms", 1))),
               ElementsAre(AllOf(HasSubstr("the root element is <root>"), HasSubstr("this one is a module.xml"))));
   EXPECT_THAT(errors_of(plant(board("name=\"b\""))),

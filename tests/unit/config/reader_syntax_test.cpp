@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "configuration.h"
-#include "tests/support/as_nobody.h"
+#include "tests/support/unprivileged.h"
 
 namespace indurop::config {
 namespace {
@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST(Syntax, Mistakes_are_told_with_line_and_column) {
+TEST(Syntax, Errors_are_reported_with_line_and_column) {
   const struct {
     const char* xml;
     const char* where;

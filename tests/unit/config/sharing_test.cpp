@@ -101,7 +101,7 @@ TEST(After, Names_a_module_that_is_earlier_in_the_order) {
   EXPECT_THAT(errors("<after>s</after>"), ElementsAre(HasSubstr("s is not periodic")));
 }
 
-TEST(Cores, Are_auto_or_a_number_and_keep_together_what_shares_data_unless_told) {
+TEST(Cores, Are_auto_or_a_number_and_by_default_keep_together_what_shares_data) {
   const auto setting = [](const std::string& text) {
     return config_of(root(text + periodic("a.so", "1ms", 1))).cores.value_or(CoresSetting{-1, false, {}, {}});
   };

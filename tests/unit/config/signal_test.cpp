@@ -23,7 +23,7 @@ TEST(Signal, Names_and_numbers_mean_the_same) {
   EXPECT_THAT(read_signal(std::to_string(SIGRTMAX)).value, Optional(SIGRTMAX));
 }
 
-TEST(Signal, Those_nobody_can_handle_are_refused) {
+TEST(Signal, Those_that_cannot_be_handled_are_rejected) {
   for (const char* text : {"KILL", "SIGKILL", "9", "STOP", "SIGSTOP", "19"}) {
     EXPECT_THAT(read_signal(text).problem, HasSubstr("cannot be handled")) << text;
   }

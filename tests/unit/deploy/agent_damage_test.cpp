@@ -144,7 +144,7 @@ class AgentDamage : public testing::Test {
     }
     return check.report();
   }
-  bool told(const std::string& part) const {
+  bool has_printed(const std::string& part) const {
     return std::any_of(lines_.begin(), lines_.end(),
                        [&](const std::string& line) { return line.find(part) != std::string::npos; });
   }
@@ -180,7 +180,7 @@ TEST_F(AgentDamage, A_changed_bit_is_never_run_never_called_committed_and_repair
     if (!of_deployments) {
       // What it had committed is what it says, or it has nothing committed.
       EXPECT_TRUE(state_->committed().current.empty());
-      EXPECT_TRUE(told("committed.json is damaged"));
+      EXPECT_TRUE(has_printed("committed.json is damaged"));
       Committed again;
       again.generation = 2;
       again.plant = "cell";
@@ -241,7 +241,7 @@ TEST_F(AgentDamage, A_damaged_package_of_what_runs_costs_none_of_its_files) {
   EXPECT_TRUE(fs::exists(state_->files().deployment(id) / "mods/main.so"));
 }
 
-TEST_F(AgentDamage, A_damaged_package_of_before_costs_none_of_its_files) {
+TEST_F(AgentDamage, A_damaged_earlier_package_costs_none_of_its_files) {
   const std::string before = deploy(version("1"));
   deploy(version("2"));
   flip_a_bit({state_->file(before)});

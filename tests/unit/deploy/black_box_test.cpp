@@ -46,7 +46,7 @@ TEST_F(BlackBoxTest, The_newest_are_kept) {
   EXPECT_EQ(files().size(), BlackBox::kKept);
 }
 
-TEST_F(BlackBoxTest, A_folder_that_cannot_be_had_is_told) {
+TEST_F(BlackBoxTest, A_folder_that_cannot_be_created_is_reported) {
   const BlackBox sut("/proc/none", "black_box_test_none");
   EXPECT_THAT(sut.keep(), HasSubstr("could not be kept: cannot write /proc/none/"));
 }

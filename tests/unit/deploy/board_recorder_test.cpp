@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording for somebody elsewhere: what ends it, what is left of it, what it does not take. The recorder is a
+// A recording for a client on another host: what ends it, what remains of it, what it rejects. The recorder is a
 // script.
 
 #include "deploy/agent/board_recorder.h"
@@ -40,7 +40,7 @@ class Board_recorder : public testing::Test {
     made.variables.push_back(vars::test::variable("cell::torque", vars::test::scalar_type(schema::Base::Double)));
     return made;
   }
-  // Says how it was called in the file it is told to write, and runs until something ends it.
+  // Says how it was called in the file that it writes, and runs until something ends it.
   void script(const std::string& line) const {
     std::ofstream out(program());
     out << "#!/bin/sh\nfile=$5\n" << line << "\necho \"$@\" > \"$file\"\nwhile :; do sleep 0.01; done\n";
@@ -72,7 +72,7 @@ class Board_recorder : public testing::Test {
     }));
     return answer;
   }
-  // Until it has ended by itself.
+  // Until it has ended on its own.
   std::string why_it_ended(const std::string& name) {
     std::string why;
     EXPECT_TRUE(wait_until([&] {
@@ -95,7 +95,7 @@ class Board_recorder : public testing::Test {
   std::optional<BoardRecorder> sut_;
 };
 
-TEST_F(Board_recorder, Records_until_it_is_told_to_end_and_keeps_the_file_until_it_is_dropped) {
+TEST_F(Board_recorder, Records_until_it_is_commanded_to_end_and_keeps_the_file_until_it_is_discarded) {
   EXPECT_EQ(give(Action::Record, "one\npast").outcome, Outcome::Done);
   EXPECT_EQ(give(Action::Record, "one\npast").outcome, Outcome::Unchanged) << "it goes on";
   EXPECT_EQ(give(Action::EndRecord, "one").outcome, Outcome::Done);
@@ -116,7 +116,7 @@ TEST_F(Board_recorder, Says_which_names_nothing_has_and_records_the_others) {
   EXPECT_EQ(recording_file(node_.name(), "two"), std::nullopt) << "there is nothing to record";
 }
 
-TEST_F(Board_recorder, Ends_when_nobody_asks_for_it_any_more) {
+TEST_F(Board_recorder, Ends_when_no_client_requests_it_any_more) {
   give(Action::Record, "one\nnow");
   now_ += std::chrono::seconds(14);
   give(Action::Record, "one\nnow");
@@ -139,7 +139,7 @@ TEST_F(Board_recorder, Leaves_room_on_the_disk) {
   EXPECT_EQ(recordings_text(node_.name()), R"({"recordings":[]})") << "the one before made room";
 }
 
-TEST_F(Board_recorder, Tells_what_its_recorder_told) {
+TEST_F(Board_recorder, Reports_what_its_recorder_reported) {
   script("echo 'indurop: error: 3 runs of main are missing'; exit 1");
   EXPECT_EQ(give(Action::Record, "one\nnow").text, "3 runs of main are missing");
   script("trap 'echo indurop: error: 3 runs of main are missing; exit 1' INT");

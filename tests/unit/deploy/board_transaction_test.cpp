@@ -31,7 +31,7 @@ class Board : public testing::Test {
     return out;
   }
   Do hear(Step step, std::uint64_t deployer = 7) { return sut_.receive(order(step, deployer), now_, wall_); }
-  // Looks at the time in steps, as an agent does.
+  // Advances the time in steps, as an agent does.
   Do listen_for(std::chrono::nanoseconds time) {
     for (const rt::MonoTime end = now_ + time; now_ < end;) {
       now_ += 100 * kMs;

@@ -28,7 +28,7 @@ TEST(BoxWatch, Tells_of_new_faults_and_of_many_overruns) {
   EXPECT_THAT(sut.note_report(report(2100, 4, 519)).value_or(""), HasSubstr("10 overruns"));
 }
 
-TEST(BoxWatch, A_node_that_is_started_anew_is_no_fault_and_one_that_died_is) {
+TEST(BoxWatch, A_restarted_node_is_no_fault_and_one_that_died_is) {
   BoxWatch sut;
   EXPECT_EQ(sut.note_report(report(1000, 0)), std::nullopt);
   EXPECT_EQ(sut.note_report(report(10, 2)), std::nullopt) << "another run, with figures of its own";
@@ -39,7 +39,7 @@ TEST(BoxWatch, A_node_that_is_started_anew_is_no_fault_and_one_that_died_is) {
   EXPECT_EQ(sut.note_report(dead), std::nullopt) << "once";
 }
 
-TEST(BoxWatch, A_board_that_left_while_its_node_ran_is_told_once) {
+TEST(BoxWatch, A_board_that_left_while_its_node_ran_is_reported_once) {
   BoxWatch sut;
   EXPECT_EQ(sut.gone(report(5)), std::nullopt) << "it was never there";
   EXPECT_EQ(sut.note_report(report(1000)), std::nullopt);

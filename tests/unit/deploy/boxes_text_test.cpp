@@ -39,7 +39,7 @@ TEST_F(Boxes_text, Gives_what_is_in_the_list_and_nothing_else) {
                            "deeper.mcap/../20261122-100000-000.mcap", "/etc/passwd"}) {
     EXPECT_FALSE(box_file("a", name)) << name;
   }
-  EXPECT_FALSE(box_file("nobody", "20261122-100000-000.mcap"));
+  EXPECT_FALSE(box_file("missing", "20261122-100000-000.mcap"));
 }
 
 TEST_F(Boxes_text, Damaged_ones_are_in_the_list_with_what_is_wrong) {
@@ -47,7 +47,7 @@ TEST_F(Boxes_text, Damaged_ones_are_in_the_list_with_what_is_wrong) {
   const std::string text = boxes_text("a");
   EXPECT_NE(text.find("20261122-100000-000.mcap"), std::string::npos) << text;
   EXPECT_NE(text.find("this is not a recording"), std::string::npos) << text;
-  EXPECT_EQ(boxes_text("nobody"), R"({"boxes":[]})");
+  EXPECT_EQ(boxes_text("missing"), R"({"boxes":[]})");
 }
 
 }  // namespace

@@ -162,10 +162,10 @@ TEST_F(Packing, A_module_named_without_ending_travels_as_its_file_or_is_of_the_i
   put("cell/libx.so", "module");
   config::Plant with = plant("x");
   with.boards[0].config.modules[0].file = folder_ / "cell/libx.so";
-  const auto beside = pack_plant(with);
-  ASSERT_TRUE(beside) << beside.error().text;
-  ASSERT_EQ(beside->package.files.size(), 2U);
-  EXPECT_EQ(beside->package.files[0].path, "libx.so");
+  const auto packed = pack_plant(with);
+  ASSERT_TRUE(packed) << packed.error().text;
+  ASSERT_EQ(packed->package.files.size(), 2U);
+  EXPECT_EQ(packed->package.files[0].path, "libx.so");
   with.boards[0].config.modules[0].file = "/usr/local/lib/libx.so";
   EXPECT_EQ(pack_plant(with)->package.files.size(), 1U);
 }

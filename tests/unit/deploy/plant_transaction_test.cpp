@@ -46,7 +46,7 @@ class Deployer : public testing::Test {
     say(report("b", phase));
   }
   bool time() { return sut_.time(now_, wall_); }
-  // Looks at the time in steps, as a deployer does.
+  // Advances the time in steps, as a deployer does.
   void listen_for(std::chrono::nanoseconds duration) {
     for (const rt::MonoTime end = now_ + duration; now_ < end;) {
       now_ += std::chrono::milliseconds{100};
@@ -107,7 +107,7 @@ TEST_F(Deployer, A_board_that_cannot_prepare_leaves_everything_as_it_was) {
   EXPECT_THAT(sut_.reasons(), ElementsAre(Pair("b", "disk full")));
 }
 
-TEST_F(Deployer, A_check_that_fails_on_a_board_is_told_apart) {
+TEST_F(Deployer, A_check_that_fails_on_a_board_is_distinguished) {
   BoardReport failed = report("b", Phase::Failed);
   failed.stage = Phase::Checking;
   say(failed);
@@ -151,7 +151,7 @@ TEST_F(Deployer, A_board_that_dies_in_the_trial_rolls_all_boards_back) {
   EXPECT_FALSE(sut_.finished()) << "a has not gone back yet";
   say(report("a", Phase::Steady));
   time();
-  EXPECT_TRUE(sut_.finished()) << "b goes back by itself";
+  EXPECT_TRUE(sut_.finished()) << "b goes back on its own";
 }
 
 TEST_F(Deployer, A_board_that_is_lost_for_a_moment_ends_nothing) {
@@ -159,7 +159,7 @@ TEST_F(Deployer, A_board_that_is_lost_for_a_moment_ends_nothing) {
   all(Phase::Healthy);
   sut_.board_lost("b", 2, now_);
   time();
-  EXPECT_EQ(sut_.order().step, Step::Switch) << "nobody knows what became of it";
+  EXPECT_EQ(sut_.order().step, Step::Switch) << "its state is not known";
   listen_for(PlantTransaction::kLost);
   say(report("b", Phase::Healthy));
   listen_for(2 * PlantTransaction::kLost);

@@ -58,16 +58,16 @@ TEST_F(ServiceManagerTest, Says_that_it_lives_at_least_twice_in_the_time_it_is_g
   ::setenv("WATCHDOG_USEC", "1000000", 1);
   ::setenv("WATCHDOG_PID", std::to_string(::getpid()).c_str(), 1);
   ServiceManager sut;
-  int told = 0;
+  int reports = 0;
   for (rt::MonoTime now = rt::mono_time(5'000'000'000); now < rt::mono_time(15'000'000'000); now += 20ms) {
     sut.alive(now);
-    told += heard() == "WATCHDOG=1" ? 1 : 0;
+    reports += heard() == "WATCHDOG=1" ? 1 : 0;
   }
-  EXPECT_GE(told, 20);
-  EXPECT_LE(told, 50);
+  EXPECT_GE(reports, 20);
+  EXPECT_LE(reports, 50);
 }
 
-TEST_F(ServiceManagerTest, Is_quiet_where_nobody_waits_for_it) {
+TEST_F(ServiceManagerTest, Is_quiet_without_a_service_manager) {
   ServiceManager sut;
   sut.alive(rt::mono_time(1'000'000'000));
   ::setenv("WATCHDOG_USEC", "1000000", 1);

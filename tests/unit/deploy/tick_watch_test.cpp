@@ -69,7 +69,7 @@ TEST_F(TickWatchTest, Slow_schedules_have_their_time) {
   EXPECT_GT(found_after(3s, 20ms), 32s);
 }
 
-TEST_F(TickWatchTest, Time_in_which_nobody_looked_does_not_count) {
+TEST_F(TickWatchTest, Time_without_polls_does_not_count) {
   EXPECT_EQ(found_after(1s, 20ms), 0s);
   now_ += 3600s;
   EXPECT_EQ(found_after(1s, 20ms), 0s);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Orders to hold values as text: there and back, from agents and tools of before, and what is none.
+// Requests to hold values as text: written and read back, from earlier agents and tools, and invalid ones.
 
 #include "deploy/transaction/write_words.h"
 
@@ -22,7 +22,7 @@ TEST(WriteWords, Come_back_as_they_were) {
   EXPECT_EQ(sut->lines, order.lines);
 }
 
-TEST(WriteWords, Tools_of_before_say_less) {
+TEST(WriteWords, Earlier_tools_send_less) {
   const auto sut = parse_write_order("30\na=1\nb={x: 2}");
   ASSERT_TRUE(sut.has_value());
   EXPECT_EQ(sut->for_ns, 30);
@@ -36,7 +36,7 @@ TEST(WriteWords, Nonsense_is_none) {
   }
 }
 
-TEST(WriteWords, Modules_and_nodes_are_told_who_and_why) {
+TEST(WriteWords, Modules_and_nodes_get_user_and_reason) {
   WriteOrder order;
   order.who = "anna";
   order.reason = "shift: \"ends\"";
@@ -49,7 +49,7 @@ TEST(WriteWords, Modules_and_nodes_are_told_who_and_why) {
   }
 }
 
-TEST(WriteWords, An_agent_of_before_is_told_the_module_only_and_tools_of_before_say_no_more) {
+TEST(WriteWords, An_earlier_agent_gets_the_module_only_and_earlier_tools_send_no_more) {
   WriteOrder order;
   order.who = "anna";
   EXPECT_EQ(module_target(order, "0.1.0"), "");

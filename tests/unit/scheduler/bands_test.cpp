@@ -58,7 +58,7 @@ TEST(Bands, A_lower_priority_on_another_core_waits_in_a_thread) {
 }
 
 // Of a band only the front is compared with other cores.
-TEST(Bands, What_may_run_beside_another_core_shares_no_band_with_what_may_not) {
+TEST(Bands, Modules_that_may_run_in_parallel_share_no_band_with_those_that_may_not) {
   const std::vector<Task> tasks = {task(200, 1, ModuleType::Thread, 0), task(100, 1, ModuleType::Thread, 1),
                                    task(100, 2, ModuleType::Thread, 1)};
   const auto sut = make_bands(tasks, 100);

@@ -193,10 +193,10 @@ std::vector<std::int64_t> bounds_of(const std::vector<Task>& tasks, CoreOrder or
     Demand demand{Nanos(task.period_ns), Nanos(task.offset_ns), Nanos(task.work_ns), false, task.core};
     for (std::uint32_t k = 0; k < i; ++k) {
       const Task& other = tasks[turn[k]];
-      const bool told = order == CoreOrder::Total
-                            ? front[k] < front[i]
-                            : std::find(task.after.begin(), task.after.end(), other.index) != task.after.end();
-      if (told && other.core != task.core) {
+      const bool required = order == CoreOrder::Total
+                                ? front[k] < front[i]
+                                : std::find(task.after.begin(), task.after.end(), other.index) != task.after.end();
+      if (required && other.core != task.core) {
         demand.after.push_back(k);
       }
     }
@@ -214,7 +214,7 @@ std::vector<std::int64_t> bounds_of(const std::vector<Task>& tasks, CoreOrder or
 }
 
 TEST(DataOrder, No_run_on_several_cores_ends_later_than_its_bound_says) {
-  int looked_at = 0;
+  int checked = 0;
   int exact = 0;
   for (unsigned seed = 0; seed < 1000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -226,7 +226,7 @@ TEST(DataOrder, No_run_on_several_cores_ends_later_than_its_bound_says) {
     if (bounds.empty()) {
       continue;
     }
-    ++looked_at;
+    ++checked;
     // With the longest work, and with less, where others can begin earlier and be in the way.
     for (const int share : {100, random.upto(10, 90)}) {
       std::vector<Task> shorter = tasks;
@@ -240,7 +240,7 @@ TEST(DataOrder, No_run_on_several_cores_ends_later_than_its_bound_says) {
       }
     }
   }
-  EXPECT_GT(looked_at, 200);
+  EXPECT_GT(checked, 200);
   EXPECT_GT(exact, 600) << "and it is not far off";
 }
 

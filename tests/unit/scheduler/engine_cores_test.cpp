@@ -70,8 +70,8 @@ TEST_P(EngineOrder, A_lower_priority_waits_for_the_higher_one_of_its_tick) {
     EXPECT_EQ(g_violations, 0);
   }
 }
-// The mirror sends what modules have written as soon as it is told.
-TEST(EngineCores, Work_on_a_core_that_is_not_the_primary_one_is_told) {
+// The mirror sends what modules have written as soon as it is notified.
+TEST(EngineCores, Work_on_a_core_other_than_the_primary_one_is_reported) {
   const auto cores = rt::allowed_cores();
   if (cores.size() < 2) {
     GTEST_SKIP() << "needs two cores";
@@ -83,14 +83,14 @@ TEST(EngineCores, Work_on_a_core_that_is_not_the_primary_one_is_told) {
   settings.basic_period_ns = 2'000'000;
   settings.primary_core = cores.front();
   settings.realtime = false;
-  std::uint64_t told = 0;
+  std::uint64_t notified = 0;
   Hooks hooks;
-  hooks.context = &told;
+  hooks.context = &notified;
   hooks.worked = [](void* context) noexcept { ++*static_cast<std::uint64_t*>(context); };
   SystemKernel clock;
   Engine sut(*block, tasks, settings, hooks, clock);
   sut.step(0, rt::MonoTime{});
-  EXPECT_EQ(told, 2U);  // once by the primary core, once by the one of the module
+  EXPECT_EQ(notified, 2U);  // once by the primary core, once by the one of the module
 }
 
 INSTANTIATE_TEST_SUITE_P(OneAndTwoCores, EngineOrder, testing::Bool());

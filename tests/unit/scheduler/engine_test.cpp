@@ -152,7 +152,7 @@ TEST_F(EngineInVirtualTime, A_disabled_module_leaves_its_place_empty_until_it_is
   steps(*sut, 0, 2, 100'000);
   EXPECT_TRUE(sut->disable(0));
   EXPECT_TRUE(sut->disable(2));
-  EXPECT_FALSE(sut->disable(7)) << "nobody";
+  EXPECT_FALSE(sut->disable(7)) << "no such module";
   EXPECT_TRUE(sut->at_rest(0) && sut->at_rest(2));
   steps(*sut, 2, 4, 100'000);
   sut->enable(0);
@@ -257,7 +257,7 @@ TEST_F(EngineThreads, Skips_a_release_while_the_band_is_still_busy) {
   ASSERT_TRUE(sut->start(0).ok());
   run_until(*sut, [] { return g_calls > 3; });
   EXPECT_GT(block->modules()[1].overruns.load(), 0U);
-  // What was due while the machine stood still is skipped as well, and nobody's overrun.
+  // What was due while the machine stood still is skipped as well, and no overrun of a module.
   const std::uint64_t others = block->modules()[1].skipped.load() - block->modules()[1].overruns.load();
   EXPECT_LE(others, block->lost_ticks.load());
   EXPECT_EQ(block->modules()[0].overruns.load(), 0U);

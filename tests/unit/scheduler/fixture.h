@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run block in private memory and a clock that only moves when told, for scheduler tests.
+// A run block in private memory and a clock that only moves on command, for scheduler tests.
 
 #pragma once
 

@@ -8,7 +8,7 @@
 namespace indurop::scheduler {
 namespace {
 
-TEST(ModuleCommand, Is_seen_by_the_node_and_its_answer_by_whoever_placed_it) {
+TEST(ModuleCommand, Reaches_the_node_and_its_answer_the_sender) {
   ModuleRecord sut{};
   EXPECT_EQ(waiting_command(sut), ModuleCommand::None);
   const auto ticket = place_command(sut, ModuleCommand::Restart);

@@ -44,7 +44,7 @@ TEST(Placement, Keeps_together_what_shares_data_directly_or_through_others) {
   EXPECT_EQ(sut.busiest, microseconds(900));
 }
 
-TEST(Placement, Splits_it_if_told) {
+TEST(Placement, Splits_it_on_request) {
   // 0 gives to 1 and 2, which give to 3.
   const Placement sut =
       place(problem({module(1, 100), module(1, 300, {0}), module(1, 300, {0}), module(1, 100, {1, 2})}, 2, true));

@@ -59,7 +59,7 @@ class RunnerClock : public testing::Test {
       return Notes::take(static_cast<Notes*>(context)->after_ns);
     };
   }
-  // How often it looked at the clock; every run took as long as it did.
+  // How often it read the clock; every run took as long as it did.
   int looks() {
     Runner sut(*block_, clock_, hooks_, trace_, kTasks);
     clock_.looks = 0;
@@ -93,7 +93,7 @@ TEST_F(RunnerClock, What_the_hooks_do_is_no_time_of_a_run_where_it_is_much) {
   EXPECT_EQ(looks(), 2 * static_cast<int>(kTasks)) << "nothing follows the last one";
 }
 
-// It looks at the clock after the condition anyway.
+// It reads the clock after the condition anyway.
 TEST_F(RunnerClock, Conditions_are_asked_after_what_the_hooks_did_for_the_run_before) {
   notes_.after_ns = 700;
   for (TaskState& state : states_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Virtual time against a reference written another way: every unit of time looked at, one after the other.
+// Virtual time against a reference written another way: every unit of time, one after the other.
 
 #include "scheduler/simulated_kernel.h"
 
@@ -53,7 +53,7 @@ std::vector<std::vector<std::int64_t>> simulate(const std::vector<Job>& jobs, st
   return ended;
 }
 
-std::vector<std::vector<std::int64_t>> look_at_every_unit(const std::vector<Job>& jobs, std::int64_t end) {
+std::vector<std::vector<std::int64_t>> simulate_every_unit(const std::vector<Job>& jobs, std::int64_t end) {
   std::vector<std::vector<std::int64_t>> ended(jobs.size());
   std::vector<std::int64_t> next(jobs.size());  // release of the run that is not over
   std::vector<std::int64_t> left(jobs.size());
@@ -81,7 +81,7 @@ std::vector<std::vector<std::int64_t>> look_at_every_unit(const std::vector<Job>
   return ended;
 }
 
-TEST(SimulatedKernel, Dispatches_like_a_reference_that_looks_at_every_unit_of_time) {
+TEST(SimulatedKernel, Dispatches_like_a_reference_that_simulates_every_unit_of_time) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     std::mt19937 random(seed);
     const auto upto = [&random](int least, int most) { return std::uniform_int_distribution(least, most)(random); };
@@ -91,7 +91,7 @@ TEST(SimulatedKernel, Dispatches_like_a_reference_that_looks_at_every_unit_of_ti
       // Any load, overload too; no two of the same priority, whose order the reference does not know.
       jobs.push_back({upto(0, 1), 1 + i, upto(3, 40), upto(0, 20), upto(1, 12)});
     }
-    ASSERT_EQ(simulate(jobs, 500), look_at_every_unit(jobs, 500)) << "seed " << seed;
+    ASSERT_EQ(simulate(jobs, 500), simulate_every_unit(jobs, 500)) << "seed " << seed;
   }
 }
 

@@ -58,7 +58,7 @@ TEST(AxisModel, Damping_costs_no_position) {
 
 // The loops are a spring: the position loop asks for pi f of velocity, the velocity loop gives 4 pi f of torque for it,
 // and what damping will take.
-TEST(AxisModel, What_it_carries_makes_it_sag_as_a_spring_does_unless_it_is_told) {
+TEST(AxisModel, A_load_makes_it_sag_like_a_spring_unless_the_torque_is_commanded) {
   config::IoAxis axis;
   AxisModel sut(axis);
   constexpr double kLoad = 40;

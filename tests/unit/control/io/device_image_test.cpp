@@ -128,7 +128,7 @@ TEST(DeviceImage, What_is_no_number_is_bad) {
   }
 }
 
-TEST(DeviceImage, Refused_points_are_told_from_a_lost_device) {
+TEST(DeviceImage, Rejected_points_are_distinguished_from_a_lost_device) {
   FakeDriver driver;
   DeviceImage sut = input(point(schema::Base::Int8));
   driver.answer.quality = Quality::Refused;

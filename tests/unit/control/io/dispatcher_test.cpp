@@ -98,7 +98,7 @@ TEST_F(DispatcherTest, Columns_of_a_file_become_variables) {
   EXPECT_EQ(TEST_CELL::link_errors, 0U);
 }
 
-TEST_F(DispatcherTest, An_input_comes_back_whoever_overwrote_it) {
+TEST_F(DispatcherTest, An_input_is_restored_after_any_overwrite) {
   write("in.csv", "time,I0\n0,5\n");
   const auto sut = started(R"(<device name="rec" driver="csv" file="in.csv"><input variable="I0"/></device>)");
   sut->run(milliseconds(1));

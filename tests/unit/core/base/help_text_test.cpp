@@ -35,7 +35,7 @@ TEST(HelpText, A_description_below_a_long_name_continues_there) {
             "  assignment NAME=VALUE ... (required)\n" + indent + words(14) + "\n" + indent + words(6) + "\n");
 }
 
-TEST(HelpText, A_paragraph_with_a_long_line_is_filled_anew) {
+TEST(HelpText, A_paragraph_with_a_long_line_is_filled_again) {
   EXPECT_EQ(wrapped_help("short line\n" + words(21) + "\nand a last one.\nExamples:\n  indurop get a\n"),
             "short line " + words(17) + "\n" + words(4) + " and a last one.\nExamples:\n  indurop get a\n");
 }

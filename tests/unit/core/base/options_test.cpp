@@ -176,7 +176,7 @@ TEST(Options, The_error_of_a_moved_option_names_its_new_form) {
   EXPECT_EQ(sut.parse({"in.xml"}).outcome, Outcome::Parsed);
 }
 
-TEST(Options, Help_and_version_are_told) {
+TEST(Options, Help_and_version_are_printed) {
   Sample sut;
   const auto help = sut.parse({"--help"});
   EXPECT_EQ(help.outcome, Outcome::Info);

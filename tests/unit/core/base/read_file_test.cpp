@@ -60,7 +60,7 @@ TEST_F(ReadFile, What_is_not_there_is_said_with_the_systems_reason) {
   EXPECT_EQ(sut.error().text, "No such file or directory");
 }
 
-TEST_F(ReadFile, A_pipe_that_nobody_writes_to_does_not_block) {
+TEST_F(ReadFile, A_pipe_without_a_writer_does_not_block) {
   ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
   const auto sut = read_file(at("pipe"));
   ASSERT_FALSE(sut.ok());

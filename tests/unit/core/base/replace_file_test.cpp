@@ -64,7 +64,7 @@ TEST_F(ReplaceFile, The_mode_of_the_old_file_stays) {
   }
 }
 
-TEST_F(ReplaceFile, Files_of_the_user_beside_it_are_left_alone) {
+TEST_F(ReplaceFile, Files_of_the_user_next_to_it_are_left_alone) {
   for (const char* name : {"file.tmp", "file.new", ".file.tmp"}) {
     write(name, "of the user");
   }

@@ -25,7 +25,7 @@ struct Pipe {
     read = Descriptor(ends[0]);
     write = Descriptor(ends[1]);
   }
-  // All that comes until nobody can write any more.
+  // All output until no process can write any more.
   std::string rest() {
     write = Descriptor();
     std::string text;
@@ -120,7 +120,7 @@ TEST_P(Spawn, Passes_on_the_file_that_is_named_and_no_other) {
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutFork, Spawn, ::testing::Values(0, SIGKILL));
 
-TEST(SpawnErrors, A_program_that_is_not_there_is_told) {
+TEST(SpawnErrors, A_missing_program_is_reported) {
   const auto sut = spawn({.words = {"x"}, .program = "/nosuch/program"});
   ASSERT_FALSE(sut.ok());
   EXPECT_EQ(sut.error().sys_errno, ENOENT);

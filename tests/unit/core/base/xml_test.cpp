@@ -85,7 +85,7 @@ TEST(Xml, What_programs_write_is_taken_as_the_library_takes_it) {
   }
 }
 
-TEST(Xml, A_file_that_is_cut_off_is_told_apart) {
+TEST(Xml, A_file_that_is_cut_off_is_distinguished) {
   EXPECT_EQ(mistakes_in("<a>\n<b x=\"1\">\n", tolerant()),
             "2:1 <b> is never closed; add </b>, or is the file cut off?\n");
   EXPECT_EQ(mistakes_in("<a>\n<b></a>\n", tolerant()).substr(0, 23), "2:1 not well-formed XML");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Viewers and deployers that are replaced, keys that sign deployments and are changed, names that nobody may have.
+// Viewers and deployers that are replaced, keys that sign deployments and are changed, names that are not allowed.
 
 #include "tests/unit/core/keys/keys_fixture.h"
 
@@ -82,8 +82,8 @@ TEST_F(Keys, A_deploy_pub_of_an_earlier_release_is_one_key) {
   ASSERT_EQ(list.size(), 1U);
   EXPECT_EQ(list[0].deployer, "deployer");
   EXPECT_TRUE(signed_by_any("order", signature_of("order", key), public_half(key)));
-  for (const char* nonsense : {"", "# nobody\n", "-----BEGIN PUBLIC KEY-----\n",
-                               "-----BEGIN PUBLIC KEY-----\nx\n-----END PUBLIC KEY-----\n"}) {
+  for (const char* nonsense :
+       {"", "# empty\n", "-----BEGIN PUBLIC KEY-----\n", "-----BEGIN PUBLIC KEY-----\nx\n-----END PUBLIC KEY-----\n"}) {
     EXPECT_FALSE(signed_by_any("order", signature_of("order", key), nonsense)) << nonsense;
   }
   EXPECT_FALSE(signed_by_any("order", "", public_half(key)));

@@ -54,7 +54,7 @@ TEST(LostPages, Are_zeros_and_the_rest_stays) {
   const GuardedMapping sut = file.guard();
   EXPECT_FALSE(sut.lost());
   file.cut(2);
-  EXPECT_FALSE(sut.lost()) << "nobody needed them yet";
+  EXPECT_FALSE(sut.lost()) << "they were not needed yet";
   EXPECT_EQ(file.memory[2 * kPage + 5], 0);
   EXPECT_TRUE(sut.lost());
   EXPECT_EQ(file.memory[4 * kPage - 1], 0);
@@ -71,16 +71,16 @@ TEST(LostPages, Of_a_file_that_is_only_read_are_zeros_too) {
   EXPECT_TRUE(sut.lost());
 }
 
-TEST(LostPages, Are_told_with_their_name_at_once) {
+TEST(LostPages, Are_reported_with_their_name_at_once) {
   const Mapped file(2);
   const GuardedMapping sut = file.guard();
-  std::string told;
-  on_lost_page([](void* context, const char* name) { *static_cast<std::string*>(context) = name; }, &told);
+  std::string reported;
+  on_lost_page([](void* context, const char* name) { *static_cast<std::string*>(context) = name; }, &reported);
   file.cut(1);
   EXPECT_EQ(file.memory[0], 7);
-  EXPECT_EQ(told, "");
+  EXPECT_EQ(reported, "");
   EXPECT_EQ(file.memory[kPage], 0);
-  EXPECT_EQ(told, "a file");
+  EXPECT_EQ(reported, "a file");
   on_lost_page(nullptr, nullptr);
 }
 
@@ -128,7 +128,7 @@ void leave_with_42(int /*number*/) {
   ::_exit(42);
 }
 
-TEST(LostPagesDeathTest, A_plain_handler_of_before_is_called_for_what_is_not_ours) {
+TEST(LostPagesDeathTest, An_earlier_plain_handler_is_called_for_foreign_faults) {
   EXPECT_EXIT(
       {
         ::signal(SIGFPE, leave_with_42);
@@ -156,7 +156,7 @@ TEST(LostPagesDeathTest, Guarded_mappings_survive_whichever_handler_came_first) 
   EXPECT_EXIT(lives(false), ::testing::ExitedWithCode(7), "");
 }
 
-TEST(LostPagesDeathTest, A_file_that_nobody_guards_ends_the_process_as_ever) {
+TEST(LostPagesDeathTest, A_file_without_a_guard_ends_the_process_as_before) {
   const Mapped guarded(1);
   const GuardedMapping sut = guarded.guard();
   const Mapped file(1);

@@ -111,7 +111,7 @@ StackPages stack_pages() {
   std::_Exit(resident > 0 && resident < 20 * kMegabyte ? 0 : 1);
 }
 
-// The same of threads that come, allocate, and go. A heap of one's own is 64 MB, and locked although nobody uses it.
+// The same of threads that come, allocate, and go. A heap of one's own is 64 MB, and locked although it is not used.
 [[noreturn]] void allocate_in_threads() {
   if (!lock_memory()) {
     std::_Exit(2);
@@ -146,7 +146,7 @@ TEST(Machine, Threads_that_allocate_take_no_locked_heap_each) {
   EXPECT_EXIT(allocate_in_threads(), ::testing::ExitedWithCode(0), "");
 }
 
-TEST(Machine, Stacks_nobody_uses_take_no_locked_memory) {
+TEST(Machine, Unused_stacks_take_no_locked_memory) {
   if (!may_lock()) {
     GTEST_SKIP() << "memory cannot be locked: without root, without an unlimited memlock, or with a sanitizer";
   }

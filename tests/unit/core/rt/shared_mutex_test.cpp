@@ -28,9 +28,9 @@ struct Board {
   SharedMutex lock;
   std::atomic<bool> there;
   std::atomic<bool> go;
-  std::atomic<bool> inside;  // somebody says so who has the lock
+  std::atomic<bool> inside;  // set by the process that has the lock
   std::atomic<std::uint64_t> entered;
-  std::atomic<std::uint64_t> met;  // somebody inside, who was not killed there
+  std::atomic<std::uint64_t> met;  // processes found inside that were not killed there
 };
 
 class SharedLock : public testing::Test {
@@ -59,7 +59,7 @@ class SharedLock : public testing::Test {
   Board& board_;
 };
 
-TEST_F(SharedLock, Is_taken_once_and_let_go_by_its_holder_only) {
+TEST_F(SharedLock, Is_taken_once_and_released_by_its_holder_only) {
   EXPECT_FALSE(unlock(board_.lock));
   EXPECT_EQ(lock_within(board_.lock), LockResult::Locked);
   EXPECT_EQ(lock_within(board_.lock), LockResult::HeldByCaller);
@@ -129,14 +129,14 @@ TEST_F(SharedLock, What_a_parent_holds_is_not_its_childs) {
 }
 
 TEST_F(SharedLock, Memory_that_was_overwritten_is_no_lock) {
-  const std::uint32_t nobody = 0x3FFFFFF0;  // beyond the largest thread id
-  std::memcpy(board_.lock.bytes, &nobody, sizeof nobody);
+  const std::uint32_t no_thread = 0x3FFFFFF0;  // beyond the largest thread id
+  std::memcpy(board_.lock.bytes, &no_thread, sizeof no_thread);
   EXPECT_EQ(lock_within(board_.lock), LockResult::Broken);
   EXPECT_FALSE(unlock(board_.lock));
 }
 
 // Several processes and threads, and some are killed anywhere.
-TEST_F(SharedLock, Nobody_is_inside_with_another) {
+TEST_F(SharedLock, No_two_processes_are_inside) {
   const auto work = [this] {
     while (!board_.go) {
       const LockResult result = lock_within(board_.lock);

@@ -13,7 +13,7 @@ constexpr std::size_t kStack = std::size_t{128} * 1024;
 
 thread_local volatile char large[16 * kStack];
 
-TEST(Thread, Has_its_whole_stack_beside_large_thread_local_variables) {
+TEST(Thread, Has_its_whole_stack_in_addition_to_large_thread_local_variables) {
   ThreadSettings small;
   small.name = "small";
   small.stack_bytes = kStack;

@@ -98,7 +98,7 @@ TEST_F(Module_file, Tells_everything_about_a_real_module) {
   EXPECT_TRUE(module.access.at(7).reads && !module.access.at(7).writes);
 }
 
-TEST_F(Module_file, Programs_and_foreign_libraries_are_told_apart) {
+TEST_F(Module_file, Programs_and_foreign_libraries_are_distinguished) {
   const auto self = read_module_file("/proc/self/exe");
   ASSERT_TRUE(self.ok());
   EXPECT_FALSE(self.value().shared_object);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Schema text: what is written comes back, and what nobody wrote is refused.
+// Schema text: what is written is read back, and any other text is rejected.
 
 #include <gmock/gmock.h>
 
@@ -107,7 +107,7 @@ TEST(Json, Two_types_for_one_variable_are_a_type_mismatch) {
   EXPECT_EQ(code_of(to_json(sample()) + "\n" + to_json(other)), Errc::TypeMismatch);
 }
 
-TEST(Json, Another_schema_version_is_told_apart_from_garbage) {
+TEST(Json, Another_schema_version_is_distinguished_from_garbage) {
   EXPECT_EQ(code_of(R"({"schema":2,"variables":"whatever"})"), Errc::VersionMismatch);
   for (const char* garbage : {"{", "[]", "null", "1", "{}", "\"schema\"", R"({"schema":"1"})", R"({"schema":1)",
                               "\xFF\xFF", R"({"schema":1,"variables":{}})", R"({"schema":1,"variables":[1]})",

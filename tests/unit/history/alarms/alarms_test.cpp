@@ -223,7 +223,7 @@ TEST_F(Alarms, Are_shelved_for_a_time) {
   EXPECT_FALSE(sut.book().counts().worst);
 }
 
-TEST_F(Alarms, Those_that_need_somebody_come_first) {
+TEST_F(Alarms, Those_that_need_action_come_first) {
   AlarmBook book;
   for (const auto& [name, priority] : {std::pair("low", schema::Priority::Low),
                                        {"high", schema::Priority::High},

@@ -87,7 +87,7 @@ Injection injection_of(const Case& fault, const std::vector<scheduler::Task>& ta
   return injection;
 }
 
-// Nothing: the fault hurt nobody.
+// Nothing: the fault affected no other module.
 std::optional<Answer> ask(const Case& fault, Random& random, Injection& injection, Victim& victim) {
   const auto tasks = random_schedule(random);
   injection = injection_of(fault, tasks, random);
@@ -140,7 +140,7 @@ TEST(ExplainFaults, The_injected_culprit_is_named_and_never_another_one) {
       {"another one much longer", What::Longer, false, 3000, 20'000},
       {"an event", What::Event, false, 500, 3000},
       {"a fault", What::Throws, true, 0, 0},
-      {"stopped by somebody", What::Stopped, true, 0, 0},
+      {"stopped by a user", What::Stopped, true, 0, 0},
       {"a page that came from the disk", What::PageFault, true, 700, 5000},
       {"the machine stands still for a moment", What::MachineStands, false, 700, 1500},
       {"the machine stands still for long", What::MachineStands, false, 3000, 20'000},

@@ -52,7 +52,7 @@ Facts reader(const char* state, std::int64_t heard_ns) {
   return facts;
 }
 
-TEST(Explain, A_module_that_is_not_due_is_told_when_it_is) {
+TEST(Explain, For_a_module_that_is_not_due_its_next_release_is_reported) {
   Facts facts = board("here", 100);
   facts.modules.push_back(periodic("slow", 10 * kMs));
   const Answer sut = why_late(facts, "slow", 42);
@@ -144,7 +144,7 @@ TEST(Explain, What_the_ends_of_a_box_do_not_hold_is_no_trouble) {
     EXPECT_THAT(sut.text, HasSubstr("of slow the ticks 500 to 960 are known"));
   }
   std::erase_if(facts.runs, [](const RunFact& run) { return run.module == 1 && run.tick > 800; });
-  EXPECT_EQ(last_trouble(facts, "slow"), 900U) << "so long nobody copies";
+  EXPECT_EQ(last_trouble(facts, "slow"), 900U) << "that long for a copy";
 }
 
 TEST(Explain, What_the_recording_lacks_is_no_trouble_and_nobodys_fault) {
@@ -238,7 +238,7 @@ TEST(Explain, A_force_that_is_over_is_known_for_its_time) {
   EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).culprit, "bob");
   EXPECT_EQ(why_old({&facts, 1}, 0, "x", 600 * kMs).cause, Cause::Unchanged) << "its time was over";
   facts.orders.push_back({350 * kMs, 0, "bob", "", "unforce", "x", "", 0, ""});
-  EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).cause, Cause::Unchanged) << "it was let go";
+  EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).cause, Cause::Unchanged) << "it was released";
 }
 
 TEST(Explain, A_board_that_went_on_running_was_cut_off) {
@@ -286,7 +286,7 @@ TEST(Explain, At_the_end_of_a_node_its_last_runs_count) {
   EXPECT_EQ(why_old(plant, 0, "x", 200 * kMs).cause, Cause::Stopped) << "later it is the node's end";
 }
 
-TEST(Explain, A_rate_limit_is_told_only_within_its_time) {
+TEST(Explain, A_rate_limit_is_reported_only_within_its_time) {
   std::vector<Facts> plant{reader("alive", 3000 * kMs), board("other", 3000)};
   plant[0].variables.back().every_ns = 100 * kMs;
   plant[1].variables.push_back({"y", {"writer@other"}, {}, 0, 0});

@@ -79,7 +79,7 @@ void add_those_below(Facts& facts, const Injection& injection, std::int64_t due_
   }
 }
 
-// As the node's own looks at the kernel's counters would have it: every 20 ms, by core.
+// As the node reads the kernel's counters: every 20 ms, by core.
 void add_kernel(Facts& facts, const Injection& injection, std::int32_t its_core, std::int64_t due_ns) {
   constexpr std::int64_t kLook = 20 * kBasic;
   const Span stood{due_ns - 1000, due_ns - 1000 + (injection.what == What::MachineStands ? injection.for_ns : 0)};

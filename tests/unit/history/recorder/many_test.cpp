@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ten thousand variables: each is in the file with what it was, and a ring too small for them is told, not hidden.
+// Ten thousand variables: each is in the file with its value, and a ring that is too small for them is reported.
 
 #include <gmock/gmock.h>
 #include <unistd.h>

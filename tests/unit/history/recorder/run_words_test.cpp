@@ -32,10 +32,10 @@ TEST(RunWords, Come_back_as_they_were) {
   EXPECT_FALSE(clock_from_cdr(cdr).ok());
   const std::vector<std::uint8_t> bytes{1, 2, 3};
   to_cdr(AnswerRecord{-7, bytes}, cdr);
-  const auto told = answer_from_cdr(cdr);
-  ASSERT_TRUE(told.ok());
-  EXPECT_EQ(told->code, -7);
-  EXPECT_TRUE(std::equal(told->bytes.begin(), told->bytes.end(), bytes.begin(), bytes.end()));
+  const auto answer = answer_from_cdr(cdr);
+  ASSERT_TRUE(answer.ok());
+  EXPECT_EQ(answer->code, -7);
+  EXPECT_TRUE(std::equal(answer->bytes.begin(), answer->bytes.end(), bytes.begin(), bytes.end()));
   cdr.pop_back();
   EXPECT_FALSE(answer_from_cdr(cdr).ok());
 }

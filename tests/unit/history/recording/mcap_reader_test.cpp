@@ -150,11 +150,11 @@ TEST_F(Reader, A_byte_changed_anywhere_is_noticed_or_does_no_harm) {
     auto reader = McapReader::open(path);
     if (reader) {
       const Found found = all(*reader);
-      const bool told = !found.problems.empty() || !reader->contents().damages.empty();
-      ASSERT_TRUE(told || found.messages == in_time(written)) << at;
+      const bool reported = !found.problems.empty() || !reader->contents().damages.empty();
+      ASSERT_TRUE(reported || found.messages == in_time(written)) << at;
       for (const McapAttachmentIndex& each : reader->contents().attachments) {
         const auto bytes = reader->attachment(each);
-        ASSERT_TRUE(told || !bytes.ok() || *bytes == bytes_of("attached")) << at;
+        ASSERT_TRUE(reported || !bytes.ok() || *bytes == bytes_of("attached")) << at;
       }
       for (const McapMetadataIndex& each : reader->contents().metadata) {
         (void)reader->metadata(each);

@@ -107,7 +107,7 @@ TEST_F(Writer, A_chunk_is_in_the_file_when_it_is_old_or_large_enough) {
   EXPECT_EQ(all(*later).messages.size(), 5U);
 }
 
-TEST_F(Writer, A_full_disk_is_told_and_nothing_is_lost_when_there_is_room_again) {
+TEST_F(Writer, A_full_disk_is_reported_and_nothing_is_lost_when_there_is_space_again) {
   McapWriter sut = writer({.chunk_bytes = 500, .compress = false});
   declare(sut);
   put(sut, {1, 1, 1, 1, std::string(600, 'a')});

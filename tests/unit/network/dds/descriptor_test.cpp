@@ -22,7 +22,7 @@ TEST(Descriptor, Without_another_name_it_is_the_same) {
   EXPECT_EQ(sut.m_flagset, indurop_wire_Frame_desc.m_flagset);
 }
 
-TEST(Descriptor, Under_another_name_the_bytes_are_the_same_and_the_network_is_told_no_type) {
+TEST(Descriptor, Under_another_name_the_bytes_are_the_same_and_no_type_is_announced) {
   const std::string name = "lab::dds_::Frame_";
   const TypeDescriptor sut = renamed(&indurop_wire_Frame_desc, name);
   EXPECT_EQ(described(&sut).name, name);

@@ -131,7 +131,7 @@ TEST(Domain_configuration, The_more_others_there_are_the_more_rarely_all_are_ask
   EXPECT_EQ(interval(8), 10);
   EXPECT_EQ(interval(16), 20);
   EXPECT_EQ(interval(63), 78);
-  EXPECT_EQ(interval(1000), 100) << "as DDS does it by itself";
+  EXPECT_EQ(interval(1000), 100) << "the default of DDS";
   EXPECT_EQ(interval(8, true), 10);
   EXPECT_EQ(interval(16, true), 40) << "on one host all share the processor";
   EXPECT_EQ(interval(63, true), 620);

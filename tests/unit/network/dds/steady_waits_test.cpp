@@ -17,7 +17,7 @@ TEST(SteadyWaits, Are_those_that_Cyclone_uses) {
   EXPECT_TRUE(waits_are_steady());
 }
 
-TEST(SteadyWaits, End_in_time_or_when_somebody_signals) {
+TEST(SteadyWaits, End_in_time_or_on_a_signal) {
   ddsrt_mutex_t mutex;
   ddsrt_cond_t condition;
   ddsrt_mutex_init(&mutex);
@@ -32,15 +32,15 @@ TEST(SteadyWaits, End_in_time_or_when_somebody_signals) {
   EXPECT_FALSE(ddsrt_cond_waitfor(&condition, &mutex, -1));
   EXPECT_FALSE(ddsrt_cond_waituntil(&condition, &mutex, 0));
   for (const dds_duration_t time : {DDS_INFINITY, DDS_SECS(3600)}) {
-    bool told = false;
+    bool signalled = false;
     std::thread other([&] {
       ddsrt_mutex_lock(&mutex);
-      told = true;
+      signalled = true;
       ddsrt_cond_signal(&condition);
       ddsrt_mutex_unlock(&mutex);
     });
     bool in_time = true;
-    while (!told && in_time) {
+    while (!signalled && in_time) {
       in_time = ddsrt_cond_waituntil(&condition, &mutex, time == DDS_INFINITY ? DDS_NEVER : dds_time() + time);
     }
     EXPECT_TRUE(in_time);

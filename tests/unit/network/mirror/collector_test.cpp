@@ -83,7 +83,7 @@ TEST_F(CollectorOf, Nothing_is_copied_while_its_writers_are_in_a_run) {
   EXPECT_EQ(a_, 1U);
 }
 
-TEST_F(CollectorOf, Who_does_not_tell_is_looked_at_again) {
+TEST_F(CollectorOf, A_board_that_does_not_announce_is_polled_again) {
   std::uint64_t runs = 1;
   const Writers writers{[&] { return runs; }, false};
   add("a", a_, changed_, &writers);

@@ -36,7 +36,7 @@ class NetworkTest : public ::testing::Test {
   }
 };
 
-TEST_F(NetworkTest, Delays_what_somebody_wants_to_hear) {
+TEST_F(NetworkTest, Delays_subscribed_samples) {
   SimulatedNetwork sut({.delay = 2ms}, 3);
   subscribe(sut, 1, 0, Kind::Prompt);
   sut.send(message(Kind::Prompt, 0, 5 * kMs));

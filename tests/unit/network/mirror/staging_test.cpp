@@ -75,10 +75,10 @@ TEST_F(StagingOf, Patience_ends) {
   EXPECT_EQ(arrived(0, 2, 4, 2, 1 * kStagingMs + Staging::kPatienceNs), Verdict::Overdue);
   EXPECT_EQ(taken(), (Values{{0, 2}}));
   EXPECT_EQ(arrived(1, 2, 4, 2, 20 * kStagingMs), Verdict::Whole);
-  EXPECT_EQ(arrived(0, 3, 6, 3, 30 * kStagingMs), Verdict::Wait) << "patience begins anew";
+  EXPECT_EQ(arrived(0, 3, 6, 3, 30 * kStagingMs), Verdict::Wait) << "the time limit begins again";
 }
 
-TEST_F(StagingOf, Parts_nobody_here_reads_are_counted_all_the_same) {
+TEST_F(StagingOf, Parts_without_a_local_reader_are_counted_too) {
   sut_.reset(std::array<std::uint32_t, 2>{1, 0});
   EXPECT_EQ(arrived(0, 1, 2, 1), Verdict::Wait);
   EXPECT_EQ(arrived(1, 1, 2, 9), Verdict::Whole);

@@ -83,7 +83,7 @@ TEST_F(Calls, Return_the_result) {
   }
 }
 
-TEST_F(Calls, Of_a_function_nobody_serves_fail_at_once) {
+TEST_F(Calls, Of_a_function_without_a_server_fail_at_once) {
   const auto result = add.within(1h)(1, 2);
   EXPECT_FALSE(result.ok());
   EXPECT_EQ(result.error(), Errc::NotFound);
@@ -94,7 +94,7 @@ TEST_F(Calls, Of_a_function_nobody_serves_fail_at_once) {
     EXPECT_STREQ(error.what(), "knu::Robot::add: no module implements it (absent)");
     EXPECT_EQ(error.code(), Errc::NotFound);
   }
-  EXPECT_THROW(count(), indurop::call_error) << "a failure nobody looks at is thrown";
+  EXPECT_THROW(count(), indurop::call_error) << "a failure that is not checked is thrown";
   EXPECT_THROW((void)(double{add(1, 2)} + 1), indurop::call_error);
 }
 

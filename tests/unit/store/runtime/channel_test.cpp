@@ -74,7 +74,7 @@ TEST(Channel, Connects_to_another_node_and_follows_its_new_block) {
 
 TEST(Channel, Without_a_node_is_an_error_not_a_wait) {
   channel::Handle sut;
-  EXPECT_EQ(connect(sut, "rttest-nobody"), static_cast<int>(error(Errc::NotFound)));
+  EXPECT_EQ(connect(sut, "rttest-missing"), static_cast<int>(error(Errc::NotFound)));
   EXPECT_EQ(connect(sut, "not a name"), static_cast<int>(error(Errc::InvalidArgument)));
   double y = 0;
   EXPECT_LT(read(sut, "joints[1].y", sizeof(y), &y), 0);

@@ -11,7 +11,7 @@
 
 namespace {
 
-// Empty if it came back by itself.
+// Empty if it returned normally.
 std::string crash_of(void (*work)(void*) noexcept, void* with = nullptr) {
   indurop::rt::install_guard_handlers();
   std::string text;

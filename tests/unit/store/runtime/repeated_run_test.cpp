@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run that is repeated gets what it was told then, whatever is true now.
+// A run that is repeated gets its recorded inputs, whatever the values are now.
 #include <gtest/gtest.h>
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
@@ -22,7 +22,7 @@ class RepeatedRun : public ::testing::Test {
   Hosted hosted_{node_};
 };
 
-TEST_F(RepeatedRun, Is_told_again_whether_values_were_together) {
+TEST_F(RepeatedRun, Reads_again_whether_values_were_together) {
   const std::array<tape::ReplayedAnswer, 2> answers{{{0, {}}, {1, {}}}};
   tick = 5;
   repeat(answers);
@@ -32,10 +32,10 @@ TEST_F(RepeatedRun, Is_told_again_whether_values_were_together) {
   EXPECT_EQ(apart.get<0>(), 5U) << "values are read all the same";
   EXPECT_TRUE(together.coherent());
   const auto beyond = snapshot(tick, joints);
-  EXPECT_TRUE(beyond.coherent()) << "nothing is left to be told";
+  EXPECT_TRUE(beyond.coherent()) << "no recorded input is left";
 }
 
-TEST_F(RepeatedRun, Is_told_again_whether_it_was_to_end) {
+TEST_F(RepeatedRun, Reads_again_whether_it_was_to_end) {
   const std::array<tape::ReplayedAnswer, 2> answers{{{0, {}}, {1, {}}}};
   repeat(answers);
   EXPECT_FALSE(irp::stop_requested());
@@ -43,7 +43,7 @@ TEST_F(RepeatedRun, Is_told_again_whether_it_was_to_end) {
   EXPECT_FALSE(irp::stop_requested());
 }
 
-TEST_F(RepeatedRun, Is_told_again_whether_there_was_a_node) {
+TEST_F(RepeatedRun, Reads_again_whether_there_was_a_node) {
   const std::array<tape::ReplayedAnswer, 1> answers{{{-static_cast<int>(Errc::NotFound), {}}}};
   channel::Handle handle;
   repeat(answers);

@@ -25,7 +25,7 @@ TEST(Check, Refuses_what_is_no_tape) {
   EXPECT_EQ(index_tape({file->data(), file->size() - 4096}).error().code, Errc::Corrupt);
   header.abi = 99;
   EXPECT_EQ(Follower::open(plant.node(), true).error().code, Errc::VersionMismatch);
-  EXPECT_EQ(Follower::open("nobody-here", true).error().code, Errc::NotFound);
+  EXPECT_EQ(Follower::open("missing-node", true).error().code, Errc::NotFound);
 }
 
 TEST(Check, Damaged_tapes_are_read_without_harm) {

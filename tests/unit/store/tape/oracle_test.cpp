@@ -57,7 +57,7 @@ class Oracle : public testing::TestWithParam<unsigned> {
     return modules;
   }
   void change(Plant& plant) {
-    const auto value = random(4);  // often the same bytes once more
+    const auto value = random(4);  // often the same bytes again
     switch (random(5)) {
       case 0:
         return plant.put("a", static_cast<std::uint8_t>(value));
@@ -107,7 +107,7 @@ class Oracle : public testing::TestWithParam<unsigned> {
     module.log.push_back(std::move(run));
     module.running.reset();
   }
-  // One step of the plant: a module begins, asks, or ends, or somebody changes a variable.
+  // One step of the plant: a module begins, reads, or ends, or another process changes a variable.
   void step(Plant& plant, std::vector<Module>& modules) {
     ++tick_;
     const std::uint32_t index = random(static_cast<std::uint32_t>(modules.size()));

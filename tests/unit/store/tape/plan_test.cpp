@@ -35,7 +35,7 @@ TEST(Plan, Sorts_what_is_read_from_what_is_written) {
   EXPECT_THAT(sut.tracks[0].both, ElementsAre(1));
   EXPECT_THAT(sut.tracks[0].only_written, ElementsAre(3));
   EXPECT_EQ(sut.tracks[1].module, kOthers);
-  EXPECT_THAT(sut.tracks[1].only_read, ElementsAre(4)) << "nobody reads or writes it";
+  EXPECT_THAT(sut.tracks[1].only_read, ElementsAre(4)) << "no module reads or writes it";
 }
 
 TEST(Plan, Leaves_out_what_would_fill_the_tape) {

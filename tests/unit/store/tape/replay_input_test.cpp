@@ -61,7 +61,7 @@ TEST_F(Retold, What_there_is_no_room_for_is_left_out) {
   expect_arrives({1}, {{1, whole}}, 0);
 }
 
-TEST_F(Retold, Nobody_else_listens) {
+TEST_F(Retold, No_other_process_receives) {
   EXPECT_EQ(ReplayInputReader::open(node_.name(), 43).error().code, Errc::NotFound);
   EXPECT_EQ(ReplayInputReader::open(node_.name() + "x", 42).error().code, Errc::NotFound);
   sut_ = ReplayInputWriter::create(node_.name() + "y", 42).value();

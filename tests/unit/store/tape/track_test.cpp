@@ -54,7 +54,7 @@ TEST(Track, Holds_the_runs_it_was_made_for_when_everything_changes_in_each) {
   }
 }
 
-TEST(Track, A_run_in_which_its_process_died_is_told_as_a_fault) {
+TEST(Track, A_run_in_which_its_process_died_is_recorded_as_a_fault) {
   Plant plant("dead", {{"ab", "bc"}});
   Follower reader = plant.follow();
   tape::Run run;
@@ -82,8 +82,8 @@ TEST(Track, A_run_in_which_its_process_died_is_told_as_a_fault) {
   ASSERT_EQ(run.values.size(), 1U);
   EXPECT_EQ(run.values[0].variable, plant.index("a"));
   {
-    Member anew = Member::open(plant.node(), 0, plant.store()).value();
-    anew.track().begin();
+    Member again = Member::open(plant.node(), 0, plant.store()).value();
+    again.track().begin();
   }
   plant.tape().end_of_dead(0, Plant::at(2));
   ASSERT_TRUE(reader.next(0, run));
@@ -105,7 +105,7 @@ TEST(Track, Tells_what_a_run_began_with_and_what_it_left) {
   plant.put<std::uint8_t>("a", 3);
   sut.begin();
   plant.put<double>("c", 1.5);
-  plant.put<std::uint8_t>("a", 4);  // somebody else does
+  plant.put<std::uint8_t>("a", 4);  // another writer does
   sut.clock(12345);
   sut.record_answer(-3, {});
   sut.record_answer(5, std::vector<std::uint8_t>{9, 8, 7, 6, 5, 4, 3, 2, 1});
@@ -124,15 +124,16 @@ TEST(Track, Tells_what_a_run_began_with_and_what_it_left) {
   EXPECT_EQ(run.answers[1].code, 5);
   EXPECT_THAT(std::vector<std::uint8_t>(run.answers[1].bytes.begin(), run.answers[1].bytes.end()),
               testing::ElementsAre(9, 8, 7, 6, 5, 4, 3, 2, 1));
-  std::vector<std::tuple<EntryKind, std::uint32_t, std::vector<std::uint8_t>>> told;
+  std::vector<std::tuple<EntryKind, std::uint32_t, std::vector<std::uint8_t>>> inputs;
   for (const Value& value : run.values) {
-    told.emplace_back(value.kind, value.variable, std::vector<std::uint8_t>(value.bytes.begin(), value.bytes.end()));
+    inputs.emplace_back(value.kind, value.variable, std::vector<std::uint8_t>(value.bytes.begin(), value.bytes.end()));
   }
-  EXPECT_THAT(told, testing::IsSupersetOf({std::tuple(EntryKind::Before, plant.index("a"), bytes_of<std::uint8_t>(3)),
-                                           std::tuple(EntryKind::Before, plant.index("b"), bytes_of<std::uint32_t>(7)),
-                                           std::tuple(EntryKind::During, plant.index("a"), bytes_of<std::uint8_t>(4)),
-                                           std::tuple(EntryKind::After, plant.index("c"), bytes_of<double>(1.5))}));
-  // Nothing changed: only one is told again, in turn.
+  EXPECT_THAT(inputs,
+              testing::IsSupersetOf({std::tuple(EntryKind::Before, plant.index("a"), bytes_of<std::uint8_t>(3)),
+                                     std::tuple(EntryKind::Before, plant.index("b"), bytes_of<std::uint32_t>(7)),
+                                     std::tuple(EntryKind::During, plant.index("a"), bytes_of<std::uint8_t>(4)),
+                                     std::tuple(EntryKind::After, plant.index("c"), bytes_of<double>(1.5))}));
+  // Nothing changed: only one is recorded again, in turn.
   sut.begin();
   sut.end(Plant::at(18), 0);
   ASSERT_TRUE(reader.next(0, run));
@@ -142,7 +143,7 @@ TEST(Track, Tells_what_a_run_began_with_and_what_it_left) {
   EXPECT_EQ(run.values[0].kind, EntryKind::Again);
 }
 
-TEST(Track, What_a_run_is_told_is_bounded_and_what_is_too_long_is_named) {
+TEST(Track, The_inputs_of_a_run_are_bounded_and_one_that_is_too_long_is_named) {
   Plant plant("toldmuch", {{"a", ""}}, 16 * 1024);
   Track& sut = plant.track(0);
   Follower reader = plant.follow();
@@ -156,14 +157,14 @@ TEST(Track, What_a_run_is_told_is_bounded_and_what_is_too_long_is_named) {
   sut.end(Plant::at(1), 0);
   tape::Run run;
   ASSERT_TRUE(reader.next(0, run));
-  constexpr std::uint64_t kRing = 1024;  // words, the least a track has; each of what was told takes two of its share
+  constexpr std::uint64_t kRing = 1024;  // words, the least a track has; each input takes two of its share
   ASSERT_EQ(run.answers.size(), kRing / kAnswerShare / 2);
   EXPECT_EQ(run.answers[0].code, kTooLongToTell);
   EXPECT_TRUE(run.answers[0].bytes.empty());
   EXPECT_EQ(run.answers[1].code, 0);
 }
 
-TEST(Track, A_run_that_never_ended_is_told_whole_by_the_next) {
+TEST(Track, A_run_that_never_ended_is_recorded_whole_by_the_next) {
   Plant plant("unended", {{"a", ""}});
   Track& sut = plant.track(0);
   sut.begin();
@@ -181,7 +182,7 @@ TEST(Track, A_run_that_never_ended_is_told_whole_by_the_next) {
   EXPECT_EQ(run.values[0].bytes[0], 9);
 }
 
-TEST(Track, Looks_are_told_only_if_something_changed) {
+TEST(Track, Polls_are_recorded_only_if_something_changed) {
   Plant plant("others", {{"a", ""}});
   Track& sut = plant.others();
   sut.record_others(Plant::at(0));

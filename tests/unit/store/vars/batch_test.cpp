@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several values changed in one tick: all or none, whoever else writes.
+// Several values changed in one tick: all or none, with any other writer.
 
 #include "store/vars/batch.h"
 
@@ -126,7 +126,7 @@ TEST_F(BatchTest, A_variable_that_is_being_written_keeps_all_as_they_are) {
   EXPECT_EQ(all(), (std::array<std::int32_t, 4>{8, 8, 8, 8}));
 }
 
-TEST_F(BatchTest, What_nobody_waits_for_any_more_is_not_done) {
+TEST_F(BatchTest, A_batch_that_is_no_longer_awaited_is_not_written) {
   const auto done = change_all(7, std::chrono::milliseconds(20));
   ASSERT_FALSE(done.ok());
   EXPECT_EQ(done.error().code, Errc::Timeout);
@@ -149,7 +149,7 @@ TEST_F(BatchTest, More_than_a_tick_may_do_is_refused) {
   EXPECT_EQ(done.error().code, Errc::InvalidArgument);
 }
 
-TEST_F(BatchTest, Nonsense_in_the_file_hurts_nobody) {
+TEST_F(BatchTest, Nonsense_in_the_file_does_no_harm) {
   auto file = ShmFile::open(batch_file(node_.name()), Mode::ReadWrite);
   ASSERT_TRUE(file.ok());
   auto& block = *reinterpret_cast<BatchBlock*>(file->data());
@@ -165,7 +165,7 @@ TEST_F(BatchTest, Nonsense_in_the_file_hurts_nobody) {
 }
 
 TEST_F(BatchTest, A_node_that_was_never_started_cannot) {
-  EXPECT_EQ(change_in_one_tick("t-nobody", *store_, {}, kPatience).error().code, Errc::NotFound);
+  EXPECT_EQ(change_in_one_tick("t-missing", *store_, {}, kPatience).error().code, Errc::NotFound);
 }
 
 }  // namespace

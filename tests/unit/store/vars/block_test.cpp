@@ -142,7 +142,7 @@ TEST(Block, Without_magic_is_not_complete) {
   EXPECT_EQ(sut.check(), Errc::Corrupt);
 }
 
-TEST(Block, Of_another_version_is_told_from_a_corrupt_one) {
+TEST(Block, Of_another_version_is_distinguished_from_a_corrupt_one) {
   Block sut(some_schema());
   sut.header().abi += 1;
   EXPECT_EQ(sut.check(), Errc::VersionMismatch);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A forced part keeps its value whoever writes it, in every process, and can be written again afterwards.
+// A forced part keeps its value against all writers, in every process, and can be written again afterwards.
 
 #include "store/vars/forces.h"
 
@@ -58,7 +58,7 @@ class Forces : public ::testing::Test {
   Result<Store> sut_ = Store::create(node_.name(), io_image());
 };
 
-TEST_F(Forces, A_scalar_keeps_its_value_until_it_is_let_go) {
+TEST_F(Forces, A_scalar_keeps_its_value_until_it_is_released) {
   ASSERT_TRUE(put("plc::count", 1).ok());
   ASSERT_TRUE(force("plc::count", 7).ok());
   EXPECT_EQ(get("plc::count"), 7);
@@ -67,7 +67,7 @@ TEST_F(Forces, A_scalar_keeps_its_value_until_it_is_let_go) {
   ASSERT_TRUE(force("plc::count", 8).ok()) << "again, to another value";
   EXPECT_EQ(get("plc::count"), 8);
   ASSERT_TRUE(release("plc::count").ok());
-  EXPECT_EQ(get("plc::count"), 8) << "until somebody writes it";
+  EXPECT_EQ(get("plc::count"), 8) << "until it is written";
   EXPECT_TRUE(put("plc::count", 3).ok());
   EXPECT_EQ(get("plc::count"), 3);
 }
@@ -111,7 +111,7 @@ TEST_F(Forces, Holds_in_other_processes_and_for_the_time_given) {
   EXPECT_EQ(release("plc::count").error().code, Errc::NotFound);
 }
 
-TEST_F(Forces, Whoever_writes_at_this_moment_does_not_slip_through) {
+TEST_F(Forces, A_writer_at_this_moment_does_not_slip_through) {
   std::atomic<bool> stop{false};
   std::thread writer([&] {
     while (!stop) {
@@ -168,7 +168,7 @@ TEST_F(Forces, End_with_the_node) {
   EXPECT_EQ(get("plc::words"), 3);
 }
 
-TEST_F(Forces, Whoever_is_killed_while_forcing_blocks_nobody) {
+TEST_F(Forces, A_client_killed_while_forcing_blocks_no_writer) {
   for (int i = 0; i < 20; ++i) {
     Forked child([this]() -> int {
       auto mine = Store::attach(node_.name(), Mode::ReadWrite);

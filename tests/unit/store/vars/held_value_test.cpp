@@ -96,10 +96,10 @@ TEST_F(HeldValues, What_is_said_is_held_and_the_rest_goes_on) {
     const char* said;
     const char* after;
   };
-  constexpr const char* kElse = "{x: 9, name: \"somebody else\", n: [9, 9, 9], z: -9}";
+  constexpr const char* kElse = "{x: 9, name: \"another user\", n: [9, 9, 9], z: -9}";
   for (const auto& [said, after] : {
-           Case{"{x: 0.5}", "{x: 0.5, name: \"somebody else\", n: [9, 9, 9], z: -9}"},
-           Case{"{z: -1, n: [255, 0, 1]}", "{x: 9, name: \"somebody else\", n: [255, 0, 1], z: -1}"},
+           Case{"{x: 0.5}", "{x: 0.5, name: \"another user\", n: [9, 9, 9], z: -9}"},
+           Case{"{z: -1, n: [255, 0, 1]}", "{x: 9, name: \"another user\", n: [255, 0, 1], z: -1}"},
            Case{"{name: \"\"}", "{x: 9, name: \"\", n: [9, 9, 9], z: -9}"},
            Case{"{name: \"nineteen characters\"}", "{x: 9, name: \"nineteen characters\", n: [9, 9, 9], z: -9}"},
            Case{"{}", kElse},
@@ -139,7 +139,7 @@ TEST_F(HeldValues, What_does_not_fit_is_not_begun) {
   EXPECT_EQ(now("many").find("x: 1"), std::string::npos);
 }
 
-TEST_F(HeldValues, A_word_that_is_held_in_another_size_is_held_anew) {
+TEST_F(HeldValues, A_word_that_is_held_in_another_size_is_held_again) {
   const DirectoryEntry& part = *sut_->find(hash("part"));
   const std::vector<std::uint8_t> one{'X'};
   ASSERT_TRUE(sut_->force(part, 8, one, kForever).ok());
@@ -158,7 +158,7 @@ TEST_F(HeldValues, A_lease_is_prolonged_by_its_owner_only) {
   ASSERT_TRUE(prolong(*sut_, mine, first, second).ok());
   EXPECT_EQ(sut_->forces()[0].until, second);
   EXPECT_EQ(prolong(*sut_, mine, first, second).error().code, Errc::NotFound) << "that is not its end any more";
-  ASSERT_TRUE(hold(*sut_, std::vector<HeldValue>{value("part", "{x: 7}")}, kForever).ok()) << "somebody else";
+  ASSERT_TRUE(hold(*sut_, std::vector<HeldValue>{value("part", "{x: 7}")}, kForever).ok()) << "another user";
   EXPECT_EQ(prolong(*sut_, mine, second, soon()).error().code, Errc::NotFound);
   EXPECT_EQ(now("part").find("{x: 7"), 0U);
   EXPECT_EQ(release(*sut_, mine, second).error().code, Errc::NotFound);
@@ -199,7 +199,7 @@ TEST_F(HeldValues, Notes_are_those_of_the_force) {
   }
 }
 
-// Somebody who looks on at any moment.
+// A reader at any moment.
 TEST_F(HeldValues, No_force_is_seen_without_its_note) {
   auto custody = Custody::create(node_.name());
   ASSERT_TRUE(custody.ok());

@@ -21,7 +21,7 @@ namespace {
 using indurop::test::Forked;
 using test::TestNode;
 
-TEST(NodeLock, Second_holder_is_told_who_has_it) {
+TEST(NodeLock, A_second_process_gets_the_name_of_the_holder) {
   const TestNode node("busy");
   pid_t holder = 0;
   const auto first = NodeLock::acquire(node.name(), holder);

@@ -184,8 +184,8 @@ TEST(Ring, Lock_memory_that_was_overwritten_is_noticed) {
   Ring sut(24);
   EXPECT_TRUE(check_ring(*sut, 24));
   EXPECT_FALSE(check_ring(*sut, 32));
-  const std::uint32_t nobody = 0x3FFFFFF0;  // beyond the largest thread id
-  std::memcpy(&sut->lock, &nobody, sizeof(nobody));
+  const std::uint32_t no_thread = 0x3FFFFFF0;  // beyond the largest thread id
+  std::memcpy(&sut->lock, &no_thread, sizeof(no_thread));
   EXPECT_FALSE(check_ring(*sut, 24));
   EXPECT_EQ(begin_write(*sut, 0, 8), nullptr);
   EXPECT_EQ(sut.value(), Bytes(24, 0));

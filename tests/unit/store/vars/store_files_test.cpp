@@ -13,8 +13,8 @@
 #include "store/vars/node_lock.h"
 #include "store/vars/store.h"
 #include "test_schema.h"
-#include "tests/support/as_nobody.h"
 #include "tests/support/forked.h"
+#include "tests/support/unprivileged.h"
 
 namespace indurop::vars {
 namespace {
@@ -51,7 +51,7 @@ void overwrite(const std::string& path, std::size_t offset, const std::vector<st
 }
 
 TEST(StoreFiles, Missing_block_is_not_found) {
-  EXPECT_EQ(attach_code("t-nobody-has-this", Mode::ReadOnly), Errc::NotFound);
+  EXPECT_EQ(attach_code("t-missing", Mode::ReadOnly), Errc::NotFound);
 }
 
 TEST(StoreFiles, Node_names_that_are_paths_are_refused) {
@@ -91,7 +91,7 @@ TEST(StoreFiles, Truncated_block_is_corrupt_and_replaced) {
   EXPECT_EQ(Store::create(node.name(), small_schema())->origin(), Origin::Fresh);
 }
 
-TEST(StoreFiles, Block_of_another_version_is_told_and_replaced) {
+TEST(StoreFiles, A_block_of_another_version_is_reported_and_replaced) {
   const TestNode node("version");
   ASSERT_TRUE(Store::create(node.name(), small_schema()).ok());
   overwrite(node.path(), offsetof(BlockHeader, abi), bytes_of<std::uint32_t>(abi::kVersion + 1));
@@ -213,7 +213,7 @@ TEST(StoreFiles, Another_user_reads_but_may_not_write_create_or_remove) {
   const auto lock = NodeLock::acquire(node.name(), holder);
   ASSERT_TRUE(store.ok() && lock.ok());
   Forked other([&] {
-    if (!indurop::test::become_nobody() || attach_code(node.name(), Mode::ReadOnly) != Errc::Ok) {
+    if (!indurop::test::become_unprivileged() || attach_code(node.name(), Mode::ReadOnly) != Errc::Ok) {
       return 1;
     }
     if (attach_code(node.name(), Mode::ReadWrite) != Errc::PermissionDenied) {
@@ -242,7 +242,7 @@ TEST(StoreFiles, Block_planted_by_another_user_is_not_adopted) {
   }
   const TestNode node("planted");
   Forked other([&] {
-    if (!indurop::test::become_nobody()) {
+    if (!indurop::test::become_unprivileged()) {
       return 1;
     }
     auto store = Store::create(node.name(), small_schema());
@@ -254,7 +254,7 @@ TEST(StoreFiles, Block_planted_by_another_user_is_not_adopted) {
   EXPECT_EQ(sut->origin(), Origin::Fresh);
 }
 
-TEST(StoreFiles, Last_heartbeats_are_told_without_the_store) {
+TEST(StoreFiles, Last_heartbeats_are_reported_without_the_store) {
   const TestNode node("beat");
   EXPECT_EQ(last_beat(node.name()).error().code, Errc::NotFound);
   auto sut = Store::create(node.name(), small_schema());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blocks that somebody else made, copied or cut.
+// Blocks that other programs created, copied or cut.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -70,18 +70,18 @@ TEST(Strangers, A_lock_shows_no_process_of_another_user) {
   EXPECT_EQ(running_node(node.name()), 0);
 }
 
-TEST(Strangers, Whoever_may_not_open_the_lock_sees_who_runs) {
+TEST(Strangers, A_user_without_access_to_the_lock_sees_who_runs) {
   if (::geteuid() != 0) {
-    GTEST_SKIP() << "needs root to become somebody else";
+    GTEST_SKIP() << "needs root to become another user";
   }
   const TestNode node("closed");
   pid_t holder = 0;
   const auto lock = NodeLock::acquire(node.name(), holder);
   const auto store = Store::create(node.name(), schema_of_a_few());
   ASSERT_TRUE(lock.ok() && store.ok());
-  Forked nobody(
+  Forked unprivileged(
       [&] { return ::setgid(65534) == 0 && ::setuid(65534) == 0 && running_node(node.name()) == ::getppid() ? 0 : 1; });
-  EXPECT_EQ(nobody.wait(), 0);
+  EXPECT_EQ(unprivileged.wait(), 0);
 }
 
 TEST(Strangers, Are_listed_only_if_asked_for) {
@@ -143,7 +143,7 @@ TEST(Strangers, A_block_that_is_cut_is_read_without_harm_and_never_as_zeros) {
     }
     EXPECT_TRUE(dead);
     EXPECT_TRUE(sut->lost());
-    EXPECT_TRUE(sut->retired()) << "whoever has it attaches again";
+    EXPECT_TRUE(sut->retired()) << "every reader attaches again";
     EXPECT_FALSE(Store::attach(node.name(), mode).ok());
     std::filesystem::remove(node.path());
     EXPECT_EQ(sut->named(), ShmFile::Named::Gone);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small schemas made by hand, and a node name nobody else uses, removed with all its files at the end.
+// Small schemas made by hand, and a unique node name, removed with all its files at the end.
 
 #pragma once
 

@@ -110,7 +110,7 @@ TEST_F(Together, Values_of_different_updates_are_not_coherent) {
   EXPECT_EQ(n_, 7U);
 }
 
-TEST_F(Together, A_variable_that_travels_by_itself_belongs_to_no_others) {
+TEST_F(Together, A_variable_that_is_sent_alone_belongs_to_no_others) {
   mirrored().store(0);
   abi::update_offset_of(entry("b"), abi::Kind::Ring).store(abi::kAlone);
   EXPECT_FALSE(read());

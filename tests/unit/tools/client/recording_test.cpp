@@ -83,7 +83,7 @@ TEST(RecordingNames, Columns_and_lines_get_other_names_and_numbers_words) {
   EXPECT_EQ(sut.series[1].name, "joints, deg");
 }
 
-TEST(RecordingNames, What_cannot_be_named_is_told) {
+TEST(RecordingNames, What_cannot_be_named_is_reported) {
   Recording sut = read("time,CELL::speed,CELL::on\n0,0.5,1\n1,2,0\n");
   EXPECT_THAT(rename(sut, "sped=v").value_or(""), HasSubstr("no column 'sped'; there are CELL::speed and CELL::on"));
   EXPECT_THAT(rename(sut, "speed[0]").value_or(""), HasSubstr("write OLD=NEW"));

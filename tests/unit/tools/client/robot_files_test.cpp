@@ -44,7 +44,7 @@ class Robot_files : public testing::Test {
       std::filesystem::temp_directory_path() / ("robot_files_test." + std::to_string(::getpid()));
 };
 
-TEST_F(Robot_files, All_of_them_are_read_and_all_errors_told_at_once) {
+TEST_F(Robot_files, All_of_them_are_read_and_all_errors_reported_at_once) {
   config_.modules[0].properties = {{"urdf", "arm.urdf"}, {"jobs", "points.job  pick.job gone.job"}};
   write("arm.urdf", "<robot name=\"arm\"/>");
   write("points.job", "POINT A = JOINT 1 2 3\n");

@@ -86,7 +86,7 @@ TEST(ScopeFormula, What_is_wrong_is_named_with_its_place) {
   EXPECT_THAT(scope_problem("sin(a)"), HasSubstr("there is no function 'sin'; there are abs, sqrt, min, max"));
   EXPECT_THAT(scope_problem("min(a)"), HasSubstr("',' is missing"));
   EXPECT_THAT(scope_problem("a $ b"), HasSubstr("place 3"));
-  EXPECT_THAT(scope_problem("nobody > 1"), HasSubstr("there is no variable 'nobody'"));
+  EXPECT_THAT(scope_problem("missing > 1"), HasSubstr("there is no variable 'missing'"));
   EXPECT_THAT(scope_problem(std::string(2000, '(')), HasSubstr("too long"));
   EXPECT_THAT(scope_problem(std::string(900, '(')), HasSubstr("too many brackets"));
   EXPECT_THAT(scope_problem("joints[1"), HasSubstr("no variable"));
@@ -174,7 +174,7 @@ TEST(ScopeChannels, Are_names_parts_globs_and_expressions) {
                   "pose.y/pose.y mm", "knu::Robot::joints/knu::Robot::joints[0] rad",
                   "knu::Robot::joints/knu::Robot::joints[1] rad", "knu::Robot::joints/knu::Robot::joints[2] rad",
                   "knu::Robot::on/knu::Robot::on ", "d/d rad", "joints[0] * 2/joints[0] * 2 rad"));
-  EXPECT_THAT(plan->inputs, SizeIs(6)) << "each number is looked at once";
+  EXPECT_THAT(plan->inputs, SizeIs(6)) << "each number is read once";
   EXPECT_TRUE(plan->trigger);
 }
 
@@ -187,7 +187,7 @@ TEST(ScopeChannels, What_has_no_picture_is_refused) {
   };
   EXPECT_THAT(wrong("label"), HasSubstr("is text"));
   EXPECT_THAT(wrong("jonts"), HasSubstr("did you mean"));
-  EXPECT_THAT(wrong("nobody::*"), HasSubstr("no variable with numbers matches"));
+  EXPECT_THAT(wrong("missing::*"), HasSubstr("no variable with numbers matches"));
   EXPECT_THAT(wrong("joints + 1"), HasSubstr("an expression needs a number of it"));
   EXPECT_THAT(wrong("on", "label rises"), StartsWith("trigger: 'label' is char[16]"));
   EXPECT_THAT(wrong("on", "on ="), StartsWith("trigger: "));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What others wrote moves no cursor and sets no colour on the terminal of whoever reads it.
+// Foreign text moves no cursor and sets no colour on the terminal of the reader.
 #include "tools/console/output.h"
 
 #include <gtest/gtest.h>

@@ -50,7 +50,7 @@ TEST_F(Authority, Only_deployers_write) {
   }
 }
 
-TEST_F(Authority, Who_was_revoked_is_nobody_at_once) {
+TEST_F(Authority, A_revoked_client_has_no_rights_at_once) {
   const auto authority = ClientAuthority::open(folder_ / "keys" / "ca.pem", {});
   ASSERT_TRUE(authority);
   const std::string certificate = *base::read_file(plant_.deployer() / "identity.pem");
@@ -60,7 +60,7 @@ TEST_F(Authority, Who_was_revoked_is_nobody_at_once) {
   EXPECT_EQ(authority->identify(certificate).role, Role::Unknown);
 }
 
-TEST_F(Authority, Without_a_list_that_can_be_read_nobody_counts) {
+TEST_F(Authority, Without_a_readable_list_no_client_has_rights) {
   const auto authority = ClientAuthority::open(folder_ / "keys" / "ca.pem", {});
   const std::string certificate = *base::read_file(plant_.deployer() / "identity.pem");
   for (const char* content : {"", "nonsense"}) {

@@ -111,7 +111,7 @@ TEST(Gate, Wants_to_know_who_follows_from_elsewhere_whatever_the_path) {
   EXPECT_EQ(code(refusal_of(Gate(settings), stream)), 401);
 }
 
-TEST(Gate, Lets_nobody_write_without_the_option_and_a_token) {
+TEST(Gate, Rejects_writes_without_the_option_and_a_token) {
   EXPECT_EQ(code(refusal_of(Gate(here(false)), write())), 403);
   const Gate gate(here(true));
   EXPECT_EQ(code(refusal_of(gate, write())), 0);
@@ -183,7 +183,7 @@ TEST(Tokens, Have_a_name_and_are_long_enough) {
   }
 }
 
-TEST(Admission, Wants_tls_and_somebody_who_may_for_other_machines) {
+TEST(Admission, Requires_tls_and_a_client_with_rights_for_other_machines) {
   tools::ServeOptions options;
   options.bind = "0.0.0.0";
   EXPECT_FALSE(admission_of(options));

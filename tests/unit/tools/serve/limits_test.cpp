@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who waits keeps nobody out, and who guesses is noted down, in memory that has a limit.
+// A waiting client keeps no other one out, and a guessing one is recorded, in memory that has a limit.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -54,7 +54,7 @@ TEST(Limits, Let_an_address_have_its_share_only) {
 }
 
 // 320 idle connections, and more of them again and again: everybody else comes in each time.
-TEST(Limits, Idle_ones_lock_nobody_out) {
+TEST(Limits, Idle_ones_lock_no_client_out) {
   ConnectionLimits limits(256, 64);
   for (int i = 0; i < 10000; ++i) {
     EXPECT_NE(limits.admit("127.0.0.1", true).id, 0U);
@@ -79,7 +79,7 @@ TEST(WrongTokens, Are_held_back_longer_and_longer) {
     before = verdict.delay_ns;
   }
   EXPECT_EQ(before, WrongTokens::kMostDelayNs);
-  EXPECT_EQ(sut.wrong("10.0.0.2", kSecond).delay_ns, 0) << "somebody else";
+  EXPECT_EQ(sut.wrong("10.0.0.2", kSecond).delay_ns, 0) << "another client";
   EXPECT_EQ(sut.wrong("10.0.0.1", kSecond + WrongTokens::kWindowNs + 1).delay_ns, 0) << "it is forgotten";
 }
 

@@ -32,7 +32,7 @@ TEST(Cut, Through_a_hollow_makes_a_lid_over_it) {
   EXPECT_NEAR(area_of(parts.below) + area_of(parts.above) - area_of(tube), 2 * 0.2 * 0.2, 1e-12);
 }
 
-TEST(Cut, Beside_a_surface_leaves_it_whole) {
+TEST(Cut, Next_to_a_surface_leaves_it_whole) {
   const Surface box = box_surface({0.2, 0.3, 0.4});
   const Parts parts = cut(box, {Vec3::UnitX(), 0.2});
   EXPECT_EQ(parts.below.size(), box.size());

@@ -49,7 +49,7 @@ TEST_F(MeshFiles, Of_packages_elsewhere_are_where_the_user_says) {
             "there is no " + (folder_.path() / "elsewhere/none.stl").string());
 }
 
-TEST_F(MeshFiles, Without_a_package_are_beside_the_file) {
+TEST_F(MeshFiles, Without_a_package_are_next_to_the_file) {
   EXPECT_EQ(find("../meshes/a.stl"), "ws/arm/meshes/a.stl");
   EXPECT_EQ(find("file://" + (folder_.path() / "elsewhere/meshes/e.stl").string()), "elsewhere/meshes/e.stl");
   EXPECT_EQ(find((folder_.path() / "elsewhere/meshes/e.stl").string()), "elsewhere/meshes/e.stl");

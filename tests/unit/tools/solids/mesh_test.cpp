@@ -133,7 +133,7 @@ TEST_F(Meshes, Are_scaled_and_mirrored) {
   expect_extent(read_mesh(write("body.stl", binary_stl(body())), {2, -1, 0.5}), {0, -0.35, 0.15}, {0.4, -0.05, 0.35});
 }
 
-TEST_F(Meshes, That_cannot_be_read_are_told) {
+TEST_F(Meshes, That_cannot_be_read_are_reported) {
   EXPECT_EQ(read_mesh(folder_.path(), Vec3::Ones()).error().text, "it is not an ordinary file");
   EXPECT_NE(read_mesh(write("body.stl", "solid"), Vec3::Ones()).error().text, "");
   EXPECT_NE(read_mesh(write("body.xyz", "0 0 0"), Vec3::Ones()).error().text, "");

@@ -172,7 +172,7 @@ TEST_F(SegmentTest, Without_power_the_line_ends_before) {
   master_.read<std::uint16_t>(Command::Brd, address_of(0, reg::kAlStatus), 1);
   EXPECT_EQ(master_.read<std::uint16_t>(Command::Fprd, of(0, reg::kDlStatus)), 0x5611);
   segment_.set_power(1, true);
-  EXPECT_EQ(master_.read<std::uint16_t>(Command::Aprd, address_of(position(1), reg::kStation)), 0);  // it begins anew
+  EXPECT_EQ(master_.read<std::uint16_t>(Command::Aprd, address_of(position(1), reg::kStation)), 0);  // it begins again
   EXPECT_EQ(master_.read<std::uint16_t>(Command::Fprd, of(2, reg::kStation)), 0x1003);
   EXPECT_EQ(master_.read<std::uint16_t>(Command::Fprd, of(0, reg::kDlStatus)), 0x5A31);
   segment_.set_power(0, false);

@@ -82,7 +82,7 @@ TEST_F(PlcConveyor, A_jam_stops_it_until_acknowledged) {
   EXPECT_TRUE(belt::motor.get());
 }
 
-TEST_F(PlcConveyor, Every_power_of_the_drawing_is_told) {
+TEST_F(PlcConveyor, The_power_of_every_line_is_reported) {
   plc::CompileOptions options;
   options.files = {PLC_CONVEYOR};
   options.name = "belt";
@@ -116,7 +116,7 @@ TEST_F(PlcConveyor, Every_power_of_the_drawing_is_told) {
   }
   EXPECT_EQ(contacts, 12U);
   EXPECT_EQ(coils, 6U);
-  EXPECT_LT(program.power.size(), contacts + coils) << "what a view derives is not told";
+  EXPECT_LT(program.power.size(), contacts + coils) << "what a view derives is not reported";
 }
 
 }  // namespace

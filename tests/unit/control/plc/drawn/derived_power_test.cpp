@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Behind which contacts and coils a running view tells the power by itself: only where nothing can have changed them
+// After which contacts and coils a running view derives the power: only where nothing can have changed them
 // since.
 
 #include "control/plc/lower/derived_power.h"
@@ -56,17 +56,17 @@ TEST(PlcDerivedPower, Contacts_and_coils_in_a_row) {
   EXPECT_EQ(derived({{Kind::Contact, "a"}, {Kind::Contact, "b.c"}, {Kind::Coil, "d"}}), (Names{"a", "b.c", "d"}));
 }
 
-TEST(PlcDerivedPower, A_contact_of_what_the_rung_writes_is_told) {
+TEST(PlcDerivedPower, A_contact_of_a_variable_that_the_rung_writes_is_reported) {
   EXPECT_EQ(derived({{Kind::Contact, "Motor"}, {Kind::Coil, "motor"}}), Names{"motor"}) << "the coil only";
   EXPECT_EQ(derived({{Kind::Contact, "axes[i].on"}, {Kind::Coil, "i"}}), Names{"i"}) << "another element";
   EXPECT_EQ(derived({{Kind::Contact, "%MX0.1"}, {Kind::Coil, "%MW0"}}), Names{"%MW0"}) << "addresses lie in each other";
 }
 
-TEST(PlcDerivedPower, What_calls_a_function_is_told) {
+TEST(PlcDerivedPower, What_calls_a_function_is_reported) {
   EXPECT_EQ(derived({{Kind::Contact, "count(n) > 3"}, {Kind::Coil, "d"}}), Names{"d"});
 }
 
-TEST(PlcDerivedPower, Beside_a_block_of_the_user_every_contact_is_told) {
+TEST(PlcDerivedPower, Next_to_a_block_of_the_user_every_contact_is_reported) {
   Element block = element(Kind::Block, 9, "", {2});
   block.type = "TON";
   block.instance = "t";
@@ -80,7 +80,7 @@ TEST(PlcDerivedPower, Nothing_is_derived_where_networks_are_jumped_over) {
   EXPECT_EQ(derived({{Kind::Contact, "a"}, {Kind::Coil, "d"}}, {element(Kind::Return, 9, "", {2})}), Names{});
 }
 
-TEST(PlcDerivedPower, After_an_edge_or_a_block_it_is_told) {
+TEST(PlcDerivedPower, After_an_edge_or_a_block_it_is_reported) {
   Element edge = element(Kind::Contact, 9, "b", {2});
   edge.edge = ast::Edge::Rising;
   EXPECT_EQ(derived({{Kind::Contact, "a"}}, {edge, element(Kind::Coil, 10, "d", {9})}), (Names{"a", "d"}));

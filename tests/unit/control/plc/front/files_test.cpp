@@ -115,7 +115,7 @@ TEST(PlcFiles, A_project_of_TwinCAT_is_shown_as_it_is_written) {
   EXPECT_EQ(main.code.body.text, "drive(speed := GVL.wanted);\ndrive.Reset();\nk := drive.Twice;");
   const std::string& file = files.at("plant/POUs/MAIN.TcPOU");
   const auto begin = file.begin() + static_cast<std::ptrdiff_t>(file.find("drive(speed"));
-  EXPECT_EQ(main.code.body.text_at.line, 1 + std::count(file.begin(), begin, '\n')) << "values stand beside its lines";
+  EXPECT_EQ(main.code.body.text_at.line, 1 + std::count(file.begin(), begin, '\n')) << "values are next to its lines";
   ASSERT_EQ(sut.pous.at(1).code.actions.size(), 1U);
   EXPECT_EQ(sut.pous.at(1).code.actions.at(0).name, "Reset");
   EXPECT_EQ(sut.pous.at(1).code.actions.at(0).body.text, "set.n := 0;");

@@ -167,7 +167,7 @@ TEST(PlcLimits, Written_values_of_arrays_are_as_long_as_the_list) {
   EXPECT_THAT(sut.glb, HasSubstr("a[10][2] = {{1, 2}, {4, 4}, {4}};"));
 }
 
-TEST(PlcLimits, Calls_in_calls_are_looked_at_once) {
+TEST(PlcLimits, Calls_in_calls_are_checked_once) {
   const auto inside = [](const std::string& before, const std::string& middle) {
     std::string out;
     std::string end;
@@ -187,8 +187,8 @@ TEST(PlcLimits, Calls_in_calls_are_looked_at_once) {
   }
 }
 
-// Found by mutating texts: the call was looked at a second time, when it knew inputs that nobody gives.
-TEST(PlcLimits, A_call_that_is_looked_at_twice_is_as_at_the_first_time) {
+// Found by mutating texts: the call was checked a second time, when it knew inputs that no call gives.
+TEST(PlcLimits, A_call_that_is_checked_twice_gives_the_same_result) {
   EXPECT_THAT(wrong("FUNCTION half:REAL VAR_INPUT ratio END_WHILE ratio:=half(); END_VAR END_FUNCTION"),
               HasSubstr("error"));
   EXPECT_THAT(wrong("FUNCTION half : REAL VAR_INPUT ratio : REAL := half(); END_VAR half := ratio; END_FUNCTION " +

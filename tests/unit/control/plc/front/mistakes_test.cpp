@@ -339,7 +339,7 @@ TEST(PlcMistakes, A_file_that_is_not_there_is_the_only_message) {
   EXPECT_THAT(messages(sut), HasSubstr("gone.st: error: cannot read the file: there is no such file"));
 }
 
-// Whether 2 is meant for a or for c, nobody can tell.
+// Whether 2 is meant for a or for c cannot be known.
 TEST(PlcMistakes, A_value_in_the_place_of_an_input_that_was_given_by_name) {
   const std::string text =
       "FUNCTION F : INT VAR_INPUT a, b, c : INT; END_VAR F := a + b + c; END_FUNCTION "

@@ -110,7 +110,7 @@ std::set<std::string> library_names(const std::string& text) {
   return out;
 }
 
-// That it compiles is not enough: a program runs it and looks at what comes out.
+// That it compiles is not enough: a program runs it and checks the results.
 TEST(PlcTables, What_compiles_is_run_by_the_test_that_the_row_names) {
   for (const TableRow& row : rows_of(PLC_CONFORMANCE)) {
     if (row.answer != "yes") {

@@ -70,7 +70,7 @@ TEST(PlcWatch, Another_program_has_another_mark) {
   other.replace(other.find("n : DINT"), 8, "n : UINT");
   EXPECT_NE(watch_plan(options(), reader_of(kProgram)).layouts.front().mark,
             watch_plan(options(), reader_of(other)).layouts.front().mark);
-  // The same variables, but other values would stand beside other lines.
+  // The same variables, but values would be next to the wrong lines.
   EXPECT_NE(watch_plan(options(), reader_of(kProgram)).layouts.front().mark,
             watch_plan(options(), reader_of(kProgram + std::string("\n"))).layouts.front().mark);
 }
@@ -78,10 +78,10 @@ TEST(PlcWatch, Another_program_has_another_mark) {
 TEST(PlcWatch, Only_a_module_built_for_it_tells_anything) {
   CompileOptions with = options();
   with.watch = true;
-  const Compiled told = compile(with, reader_of(kProgram));
-  ASSERT_TRUE(told.ok) << base::to_text(told.diagnostics);
-  EXPECT_THAT(told.glb, HasSubstr("uint8_t main_watch["));
-  EXPECT_THAT(told.modules.front().cpp, HasSubstr("iec::tell<INDUROP_TYPEOF(::sut::main_watch)::tag_type>"));
+  const Compiled watched = compile(with, reader_of(kProgram));
+  ASSERT_TRUE(watched.ok) << base::to_text(watched.diagnostics);
+  EXPECT_THAT(watched.glb, HasSubstr("uint8_t main_watch["));
+  EXPECT_THAT(watched.modules.front().cpp, HasSubstr("iec::tell<INDUROP_TYPEOF(::sut::main_watch)::tag_type>"));
   const Compiled quiet = compile(options(), reader_of(kProgram));
   EXPECT_THAT(quiet.glb + quiet.modules.front().cpp, Not(HasSubstr("watch")));
 }
@@ -123,7 +123,7 @@ TEST(PlcWatch, Values_are_written_as_in_a_program) {
   EXPECT_EQ(value_text(color, std::vector<std::uint8_t>{7, 0}), "7");
 }
 
-TEST(PlcWatch, Values_stand_beside_the_lines_that_name_them) {
+TEST(PlcWatch, Values_are_next_to_the_lines_that_name_them) {
   const std::map<std::string, std::string> values = {{"SPEED", "5"},     {"T.ET", "T#1s"}, {"A[2].X", "7"},
                                                      {"A", "all of it"}, {"GO", "TRUE"},   {"B[-1,2]", "8"}};
   const auto lines = live_lines(

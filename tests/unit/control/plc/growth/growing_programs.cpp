@@ -250,7 +250,7 @@ const std::vector<GrowingText> kTexts = {
     GrowingText{"configured", TEXT("PROGRAM P VAR\n" + repeated(n, "i# AT %IW* : INT;\n") + "k : INT; END_VAR k := i0; END_PROGRAM\nCONFIGURATION c RESOURCE r ON pc TASK t (INTERVAL := T#1ms); PROGRAM p WITH t : P; END_RESOURCE\nVAR_CONFIG\n" + repeated(n, "r.p.i# AT %IW# : INT;\n") + "END_VAR END_CONFIGURATION\n")},
     GrowingText{"connections", TEXT("VAR_GLOBAL g : INT; END_VAR PROGRAM P VAR_INPUT\n" + repeated(n, "i# : INT;\n") + "END_VAR i0 := 1; END_PROGRAM\nCONFIGURATION c RESOURCE r ON pc TASK t (INTERVAL := T#1ms); PROGRAM p WITH t : P (i0 := g" + repeated(n, ", i# := g", 1) + "); END_RESOURCE END_CONFIGURATION\n")},
     GrowingText{"undeclared", TEXT(body(repeated(n, "x# := 1;\n")))},
-    GrowingText{"undeclared_beside_many", TEXT(program("VAR\n" + repeated(n, "v# : INT;\n") + "END_VAR", repeated(n, "x# := 1;\n")))},
+    GrowingText{"undeclared_among_many", TEXT(program("VAR\n" + repeated(n, "v# : INT;\n") + "END_VAR", repeated(n, "x# := 1;\n")))},
     GrowingText{"nonsense", TEXT(body(times(n, "i := := 1;\n")))},
     GrowingText{"nonsense_outside", TEXT(times(n, "nonsense ; "))},
     GrowingText{"programs_without_end", TEXT(repeated(n, "PROGRAM P# i := 1;\n"))},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts that grow with a number: each has n of something of which a compiler may look at each beside each other, or
+// Texts that grow with a number: each has n of something of which a compiler may compare each with each other, or
 // that lies inside of itself n times.
 
 #pragma once

@@ -65,7 +65,7 @@ TEST(PlcIntegral, Takes_the_time_from_the_schedule_if_no_cycle_is_given) {
   EXPECT_EQ(sut.xout, 4);
 }
 
-TEST(PlcIntegral, Small_steps_are_not_lost_beside_a_large_sum) {
+TEST(PlcIntegral, Small_steps_are_not_lost_in_a_large_sum) {
   Integral sut;
   sut.run = true;
   sut.cycle = {kMillisecond};

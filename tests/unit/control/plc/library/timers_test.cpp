@@ -52,7 +52,7 @@ TEST(PlcTon, A_shorter_input_does_not_come_through) {
   check<Ton>({{0, true, false, 0},
               {90, true, false, 90},
               {99, false, false, 0},
-              {120, true, false, 0},  // begins anew
+              {120, true, false, 0},  // begins again
               {219, true, false, 99},
               {220, true, true, 100}});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Somebody without rights, for what root could not be refused.
+// A user without rights, for tests of what root is never refused.
 
 #pragma once
 
@@ -8,22 +8,22 @@
 namespace indurop::test {
 
 // Reads what everybody may read.
-inline constexpr uid_t kNobody = 65534;
+inline constexpr uid_t kUnprivileged = 65534;
 
 // The user to run a program as that must not have root's rights: the one of the test if it has none.
-inline uid_t nobody_instead_of_root() {
-  return ::geteuid() == 0 ? kNobody : static_cast<uid_t>(-1);
+inline uid_t unprivileged_instead_of_root() {
+  return ::geteuid() == 0 ? kUnprivileged : static_cast<uid_t>(-1);
 }
 
-// Becomes nobody for good if this is root; else stays the same user. False: this root cannot.
-inline bool become_nobody() {
-  return ::setgid(kNobody) == 0 && ::setuid(kNobody) == 0;
+// Gives up root for good if this is root, otherwise changes nothing. False: this root cannot.
+inline bool become_unprivileged() {
+  return ::setgid(kUnprivileged) == 0 && ::setuid(kUnprivileged) == 0;
 }
 
 // What happens during its life happens without root's rights. For tests with one thread.
 class WithoutRoot {
  public:
-  WithoutRoot() : root_(::geteuid() == 0), held_(!root_ || ::seteuid(kNobody) == 0) {}
+  WithoutRoot() : root_(::geteuid() == 0), held_(!root_ || ::seteuid(kUnprivileged) == 0) {}
   WithoutRoot(const WithoutRoot&) = delete;
   WithoutRoot& operator=(const WithoutRoot&) = delete;
   ~WithoutRoot() {
