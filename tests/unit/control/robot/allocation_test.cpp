@@ -17,7 +17,7 @@ class NoSignals final : public Signals {
   void write(std::size_t /*index*/, double /*value*/) noexcept override {}
 };
 
-// Runs job 1 with drives that do what they are told; returns what the steps allocated.
+// Runs job 1 with drives that follow their commands; returns what the steps allocated.
 std::uint64_t allocations_of(const std::string& urdf, const std::string& job, Outputs& out, std::string& message,
                              const Settings& settings = {}) {
   const auto sut = controller_of(urdf, job, settings);
@@ -29,7 +29,7 @@ std::uint64_t allocations_of(const std::string& urdf, const std::string& job, Ou
     for (std::size_t k = 0; k < kJoints; ++k) {
       in.drives[k] = {0, 0x27, out.drives[k].mode, out.drives[k].position};
     }
-    if (i == 2 || i == 100) {  // power is taken once drives that had it were given time to let go
+    if (i == 2 || i == 100) {  // power is requested once drives that had it have had time to switch off
       in.service.code = static_cast<std::int32_t>(i == 2 ? Service::GroupEnable : Service::JobStart);
       in.service.job = 1;
       ++in.service.number;

@@ -63,7 +63,7 @@ TEST(ArmJobs, Seven_axes_stand_where_a_point_says) {
 }
 
 // Arms without a closed form have to search how they are held there.
-TEST(ArmJobs, Joint_motions_go_beside_a_point) {
+TEST(ArmJobs, Joint_motions_go_to_a_place_relative_to_a_point) {
   for (const auto& [arm, point, place] : {std::tuple{"scara", "400 200 250 RPY 180 0 30", Vec3(400, 200, 250)},
                                           {"offset_wrist", "350 100 300 RPY 180 0 0", Vec3(350, 100, 300)},
                                           {"iiwa14", "500 100 600 RPY 180 0 180", Vec3(500, 100, 600)},
@@ -74,7 +74,7 @@ TEST(ArmJobs, Joint_motions_go_beside_a_point) {
   }
 }
 
-TEST(ArmJobs, A_joint_motion_beside_a_point_may_be_out_of_reach) {
+TEST(ArmJobs, A_joint_motion_relative_to_a_point_may_be_out_of_reach) {
   Cell cell("POINT A = POSE 400 200 250 RPY 180 0 30\nMOVJ A\nMOVJ A OFFSET 900, 0, 0\n", 4, 0, true, Settings{},
             urdf_of("scara"));
   ASSERT_TRUE(cell.serve(Service::GroupEnable));

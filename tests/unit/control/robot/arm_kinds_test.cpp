@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arms that are not made of six turning axes, from tests/unit/control/robot/arms. The second opinion on where the tool
-// is comes from orocos-kdl, to which each arm is told anew.
+// is comes from orocos-kdl, for which each arm is described again.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 

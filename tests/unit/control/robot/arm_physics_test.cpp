@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm behind simulated drives: an axis that carries what it is told accelerates so that orocos-kdl, asked the other
+// The arm behind simulated drives: an axis with a known load accelerates so that orocos-kdl, asked the other
 // way round, finds the torque of the drive and the push from outside.
 #include <indurop/robot/arm_physics.h>
 
@@ -82,7 +82,7 @@ TEST(ArmPhysics, Accelerates_as_KDL_says) {
   }
 }
 
-TEST(ArmPhysics, What_is_no_arm_with_masses_is_told) {
+TEST(ArmPhysics, An_arm_without_masses_is_reported) {
   std::vector<std::string> errors;
   EXPECT_FALSE(ArmPhysics::load("/nowhere/arm.urdf", errors));
   ASSERT_EQ(errors.size(), 1U);

@@ -153,7 +153,7 @@ TEST(Arms, The_nearest_solution_is_the_nearest_of_all) {
   }
 }
 
-TEST(Arms, Eight_postures_of_parallel_axes_are_told_apart) {
+TEST(Arms, Eight_postures_of_parallel_axes_are_distinguished) {
   const Arm arm = arm_of("ur5");
   const Inverse sut(arm);
   Joints q = Joints::Zero();
@@ -169,7 +169,7 @@ TEST(Arms, Eight_postures_of_parallel_axes_are_told_apart) {
   EXPECT_EQ(seen, 0xFFU);
 }
 
-TEST(Arms, Postures_told_from_angles_are_those_of_the_closed_forms) {
+TEST(Arms, Postures_derived_from_angles_are_those_of_the_closed_forms) {
   for (const Arm& arm : {cell_arm(), arm_of("ur10")}) {
     const Inverse sut(arm);
     const auto postures = Postures::of(arm);

@@ -205,7 +205,7 @@ TEST_F(AxisCommands, More_than_there_is_room_for_are_refused) {
     give(1, AxisService::MoveAbsolute, 1, 1, BufferMode::Buffered);
     cell.step();
   }
-  // Places have been written anew, so nobody waits for the first ones any more.
+  // The targets have been written again, so the first ones are no longer awaited.
   const Given last = give(1, AxisService::MoveAbsolute, 1, 1, BufferMode::Buffered);
   cell.step();
   EXPECT_EQ(state(last), CommandState::Error);

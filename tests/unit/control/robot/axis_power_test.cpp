@@ -56,7 +56,7 @@ TEST_F(Axis_power, Comes_back_after_an_emergency_and_a_reset_of_the_axis) {
   ASSERT_TRUE(cell.until([&] { return ended(early); }));
   EXPECT_EQ(error(early), ErrorCode::Emergency) << "not before it is over";
   cell.in.emergency = false;
-  EXPECT_TRUE(stays(AxisState::ErrorStop)) << "and not by itself";
+  EXPECT_TRUE(stays(AxisState::ErrorStop)) << "and not on its own";
   EXPECT_NE(cell.in.drives[0].status & 0x6FU, 0x27U);
   EXPECT_TRUE(done(give(1, AxisService::Reset)));
   EXPECT_TRUE(becomes(AxisState::Standstill));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drives that count in their own way: each axis with its own counts, direction, gear and zero. What the arm does is the
-// same as with drives that all count alike, and each drive is told what the formula of the docs says.
+// same as with drives that all count alike, and each drive gets what the formula of the docs gives.
 #include <cmath>
 #include <random>
 

@@ -12,7 +12,7 @@
 namespace indurop::robot {
 namespace {
 
-TEST(Axis, Moves_by_itself_while_the_group_rests) {
+TEST(Axis, Moves_as_a_single_axis_while_the_group_is_at_standstill) {
   Cell cell;
   ASSERT_TRUE(cell.serve_axis(1, AxisService::PowerOn));
   EXPECT_TRUE(cell.out.axes[1].power);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cell with a belt or table, that looks at each set point: at the joints' limits, and at where orocos-kdl says that
+// A cell with a belt or table, that checks each set point: at the joints' limits, and at where orocos-kdl says that
 // the tip is on the product.
 
 #pragma once
@@ -76,7 +76,7 @@ class Belts : public testing::Test, public CommandCell {
   // One period, with the belt where it is then.
   void step() {
     time += 0.01;
-    if (told) {
+    if (reported) {
       cell.in.belts[0] = {std::round(belt(time) / resolution) * resolution, cell.in.belts[0].beat + 1};
     }
     cell.step();
@@ -148,7 +148,7 @@ class Belts : public testing::Test, public CommandCell {
   static constexpr Eight kAlongY{450, -150, 250, 0, 0, 90};
   std::function<double(double)> belt;  // mm or degrees at a time
   double resolution = 1e-4;
-  bool told = true;
+  bool reported = true;
   double time = 0, zero = 0, hardness = 1;
   bool failed = false, table = false;
   KDL::Frame origin, object;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A yardstick for stops along a path, written without looking at control/robot/: how soon a path can be braked to rest
+// A reference for stops along a path, written independently of control/robot/: how soon a path can be braked to rest
 // if each joint keeps its acceleration and its jerk. Slow and fine: the path is sampled in hundreds of places, the
 // moment at which braking is taken back is bisected, for many ways to brake.
 

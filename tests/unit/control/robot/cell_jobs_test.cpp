@@ -87,7 +87,7 @@ void note(RobotCell& sut, Seen& seen, double& valve, double& open) {
   open = sut.signal("O9");
 }
 
-// CELL::GLUE_*, CELL::PLACE_* of cell.glb; what the surroundings look at.
+// CELL::GLUE_*, CELL::PLACE_* of cell.glb; what the simulated surroundings read.
 TEST(CellJobs, The_part_and_its_glue_are_where_the_surroundings_expect_them) {
   RobotCell sut;
   ASSERT_TRUE(sut.serve(Service::GroupEnable));

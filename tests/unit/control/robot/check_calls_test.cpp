@@ -36,7 +36,7 @@ std::vector<std::string> said(const std::vector<JobFile>& files) {
   return texts;
 }
 
-TEST(Check_calls, Those_without_condition_are_told_with_their_line) {
+TEST(Check_calls, Those_without_condition_are_reported_with_their_line) {
   EXPECT_THAT(said({{"a.job", "WAIT 1s\nCALL a\n"}}),
               ElementsAre(HasSubstr("a.job:2:1: warning: job 'a' calls itself")));
   EXPECT_THAT(said({{"a.job", "CALL b\n"}, {"b.job", "LOOP 2\nCALL a\nEND\n"}}),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Motions that would touch something do not begin: random arms, motions and zones against a second opinion, and what a
-// job and a hand are told.
+// a job and jogging report it.
 
 #include <gtest/gtest.h>
 

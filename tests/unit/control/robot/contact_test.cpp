@@ -139,7 +139,7 @@ TEST(Contact, It_stops_on_the_path_and_is_reset_as_others) {
   EXPECT_EQ(plant.cell.out.state, GroupState::Standby);
 }
 
-// A push that stays is known once somebody has reset: the arm may be moved away from it. A harder one stops it again.
+// A push that stays is known after a reset: the arm may be moved away from it. A harder one stops it again.
 TEST(Contact, After_a_reset_only_more_than_what_pushes_then_counts) {
   Plant plant(heavy_cell_arm(efforts()), point("A", joints_of({0, 0.3, -0.5, 0, 0.9, 0})) + "MOVJ A\n", {});
   ASSERT_TRUE(plant.enable());
@@ -161,7 +161,7 @@ TEST(Contact, After_a_reset_only_more_than_what_pushes_then_counts) {
 }
 
 // What is laid down or taken comes without a step of torque.
-TEST(Contact, Another_load_is_told_little_by_little) {
+TEST(Contact, Another_load_is_applied_gradually) {
   const std::string job = point("A", joints_of({0, 0.9, -0.9, 0, 0.9, 0})) + "MOVJ A\n" + kLoad + "WAIT 0.5s\n";
   Plant plant(heavy_cell_arm(efforts()), job, {});
   ASSERT_TRUE(plant.enable());
@@ -179,11 +179,11 @@ TEST(Contact, Another_load_is_told_little_by_little) {
   EXPECT_LT(most, 5);
 }
 
-TEST(Contact, What_it_holds_but_was_not_told_is_noticed) {
+TEST(Contact, A_load_that_was_not_declared_is_noticed) {
   const HeavyArm heavy = heavy_cell_arm(efforts());
   const std::string points = point("A", joints_of({0, 0.9, -0.9, 0, 0.9, 0}));
-  for (const bool told : {true, false}) {
-    Plant plant(heavy, points + (told ? kLoad : "") + "MOVJ A\n", kHeld);
+  for (const bool declared : {true, false}) {
+    Plant plant(heavy, points + (declared ? kLoad : "") + "MOVJ A\n", kHeld);
     plant.cell.in.service.job = 1;
     plant.cell.ask(Service::GroupEnable);
     for (int i = 0; i < 20; ++i) {
@@ -193,12 +193,12 @@ TEST(Contact, What_it_holds_but_was_not_told_is_noticed) {
     for (int i = 0; i < 1500; ++i) {
       plant.step();
     }
-    EXPECT_EQ(plant.cell.out.error, told ? ErrorCode::Ok : ErrorCode::Contact) << plant.cell.out.job.message;
+    EXPECT_EQ(plant.cell.out.error, declared ? ErrorCode::Ok : ErrorCode::Contact) << plant.cell.out.job.message;
   }
 }
 
 // The feed-forward is what the arm needs, by KDL, of the rated torque.
-TEST(Contact, Drives_are_told_what_the_motion_needs) {
+TEST(Contact, Drives_get_the_torque_that_the_motion_needs) {
   const HeavyArm heavy = heavy_cell_arm(efforts());
   const std::string job = point("A", joints_of({1, 0.9, -0.9, 1, 0.9, 2})) + "MOVJ A\n";
   Plant plant(heavy, job, {});
@@ -206,7 +206,7 @@ TEST(Contact, Drives_are_told_what_the_motion_needs) {
   ASSERT_TRUE(plant.enable());
   plant.start();
   std::array<Joints, 3> seen{Joints::Zero(), Joints::Zero(), Joints::Zero()};
-  Joints told = Joints::Zero();
+  Joints commanded = Joints::Zero();
   double worst = 0;
   for (int i = 0; i < 400; ++i) {
     plant.step();
@@ -214,16 +214,16 @@ TEST(Contact, Drives_are_told_what_the_motion_needs) {
     for (int k = 0; k < 6; ++k) {
       seen[2][k] = radians(plant.cell.out.command[static_cast<std::size_t>(k)]);
     }
-    if (i > 3) {  // what was told for the instant before
+    if (i > 3) {  // what was commanded for the previous instant
       const Joints needed = kdl_torques(heavy, {}, seen[1], (seen[2] - seen[0]) / (2 * kPeriod),
                                         (seen[2] - 2 * seen[1] + seen[0]) / (kPeriod * kPeriod));
       for (int k = 0; k < 6; ++k) {
-        worst = std::max(worst, std::abs(told[k] - needed[k]) / kRated[static_cast<std::size_t>(k)]);
+        worst = std::max(worst, std::abs(commanded[k] - needed[k]) / kRated[static_cast<std::size_t>(k)]);
       }
     }
     for (int k = 0; k < 6; ++k) {
       const auto j = static_cast<std::size_t>(k);
-      told[k] = plant.cell.out.drives[j].torque_offset * kRated[j] / 1000;
+      commanded[k] = plant.cell.out.drives[j].torque_offset * kRated[j] / 1000;
     }
   }
   EXPECT_LT(worst, 0.03);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random lines, circles and chains of short lines one after the other, or motions of all kinds that are blended, with
-// holds, overrides and stops at random instants: the set points they make keep all limits before any gate has looked at
+// holds, overrides and stops at random instants: the set points they make keep all limits before any gate has checked
 // them. (Emergency stops are in random_jobs_test.cpp, behind the gate.) INDUROP_ROBOT_PATHS says how many,
 // INDUROP_ROBOT_SEED from which one on.
 

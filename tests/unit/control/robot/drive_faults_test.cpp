@@ -50,7 +50,7 @@ std::string job_of(const ArmSpec& spec, Motion motion, std::mt19937& random) {
 
 // The tool rides on a product that passes it.
 bool begin_on_belt(Run& run) {
-  run.belt_told = true;
+  run.belt_reported = true;
   run.belt_speed = run.in(-0.15, 0.15);
   run.until([] { return false; }, 0.6);
   std::array<double, 8> from{};
@@ -172,7 +172,7 @@ void fail_once(const ArmSpec& spec, unsigned seed, Tally& tally) {
   run.fail(failure, axis, static_cast<Coasting>(run.one_of(3)));
   run.cell.in.mode.enabled = failure != Failure::Switch;
   run.cell.in.emergency = failure == Failure::Emergency;
-  run.belt_told = run.belt_told && failure != Failure::Belt;
+  run.belt_reported = run.belt_reported && failure != Failure::Belt;
   run.hardness = failure == Failure::Switch || failure == Failure::Emergency ? kEmergency : 1;
   run.tally.failed += run.speed() > 10 ? 1 : 0;
   const double failed_at = run.time;

@@ -188,7 +188,7 @@ TEST(Dynamics, Wrong_masses_are_errors_with_their_line) {
             "robot.urdf:9:1: error: joint 'swing': damping and friction of <dynamics> cannot be below 0");
 }
 
-TEST(Dynamics, What_is_missing_is_told) {
+TEST(Dynamics, Missing_masses_are_reported) {
   const auto notes_of = [](const ArmModel& model) {
     return model.notes.empty() ? "" : base::to_string(model.notes.front());
   };

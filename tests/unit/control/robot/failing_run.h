@@ -64,7 +64,7 @@ class Run : public CommandCell {
   // One period of robot and drives.
   void step() {
     time += period_;
-    if (belt_told) {
+    if (belt_reported) {
       cell.in.belts[0] = {1000 * belt_speed * time, cell.in.belts[0].beat + 1};
     }
     const auto before = cell.in.drives;
@@ -99,14 +99,14 @@ class Run : public CommandCell {
   [[nodiscard]] bool stands() const {
     return std::all_of(cell.out.speed.begin(), cell.out.speed.end(), [](double v) { return std::abs(v) < 1e-9; });
   }
-  // Of what the drives have been told.
+  // Of the commands to the drives.
   [[nodiscard]] double speed() const { return speed_of_set_points_; }
 
   std::mt19937 random;
   const std::string job;
   double time = 0;
   double belt_speed = 0;  // m/s
-  bool belt_told = false;
+  bool belt_reported = false;
   double hardness = 1;
   Tally tally;
   std::string broken;

@@ -68,7 +68,7 @@ TEST_F(Gears, What_cannot_be_is_refused_and_moves_nothing) {
   EXPECT_EQ(axis(1), AxisState::ContinuousMotion);
 }
 
-TEST_F(Gears, Nobody_follows_himself_by_way_of_others) {
+TEST_F(Gears, No_axis_follows_itself_through_others) {
   const Given first = gear(2, 1, 1);
   const Given second = gear(3, 2, -1);
   const Given third = gear(1, 3, 1);
@@ -254,7 +254,7 @@ TEST_F(Cams, That_cannot_be_are_refused_and_move_nothing) {
   EXPECT_EQ(axis(1), AxisState::Standstill);
 }
 
-TEST_F(Cams, A_hold_lets_nobody_catch_up) {
+TEST_F(Cams, During_a_hold_no_axis_catches_up) {
   ASSERT_TRUE(done(select(1, hill_, true)));
   const Given in = cam(2, 1, 1, {.slave_offset = 60});
   ASSERT_TRUE(until([&] { return joint(1) > 10; }));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A group of six axes with drives that do at once what they are told.
+// A group of six axes with drives that follow commands at once.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace indurop::robot {
 
-// With drives that do at once what they are told. An arm of another URDF has only the points of its job.
+// With drives that follow commands at once. An arm of another URDF has only the points of its job.
 class Cell final : public Signals {
  public:
   explicit Cell(const std::string& job = "", double period_ms = 10, std::uint32_t asked_before = 0, bool heard = true,

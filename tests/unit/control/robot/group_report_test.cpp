@@ -10,8 +10,8 @@
 namespace indurop::robot {
 namespace {
 
-// A supervisor of the tool's speed would trip: nothing moves, the drives have only just told where they are.
-TEST(Group, Has_no_speed_before_somebody_commands_one) {
+// A supervisor of the tool's speed would trip: nothing moves, the drives have only just reported their positions.
+TEST(Group, Has_no_speed_before_the_first_command) {
   Cell cell;
   const auto stands = [](const ToolReport& tool) {
     return tool.velocity == std::array<double, 6>{} && tool.acceleration == std::array<double, 6>{};

@@ -98,19 +98,19 @@ KDL::RigidBodyInertia kdl_of(const Body& body) {
                                      KDL::RotationalInertia(i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)));
 }
 
-HeavyArm heavy_arm(std::mt19937& random, const HeavyWish& wish) {
+HeavyArm heavy_arm(std::mt19937& random, const HeavySetup& setup) {
   HeavyArm arm;
   arm.urdf = "<robot name=\"heavy\">\n<link name=\"base\"/>\n";
   std::string parent = "base";
-  for (int i = 0; i < wish.axes; ++i) {
+  for (int i = 0; i < setup.axes; ++i) {
     Joint joint;
     joint.name = fmt::format("j{}", i + 1);
-    joint.slides = wish.sliding && random() % 4 == 0;
+    joint.slides = setup.sliding && random() % 4 == 0;
     joint.place = spread(random, 0.4);
     joint.rpy = spread(random, 3);
     joint.axis = (spread(random, 1) + Vec3(0, 0, 1.5)).normalized();
     joint.body = random_body(random, 12);
-    joint.limit = limit_of(joint.slides ? -0.5 : -2.5, joint.slides ? 0.5 : 2.5, 3, wish.effort);
+    joint.limit = limit_of(joint.slides ? -0.5 : -2.5, joint.slides ? 0.5 : 2.5, 3, setup.effort);
     append(arm, joint, parent);
     parent = "link_" + joint.name;
   }

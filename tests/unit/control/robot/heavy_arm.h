@@ -17,13 +17,13 @@ struct HeavyArm {
   int count = 0;
 };
 
-struct HeavyWish {
+struct HeavySetup {
   int axes = 6;
   bool sliding = false;  // some of them may slide
   double effort = 0;     // of each axis
 };
 
-HeavyArm heavy_arm(std::mt19937& random, const HeavyWish& wish);
+HeavyArm heavy_arm(std::mt19937& random, const HeavySetup& setup);
 // The arm of the cell with masses, and these efforts of its six axes.
 HeavyArm heavy_cell_arm(const Joints& effort);
 

@@ -24,7 +24,7 @@ std::vector<std::string> errors_of(const std::string& text) {
   return all;
 }
 
-TEST(Interrupt, What_is_wrong_is_told_with_its_place) {
+TEST(Interrupt, Errors_are_reported_with_their_place) {
   EXPECT_THAT(errors_of("ON I1 CALL eject\nON I1 OFF AND count > 3 CALL eject\nOFF CALL eject\n"), ElementsAre());
   EXPECT_THAT(errors_of("ON I1 CALL ejct\n"),
               ElementsAre("main.job:1:12: error: there is no job 'ejct'; did you mean 'eject'?\n"));

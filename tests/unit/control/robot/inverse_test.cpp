@@ -68,7 +68,7 @@ TEST(Inverse, The_solution_nearest_to_where_the_arm_is) {
   for (int i = 0; i < 3000; ++i) {
     const Joints q = anywhere(arm, random, 0.1);
     if (std::abs(q[4]) < 0.02) {
-      continue;  // beside a singular position small steps of the tool are large ones of the wrist
+      continue;  // near a singular position small steps of the tool are large ones of the wrist
     }
     Joints close = q;
     close.array() += 0.001;
@@ -102,7 +102,7 @@ TEST(Inverse, Singular_wrist_keeps_the_joint_as_it_is) {
 
 // Where axes 4 and 6 nearly share a line their angles are as uncertain as rounding divided by the sine of axis 5, not
 // by its square: noise there is motion of the drives.
-TEST(Inverse, Rounds_no_more_than_it_must_beside_a_straight_wrist) {
+TEST(Inverse, Rounds_no_more_than_it_must_near_a_straight_wrist) {
   const Arm arm = cell_arm();
   const Inverse sut(arm);
   std::mt19937 random(8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A second yardstick for motions along a path, which knows limits of jerk too, written without looking at
+// A second reference for motions along a path, which knows limits of jerk too, written independently of
 // control/robot/. The unknowns are the places at instants equally far apart and how far that is; what is limited are
 // differences of joint angles between instants, as a drive sees them. A log barrier over all of it goes down by
 // Gauss-Newton steps from a slow motion. What comes out keeps all limits, so the least time is not above it; that it is

@@ -73,7 +73,7 @@ TEST(JobLanguage, Blocks_and_calls_with_values) {
   EXPECT_EQ(world.values["way"], 3);
 }
 
-TEST(JobLanguage, What_looks_at_nothing_outside_is_computed_ahead_of_the_motion) {
+TEST(JobLanguage, Expressions_without_inputs_are_computed_ahead_of_the_motion) {
   const auto [book, errors] = parse_jobs(
       {{"a.job",
         "POINT A = JOINT 0 0 0 0 0 0\nFOR i = 1 TO 5\nMOVJ A\nIF i > 1\nMOVJ A\nEND\nEND\nIF I4\nMOVJ A\nEND\n"}});
@@ -86,7 +86,7 @@ TEST(JobLanguage, What_looks_at_nothing_outside_is_computed_ahead_of_the_motion)
   for (int i = 0; i < 10; ++i) {
     sut.step(0.001, world, world);
   }
-  EXPECT_EQ(world.moves, 9) << "I4 is looked at when the robot stands";
+  EXPECT_EQ(world.moves, 9) << "I4 is read at standstill";
   world.at_rest = true;
   sut.step(0.001, world, world);
   EXPECT_EQ(world.moves, 10);

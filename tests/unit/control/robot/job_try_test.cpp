@@ -15,7 +15,7 @@ std::string errors_of_try(const std::string& text) {
   return base::to_text(parse_jobs({{"main.job", text}}).diagnostics);
 }
 
-TEST(Try, What_is_wrong_is_told_with_its_place) {
+TEST(Try, Errors_are_reported_with_their_place) {
   EXPECT_EQ(errors_of_try("TRY\nWAIT 1s\nRECOVER\nWAIT 2s\nEND\n"), "");
   EXPECT_EQ(errors_of_try("RECOVER\n"), "main.job:1:1: error: RECOVER without TRY\n");
   EXPECT_EQ(errors_of_try("IF ON\nRECOVER\nEND\n"), "main.job:2:1: error: RECOVER without TRY\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared variables and a robot for jobs, which do at once what they are told.
+// Shared variables and a robot for jobs, which follow commands at once.
 
 #pragma once
 

@@ -117,7 +117,7 @@ TEST(Jog, In_a_work_frame_goes_along_its_axes) {
   }
 }
 
-// Whoever holds a button down waits for the motion: at 1 % as at 100 %, and it goes on for as long as it is asked for.
+// The motion starts as soon at 1 % as at 100 % after a button is pressed, and continues for as long as it is requested.
 TEST(Jog, Begins_soon_at_any_speed_and_goes_on) {
   for (const double speed : {1.0, 5.0, 100.0}) {
     for (const std::size_t direction : {std::size_t{0}, std::size_t{2}, std::size_t{5}}) {

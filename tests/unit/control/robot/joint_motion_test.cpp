@@ -124,7 +124,7 @@ class Joint_motion : public testing::Test {
       time += period;
       return kept;
     }
-    // Until all axes rest if each of them brakes by itself, whatever the path.
+    // Until all axes rest if each of them brakes on its own, whatever the path.
     [[nodiscard]] double braking_alone(double hardness) const {
       std::array<SetPointGate, kAxes> alone = gates;
       int periods = 0;

@@ -82,7 +82,7 @@ TEST_F(Keepout, The_body_of_the_tool_that_is_held_counts) {
       << cell->out.job.message;
 }
 
-TEST_F(Keepout, A_service_is_refused_and_told_why) {
+TEST_F(Keepout, A_service_is_rejected_with_the_reason) {
   begin("KEEPOUT wall = BOX -900 300 0 900 400 1200\n");
   cell->in.service.target = {500, 350, 300, 180, 0, 180};
   EXPECT_FALSE(cell->serve(Service::LinearAbsolute));
@@ -155,7 +155,7 @@ TEST_F(Keepout, From_inside_it_is_left_but_not_entered_deeper) {
   EXPECT_TRUE(cell->serve(Service::LinearAbsolute)) << cell->out.job.message << to_string(cell->out.error);
 }
 
-// Axes that are moved by themselves, and new targets in mid-move, as a second opinion sees them in every period.
+// Single axes that are moved, and new targets in mid-move, as a second opinion sees them in every period.
 class Unplanned : public Keepout {
  protected:
   const ReferenceArm arm = ReferenceArm::usual();
@@ -180,7 +180,7 @@ class Unplanned : public Keepout {
   }
 };
 
-TEST_F(Unplanned, Axes_that_are_moved_by_themselves_stop_before_anything_touches) {
+TEST_F(Unplanned, Single_axes_stop_before_anything_touches) {
   std::mt19937 random{3};
   const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   int stopped = 0;
@@ -210,7 +210,7 @@ TEST_F(Unplanned, Axes_that_are_moved_by_themselves_stop_before_anything_touches
   EXPECT_GT(stopped, poses(24) / 3);
 }
 
-TEST_F(Unplanned, A_hold_keeps_to_the_way_that_was_looked_at) {
+TEST_F(Unplanned, A_hold_keeps_to_the_path_that_was_checked) {
   std::mt19937 random{5};
   const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   int held = 0;
@@ -281,7 +281,7 @@ TEST_F(Keepout, Zones_may_be_in_a_frame) {
   EXPECT_EQ(cell->out.error, ErrorCode::Collision);
 }
 
-TEST(KeepoutText, Mistakes_are_told_with_their_place) {
+TEST(KeepoutText, Errors_are_reported_with_their_place) {
   const std::pair<const char*, const char*> all[] = {
       {"KEEPOUT a\n", "main.job:1:10: error: expected a name and '='; KEEPOUT table = BOX x y z x y z"},
       {"KEEPOUT a = PLATE 1 2 3\n", "main.job:1:13: error: expected BOX x y z x y z (two opposite corners), CYLINDER"},

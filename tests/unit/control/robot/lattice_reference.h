@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A yardstick for motions of one axis from any state to rest, written without looking at control/robot/: in steps of
+// A reference for motions of one axis from any state to rest, written independently of control/robot/: in steps of
 // one second with jerk -1, 0 or 1 acceleration, twice the speed and six times the place are whole numbers, so all
 // motions can be gone through, exactly. How far one comes at most in so many steps and then rests is found backwards
 // from rest. What lies between the farthest and the nearest place can be reached too, since means of motions keep all

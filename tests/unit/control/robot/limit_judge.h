@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks at every set point of an arm's drives, as differences between periods, against the limits of the joints.
+// Checks every set point of an arm's drives, as differences between periods, against the limits of the joints.
 
 #pragma once
 
@@ -20,7 +20,7 @@ inline constexpr double kEmergency = 1.5;  // Settings::emergency_factor
 class Judge {
  public:
   // Of the cell's arm, or of that of another URDF file.
-  // `rounding`: what set points may be off by, rad or m; of paths of the tool beside singular positions, if not said.
+  // `rounding`: what set points may be off by, rad or m; of paths of the tool near singular positions, if not said.
   explicit Judge(double period, const std::string& urdf = cell_urdf(), double rounding = 5e-11)
       : period_(period),
         rounding_(rounding),

@@ -54,7 +54,7 @@ void choose(Cell& cell, OperatingMode mode, bool enabled = true) {
   cell.in.mode.enabled = enabled;
 }
 
-// Limits of a period: whoever lets the switch go is stopped as in an emergency. What set points do then is seen as
+// Limits of a period: releasing the switch stops as in an emergency. What set points do then is seen as
 // differences for three periods more.
 class Hardness {
  public:
@@ -261,7 +261,7 @@ TEST(Manual_mode, A_released_switch_stops_and_what_was_stopped_goes_on_only_when
   cell.in.mode.enabled = true;
   for (int i = 0; i < 100; ++i) {
     cell.step();
-    ASSERT_LE(cell.out.tool_speed, 0) << "nobody asked";
+    ASSERT_LE(cell.out.tool_speed, 0) << "no motion was requested";
   }
   EXPECT_TRUE(cell.serve(Service::JobResume)) << to_string(cell.out.error);
   EXPECT_EQ(cell.out.job.state, JobState::Ended);
@@ -298,7 +298,7 @@ TEST(Manual_mode, Changes_once_the_robot_stands) {
   EXPECT_GT(fastest, 200);
 }
 
-TEST(Manual_mode, In_automatic_mode_nobody_moves_it_by_hand) {
+TEST(Manual_mode, In_automatic_mode_it_cannot_be_jogged) {
   Cell cell;
   choose(cell, OperatingMode::Automatic, false);
   ASSERT_TRUE(cell.serve(Service::GroupEnable));

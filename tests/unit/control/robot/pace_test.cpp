@@ -38,7 +38,7 @@ TEST(Pace, Gets_to_rest_and_back_in_time) {
   }
 }
 
-TEST(Pace, Wishes_at_any_instant_keep_the_limits) {
+TEST(Pace, Requests_at_any_instant_keep_the_limits) {
   std::mt19937 random(4);
   const auto any = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   for (int round = 0; round < 300; ++round) {

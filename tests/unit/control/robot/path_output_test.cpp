@@ -93,7 +93,7 @@ TEST(Path_output, Of_a_motion_that_is_stopped_it_is_set_when_the_job_goes_on) {
   EXPECT_TRUE(cell.until([&] { return cell.out.job.state == JobState::Ended; }));
 }
 
-TEST(Path_output, A_pulse_ends_by_itself_while_the_robot_moves) {
+TEST(Path_output, A_pulse_ends_on_its_own_while_the_robot_moves) {
   const auto sets = sets_of("MOVJ A\nSPEED 200 mm/s\nMOVL B\nPULSE I4 0.3s AFTER 100 mm\n");
   ASSERT_EQ(sets.size(), 3U);
   EXPECT_NEAR(sets[0].place.y(), -150, 5);
@@ -121,7 +121,7 @@ TEST(Path_output, A_pulse_ends_whatever_became_of_its_job) {
   }
 }
 
-TEST(Path_output, A_pulse_begins_anew_and_SET_takes_it_over) {
+TEST(Path_output, A_pulse_begins_again_and_SET_replaces_it) {
   // 0.2 s of a pulse of 0.3 s, then another 0.3 s: one edge up, one down, 0.5 s between them.
   auto sets = sets_of("PULSE I4 0.3s\nWAIT 0.2s\nPULSE I4 0.3s\nWAIT 1s\n");
   ASSERT_EQ(sets.size(), 3U);

@@ -49,8 +49,8 @@ class Line : public testing::TestWithParam<OperatingMode> {
     before = now;
     ASSERT_EQ(judge.look(cell, 1), "");
   }
-  // mm beside the line from one place to the other.
-  static double beside(const KDL::Vector& place, const KDL::Vector& from, const KDL::Vector& to) {
+  // Distance in mm from the line from one place to the other.
+  static double distance_from_line(const KDL::Vector& place, const KDL::Vector& from, const KDL::Vector& to) {
     const KDL::Vector way = (to - from) / (to - from).Norm();
     const KDL::Vector off = place - from;
     return 1000 * (off - way * KDL::dot(off, way)).Norm();
@@ -107,7 +107,7 @@ TEST_P(Line, A_drive_that_fails_leaves_the_others_on_it) {
     ASSERT_NO_FATAL_FAILURE(come_to_rest());
     const KDL::Vector end = places.at(cell.out.command).tip;
     EXPECT_GT((end - on_line).Norm(), 0);
-    EXPECT_LT(beside(end, from, on_line), 0.02);
+    EXPECT_LT(distance_from_line(end, from, on_line), 0.02);
     EXPECT_LE(fastest, GetParam() == OperatingMode::Manual ? 250 : 1000);
     EXPECT_EQ(cell.out.error, status == Cell::kFault ? ErrorCode::Drive : ErrorCode::Power);
     EXPECT_EQ(cell.out.error_axis, 6U);
@@ -119,7 +119,7 @@ TEST_P(Line, An_axis_that_does_not_follow_stops_it_on_it) {
   cell.in.drives[1].position += 1'320'000 / 30;  // 12 degrees
   cell.stuck = true;
   ASSERT_NO_FATAL_FAILURE(come_to_rest());
-  EXPECT_LT(beside(places.at(cell.out.command).tip, from, on_line), 0.02);
+  EXPECT_LT(distance_from_line(places.at(cell.out.command).tip, from, on_line), 0.02);
   EXPECT_LE(fastest, GetParam() == OperatingMode::Manual ? 250 : 1000);
   EXPECT_EQ(cell.out.error, ErrorCode::Following);
 }
@@ -135,7 +135,7 @@ TEST_P(Line, An_emergency_stop_takes_over_from_the_stop_of_a_fault) {
       cell.in.emergency = emergency && needed >= later;
       cell.step();
     }
-    EXPECT_LT(beside(places.at(cell.out.command).tip, from, on_line), 0.05);
+    EXPECT_LT(distance_from_line(places.at(cell.out.command).tip, from, on_line), 0.05);
     cell.in.emergency = false;
     return needed;
   };

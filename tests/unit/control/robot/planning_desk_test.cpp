@@ -53,11 +53,11 @@ class Planning_desk : public Desk, public testing::TestWithParam<bool> {
 class Planning_desk_of_a_crash : public Desk, public testing::Test {};
 
 // What the tick of a run learned of its thread, and a replay learns again, whichever thread it has.
-std::vector<bool>& told() {
+std::vector<bool>& learned() {
   static std::vector<bool> all;
   return all;
 }
-std::size_t& retold() {
+std::size_t& repeated() {
   static std::size_t at = 0;
   return at;
 }
@@ -65,15 +65,15 @@ std::size_t& retold() {
 TEST_P(Planning_desk, Gives_plans_in_the_same_period_again_however_late_they_were) {
   std::mt19937 random(3);
   for (int round = 0; round < 20; ++round) {
-    told().clear();
+    learned().clear();
     const int lates = static_cast<int>(random() % 30);
     for (int i = 0; i < lates; ++i) {
-      told().push_back(false);
+      learned().push_back(false);
     }
-    told().push_back(true);
-    retold() = 0;
+    learned().push_back(true);
+    repeated() = 0;
     Settings s = settings(GetParam());
-    s.learned = [](bool) noexcept -> bool { return told()[retold()++]; };
+    s.learned = [](bool) noexcept -> bool { return learned()[repeated()++]; };
     PlanningDesk desk(places, cell_limits(), ToolLimits{}, s);
     desk.ask(line(-0.1, 1));
     int periods = 0;
@@ -82,16 +82,16 @@ TEST_P(Planning_desk, Gives_plans_in_the_same_period_again_however_late_they_wer
     }
     EXPECT_EQ(periods, 22 + lates);
     EXPECT_FALSE(desk.holds_forgotten()) << "nothing was, so nothing is asked";
-    EXPECT_EQ(retold(), told().size());
-    // A forgotten one: asked until it is let go of.
-    told().insert(told().end(), {true, true, false});
+    EXPECT_EQ(repeated(), learned().size());
+    // A forgotten one: polled until it is released.
+    learned().insert(learned().end(), {true, true, false});
     desk.ask(line(-0.1, 2));
     desk.forget();
     EXPECT_TRUE(desk.holds_forgotten());
     EXPECT_TRUE(desk.holds_forgotten());
     EXPECT_FALSE(desk.holds_forgotten());
     EXPECT_FALSE(desk.holds_forgotten());
-    EXPECT_EQ(retold(), told().size());
+    EXPECT_EQ(repeated(), learned().size());
   }
 }
 
@@ -145,7 +145,7 @@ TEST_P(Planning_desk, Never_gives_a_plan_that_was_forgotten) {
   }
 }
 
-// The thread crashes once, then goes on as it was told.
+// The thread crashes once, then continues as before.
 bool crashes_first(void (*work)(void*) noexcept, void* with, char* why, std::size_t size) noexcept {
   static thread_local bool crashed = false;
   if (!crashed) {
@@ -170,7 +170,7 @@ TEST_F(Planning_desk_of_a_crash, Says_so_of_all_that_is_asked_for) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(In_the_tick_and_beside_it, Planning_desk, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(In_the_tick_and_in_the_background, Planning_desk, testing::Bool());
 
 }  // namespace
 }  // namespace indurop::robot

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives that answer late, each in its own time, as those on a field bus do: whoever takes and gives up power at any
-// instant is told the truth about it.
+// Drives that answer late, each in its own time, as those on a field bus do: requests of power and its
+// release at any instant get the true state.
 #include <gtest/gtest.h>
 #include <indurop/robot/controller.h>
 
@@ -22,11 +22,11 @@ class NoSignals final : public Signals {
 // CiA 402, seen through a bus that takes some periods each way.
 class LateDrive {
  public:
-  explicit LateDrive(std::size_t late) : told_(late, DriveOut{}), says_(late, DriveIn{0, 0x40}) {}
+  explicit LateDrive(std::size_t late) : commands_(late, DriveOut{}), says_(late, DriveIn{0, 0x40}) {}
   DriveIn step(const DriveOut& out) {
-    told_.push_back(out);
-    const DriveOut now = told_.front();
-    told_.pop_front();
+    commands_.push_back(out);
+    const DriveOut now = commands_.front();
+    commands_.pop_front();
     const unsigned control = now.control & 0x0FU;
     in_.status = test::next_status(in_.status, control);
     in_.mode = now.mode;
@@ -38,7 +38,7 @@ class LateDrive {
   }
 
  private:
-  std::deque<DriveOut> told_;
+  std::deque<DriveOut> commands_;
   std::deque<DriveIn> says_;
   DriveIn in_{0, 0x40};
 };
@@ -129,7 +129,7 @@ TEST(Power, Nor_are_those_of_single_axes) {
 }
 
 // As simple simulators do: half a second, then it has what it asks for.
-TEST(Power, A_drive_that_never_lets_go_has_power) {
+TEST(Power, A_drive_that_never_switches_off_has_power) {
   const auto sut = controller_of(cell_urdf(), "POINT A = JOINT 0 0 0 0 60 0\nMOVJ A\n");
   NoSignals signals;
   Inputs in;

@@ -29,7 +29,7 @@ class Random_jobs : public testing::Test {
   // What happened, by name.
   std::map<std::string, int> ends;
   int boxes = 0;
-  // m, where axes brake by themselves: of a path that ran along a side of the box.
+  // m, where axes brake on their own: of a path that ran along a side of the box.
   double most_outside = 0;
 
   void run(unsigned seed) { run(seed, seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10, cell_urdf()); }
@@ -55,7 +55,7 @@ class Random_jobs : public testing::Test {
     std::uniform_real_distribution<double> part(0, 1);
     const double often = part(random) < 0.4 ? 0 : 5 * period_ms / 1000;  // events per period
     bool emergency = false;
-    bool failed = false;  // a drive: its axes brake by themselves, whatever error was the first
+    bool failed = false;  // a drive: its axes brake on their own, whatever error was the first
     for (int i = 0; i < 20000 / period_ms; ++i) {
       if (part(random) < often) {
         disturb(*cell, arm.count(), random);
@@ -141,7 +141,7 @@ TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
   for (const auto& [end, many] : ends) {
     fmt::print("{:6} {}\n", many, end);
   }
-  fmt::print("{} in a box; axes that braked by themselves came {:.1f} mm out of it at most\n", boxes,
+  fmt::print("{} in a box; axes that braked on their own came {:.1f} mm out of it at most\n", boxes,
              1000 * most_outside);
 }
 

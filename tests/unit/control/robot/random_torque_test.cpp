@@ -19,13 +19,13 @@ int number_of(const char* name, int otherwise) {
 
 class RandomTorques {
  public:
-  explicit RandomTorques(unsigned seed) : random_(seed), wish_(any_wish()), sut_(wish_) {}
+  explicit RandomTorques(unsigned seed) : random_(seed), setup_(any_setup()), sut_(setup_) {}
 
   void run() {
     enable();
     for (int i = 0; i < 8 && !testing::Test::HasFailure(); ++i) {
       act();
-      for (int k = static_cast<int>(in(0.01, 0.6) / wish_.period); k > 0 && !testing::Test::HasFailure(); --k) {
+      for (int k = static_cast<int>(in(0.01, 0.6) / setup_.period); k > 0 && !testing::Test::HasFailure(); --k) {
         sut_.step();
         look();
       }
@@ -39,15 +39,15 @@ class RandomTorques {
  private:
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   std::size_t one_of(std::size_t many) { return random_() % many; }
-  TorqueCell::Wish any_wish() {
+  TorqueCell::Setup any_setup() {
     static constexpr double kPeriods[] = {0.001, 0.002, 0.004, 0.01};
-    TorqueCell::Wish wish;
-    wish.axis = one_of(6);
-    wish.period = kPeriods[one_of(4)];
-    wish.late_out = one_of(4);
-    wish.late_in = one_of(4);
-    wish.friction = in(0, 0.1) * most_torques()[static_cast<Eigen::Index>(wish.axis)];
-    return wish;
+    TorqueCell::Setup setup;
+    setup.axis = one_of(6);
+    setup.period = kPeriods[one_of(4)];
+    setup.late_out = one_of(4);
+    setup.late_in = one_of(4);
+    setup.friction = in(0, 0.1) * most_torques()[static_cast<Eigen::Index>(setup.axis)];
+    return setup;
   }
   void enable() {
     sut_.cell.in.emergency = false;
@@ -62,7 +62,7 @@ class RandomTorques {
     sut_.run(0.1);
   }
   void push() {
-    const double most = most_torques()[static_cast<Eigen::Index>(wish_.axis)];
+    const double most = most_torques()[static_cast<Eigen::Index>(setup_.axis)];
     const double torque = one_of(8) == 0 ? 0 : in(-0.5, 0.5) * most;
     velocity_ = in(3, 60);
     given_ = sut_.push(torque, one_of(2) == 0 ? 0 : in(0.5, 10) * most, velocity_);
@@ -84,7 +84,7 @@ class RandomTorques {
         sut_.give(sut_.number(), AxisService::MoveVelocity, 0, in(3, 40));
         break;
       case 4:
-        sut_.cell.in.factors.velocity[wish_.axis] = one_of(2) == 0 ? in(0.1, 1) : one_of(2) == 0 ? 0 : 1;
+        sut_.cell.in.factors.velocity[setup_.axis] = one_of(2) == 0 ? in(0.1, 1) : one_of(2) == 0 ? 0 : 1;
         break;
       case 5:
         sut_.cell.in.emergency = true;
@@ -97,7 +97,7 @@ class RandomTorques {
         sut_.wall.way = 0;
         break;
       case 8:
-        sut_.pull = (one_of(2) == 0 ? 0 : in(-0.2, 0.2)) * most_torques()[static_cast<Eigen::Index>(wish_.axis)];
+        sut_.pull = (one_of(2) == 0 ? 0 : in(-0.2, 0.2)) * most_torques()[static_cast<Eigen::Index>(setup_.axis)];
         break;
       default:
         if (sut_.cell.out.state == GroupState::ErrorStop && one_of(2) == 0) {
@@ -113,29 +113,29 @@ class RandomTorques {
   }
   void look() {
     ASSERT_EQ(sut_.broken, "");
-    ASSERT_LE(std::abs(sut_.told_torque()), asked_ + step());
+    ASSERT_LE(std::abs(sut_.commanded_torque()), asked_ + step());
     ASSERT_LE(sut_.most_given, asked_ + 3 * step());
     ASSERT_LE(sut_.q, sut_.end_upper + 1e-3);
     ASSERT_GE(sut_.q, sut_.end_lower - 1e-3);
-    if (sut_.told().mode == 10) {
+    if (sut_.commanded().mode == 10) {
       ++pushed;
       reached += sut_.reached(given_) ? 1 : 0;
       worst_speed = std::max(worst_speed, std::abs(sut_.velocity) * 180 / kPi / allowed_);
     }
   }
-  [[nodiscard]] double step() const { return kRatedTorque[wish_.axis] / 1000; }
+  [[nodiscard]] double step() const { return kRatedTorque[setup_.axis] / 1000; }
   void come_to_rest() {
     sut_.pull = 0;
     sut_.give(sut_.number(), AxisService::Halt);
     sut_.run(3);
-    EXPECT_NE(sut_.told().mode, 10);
-    EXPECT_EQ(sut_.told().torque, 0);
+    EXPECT_NE(sut_.commanded().mode, 10);
+    EXPECT_EQ(sut_.commanded().torque, 0);
     EXPECT_NEAR(sut_.velocity, 0, 0.02);  // a drive against a wall trembles
     EXPECT_NE(sut_.now(), AxisState::ContinuousMotion);
   }
 
   std::mt19937 random_;
-  TorqueCell::Wish wish_;
+  TorqueCell::Setup setup_;
   TorqueCell sut_;
   CommandCell::Given given_;
   double velocity_ = 0;

@@ -52,7 +52,7 @@ TEST_F(RandomLines, The_path_is_on_the_product_and_no_limit_is_broken) {
         if (disturbed) {
           disturb(periods++);
         }
-        // While the tool gets back onto the belt it is beside the path.
+        // While the tool returns to the belt it is off the path.
         if (known && !disturbed && state(motion) == CommandState::Active && cell.out.error == ErrorCode::Ok) {
           const KDL::Vector along = to - here;
           const double part = KDL::dot(tip() - here, along) / KDL::dot(along, along);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is refused is refused soon: random motions of many arms, also past singular positions and slow ones, each
-// counted in places that were looked at, which are the same on every machine. What is planned keeps the limits of the
+// counted in places that were checked, which are the same on every machine. What is planned keeps the limits of the
 // joints, by another walk along it. INDUROP_ROBOT_REFUSALS says how many of each arm, INDUROP_ROBOT_SEED the first one.
 
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ class Refusal : public testing::TestWithParam<const char*> {
     q[axis] = std::clamp(decades(1e-9, 0.05), a.lower, a.upper);
     return q;
   }
-  // A line whose middle is beside a singular position.
+  // A line whose middle is near a singular position.
   bool past_singular(MoveCommand& command, Joints& from) {
     const Joints middle = nearly_singular();
     const Pose there = arm.forward(middle);
@@ -195,7 +195,7 @@ TEST_P(RefusalOfIrb4600, Names_the_axis_that_is_beyond_its_range_for_a_moment) {
   EXPECT_LT(planner->work(), 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Beside_its_limit, RefusalOfIrb4600, testing::Values("irb4600"));
+INSTANTIATE_TEST_SUITE_P(Near_its_limit, RefusalOfIrb4600, testing::Values("irb4600"));
 
 }  // namespace
 }  // namespace indurop::robot

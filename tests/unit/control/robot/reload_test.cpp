@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs taken anew while the robot stands: from then on it does what a robot does that was started with the new files,
+// Jobs that are read again at standstill: from then on it does what a robot does that was started with the new files,
 // to the last bit of its set points; and whatever is wrong changes nothing.
 #include <gmock/gmock.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A yardstick for one axis that is to come to rest somewhere, written without looking at control/robot/. From rest it
+// A reference for one axis that is to come to rest somewhere, written independently of control/robot/. From rest it
 // is the formula of textbooks (double S). From any state it goes forward in thousands of small steps: each has the
 // greatest acceleration that leaves it both below its speed and able to stop before its target. So it keeps all limits
 // and is late by less than a step.

@@ -294,7 +294,7 @@ TEST(Resume, Single_steps_go_line_by_line_and_back) {
 }
 
 // Motions to H in one job and to A in the other, on lines that tell which.
-TEST(Resume, The_line_is_told_with_the_job_that_it_is_of) {
+TEST(Resume, The_line_is_reported_with_its_job) {
   Cell cell;
   cell.sut = controller_of(cell_urdf(),
                            std::string(kResumePoints) + "LOOP 2\nMOVJ H\nCALL other\nEND\nMOVJ B\nMOVL NOWHERE\n" +

@@ -28,7 +28,7 @@ Arm odd_arm();
 std::string urdf_of(const std::string& name);
 Arm arm_of(const std::string& name);
 JointLimits cell_limits();
-// Names and texts of jobs beside the first one, which is "main".
+// Names and texts of jobs in addition to the first one, which is "main".
 using JobTexts = std::vector<std::pair<std::string, std::string>>;
 // One that has read the texts as files. Throws what it says of them.
 std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::string& job, Settings settings = {},

@@ -39,7 +39,7 @@ TEST(Set_point_gate, Lets_the_fastest_moves_pass_from_end_to_end) {
   }
 }
 
-// Beside a singular position the inverse kinematics round more than plans leave.
+// Near a singular position the inverse kinematics round more than plans leave.
 TEST(Set_point_gate, Is_not_disturbed_by_rounding) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> noise(-kNoise, kNoise);

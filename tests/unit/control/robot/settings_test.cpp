@@ -124,18 +124,18 @@ TEST(Robot_files, Speeds_of_jobs_beyond_full_speed_are_warned_of) {
   const auto urdf = std::filesystem::path(job).replace_extension(".urdf");
   std::ofstream(urdf) << cell_urdf();
   std::ofstream(job) << "SPEED 1000 mm/s\nSPEED 1001 mm/s\nSPEED 100%\n  SPEED 0.5 mm/s\n";
-  const auto told = [&](const std::string& tool_speed) {
+  const auto notes = [&](const std::string& tool_speed) {
     const Findings found = check_module({urdf.string(), {job.string()}, {}}, [&](const std::string& name) {
       return name == "tool_speed" ? tool_speed : "";
     });
     return base::to_text(found.files);
   };
-  const std::string text = told("1000");
+  const std::string text = notes("1000");
   EXPECT_THAT(text, HasSubstr(job.string() + ":2:1: warning: SPEED 1001 mm/s is beyond full speed, 1000 mm/s (property "
                                              "tool_speed): lines run at that"));
   EXPECT_THAT(text, Not(HasSubstr("SPEED 1000 ")));
-  EXPECT_THAT(told("250"), HasSubstr("SPEED 1000 mm/s is beyond full speed, 250 mm/s"));
-  EXPECT_THAT(told("250"), Not(HasSubstr("SPEED 0.5 ")));
+  EXPECT_THAT(notes("250"), HasSubstr("SPEED 1000 mm/s is beyond full speed, 250 mm/s"));
+  EXPECT_THAT(notes("250"), Not(HasSubstr("SPEED 0.5 ")));
   std::filesystem::remove(job);
   std::filesystem::remove(urdf);
 }

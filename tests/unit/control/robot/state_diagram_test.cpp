@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random commands against the state diagrams of PLCopen Motion Control, part 1 (figure of the axis) and part 4 (figure
-// of the group), written down here by themselves: each state is one that may follow, each command ends once and as its
+// of the group), written down here separately: each state is one that may follow, each command ends once and as its
 // state allows, and no set point breaks a limit. INDUROP_ROBOT_DIAGRAMS says how many runs, INDUROP_ROBOT_SEED from
 // which one on.
 
@@ -149,7 +149,7 @@ class Diagram : public CommandCell {
 
   void watch(const Given& given, bool may, std::string name) { watched_.push_back({given, may, std::move(name)}); }
   // Answers go forward only, and what the diagram forbids is refused.
-  void look_at_answers() {
+  void check_answers() {
     for (Watched& w : watched_) {
       const CommandState now = state(w.given);
       if (now == CommandState::None) {
@@ -170,7 +170,7 @@ class Diagram : public CommandCell {
     }
   }
   // Differences between set points.
-  void look_at_limits() {
+  void check_limits() {
     for (std::size_t i = 0; i < 6; ++i) {
       const double p = cell.out.command[i];
       const double v = (p - place_[i]) / 0.01;
@@ -215,8 +215,8 @@ class AxisDiagram : public Diagram {
       before = axis(0);
       followed_ += before == AxisState::SynchronizedMotion ? 1 : 0;
       pushed_ += cell.out.drives[0].mode == 10 ? 1 : 0;
-      look_at_answers();
-      look_at_limits();
+      check_answers();
+      check_limits();
     }
   }
 
@@ -321,7 +321,7 @@ class AxisDiagram : public Diagram {
     table.time = {in(0.3, 1), in(1.2, 2)};
     table.value = {in(-most, most), in(-most, most)};
   }
-  // What the drive says next is not known to whoever gives the command.
+  // The next answer of the drive is not known when the command is given.
   [[nodiscard]] bool faulty_now() const { return axis(0) == AxisState::Disabled && cell.in.drives[0].status == 0x27; }
 };
 
@@ -340,8 +340,8 @@ class GroupDiagram : public Diagram {
       EXPECT_TRUE(may_follow(before, cell.out.state))
           << "from " << static_cast<int>(before) << " to " << static_cast<int>(cell.out.state);
       before = cell.out.state;
-      look_at_answers();
-      look_at_limits();
+      check_answers();
+      check_limits();
     }
   }
 

@@ -154,11 +154,11 @@ TEST_F(Combined, Each_step_is_that_of_both_together) {
 
 TEST_F(Combined, What_cannot_be_is_refused) {
   const Given itself = combine(2, 1, 2, 1, 1);
-  const Given nobody = combine(3, 1, 9, 1, 1);
+  const Given no_master = combine(3, 1, 9, 1, 1);
   const Given no_number = combine(3, 1, 2, 1, std::nan(""));
   step();
   EXPECT_EQ(error(itself), ErrorCode::Value);
-  EXPECT_EQ(error(nobody), ErrorCode::Value);
+  EXPECT_EQ(error(no_master), ErrorCode::Value);
   EXPECT_EQ(error(no_number), ErrorCode::Value);
   const Given good = combine(3, 1, 2, 1, 1);
   const Given round = gear(2, 3, 1);
@@ -253,7 +253,7 @@ TEST_F(Phases, A_hold_stops_it_and_it_goes_on) {
 TEST_F(Phases, What_cannot_be_is_refused) {
   const Given free = shift(2, 1, 10, false);
   step();
-  EXPECT_EQ(error(free), ErrorCode::State) << "it follows nobody";
+  EXPECT_EQ(error(free), ErrorCode::State) << "it has no master";
   gear(2, 1, 1);
   step();
   const Given other = shift(2, 3, 10, false);
@@ -277,7 +277,7 @@ TEST_F(Phases, What_cannot_be_is_refused) {
   EXPECT_EQ(error(of_two), ErrorCode::Value);
 }
 
-// The sum of what it was told, looked at from outside: while a follower says that it is in sync, it is where the last
+// The sum of its commands, checked from outside: while a follower says that it is in sync, it is where the last
 // of its commands says, whatever was on top of it.
 class RandomSync : public SyncCell {
  public:
@@ -298,7 +298,7 @@ class RandomSync : public SyncCell {
           ASSERT_NEAR(joint(2) - meeting_->slave, one_ * (joint(0) - meeting_->master), 1e-6) << "period " << i;
         }
       }
-      look_at_shift();
+      check_shift();
       ASSERT_NE(cell.out.state, GroupState::ErrorStop) << "period " << i;
     }
   }
@@ -364,7 +364,7 @@ class RandomSync : public SyncCell {
     }
   }
   // What is between both is what the phase says, once it is done.
-  void look_at_shift() {
+  void check_shift() {
     if (shifts_.size() == 1 && state(shifts_.back()) == CommandState::Done && in_sync() && !std::isnan(apart_)) {
       ++shifted_;
       ASSERT_NEAR(joint(2) - one_ * joint(0) - one_ * cell.out.axes[2].phase, apart_, 1e-6);

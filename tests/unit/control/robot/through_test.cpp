@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motions of single axes through a place, with the velocity that they go on with. Random ones are looked at by the
+// Motions of single axes through a place, with the velocity that they go on with. Random ones are checked by the
 // differences of their set points; how long they take is written down here another way.
 
 #include <fmt/format.h>

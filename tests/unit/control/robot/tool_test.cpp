@@ -42,7 +42,7 @@ double apart(const Transform& a, const Transform& b) {
   return (a.matrix() - b.matrix()).norm();
 }
 
-// Of the arm's end, from what the drives were told.
+// Of the arm's end, from the commands to the drives.
 Transform end_of(const Cell& cell) {
   Joints q = Joints::Zero();
   for (int i = 0; i < 6; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A yardstick for motions along a path, written without looking at control/robot/: how soon a path can be passed from
+// A reference for motions along a path, written independently of control/robot/: how soon a path can be passed from
 // rest to rest. Its limits are those of speed and acceleration, of each joint and of the path itself. It knows no jerk,
 // so what is limited in jerk too cannot reach it. The path is cut into thousands of places; backwards over them goes
 // what can still be braked to rest (the greatest square of the speed, found by bisection), forwards as much of it as

@@ -40,20 +40,20 @@ inline Joints most_torques() {
 
 class TorqueCell : public CommandCell {
  public:
-  struct Wish {
+  struct Setup {
     std::size_t axis = 0;
     double period = 0.004;
     std::size_t late_out = 0, late_in = 0;
     double friction = 0;
   };
-  explicit TorqueCell(const Wish& wish) : TorqueCell(wish, heavy_cell_arm(most_torques())) {}
+  explicit TorqueCell(const Setup& setup) : TorqueCell(setup, heavy_cell_arm(most_torques())) {}
 
   void step() {
     cell.step();
     for (std::size_t i = 0; i < 6; ++i) {
-      drives_[i].told.push_back(cell.out.drives[i]);
-      const DriveOut now = drives_[i].told.front();
-      drives_[i].told.pop_front();
+      drives_[i].commands.push_back(cell.out.drives[i]);
+      const DriveOut now = drives_[i].commands.front();
+      drives_[i].commands.pop_front();
       act(i, now);
       drives_[i].says.push_back(in_[i]);
       cell.in.drives[i] = drives_[i].says.front();
@@ -69,7 +69,7 @@ class TorqueCell : public CommandCell {
     return condition();
   }
   void run(double seconds) {
-    for (int i = 0; i < seconds / wish_.period; ++i) {
+    for (int i = 0; i < seconds / setup_.period; ++i) {
       step();
     }
   }
@@ -78,18 +78,18 @@ class TorqueCell : public CommandCell {
     command(given).to[1] = ramp;
     return given;
   }
-  [[nodiscard]] int number() const { return static_cast<int>(wish_.axis) + 1; }
-  [[nodiscard]] AxisState now() const { return cell.out.axes[wish_.axis].state; }
-  [[nodiscard]] const DriveOut& told() const { return cell.out.drives[wish_.axis]; }
-  // The drive changes its mode by itself.
-  void force_mode(int mode) { in_[wish_.axis].mode = static_cast<std::int8_t>(mode); }
-  // N m that the drive is told beside what the arm needs.
-  [[nodiscard]] double told_torque() const { return told().torque / 1000.0 * kRatedTorque[wish_.axis]; }
+  [[nodiscard]] int number() const { return static_cast<int>(setup_.axis) + 1; }
+  [[nodiscard]] AxisState now() const { return cell.out.axes[setup_.axis].state; }
+  [[nodiscard]] const DriveOut& commanded() const { return cell.out.drives[setup_.axis]; }
+  // The drive changes its mode on its own.
+  void force_mode(int mode) { in_[setup_.axis].mode = static_cast<std::int8_t>(mode); }
+  // N m that the drive gets in addition to what the arm needs.
+  [[nodiscard]] double commanded_torque() const { return commanded().torque / 1000.0 * kRatedTorque[setup_.axis]; }
   [[nodiscard]] double against_wall() const { return -wall.force(q, velocity); }
 
   Wall wall;
   bool has_torque_mode = true;
-  bool stays_in_mode = false;  // 10, whatever it is told
+  bool stays_in_mode = false;  // 10, whatever is commanded
   double q = 0, velocity = 0;  // rad
   double pull = 0;             // from outside, N m
   double most_given = 0;       // N m beyond what the arm needed, in mode 10
@@ -99,7 +99,7 @@ class TorqueCell : public CommandCell {
 
  private:
   struct Bus {
-    std::deque<DriveOut> told;
+    std::deque<DriveOut> commands;
     std::deque<DriveIn> says;
   };
   static Settings settings() {
@@ -109,17 +109,17 @@ class TorqueCell : public CommandCell {
     settings.plan_in_tick = true;
     return settings;
   }
-  TorqueCell(const Wish& wish, HeavyArm heavy)
-      : CommandCell(1000 * wish.period, settings(), heavy.urdf), wish_(wish), heavy_(std::move(heavy)) {
+  TorqueCell(const Setup& setup, HeavyArm heavy)
+      : CommandCell(1000 * setup.period, settings(), heavy.urdf), setup_(setup), heavy_(std::move(heavy)) {
     cell.stuck = true;
     for (std::size_t i = 0; i < 6; ++i) {
       in_[i].status = 0x40;
-      drives_[i].told.assign(wish.late_out, DriveOut{});
-      drives_[i].says.assign(wish.late_in, in_[i]);
+      drives_[i].commands.assign(setup.late_out, DriveOut{});
+      drives_[i].says.assign(setup.late_in, in_[i]);
     }
     const Arm arm = arm_from_urdf("", heavy_.urdf)->arm;
-    end_lower = arm.axis(static_cast<int>(wish.axis)).lower;
-    end_upper = arm.axis(static_cast<int>(wish.axis)).upper;
+    end_lower = arm.axis(static_cast<int>(setup.axis)).lower;
+    end_upper = arm.axis(static_cast<int>(setup.axis)).upper;
   }
   void act(std::size_t i, const DriveOut& out) {
     DriveIn& in = in_[i];
@@ -128,7 +128,7 @@ class TorqueCell : public CommandCell {
     const bool takes = (out.mode != 10 || has_torque_mode) && !(in.mode == 10 && stays_in_mode);
     in.mode = takes ? out.mode : in.mode;
     const bool powered = in.status == 0x27;
-    if (i != wish_.axis) {
+    if (i != setup_.axis) {
       in.position = powered && in.mode == 8 ? out.position : in.position;
       return;
     }
@@ -143,11 +143,11 @@ class TorqueCell : public CommandCell {
   // In ten steps; the other axes are held.
   void move(int mode, const DriveOut& out) {
     constexpr int kSteps = 10;
-    const double h = wish_.period / kSteps;
-    const auto k = static_cast<Eigen::Index>(wish_.axis);
+    const double h = setup_.period / kSteps;
+    const auto k = static_cast<Eigen::Index>(setup_.axis);
     const double most = most_torques()[k];
     const double next = out.position / kCounts;
-    const double target_speed = (next - target_) / wish_.period;
+    const double target_speed = (next - target_) / setup_.period;
     Joints place = Joints::Zero();
     for (std::size_t i = 0; i < 6; ++i) {
       place[static_cast<Eigen::Index>(i)] = in_[i].position / kCounts;
@@ -160,9 +160,9 @@ class TorqueCell : public CommandCell {
       one[k] = 1;
       const double needed = kdl_torques(heavy_, {}, place, speed, Joints::Zero())[k];
       const double inertia = kdl_torques(heavy_, {}, place, Joints::Zero(), one)[k] -
-                             kdl_torques(heavy_, {}, place, Joints::Zero(), Joints::Zero())[k] + kRotors[wish_.axis];
-      const double outside = wall.force(q, velocity) + pull - wish_.friction * std::tanh(velocity / 0.002);
-      double given = (out.torque + out.torque_offset) / 1000.0 * kRatedTorque[wish_.axis];
+                             kdl_torques(heavy_, {}, place, Joints::Zero(), Joints::Zero())[k] + kRotors[setup_.axis];
+      const double outside = wall.force(q, velocity) + pull - setup_.friction * std::tanh(velocity / 0.002);
+      double given = (out.torque + out.torque_offset) / 1000.0 * kRatedTorque[setup_.axis];
       if (mode == 8) {
         target_ += target_speed * h;
         const double wanted = 60 * 60 * (target_ - q) + 2 * 60 * (target_speed - velocity);
@@ -180,12 +180,12 @@ class TorqueCell : public CommandCell {
   }
   // Set points of the drive that follows them, as differences; those before are where it was.
   void judge() {
-    const AxisReport& report = cell.out.axes[wish_.axis];
-    const double p = cell.out.command[wish_.axis];
-    const double h = wish_.period;
-    const bool follows = told().mode == 8 && before_ == 8;
-    before_ = told().mode;
-    if (follows && (cell.in.drives[wish_.axis].status & 0x6FU) == 0x27 && broken.empty()) {
+    const AxisReport& report = cell.out.axes[setup_.axis];
+    const double p = cell.out.command[setup_.axis];
+    const double h = setup_.period;
+    const bool follows = commanded().mode == 8 && before_ == 8;
+    before_ = commanded().mode;
+    if (follows && (cell.in.drives[setup_.axis].status & 0x6FU) == 0x27 && broken.empty()) {
       const double v = (p - place_) / h;
       const double a = (v - speed_) / h;
       const double j = (a - acceleration_) / h;
@@ -208,11 +208,11 @@ class TorqueCell : public CommandCell {
 
   static constexpr double kCounts = 1'320'000 / (2 * kPi);
   static constexpr double kHard = 1.5;  // Settings::emergency_factor
-  Wish wish_;
+  Setup setup_;
   HeavyArm heavy_;
   std::array<Bus, 6> drives_;
   std::array<DriveIn, 6> in_{};
-  std::int8_t before_ = 0;  // told
+  std::int8_t before_ = 0;  // commanded
   double target_ = 0;
   double place_ = 0, speed_ = 0, acceleration_ = 0;
 };

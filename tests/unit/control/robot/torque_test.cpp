@@ -15,8 +15,8 @@ double deg(double rad) {
   return rad * 180 / kPi;
 }
 
-std::unique_ptr<TorqueCell> powered(const TorqueCell::Wish& wish) {
-  auto sut = std::make_unique<TorqueCell>(wish);
+std::unique_ptr<TorqueCell> powered(const TorqueCell::Setup& setup) {
+  auto sut = std::make_unique<TorqueCell>(setup);
   sut->give(Service::GroupEnable);
   EXPECT_TRUE(sut->until([&] { return sut->cell.out.state == GroupState::Standby; }));
   sut->run(0.3);
@@ -32,9 +32,9 @@ TEST(Torque, Against_a_wall_it_pushes_with_what_is_asked_for) {
       const auto given = sut->push(torque, std::abs(torque) * 5);
       double before = 0;
       ASSERT_TRUE(sut->until([&] {
-        EXPECT_LE(std::abs(sut->told_torque()), std::abs(torque) + kStep);
-        EXPECT_LE(std::abs(sut->told_torque()) - before, std::abs(torque) * 5 * 0.004 + kStep);
-        before = std::abs(sut->told_torque());
+        EXPECT_LE(std::abs(sut->commanded_torque()), std::abs(torque) + kStep);
+        EXPECT_LE(std::abs(sut->commanded_torque()) - before, std::abs(torque) * 5 * 0.004 + kStep);
+        before = std::abs(sut->commanded_torque());
         return sut->reached(given);
       })) << axis;
       sut->run(1);
@@ -62,8 +62,8 @@ TEST(Torque, With_nothing_in_its_way_it_keeps_its_velocity_and_stops_before_its_
       sut->run(0.2);
       EXPECT_LT(sut->q, sut->end_upper + 1e-3);
       EXPECT_GT(sut->q, sut->end_upper - radians(5));
-      EXPECT_EQ(sut->told().mode, 8);
-      EXPECT_EQ(sut->told().torque, 0);
+      EXPECT_EQ(sut->commanded().mode, 8);
+      EXPECT_EQ(sut->commanded().torque, 0);
       EXPECT_EQ(sut->broken, "");
       EXPECT_EQ(sut->cell.out.error, ErrorCode::Ok) << to_string(sut->cell.out.error);
     }
@@ -76,7 +76,7 @@ TEST(Torque, Without_torque_the_arm_floats) {
   const auto given = sut->push(0);
   sut->run(0.5);
   EXPECT_TRUE(sut->reached(given));
-  EXPECT_EQ(sut->told().mode, 10);
+  EXPECT_EQ(sut->commanded().mode, 10);
   EXPECT_NEAR(deg(sut->q), deg(from), 1);  // what the rounding of torques turns it by
   sut->pull = 15;
   sut->run(0.5);
@@ -104,14 +104,14 @@ TEST(Torque, What_cannot_be_is_refused_and_moves_nothing) {
   ASSERT_TRUE(light.done(light.give(1, AxisService::PowerOn)));
   const auto given = light.give(1, AxisService::TorqueControl, 10);
   light.cell.step();
-  EXPECT_EQ(light.error(given), ErrorCode::NoTorque) << "nobody knows what it weighs";
+  EXPECT_EQ(light.error(given), ErrorCode::NoTorque) << "its mass is not known";
 }
 
-TEST(Torque, Drives_that_change_their_mode_by_themselves_are_noticed) {
+TEST(Torque, Drives_that_change_their_mode_on_their_own_are_noticed) {
   const auto sut = powered({0, 0.004, 1, 1});
   auto given = sut->push(10, 100, 10);
   sut->run(0.5);
-  ASSERT_EQ(sut->told().mode, 10);
+  ASSERT_EQ(sut->commanded().mode, 10);
   sut->has_torque_mode = false;
   sut->force_mode(8);
   ASSERT_TRUE(sut->until([&] { return sut->ended(given); }));
@@ -121,13 +121,13 @@ TEST(Torque, Drives_that_change_their_mode_by_themselves_are_noticed) {
   sut->has_torque_mode = true;
   given = sut->push(10, 100, 10);
   sut->run(0.5);
-  ASSERT_EQ(sut->told().mode, 10);
+  ASSERT_EQ(sut->commanded().mode, 10);
   sut->stays_in_mode = true;
   const auto stop = sut->give(1, AxisService::Halt);
   ASSERT_TRUE(sut->until([&] { return sut->now() == AxisState::ErrorStop || sut->now() == AxisState::Disabled; }));
   EXPECT_TRUE(sut->ended(stop));
   sut->run(0.2);
-  EXPECT_NE(sut->told().control & 0x0F, 0x0F) << "its brake holds it";
+  EXPECT_NE(sut->commanded().control & 0x0F, 0x0F) << "its brake holds it";
 }
 
 TEST(Torque, Other_commands_take_over_in_mid_motion) {

@@ -11,7 +11,7 @@
 namespace indurop::robot {
 namespace {
 
-// Beside where the arm works, mm.
+// Next to the working area of the arm, mm.
 struct Wall {
   explicit Wall(int seed) : random(static_cast<unsigned>(seed)), left(seed % 2 == 0), place(between(150, 400)) {}
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }

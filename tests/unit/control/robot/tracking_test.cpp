@@ -86,7 +86,7 @@ TEST_F(Belts, A_motion_of_the_machine_leaves_the_belt_and_another_one_comes_back
   ASSERT_TRUE(until([&] { return cell.out.state == GroupState::Standby; }, 5));
 }
 
-TEST_F(Belts, Stops_bring_the_tool_to_rest_beside_the_belt) {
+TEST_F(Belts, Stops_bring_the_tool_to_rest_next_to_the_belt) {
   belt = [](double t) { return 60 * t; };
   begin_tracking(kAlongY, {0, 20, 0, 0, 0, -90});
   for (const Service service : {Service::Halt, Service::Stop, Service::SetTransform, Service::TrackBelt}) {
@@ -123,20 +123,20 @@ TEST_F(Belts, An_interruption_keeps_what_is_to_do) {
 }
 
 // What the belt does wrong, and what is said of it.
-TEST_F(Belts, A_belt_that_nobody_can_follow_ends_in_rest_and_an_error) {
+TEST_F(Belts, A_belt_that_cannot_be_followed_ends_in_rest_and_an_error) {
   struct Case {
     const char* says;
     std::function<void()> what;
   };
   const Case cases[] = {
-      {"not told", [&] { told = false; }},
+      {"not reported", [&] { reported = false; }},
       {"jumped", [&] { belt = [old = belt](double t) { return old(t) + 40; }; }},
       {"jumped", [&] { belt = [](double) { return std::nan(""); }; }},
       {"too suddenly", [&] { belt = [at = belt(time), from = time](double t) { return at + 400 * (t - from); }; }},
   };
   for (const Case& wrong : cases) {
     belt = [](double t) { return 60 * t; };
-    told = true;
+    reported = true;
     begin_tracking(kAlongY, {0, 20, 0, 0, 0, -90});
     ASSERT_TRUE(run(product(0, 0, 120)));
     const Given motion = product(0, 0, 60, 50);
@@ -150,7 +150,7 @@ TEST_F(Belts, A_belt_that_nobody_can_follow_ends_in_rest_and_an_error) {
     ASSERT_TRUE(run(give(Service::GroupReset)));
     const Given again = product(0, 0, 60, 50);
     step();
-    EXPECT_EQ(error(again), ErrorCode::Belt) << "it has to be tracked anew";
+    EXPECT_EQ(error(again), ErrorCode::Belt) << "it has to be tracked again";
     ASSERT_TRUE(run(machine(500, 0, 400)));
   }
 }
@@ -197,7 +197,7 @@ TEST_F(Belts, What_cannot_be_is_refused) {
   const Given second = track(kAlongY, {});
   command(second).option = 2;
   step();
-  EXPECT_EQ(error(second), ErrorCode::Belt) << "nobody tells of it";
+  EXPECT_EQ(error(second), ErrorCode::Belt) << "it is not reported";
   begin_tracking(kAlongY, {0, 20, 0, 0, 0, -90});
   ASSERT_TRUE(run(product(0, 0, 120)));
   for (const Service service : {Service::MoveJoints, Service::DirectAborting, Service::SelectTool, Service::JobStart}) {
