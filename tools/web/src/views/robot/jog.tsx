@@ -30,6 +30,7 @@ class Press {
       this.path = board_path(this.board, `/jog/${jog}`);
       if (this.ended) return this.release();  // released before the answer arrived
       this.timer = window.setInterval(() => void this.renew(), keep_ns / 1e6 / RENEWALS);
+      void this.renew();  // the server waits since its answer, which a busy browser may have received late
     } catch (error) {
       this.ended = true;
       this.report(message_of(error));
