@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plant of the test's own: a folder with a state directory, names of boards that are unique on this machine, a
-// DDS domain, programs. All of it is gone when the test ends, and so is
-// what the programs have started.
+// DDS domain, programs. All of it is gone when the test ends, and so is what the programs have started.
 
 #pragma once
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "tests/support/as_nobody.h"
+#include "tests/support/unprivileged.h"
 #include "tests/unit/allocations.h"
 #include "veth_fixture.h"
 
@@ -254,9 +254,9 @@ TEST_F(Veth, A_link_that_cannot_be_used_says_why) {
 }
 
 TEST_F(Veth, A_program_without_the_right_to_raw_sockets_says_so) {
-  test::Environment nobody;
-  nobody.user = test::kNobody;
-  const auto outcome = test::Program({ECSIM_PROGRAM, "ec1", "drive"}, nobody).finish();
+  test::Environment unprivileged;
+  unprivileged.user = test::kUnprivileged;
+  const auto outcome = test::Program({ECSIM_PROGRAM, "ec1", "drive"}, unprivileged).finish();
   if (outcome.code == test::Program::kNotPrepared) {
     GTEST_SKIP() << "no right to become another user";
   }

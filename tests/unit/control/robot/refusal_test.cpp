@@ -175,7 +175,7 @@ TEST_P(RefusalOfFiveAxes, Keeps_limits_where_the_orientation_is_not_reached) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Beside_its_orientation, RefusalOfFiveAxes, testing::Values("five_axis"));
+INSTANTIATE_TEST_SUITE_P(With_another_orientation, RefusalOfFiveAxes, testing::Values("five_axis"));
 
 class RefusalOfIrb4600 : public Refusal {};
 
