@@ -2,16 +2,14 @@
 #include "network/dds/setup.h"
 
 #include <fmt/format.h>
-#include <linux/close_range.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "core/base/xml_text.h"
+#include "core/rt/open_files.h"
 #include "network/dds/endpoint.h"
 #include "network/dds/handshakes.h"
 #include "network/dds/interface.h"
@@ -182,8 +180,7 @@ Result<Joined, base::Problem> join_network(const NetworkSettings& settings) {
     return base::Problem{settings.security.on() ? fmt::format("keys refused (see indurop keys list): {}", why) : why};
   }
   // Cyclone's sockets have no O_CLOEXEC. A node that outlives its agent would keep the agent's ports.
-  constexpr unsigned int kFirst = STDERR_FILENO + 1;
-  static_cast<void>(::close_range(kFirst, std::numeric_limits<unsigned int>::max(), CLOSE_RANGE_CLOEXEC));
+  rt::close_open_files_on_exec();
   if (interface->note.empty() && !waits_are_steady()) {
     interface->note =
         "other programs receive nothing from this one for as long as its clock was set back, because DDS uses that "
