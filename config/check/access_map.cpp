@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "config/check/io_access.h"
+#include "core/schema/place_index.h"
 
 namespace indurop::config {
 namespace {
@@ -22,7 +23,7 @@ bool imports(const schema::ModuleFile& file, std::string_view prefix) {
 
 class Builder {
  public:
-  explicit Builder(CheckContext& context) : context_(context) {
+  explicit Builder(CheckContext& context) : context_(context), index_(context.result.schema) {
     for (const schema::Variable& variable : context.result.schema.variables) {
       by_hash_.emplace(variable.name_hash(), &variable);
     }
@@ -70,7 +71,7 @@ class Builder {
                   const std::vector<base::SourcePlace>& places, bool reads) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       std::string message;
-      const auto place = schema::find_place(context_.result.schema, names[i], message);
+      const auto place = index_.find(names[i], context_.report.full() ? nullptr : &message);
       if (place) {
         add(module, *place.value().variable, reads);
       } else {
@@ -121,7 +122,7 @@ class Builder {
   void check_failsafe(const Module& module) {
     for (const FailSafe& safe : module.failsafe) {
       std::string message;
-      const auto place = schema::find_place(context_.result.schema, safe.variable, message);
+      const auto place = index_.find(safe.variable, context_.report.full() ? nullptr : &message);
       if (!place) {
         context_.report.error(safe.place, "<failsafe>: " + message);
         continue;
@@ -137,6 +138,7 @@ class Builder {
   }
 
   CheckContext& context_;
+  schema::PlaceIndex index_;
   std::unordered_map<std::uint64_t, const schema::Variable*> by_hash_;
   AccessMap map_;
 };

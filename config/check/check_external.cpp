@@ -7,6 +7,7 @@
 #include "config/check/check_parts.h"
 #include "core/base/text.h"
 #include "core/schema/elf.h"
+#include "core/schema/place_index.h"
 
 namespace indurop::config {
 
@@ -25,10 +26,11 @@ void check_type_libraries(const TypeFiles& named, base::Diagnostics& report) {
 }
 
 void resolve_rules(std::vector<VariableRule>& rules, const schema::Schema& schema, base::Diagnostics& report) {
+  const schema::PlaceIndex index(schema);
   std::map<std::string, int> lines;
   std::erase_if(rules, [&](VariableRule& rule) {
     std::string message;
-    const auto place = schema::find_place(schema, rule.name, message);
+    const auto place = index.find(rule.name, report.full() ? nullptr : &message);
     if (!place) {
       report.error(rule.place, "<variable>: " + message);
       return true;

@@ -3,26 +3,36 @@
 #include "config/check/check_plant.h"
 
 #include <algorithm>
+#include <set>
 
 #include "config/check/check_parts.h"
 #include "config/check/plant_parts.h"
 #include "core/base/text.h"
+#include "core/schema/place_index.h"
 
 namespace indurop::config {
 namespace {
 
-// A module that uses variables by name only can use those that other boards' modules declare.
-void add_named_variables(const Module& module, const schema::Schema& plant, schema::Schema& board) {
-  for (const auto* names : {&module.reads, &module.writes}) {
-    for (const std::string& name : *names) {
-      std::string ignored;
-      if (schema::find_place(board, name, ignored)) {
-        continue;
-      }
-      if (const auto found = schema::find_place(plant, name, ignored)) {
-        board.variables.push_back(*found.value().variable);
-      }
+// Modules that use variables by name only can use those that other boards' modules declare.
+void add_named_variables(const std::vector<Module>& modules, const schema::PlaceIndex& plant, schema::Schema& board) {
+  const schema::PlaceIndex own(board);
+  std::vector<const schema::Variable*> missing;
+  std::set<const schema::Variable*> known;
+  const auto look_up = [&](const std::string& name) {
+    if (own.find(name, nullptr)) {
+      return;
     }
+    const auto found = plant.find(name, nullptr);
+    if (found && known.insert(found.value().variable).second) {
+      missing.push_back(found.value().variable);
+    }
+  };
+  for (const Module& module : modules) {
+    std::for_each(module.reads.begin(), module.reads.end(), look_up);
+    std::for_each(module.writes.begin(), module.writes.end(), look_up);
+  }
+  for (const schema::Variable* one : missing) {
+    board.variables.push_back(*one);
   }
 }
 
@@ -70,10 +80,9 @@ class PlantCheckRun {
       check_files(context);
       schema::merge(schema_, context.result.schema, differences);
     }
+    const schema::PlaceIndex index(schema_);
     for (CheckContext& context : contexts_) {
-      for (const Module& module : context.config.modules) {
-        add_named_variables(module, schema_, context.result.schema);
-      }
+      add_named_variables(context.config.modules, index, context.result.schema);
       check_access(context);
     }
   }

@@ -28,8 +28,7 @@ void check_never_written(const std::string& name, const Users& users, const Uses
   const base::SourcePlace place = uses.module(users.readers.front()).places.file;
   const std::string text =
       base::in_quotes(name) + " is read by " + base::enumerate(uses.names(users.readers)) + " but ";
-  const auto* variable = schema::find_variable(uses.board(users.readers.front()).result.schema, name);
-  if (variable != nullptr && variable->given) {
+  if (users.given) {
     report.note(place, text + "no module writes it: a parameter, with the value of its declaration unless set by hand");
     return;
   }

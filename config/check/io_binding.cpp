@@ -10,6 +10,7 @@
 
 #include "core/base/diagnostics.h"
 #include "core/base/text.h"
+#include "core/schema/place_index.h"
 
 namespace indurop::config {
 namespace {
@@ -23,7 +24,7 @@ bool is_whole(const schema::Type& type) {
 
 class Binder {
  public:
-  Binder(const schema::Schema& schema, base::Diagnostics& report) : schema_(schema), report_(report) {}
+  Binder(const schema::Schema& schema, base::Diagnostics& report) : index_(schema), report_(report) {}
 
   BoundDevice bind(const IoDevice& device) {
     BoundDevice bound;
@@ -43,7 +44,7 @@ class Binder {
  private:
   std::optional<schema::Place> find(const std::string& name, base::SourcePlace place) {
     std::string message;
-    auto found = schema::find_place(schema_, name, message);
+    auto found = index_.find(name, report_.full() ? nullptr : &message);
     if (!found) {
       report_.error(place, message);
       return std::nullopt;
@@ -140,7 +141,7 @@ class Binder {
     }
   }
 
-  const schema::Schema& schema_;
+  schema::PlaceIndex index_;
   base::Diagnostics& report_;
   std::map<std::pair<std::string, std::uint32_t>, base::SourcePlace> claimed_;  // parts of variables that are written
 };

@@ -29,6 +29,11 @@ Uses::Uses(std::span<const BoardView> boards) : boards_(boards) {
         users.writers.push_back({b, by_name.at(writer)});
       }
     }
+    for (const schema::Variable& one : board.result.schema.variables) {
+      if (const auto used = one.given ? variables_.find(one.name) : variables_.end(); used != variables_.end()) {
+        used->second.given = true;
+      }
+    }
     for (const std::size_t module : board.result.unknown_readers) {
       unknown_readers_.push_back({b, module});
     }

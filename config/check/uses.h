@@ -33,6 +33,7 @@ struct User {
 struct Users {
   std::vector<User> readers;  // by board, then in order of execution
   std::vector<User> writers;
+  bool given = false;  // declared with a value
 };
 
 class Uses {

@@ -9,6 +9,7 @@
 #include "core/base/nearest.h"
 #include "core/base/text.h"
 #include "core/schema/leaf.h"
+#include "core/schema/place_index.h"
 
 namespace indurop::schema {
 namespace {
@@ -251,47 +252,53 @@ Failure no_variable(const Schema& schema, const Path& path) {
                                        : fmt::format("no variable '{}'; did you mean '{}'?", typed, near)};
 }
 
+constexpr std::size_t kShownOfAmbiguous = 4;
+
 Failure ambiguous(std::string_view text, const std::vector<Place>& places) {
   std::string names;
-  for (std::size_t i = 0; i < std::min<std::size_t>(places.size(), 4); ++i) {
+  for (std::size_t i = 0; i < std::min(places.size(), kShownOfAmbiguous); ++i) {
     names += fmt::format("{}'{}'", i == 0 ? "" : ", ", places[i].variable->name);
   }
-  return {Errc::NotFound,
-          fmt::format("'{}' may be {}{}; write the namespace too", text, names, places.size() > 4 ? ", ..." : "")};
+  return {Errc::NotFound, fmt::format("'{}' may be {}{}; write the namespace too", text, names,
+                                      places.size() > kShownOfAmbiguous ? ", ..." : "")};
 }
 
-// Tries each way to split the names into variable and fields. `exact`: full names only. Adds matches to `places`;
-// otherwise keeps the first failure of a variable whose name matches.
-void collect(const Schema& schema, const Path& path, bool exact, std::vector<Place>& places, Failure& failure) {
+// Tries each way to split the names into variable and fields. `exact`: full names only. Adds matches to `places`, no
+// more than a message needs; otherwise keeps the first failure of a variable whose name matches.
+template <class Candidates>
+void collect(const Candidates& candidates, const Path& path, bool exact, std::vector<Place>& places, Failure& failure) {
   for (std::size_t names = path.names; names > 0; --names) {
     const std::string wanted = join(path.steps, names);
-    for (const Variable& variable : schema.variables) {
-      if (exact ? variable.name != wanted : !ends_full_name(variable.name, wanted)) {
+    for (const Variable* variable : candidates(wanted)) {
+      if (exact ? variable->name != wanted : !ends_full_name(variable->name, wanted)) {
         continue;
       }
       Place place;
-      Failure why = Walk(variable, path.steps, names).run(place);
+      Failure why = Walk(*variable, path.steps, names).run(place);
       if (why.code == Errc::Ok) {
         places.push_back(std::move(place));
       } else if (failure.code == Errc::Ok) {
         failure = std::move(why);
       }
+      if (places.size() > kShownOfAmbiguous) {
+        return;
+      }
     }
   }
 }
 
-}  // namespace
-
-Result<Place> find_place(const Schema& schema, std::string_view text, std::string& message) {
+// `candidates`: returns all variables that a name may refer to.
+template <class Candidates>
+Result<Place> find(const Schema& schema, const Candidates& candidates, std::string_view text, std::string* message) {
   constexpr const char* kWhere = "looking for a variable by name";
   const std::string_view name = base::trimmed(text);
   Path path;
   Failure failure = split(name, path);
   if (failure.code == Errc::Ok) {
     std::vector<Place> places;
-    collect(schema, path, true, places, failure);
+    collect(candidates, path, true, places, failure);
     if (places.empty() && !path.absolute) {
-      collect(schema, path, false, places, failure);
+      collect(candidates, path, false, places, failure);
     }
     if (places.size() == 1) {
       return std::move(places.front());
@@ -299,11 +306,44 @@ Result<Place> find_place(const Schema& schema, std::string_view text, std::strin
     if (!places.empty()) {
       failure = ambiguous(name, places);
     } else if (failure.code == Errc::Ok) {
-      failure = no_variable(schema, path);
+      failure = message == nullptr ? Failure{Errc::NotFound, {}} : no_variable(schema, path);
     }
   }
-  message = std::move(failure.message);
+  if (message != nullptr) {
+    *message = std::move(failure.message);
+  }
   return Error{failure.code, 0, kWhere};
+}
+
+}  // namespace
+
+Result<Place> find_place(const Schema& schema, std::string_view text, std::string& message) {
+  std::vector<const Variable*> all;
+  for (const Variable& variable : schema.variables) {
+    all.push_back(&variable);
+  }
+  return find(
+      schema, [&all](std::string_view) -> const auto& { return all; }, text, &message);
+}
+
+PlaceIndex::PlaceIndex(const Schema& schema) : schema_(schema) {
+  for (const Variable& variable : schema.variables) {
+    std::string_view ending = variable.name;
+    by_ending_[ending].push_back(&variable);
+    for (std::size_t at = ending.find("::"); at != std::string_view::npos; at = ending.find("::")) {
+      ending.remove_prefix(at + 2);
+      by_ending_[ending].push_back(&variable);
+    }
+  }
+}
+
+Result<Place> PlaceIndex::find(std::string_view text, std::string* message) const {
+  static const std::vector<const Variable*> kNone;
+  const auto candidates = [this](const std::string& wanted) -> const auto& {
+    const auto found = by_ending_.find(wanted);
+    return found == by_ending_.end() ? kNone : found->second;
+  };
+  return schema::find(schema_, candidates, text, message);
 }
 
 Part part_at(const Variable& variable, std::uint32_t offset) {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/modules/failsafe.h"
 
+#include "core/schema/place_index.h"
+
 namespace indurop::node {
 
 FailSafe::FailSafe(vars::Store& store, const config::Config& config) : store_(store), writes_(config.modules.size()) {
+  const schema::PlaceIndex index(store.schema());
   for (std::size_t i = 0; i < config.modules.size(); ++i) {
     for (const config::FailSafe& declared : config.modules[i].failsafe) {
       std::string message;
-      const auto place = schema::find_place(store.schema(), declared.variable, message);
+      const auto place = index.find(declared.variable, nullptr);
       if (!place) {
         continue;
       }

@@ -5,7 +5,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <tuple>
 #include <utility>
+
+#include "core/base/diagnostics.h"
+#include "core/schema/place_index.h"
 
 namespace indurop::operate {
 namespace {
@@ -30,13 +35,56 @@ std::string full_name(const std::string& text, const schema::Place& place) {
   return variable;
 }
 
-void add(std::vector<Item>& items, Item item) {
-  const bool known = std::any_of(items.begin(), items.end(), [&](const Item& one) {
-    return one.entry == item.entry && one.place.offset == item.place.offset && one.name == item.name;
-  });
-  if (!known) {
-    items.push_back(std::move(item));
+// Keeps the errors of wrong names, no more than users read.
+class Wrong {
+ public:
+  [[nodiscard]] bool any() const noexcept { return count_ > 0; }
+  [[nodiscard]] bool full() const noexcept { return count_ >= kMostShown; }
+  void add(std::string text) {
+    if (++count_ <= kMostShown) {
+      texts_.push_back(std::move(text));
+    }
   }
+  std::vector<std::string> take() {
+    if (count_ > kMostShown) {
+      texts_.push_back(fmt::format("too many errors, the first {} are shown", kMostShown));
+    }
+    return std::move(texts_);
+  }
+
+ private:
+  static constexpr std::size_t kMostShown = base::Diagnostics::kMaxShown;
+  std::size_t count_ = 0;
+  std::vector<std::string> texts_;
+};
+
+Result<Item, Problem> item_of(const vars::Store& store, const std::string& name, const Result<schema::Place>& place,
+                              std::string message) {
+  const auto* entry = place ? store.find(place->variable->name_hash()) : nullptr;
+  if (entry == nullptr) {
+    return Problem{message.empty() ? fmt::format("there is no variable '{}'", name) : std::move(message)};
+  }
+  return Item{full_name(name, *place), *place, entry};
+}
+
+// As find(); the errors after those that are shown have no nearest name.
+Result<Item, Problem> find(const vars::Store& store, const schema::PlaceIndex& index, const std::string& name,
+                           const Wrong& wrong) {
+  std::string message;
+  const auto place = index.find(name, wrong.full() ? nullptr : &message);
+  return item_of(store, name, place, std::move(message));
+}
+
+// `find`: returns the item of a name.
+template <class Find>
+Result<Assignment, Problem> parse_line(const vars::Store& store, const std::string& line, ReadLiteral literal,
+                                       const Find& find) {
+  const auto equals = line.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    return Problem{fmt::format("'{}' is not an assignment; write NAME=VALUE", line)};
+  }
+  Result<Item, Problem> item = find(line.substr(0, equals));
+  return item ? parse(store, std::move(item).value(), line.substr(equals + 1), literal) : std::move(item).error();
 }
 
 bool read_text(const Assignment& one, std::span<std::uint8_t> bytes, std::string& message) {
@@ -50,11 +98,7 @@ bool read_text(const Assignment& one, std::span<std::uint8_t> bytes, std::string
 Result<Item, Problem> find(const vars::Store& store, const std::string& name) {
   std::string message;
   const auto place = schema::find_place(store.schema(), name, message);
-  const auto* entry = place ? store.find(place->variable->name_hash()) : nullptr;
-  if (entry == nullptr) {
-    return Problem{message.empty() ? fmt::format("there is no variable '{}'", name) : message};
-  }
-  return Item{full_name(name, *place), *place, entry};
+  return item_of(store, name, place, std::move(message));
 }
 
 Result<Item, Problem> whole(const vars::Store& store, const schema::Variable& variable) {
@@ -68,14 +112,21 @@ Result<Item, Problem> whole(const vars::Store& store, const schema::Variable& va
 Result<std::vector<Item>, std::vector<std::string>> select(const vars::Store& store,
                                                            const std::vector<std::string>& names) {
   std::vector<Item> items;
-  std::vector<std::string> wrong;
+  std::set<std::tuple<const vars::DirectoryEntry*, std::uint32_t, std::string>> known;
+  const auto add = [&](Item item) {
+    if (known.emplace(item.entry, item.place.offset, item.name).second) {
+      items.push_back(std::move(item));
+    }
+  };
+  const schema::PlaceIndex index(store.schema());
+  Wrong wrong;
   for (const std::string& name : names) {
     if (!schema::is_glob(name)) {
-      auto found = find(store, name);
+      auto found = find(store, index, name, wrong);
       if (found) {
-        add(items, std::move(found).value());
+        add(std::move(found).value());
       } else {
-        wrong.push_back(found.error().text);
+        wrong.add(found.error().text);
       }
       continue;
     }
@@ -83,16 +134,16 @@ Result<std::vector<Item>, std::vector<std::string>> select(const vars::Store& st
     for (const schema::Variable& variable : store.schema().variables) {
       auto found = schema::glob_match(name, variable.name) ? whole(store, variable) : Problem{};
       if (found) {
-        add(items, std::move(found).value());
+        add(std::move(found).value());
         any = true;
       }
     }
     if (!any) {
-      wrong.push_back(fmt::format("no variable matches '{}'", name));
+      wrong.add(fmt::format("no variable matches '{}'", name));
     }
   }
-  if (!wrong.empty()) {
-    return wrong;
+  if (wrong.any()) {
+    return wrong.take();
   }
   return items;
 }
@@ -128,29 +179,25 @@ Result<Assignment, Problem> parse(const vars::Store& store, Item item, std::stri
 }
 
 Result<Assignment, Problem> parse(const vars::Store& store, const std::string& line, ReadLiteral literal) {
-  const auto equals = line.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    return Problem{fmt::format("'{}' is not an assignment; write NAME=VALUE", line)};
-  }
-  auto item = find(store, line.substr(0, equals));
-  return item ? parse(store, std::move(item).value(), line.substr(equals + 1), literal) : std::move(item).error();
+  return parse_line(store, line, literal, [&](const std::string& name) { return find(store, name); });
 }
 
 Result<std::vector<Assignment>, std::vector<std::string>> parse_all(const vars::Store& store,
                                                                     const std::vector<std::string>& lines,
                                                                     ReadLiteral literal) {
+  const schema::PlaceIndex index(store.schema());
   std::vector<Assignment> all;
-  std::vector<std::string> wrong;
+  Wrong wrong;
+  const auto found = [&](const std::string& name) { return find(store, index, name, wrong); };
   for (const std::string& line : lines) {
-    auto one = parse(store, line, literal);
-    if (one) {
+    if (auto one = parse_line(store, line, literal, found)) {
       all.push_back(std::move(one).value());
     } else {
-      wrong.push_back(one.error().text);
+      wrong.add(one.error().text);
     }
   }
-  if (!wrong.empty()) {
-    return wrong;
+  if (wrong.any()) {
+    return wrong.take();
   }
   return all;
 }

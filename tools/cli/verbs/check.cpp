@@ -6,6 +6,7 @@
 #include "config/measured_times.h"
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
+#include "core/schema/place_index.h"
 #include "tools/cli/command/config_file.h"
 #include "tools/cli/plant/check_chain.h"
 #include "tools/cli/plant/check_plant.h"
@@ -38,9 +39,10 @@ std::string summary_line(const CheckedConfig& checked) {
 
 Table variable_table(const CheckedConfig& checked) {
   Table table({{"VARIABLE", "name"}, {"TYPE", "type"}, {"WRITTEN BY", "writers"}, {"READ BY", "readers"}});
+  const schema::PlaceIndex index(checked.check.schema);
   for (const auto& use : checked.check.uses) {
-    const auto* variable = schema::find_variable(checked.check.schema, use.name);
-    const std::string type = variable != nullptr ? schema::display_name(variable->type) : "?";
+    const auto place = index.find(use.name, nullptr);
+    const std::string type = place ? schema::display_name(place->type) : "?";
     const auto names = [](const std::vector<std::string>& list) {
       return Cell(list.empty() ? "-" : fmt::format("{}", fmt::join(list, ", ")), JsonValue(list), Style::None);
     };

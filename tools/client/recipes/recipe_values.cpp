@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "control/plc/st/value_literal.h"
+#include "core/schema/place_index.h"
 #include "store/operate/item.h"
 #include "store/operate/set.h"
 #include "store/vars/batch.h"
@@ -66,11 +67,11 @@ Result<void, std::vector<std::string>> take_values(const vars::Store& store, con
 }
 
 std::vector<Difference> compare(const vars::Store& store, const Recipe& recipe) {
+  const schema::PlaceIndex index(store.schema());
   std::vector<Difference> all;
   for (const auto& [name, value] : recipe.values) {
     Difference one{name, value, {}, false};
-    std::string message;
-    const auto place = schema::find_place(store.schema(), name, message);
+    const auto place = index.find(name, nullptr);
     const auto* entry = place.ok() ? store.find(place.value().variable->name_hash()) : nullptr;
     if (entry != nullptr) {
       if (const auto bytes = operate::read(store, {name, place.value(), entry})) {

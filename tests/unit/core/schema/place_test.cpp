@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/schema/place_index.h"
 #include "tests/unit/core/schema/types.h"
 
 namespace indurop::schema {
@@ -36,6 +37,8 @@ class Place_of_a_name : public testing::Test {
     message_.clear();
     auto sut = find_place(schema_, text, message_);
     EXPECT_TRUE(sut.ok()) << text << ": " << message_;
+    const auto same = PlaceIndex(schema_).find(text, nullptr);
+    EXPECT_TRUE(same.ok() && same->variable == sut->variable && same->offset == sut->offset) << text;
     return sut.ok() ? sut.value() : Place{};
   }
   Errc failed(std::string_view text) {
@@ -43,6 +46,10 @@ class Place_of_a_name : public testing::Test {
     const auto sut = find_place(schema_, text, message_);
     EXPECT_FALSE(sut.ok()) << text;
     EXPECT_FALSE(message_.empty());
+    std::string message;
+    const auto same = PlaceIndex(schema_).find(text, &message);
+    EXPECT_FALSE(same.ok()) << text;
+    EXPECT_EQ(message, message_);
     return sut.ok() ? Errc::Ok : sut.error().code;
   }
 

@@ -162,6 +162,14 @@ TEST_F(Operate, Names_all_that_is_wrong_and_changes_nothing) {
   EXPECT_THAT(noted(), IsEmpty());
 }
 
+TEST_F(Operate, Names_200_of_many_that_are_wrong) {
+  const auto wrong = parse_all(*store_, std::vector<std::string>(300, "gian=1"));
+  ASSERT_FALSE(wrong.ok());
+  ASSERT_EQ(wrong.error().size(), 201U);
+  EXPECT_EQ(wrong.error()[199], "no variable 'gian'; did you mean 'cell::gain'?");
+  EXPECT_EQ(wrong.error()[200], "too many errors, the first 200 are shown");
+}
+
 TEST_F(Operate, What_is_forced_is_not_set) {
   ASSERT_TRUE(force({"axis.x=1"}).ok());
   const auto refused = set_lines({"gain=1", "axis={y: 2}"});
