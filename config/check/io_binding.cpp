@@ -34,7 +34,7 @@ class Binder {
     for (const IoPoint& point : device.points) {
       add(point, bound);
     }
-    if (device.driver == IoDriver::Cia402) {
+    if (has_objects(device.driver)) {
       add_struct(device.axis.in, device.axis.in_place, false, bound);
       add_struct(device.axis.out, device.axis.out_place, true, bound);
     }
@@ -117,7 +117,7 @@ class Binder {
     std::vector<std::string> objects;
     std::size_t found = 0;
     for (const AxisObject& object : kAxisObjects) {
-      if (object.output != output) {
+      if (object.output != output || (object.index == 0 && into.device.driver == IoDriver::Ethercat)) {
         continue;
       }
       objects.emplace_back(object.name);
@@ -131,6 +131,7 @@ class Binder {
       point.output = output;
       point.variable = name + "." + object.name;
       point.at = object.name;
+      point.object.index = object.index;
       point.type = WireType::Int32;
       point.place = point.variable_place = point.at_place = place;
       add(point, into);

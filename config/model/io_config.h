@@ -16,7 +16,11 @@
 namespace indurop::config {
 
 // ModbusServer: other devices poll this node, an operator panel for example.
-enum class IoDriver { ModbusTcp, ModbusRtu, ModbusServer, Cia402, Csv };
+enum class IoDriver { ModbusTcp, ModbusRtu, ModbusServer, Cia402, Ethercat, Csv };
+// Its points are objects of a drive, by name, or the fields of a struct.
+constexpr bool has_objects(IoDriver driver) noexcept {
+  return driver == IoDriver::Cia402 || driver == IoDriver::Ethercat;
+}
 const char* name_of(IoDriver driver) noexcept;
 
 // Format of a number in the registers of a device.
@@ -45,11 +49,18 @@ struct IoAddress {
   int bit = -1;              // bit of the register, 0 is the least significant; -1: the whole register
 };
 
+// An object in the process data of an EtherCAT slave.
+struct IoObject {
+  std::uint16_t index = 0;
+  std::uint8_t subindex = 0;
+};
+
 struct IoPoint {
   bool output = false;   // true: from variable to device
   std::string variable;  // as written in the file
-  std::string at;        // as written in the file; csv: column, cia402: object
+  std::string at;        // as written in the file; csv: column, cia402 and ethercat: object
   IoAddress address;     // Modbus
+  IoObject object;       // EtherCAT
   int unit = 1;          // Modbus: unit on the line or after the gateway
   int every = 1;         // Modbus: exchanged in every n-th cycle of the device
   WireType type = WireType::UInt16;
@@ -104,6 +115,14 @@ struct IoAxis {
   base::SourcePlace out_place;
 };
 
+// A slave of an EtherCAT bus; the address of the device is the network interface.
+struct IoSlave {
+  int position = 0;                     // on the cable, from 0
+  std::optional<std::uint32_t> vendor;  // has to be found there; empty: any
+  std::optional<std::uint32_t> product;
+  std::optional<std::uint32_t> revision;
+};
+
 struct IoCsv {
   std::filesystem::path file;  // relative names start at the folder of ioconfig.xml
   std::string as_written;
@@ -126,6 +145,7 @@ struct IoDevice {
   int gap = 0;            // maximum number of unused registers or bits that a request may also read
   IoSerial serial;
   IoAxis axis;
+  IoSlave slave;
   IoCsv csv;
   std::string quality;  // variables about the device as a whole; empty: none
   std::string errors;
@@ -144,30 +164,31 @@ struct IoConfig {
 struct AxisObject {
   const char* name;
   bool output;
+  std::uint16_t index;  // 0: of the simulated drive only
 };
-inline constexpr std::array<AxisObject, 23> kAxisObjects{{{"error", false},
-                                                          {"status", false},
-                                                          {"mode", false},
-                                                          {"position", false},
-                                                          {"velocity", false},
-                                                          {"torque", false},
-                                                          {"inputs", false},
-                                                          {"probe", false},
-                                                          {"probe_rise", false},
-                                                          {"probe_fall", false},
-                                                          {"probe2_rise", false},
-                                                          {"probe2_fall", false},
-                                                          {"following", false},
-                                                          {"control", true},
-                                                          {"mode", true},
-                                                          {"position", true},
-                                                          {"velocity", true},
-                                                          {"torque", true},
-                                                          {"position_offset", true},
-                                                          {"velocity_offset", true},
-                                                          {"torque_offset", true},
-                                                          {"load", true},
-                                                          {"probe", true}}};
+inline constexpr std::array<AxisObject, 23> kAxisObjects{{{"error", false, 0x603F},
+                                                          {"status", false, 0x6041},
+                                                          {"mode", false, 0x6061},
+                                                          {"position", false, 0x6064},
+                                                          {"velocity", false, 0x606C},
+                                                          {"torque", false, 0x6077},
+                                                          {"inputs", false, 0x60FD},
+                                                          {"probe", false, 0x60B9},
+                                                          {"probe_rise", false, 0x60BA},
+                                                          {"probe_fall", false, 0x60BB},
+                                                          {"probe2_rise", false, 0x60BC},
+                                                          {"probe2_fall", false, 0x60BD},
+                                                          {"following", false, 0x60F4},
+                                                          {"control", true, 0x6040},
+                                                          {"mode", true, 0x6060},
+                                                          {"position", true, 0x607A},
+                                                          {"velocity", true, 0x60FF},
+                                                          {"torque", true, 0x6071},
+                                                          {"position_offset", true, 0x60B0},
+                                                          {"velocity_offset", true, 0x60B1},
+                                                          {"torque_offset", true, 0x60B2},
+                                                          {"load", true, 0},
+                                                          {"probe", true, 0x60B8}}};
 
 // A module file that exports this function reads the path of an ioconfig.xml from its property "config", so the checks
 // know which variables it reads and writes.

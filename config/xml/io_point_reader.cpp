@@ -44,6 +44,7 @@ class PointReader {
         read_modbus();
         break;
       case IoDriver::Cia402:
+      case IoDriver::Ethercat:
         read_object();
         break;
       case IoDriver::Csv:
@@ -134,19 +135,35 @@ class PointReader {
   }
 
   void read_object() {
-    const auto at = attributes_.need("at", "at=\"position\"", &point_.at_place);
+    const bool is_slave = device_.driver == IoDriver::Ethercat;
+    const auto at =
+        attributes_.need("at", is_slave ? "at=\"position\" or at=\"6064:0\"" : "at=\"position\"", &point_.at_place);
     point_.at = at.value_or("");
     std::vector<std::string> known;
     for (const AxisObject& object : kAxisObjects) {
-      if (object.output == point_.output) {
+      if (object.output == point_.output && (object.index != 0 || !is_slave)) {
         known.emplace_back(object.name);
+        point_.object.index = object.name == point_.at ? object.index : point_.object.index;
       }
     }
-    if (at && std::find(known.begin(), known.end(), *at) == known.end()) {
-      report_.error(point_.at_place, fmt::format("at: a drive has no {} {}{}", point_.output ? "output" : "input",
+    if (at && std::find(known.begin(), known.end(), *at) == known.end() && !(is_slave && read_index(*at))) {
+      const std::string what =
+          is_slave ? "a slave's object is 6064 or 7000:1, or a name of a drive's object; it has no" : "a drive has no";
+      report_.error(point_.at_place, fmt::format("at: {} {} {}{}", what, point_.output ? "output" : "input",
                                                  base::in_quotes(*at), base::suggestion(*at, known)));
     }
     point_.type = WireType::Int32;
+  }
+
+  // An index and a subindex of an object, as manuals write them: 6064, 7000:1.
+  bool read_index(const std::string& text) {
+    constexpr std::uint32_t kMaxSubindex = 255;
+    const std::size_t colon = text.find(':');
+    const auto index = read_hex(text.substr(0, colon), 0xFFFF);
+    const auto subindex =
+        colon == std::string::npos ? std::optional(0U) : read_hex(text.substr(colon + 1), kMaxSubindex);
+    point_.object = {static_cast<std::uint16_t>(index.value_or(0)), static_cast<std::uint8_t>(subindex.value_or(0))};
+    return index && *index != 0 && subindex;
   }
 
   void read_column() {
@@ -176,6 +193,10 @@ class PointReader {
     point_.quality = attributes_.text("quality", &point_.quality_place).value_or("");
     if (point_.output) {
       point_.stop = attributes_.real("stop", -kAny, kAny);
+      if (point_.stop && device_.driver == IoDriver::Ethercat) {
+        report_.error(element_.place,
+                      "stop: an EtherCAT slave leaves OP when the node stops, and sets its outputs itself; remove it");
+      }
       return;
     }
     base::SourcePlace place;
@@ -240,6 +261,8 @@ const char* name_of(IoDriver driver) noexcept {
       return "modbus_server";
     case IoDriver::Cia402:
       return "cia402";
+    case IoDriver::Ethercat:
+      return "ethercat";
     case IoDriver::Csv:
       return "csv";
   }
@@ -317,7 +340,7 @@ void check_io_points(const IoDevice& device, base::Diagnostics& report) {
   if (device.driver == IoDriver::Csv) {
     return;
   }
-  if (device.driver == IoDriver::Cia402) {
+  if (has_objects(device.driver)) {
     std::map<std::string, const IoPoint*> outputs;
     for (const IoPoint& point : device.points) {
       const auto [first, is_new] = outputs.try_emplace(point.output ? point.at : "", &point);

@@ -20,8 +20,8 @@ namespace indurop::config {
 namespace {
 
 constexpr DocumentKind kIoConfigXml{"ioconfig.xml", "<ioconfig> with one <device> per field device"};
-constexpr std::array<IoDriver, 5> kDrivers{IoDriver::ModbusTcp, IoDriver::ModbusRtu, IoDriver::ModbusServer,
-                                           IoDriver::Cia402, IoDriver::Csv};
+constexpr std::array<IoDriver, 6> kDrivers{IoDriver::ModbusTcp, IoDriver::ModbusRtu, IoDriver::ModbusServer,
+                                           IoDriver::Cia402,    IoDriver::Ethercat,  IoDriver::Csv};
 constexpr base::Nanos kMillisecond{1'000'000};
 constexpr base::Nanos kSecond{1'000'000'000};
 constexpr base::Nanos kMinute{60 * kSecond};
@@ -59,6 +59,9 @@ class DeviceReader {
         break;
       case IoDriver::Cia402:
         read_axis();
+        break;
+      case IoDriver::Ethercat:
+        read_slave();
         break;
       case IoDriver::Csv:
         read_csv();
@@ -156,12 +159,45 @@ class DeviceReader {
     into = attributes_.real(name, low, high).value_or(into);
   }
 
+  void read_structs() {
+    device_.axis.in = attributes_.text("in", &device_.axis.in_place).value_or("");
+    device_.axis.out = attributes_.text("out", &device_.axis.out_place).value_or("");
+  }
+
+  // A number of an EEPROM: 0x4d8.
+  std::optional<std::uint32_t> read_identity(const char* name) {
+    base::SourcePlace place;
+    const auto text = attributes_.text(name, &place);
+    if (!text) {
+      return std::nullopt;
+    }
+    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+    const auto number = text->starts_with("0x") ? read_hex(text->substr(2), kMost) : std::nullopt;
+    if (!number) {
+      report_.error(place,
+                    fmt::format("{}: {} is no number of an EEPROM; write it as 0x4d8", name, base::in_quotes(*text)));
+    }
+    return number;
+  }
+
+  void read_slave() {
+    constexpr int kMaxSlaves = 1000;
+    device_.address = attributes_.need("address", "address=\"eth1\"").value_or("");
+    base::SourcePlace place;
+    if (attributes_.need("slave", "slave=\"0\"", &place)) {
+      device_.slave.position = static_cast<int>(attributes_.integer("slave", 0, kMaxSlaves).value_or(0));
+    }
+    device_.slave.vendor = read_identity("vendor");
+    device_.slave.product = read_identity("product");
+    device_.slave.revision = read_identity("revision");
+    read_structs();
+  }
+
   void read_axis() {
     constexpr double kMaxReal = 1e12;
     constexpr double kLeast = 1e-9;
     IoAxis& axis = device_.axis;
-    axis.in = attributes_.text("in", &axis.in_place).value_or("");
-    axis.out = attributes_.text("out", &axis.out_place).value_or("");
+    read_structs();
     real("counts", 4, std::numeric_limits<std::int32_t>::max(), axis.counts);
     real("inertia", kLeast, kMaxReal, axis.inertia);
     real("damping", 0, kMaxReal, axis.damping);
@@ -232,7 +268,7 @@ class DeviceReader {
 };
 
 const char* example_points(IoDriver driver) {
-  if (driver == IoDriver::Cia402) {
+  if (has_objects(driver)) {
     return R"(in="AXIS1_IN" and out="AXIS1_OUT", or <input>s and <output>s)";
   }
   return is_modbus(driver) ? R"(<input variable="..." at="holding:0"/>)" : R"(<input variable="..." at="column"/>)";
@@ -242,6 +278,17 @@ void check_device(const IoDevice& device, const base::Element& element, base::Di
   const bool axis_structs = !device.axis.in.empty() || !device.axis.out.empty();
   if (element.children.empty() && !axis_structs) {
     report.error(element.place, fmt::format("this device has no points; add {}", example_points(device.driver)));
+  }
+}
+
+// A slave has one device.
+void check_slave(const IoDevice& device, const IoConfig& config, base::Diagnostics& report) {
+  for (const IoDevice& other : config.devices) {
+    if (device.driver == IoDriver::Ethercat && other.driver == IoDriver::Ethercat && device.address == other.address &&
+        device.slave.position == other.slave.position) {
+      report.error(device.place, fmt::format("slave {} of {} has the device in line {} already; move its points there",
+                                             device.slave.position, device.address, other.place.line));
+    }
   }
 }
 
@@ -264,6 +311,7 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
       continue;
     }
     check_device(*device, child, report);
+    check_slave(*device, config, report);
     const auto [first, is_new] = lines.try_emplace(device->name, device->place.line);
     if (!is_new && !device->name.empty()) {
       report.error(device->place, fmt::format("a second device {}, the first is in line {}; give each its own name",

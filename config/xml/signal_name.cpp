@@ -80,6 +80,14 @@ std::optional<std::int64_t> read_integer(std::string_view text, std::int64_t low
   return value;
 }
 
+std::optional<std::uint32_t> read_hex(std::string_view text, std::uint32_t high) {
+  constexpr int kBase = 16;
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, kBase);
+  return error == std::errc{} && end == text.data() + text.size() && value <= high ? std::optional(value)
+                                                                                   : std::nullopt;
+}
+
 SignalText read_signal(std::string_view text) {
   const auto number = read_integer(text, 0, SIGRTMAX);
   const std::optional<int> signal = number ? static_cast<int>(*number) : by_name(text);

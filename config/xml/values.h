@@ -22,6 +22,8 @@ std::string signal_name(int signal);
 
 // Parses a whole decimal number within [low, high]; empty otherwise.
 std::optional<std::int64_t> read_integer(std::string_view text, std::int64_t low, std::int64_t high);
+// Parses a whole number in hexadecimal digits, at most `high`; empty otherwise.
+std::optional<std::uint32_t> read_hex(std::string_view text, std::uint32_t high);
 // Parses a finite number, "-0.5" or "1e-3"; empty otherwise.
 std::optional<double> read_real(std::string_view text);
 

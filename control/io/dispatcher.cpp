@@ -63,7 +63,7 @@ std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, 
                          "that runs it a file of its own, without phase",
                          config::name_of(bound.device.driver), bound.device.name)}};
   }
-  auto driver = make_driver(bound.device, output_points, input_points);
+  auto driver = make_driver(bound.device, output_points, input_points, buses_);
   if (!driver) {
     return std::move(driver).error();
   }
@@ -95,12 +95,11 @@ std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, 
 Status Dispatcher::start(std::uint32_t module) {
   variables_.bind();
   for (const Line& line : lines_) {
-    if (line.thread == nullptr) {
-      continue;
-    }
-    if (const Status status = line.thread->start(module); !status) {
+    const bool is_open = line.thread != nullptr || line.driver->open();
+    const Status status = line.thread != nullptr ? line.thread->start(module) : Status();
+    if (!is_open || !status) {
       stop();
-      return status;
+      return is_open ? status : Status(Error{Errc::NoSpace, 0});
     }
   }
   return {};
@@ -110,6 +109,8 @@ void Dispatcher::stop() {
   for (const Line& line : lines_) {
     if (line.thread != nullptr) {
       line.thread->stop();
+    } else {
+      line.driver->close();
     }
   }
   variables_.unbind();

@@ -30,8 +30,8 @@ class Dispatcher {
   Dispatcher& operator=(const Dispatcher&) = delete;
   ~Dispatcher();
 
-  // Binds the variables and starts the threads of devices that need one; their messages are those of module `module`.
-  // Not real-time safe. Errors: NoSpace, System.
+  // Binds the variables, opens devices in the tick, and starts the threads of devices that need one; their messages are
+  // those of module `module`, which is the caller's. Not real-time safe. Errors: NoSpace, System.
   Status start(std::uint32_t module);
   // Reads the outputs from their variables, exchanges with devices that work in the tick, and writes the inputs to
   // their variables. Real-time safe. `elapsed`: time since the last run.
@@ -68,6 +68,7 @@ class Dispatcher {
   void write_quality(const std::optional<Report>& to, Quality quality) noexcept;
 
   Variables variables_;
+  EthercatBuses buses_;
   std::deque<Line> lines_;
 };
 

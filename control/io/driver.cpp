@@ -5,6 +5,7 @@
 
 #include "control/io/cia402_driver.h"
 #include "control/io/csv_driver.h"
+#include "control/io/ethercat_driver.h"
 #include "control/io/modbus_driver.h"
 #include "control/io/modbus_server.h"
 
@@ -12,7 +13,8 @@ namespace indurop::io {
 
 Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const config::IoDevice& device,
                                                                            std::span<const config::IoPoint> outputs,
-                                                                           std::span<const config::IoPoint> inputs) {
+                                                                           std::span<const config::IoPoint> inputs,
+                                                                           EthercatBuses& buses) {
   switch (device.driver) {
     case config::IoDriver::ModbusTcp:
     case config::IoDriver::ModbusRtu:
@@ -21,6 +23,11 @@ Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const
       return std::unique_ptr<Driver>(std::make_unique<ModbusServer>(device, outputs, inputs));
     case config::IoDriver::Cia402:
       return std::unique_ptr<Driver>(std::make_unique<Cia402Driver>(device, outputs, inputs));
+    case config::IoDriver::Ethercat: {
+      auto& bus = buses[device.address];
+      bus = bus != nullptr ? bus : std::make_shared<EthercatBus>(device.address);
+      return std::unique_ptr<Driver>(std::make_unique<EthercatDriver>(device, outputs, inputs, bus));
+    }
     case config::IoDriver::Csv:
       break;
   }

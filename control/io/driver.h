@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,7 +32,7 @@ class Driver {
   [[nodiscard]] virtual bool in_tick() const noexcept = 0;
 
   // Makes the device ready: opens the port, connects. Returns false if that fails: problem() returns the reason, and
-  // open() is called again later.
+  // open() is called again later; of a driver in the tick it is called once, before the first tick, and has to succeed.
   virtual bool open() = 0;
 
   // Sends the outputs and reads the inputs, in the order of the points of their direction. `elapsed` is the time since
@@ -46,10 +47,15 @@ class Driver {
   [[nodiscard]] virtual std::string problem() const = 0;
 };
 
+class EthercatBus;
+// The EtherCAT buses of a module, by their interfaces: the devices of one bus share it.
+using EthercatBuses = std::map<std::string, std::shared_ptr<EthercatBus>>;
+
 // Makes the driver for a device with these points. Errors: why the configuration cannot work, for example a missing
 // file. Not real-time safe.
 Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const config::IoDevice& device,
                                                                            std::span<const config::IoPoint> outputs,
-                                                                           std::span<const config::IoPoint> inputs);
+                                                                           std::span<const config::IoPoint> inputs,
+                                                                           EthercatBuses& buses);
 
 }  // namespace indurop::io

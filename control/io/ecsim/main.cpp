@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <array>
@@ -22,6 +21,7 @@
 #include "core/base/stop_signal.h"
 #include "core/base/text.h"
 #include "core/rt/clock.h"
+#include "core/rt/thread.h"
 
 namespace indurop::io::ecsim {
 namespace {
@@ -176,7 +176,7 @@ std::optional<std::vector<ethercat::Fault>> faults_of(const Setup& setup) {
 
 int run(const Setup& setup) {
   base::StopSignal stop;
-  prctl(PR_SET_TIMERSLACK, 1);  // else waits for a frame's way on the cable take 50 us longer
+  rt::request_exact_timers();  // else waits for a frame's way on the cable take 50 us longer
   auto link = ethercat::PacketLink::open(setup.interface);
   if (!link) {
     return fail(link.error());

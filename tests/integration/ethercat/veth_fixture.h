@@ -59,19 +59,37 @@ class PatientLink final : public Link {
   Clock patience_ = test::kPatience;
 };
 
+inline constexpr const char* kEnv = "/usr/bin/env";  // finds programs
+inline constexpr const char* kMasterEnd = "ec0";
+inline constexpr const char* kSlaveEnd = "ec1";
+
+// Gives this process a network of its own with a cable. False if it may not.
+inline bool make_cable() {
+  if (!test::own_network() ||
+      test::Program({kEnv, "ip", "link", "add", kMasterEnd, "type", "veth", "peer", "name", kSlaveEnd}).wait() != 0) {
+    return false;
+  }
+  for (const char* const end : {"lo", kMasterEnd, kSlaveEnd}) {
+    EXPECT_EQ(test::Program({kEnv, "ip", "link", "set", end, "up"}).wait(), 0);
+  }
+  return true;
+}
+
+// The slaves at the end of the cable. Faults are lines of input.
+inline std::unique_ptr<test::Program> start_drives(std::size_t drives, const std::string& pcap) {
+  std::vector<std::string> command = {ECSIM_PROGRAM, kSlaveEnd};
+  command.insert(command.end(), drives, "drive");
+  command.insert(command.end(), {"--pcap", pcap, "--script", "-"});
+  auto started = std::make_unique<test::Program>(command);
+  EXPECT_TRUE(started->prints("slaves at")) << started->err();
+  return started;
+}
+
 class VethTest : public testing::Test {
  protected:
-  static constexpr const char* kEnv = "/usr/bin/env";  // finds programs
-  static constexpr const char* kMasterEnd = "ec0";
-  static constexpr const char* kSlaveEnd = "ec1";
-
   void SetUp() override {
-    if (!test::own_network() ||
-        test::Program({kEnv, "ip", "link", "add", kMasterEnd, "type", "veth", "peer", "name", kSlaveEnd}).wait() != 0) {
+    if (!make_cable()) {
       GTEST_SKIP() << "no right to a network with a veth pair of its own";
-    }
-    for (const char* const end : {kMasterEnd, kSlaveEnd}) {
-      ASSERT_EQ(test::Program({kEnv, "ip", "link", "set", end, "up"}).wait(), 0);
     }
     folder_ = std::filesystem::temp_directory_path() / ("indurop_veth_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_);
@@ -83,14 +101,7 @@ class VethTest : public testing::Test {
     }
   }
 
-  // Starts the slaves. Faults are lines of input.
-  void simulate(std::size_t drives) {
-    std::vector<std::string> command = {ECSIM_PROGRAM, kSlaveEnd};
-    command.insert(command.end(), drives, "drive");
-    command.insert(command.end(), {"--pcap", pcap(), "--script", "-"});
-    slaves_ = std::make_unique<test::Program>(command);
-    ASSERT_TRUE(slaves_->prints("slaves at")) << slaves_->err();
-  }
+  void simulate(std::size_t drives) { slaves_ = start_drives(drives, pcap()); }
   // Ends them; the frames are in the file then.
   void end_simulation() {
     slaves_->signal(SIGTERM);

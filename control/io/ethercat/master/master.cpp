@@ -58,12 +58,7 @@ void Master::plan_frames() {
   }
 }
 
-void Master::cycle(Clock now) noexcept {
-  for (Data& data : data_) {
-    data.fresh = false;
-  }
-  receive(now);
-  expire(now);
+void Master::send(Clock now) noexcept {
   send_process();
   if (!service_.is_out) {
     send_service(now);
@@ -71,6 +66,14 @@ void Master::cycle(Clock now) noexcept {
 }
 
 void Master::receive(Clock now) noexcept {
+  for (Data& data : data_) {
+    data.fresh = false;
+  }
+  take_frames(now);
+  expire(now);
+}
+
+void Master::take_frames(Clock now) noexcept {
   std::array<std::uint8_t, kMaxFrame + 8> buffer{};
   for (unsigned i = 0; i < kMaxReceived; ++i) {
     const std::size_t size = link_.receive(buffer);
@@ -162,7 +165,7 @@ void Master::expire(Clock now) noexcept {
   }
 }
 
-void Master::send(Frame& frame) noexcept {
+void Master::send_frame(Frame& frame) noexcept {
   if (!link_.send(frame.builder.finish())) {
     ++counters_.not_sent;
     slots_[frame.index] = Slot::Free;
@@ -189,7 +192,7 @@ void Master::send_process() noexcept {
         frame.builder.fill(*at, live ? data.outputs : plan.safe_outputs);
       }
     }
-    send(frame);
+    send_frame(frame);
   }
 }
 
@@ -215,7 +218,7 @@ void Master::send_service(Clock now) noexcept {
   }
   if (!service_.items.empty()) {
     ++next_index_;
-    send(service_);
+    send_frame(service_);
     if (!service_.is_out) {
       for (const Item& item : service_.items) {
         slaves_[item.place].lost(now);

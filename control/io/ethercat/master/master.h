@@ -33,7 +33,14 @@ class Master {
   Master& operator=(const Master&) = delete;
   ~Master() = default;
 
-  void cycle(Clock now) noexcept;
+  // One cycle: takes what came back of the last one, then sends. An application that has to see its inputs before it
+  // writes its outputs calls the two halves itself.
+  void cycle(Clock now) noexcept {
+    receive(now);
+    send(now);
+  }
+  void receive(Clock now) noexcept;
+  void send(Clock now) noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return plans_.size(); }
   [[nodiscard]] const SlavePlan& plan(std::size_t place) const noexcept { return plans_[place]; }
@@ -75,7 +82,7 @@ class Master {
   enum class Slot : std::uint8_t { Free, Out, Lost, Back };
 
   void plan_frames();
-  void receive(Clock now) noexcept;
+  void take_frames(Clock now) noexcept;
   void take_frame(Bytes bytes, Clock now) noexcept;
   void take_process(const Frame& frame, Bytes bytes, Clock now) noexcept;
   void take_service(const Frame& frame, Bytes bytes, Clock now) noexcept;
@@ -83,7 +90,7 @@ class Master {
   void expire(Clock now) noexcept;
   void send_process() noexcept;
   void send_service(Clock now) noexcept;
-  void send(Frame& frame) noexcept;
+  void send_frame(Frame& frame) noexcept;
 
   Link& link_;
   std::vector<SlavePlan> plans_;

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/io/ethercat_bus.h"
+
+#include <fmt/format.h>
+#include <indurop/irp.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/rt/clock.h"
+#include "store/runtime/host.h"
+
+namespace indurop::io {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
+constexpr milliseconds kRetry{500};
+constexpr milliseconds kPoll{20};
+constexpr std::uint32_t kFirstAddress = 0x10000;  // of the process data on the bus
+
+ethercat::Clock now() noexcept {
+  return rt::MonoClock::now().time_since_epoch();
+}
+
+std::string name_of_object(config::IoObject object) {
+  return fmt::format("{:04x}:{:02x}", object.index, object.subindex);
+}
+
+// What a device can name.
+std::string objects_of(const std::vector<ethercat::Pdo>& pdos) {
+  std::string names;
+  for (const ethercat::Pdo& pdo : pdos) {
+    for (const ethercat::PdoEntry& entry : pdo.entries) {
+      if (entry.index != 0 && pdo.sync_manager != 0xFF) {
+        names += (names.empty() ? "" : ", ") + name_of_object({entry.index, entry.subindex});
+      }
+    }
+  }
+  return names.empty() ? "none" : names;
+}
+
+}  // namespace
+
+void EthercatBus::EventQueue::push(const ethercat::Event& event) noexcept {
+  const std::size_t at = written_.load(std::memory_order_relaxed);
+  if (at - read_.load(std::memory_order_acquire) < events_.size()) {
+    events_[at % events_.size()] = event;
+    written_.store(at + 1, std::memory_order_release);
+  }
+}
+
+bool EthercatBus::EventQueue::pop(ethercat::Event& event) noexcept {
+  const std::size_t at = read_.load(std::memory_order_relaxed);
+  if (at == written_.load(std::memory_order_acquire)) {
+    return false;
+  }
+  event = events_[at % events_.size()];
+  read_.store(at + 1, std::memory_order_release);
+  return true;
+}
+
+EthercatBus::~EthercatBus() {
+  stop();
+}
+
+std::size_t EthercatBus::add(EthercatMember member) {
+  members_.push_back(std::move(member));
+  return members_.size() - 1;
+}
+
+bool EthercatBus::start() {
+  if (thread_.joinable()) {
+    return true;
+  }
+  auto thread = rt::Thread::start({"irp-ethercat", 0, -1, kStackBytes}, [this, module = runtime::current_module()] {
+    runtime::set_current_module(module);
+    work();
+  });
+  if (!thread) {
+    return false;
+  }
+  thread_ = std::move(thread).value();
+  return true;
+}
+
+void EthercatBus::stop() {
+  if (!thread_.joinable()) {
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+  if (owned_ != nullptr) {
+    ethercat::FrameBuilder builder(ethercat::kMasterMac);
+    const std::array<std::uint8_t, 2> init = {static_cast<std::uint8_t>(ethercat::AlState::Init) | ethercat::kAlError,
+                                              0};
+    builder.add(ethercat::Command::Bwr, 0, ethercat::address_of(0, ethercat::reg::kAlControl), init);
+    link_->send(builder.finish());
+  }
+  ready_ = nullptr;
+  running_ = nullptr;
+  owned_.reset();
+  link_.reset();
+}
+
+ethercat::Master* EthercatBus::begin_turn() noexcept {
+  if (turn_ == 0) {
+    running_ = ready_.load(std::memory_order_acquire);
+    if (running_ != nullptr) {
+      running_->master.receive(now());
+    }
+  }
+  return running_ == nullptr ? nullptr : &running_->master;
+}
+
+void EthercatBus::end_turn() noexcept {
+  turn_ = (turn_ + 1) % members_.size();
+  if (turn_ != 0 || running_ == nullptr) {
+    return;
+  }
+  running_->master.send(now());
+  ethercat::Event event;
+  while (running_->master.next_event(event)) {
+    events_.push(event);
+  }
+}
+
+// --- the thread ---
+
+bool EthercatBus::wait(milliseconds time) {
+  std::unique_lock lock(mutex_);
+  return !wake_.wait_for(lock, time, [this] { return stop_; });
+}
+
+void EthercatBus::work() {
+  do {
+    report(prepare());
+  } while (owned_ == nullptr && wait(kRetry));
+  ready_.store(owned_.get(), std::memory_order_release);
+  while (wait(kPoll)) {
+    report_carrier();
+    report_events();
+  }
+}
+
+void EthercatBus::report(const std::string& problem) {
+  if (!problem.empty() && std::exchange(reported_, problem) != problem) {
+    irp::printf("EtherCAT %s: %s; trying again\n", interface_, problem);
+  }
+}
+
+void EthercatBus::report_carrier() {
+  const bool has_carrier = link_->has_carrier();
+  if (std::exchange(had_carrier_, has_carrier) != has_carrier) {
+    irp::printf(has_carrier ? "EtherCAT %s: the link is back\n"
+                            : "EtherCAT %s: no link; check the cable, and the power of the first slave\n",
+                interface_);
+  }
+}
+
+void EthercatBus::report_events() {
+  ethercat::Event event;
+  while (events_.pop(event)) {
+    irp::printf("EtherCAT %s: %s\n", interface_, describe(event, owned_->master.plan(event.slave).name));
+  }
+}
+
+// Returns what is wrong; nothing if the bus is ready for the tick.
+std::string EthercatBus::prepare() {
+  auto link = ethercat::PacketLink::open(interface_);
+  if (!link) {
+    return link.error();
+  }
+  if (!(*link)->has_carrier()) {
+    return "no link; check the cable, and the power of the first slave";
+  }
+  const auto found = ethercat::Scan(**link, [&link] {
+                       (*link)->wait(milliseconds(1));
+                       return now();
+                     }).run();
+  if (!found) {
+    return found.error();
+  }
+  if (std::string wrong = check(*found); !wrong.empty()) {
+    return wrong;
+  }
+  std::vector<ethercat::SlavePlan> plans;
+  std::uint32_t logical = kFirstAddress;
+  for (const ethercat::FoundSlave& slave : *found) {
+    plans.push_back(ethercat::plan_of(slave.sii, logical));
+    logical += static_cast<std::uint32_t>(plans.back().output_bytes + plans.back().input_bytes);
+  }
+  link_ = std::move(*link);
+  owned_ = std::make_unique<Running>(*link_, std::move(plans));
+  make_fields(*found, *owned_);
+  return {};
+}
+
+std::string EthercatBus::check(const std::vector<ethercat::FoundSlave>& found) const {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (!found[i].problem.empty()) {
+      return fmt::format("slave {}: {}", i, found[i].problem);
+    }
+  }
+  for (const EthercatMember& member : members_) {
+    const auto place = static_cast<std::size_t>(member.slave.position);
+    if (place >= found.size()) {
+      return fmt::format(
+          "device {} is slave {}, and {} answer, from 0 on; check the cable after the last one, or the "
+          "position in the file",
+          member.device, place, found.size());
+    }
+    const ethercat::Identity& identity = found[place].sii.identity;
+    const auto differs = [](const std::optional<std::uint32_t>& wanted, std::uint32_t is) {
+      return wanted && *wanted != is;
+    };
+    if (differs(member.slave.vendor, identity.vendor) || differs(member.slave.product, identity.product) ||
+        differs(member.slave.revision, identity.revision)) {
+      return fmt::format(
+          "slave {}, device {}: it is {}, vendor 0x{:x}, product 0x{:x}, revision 0x{:x}, and the file "
+          "says another one; `indurop io scan {}` shows what is there",
+          place, member.device, found[place].sii.name, identity.vendor, identity.product, identity.revision,
+          interface_);
+    }
+  }
+  return {};
+}
+
+void EthercatBus::make_fields(const std::vector<ethercat::FoundSlave>& found, Running& running) const {
+  for (const EthercatMember& member : members_) {
+    const ethercat::Sii& sii = found[static_cast<std::size_t>(member.slave.position)].sii;
+    running.outputs.push_back(fields_of(member, member.outputs, sii.outputs));
+    running.inputs.push_back(fields_of(member, member.inputs, sii.inputs));
+  }
+}
+
+EthercatBus::Fields EthercatBus::fields_of(const EthercatMember& member, const std::vector<config::IoPoint>& points,
+                                           const std::vector<ethercat::Pdo>& pdos) const {
+  Fields fields;
+  for (const config::IoPoint& point : points) {
+    fields.push_back(find_field(pdos, point.object));
+    if (!fields.back()) {
+      irp::printf("I/O device %s: the slave has no %s %s (%s) in its process data; it has %s\n", member.device,
+                  point.output ? "output" : "input", point.at, name_of_object(point.object), objects_of(pdos));
+    }
+  }
+  return fields;
+}
+
+}  // namespace indurop::io

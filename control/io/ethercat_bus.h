@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// One EtherCAT bus for all of its slaves that are devices of this module. A thread of its own opens the interface,
+// finds out who is on the cable and says what happens there; the exchange itself belongs to the tick.
+
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "control/io/ethercat/link/packet_link.h"
+#include "control/io/ethercat/master/master.h"
+#include "control/io/ethercat/master/scan.h"
+#include "control/io/ethercat_field.h"
+#include "core/rt/thread.h"
+
+namespace indurop::io {
+
+// What a device wants of its slave.
+struct EthercatMember {
+  std::string device;
+  config::IoSlave slave;
+  std::vector<config::IoPoint> outputs;
+  std::vector<config::IoPoint> inputs;
+};
+
+class EthercatBus {
+ public:
+  explicit EthercatBus(std::string interface) : interface_(std::move(interface)) {}
+  EthercatBus(const EthercatBus&) = delete;
+  EthercatBus& operator=(const EthercatBus&) = delete;
+  ~EthercatBus();
+
+  // Before start(). Returns the number of the member.
+  std::size_t add(EthercatMember member);
+  // Starts the thread, whose messages are those of the calling module. False: the system has no thread. Does nothing if
+  // it was started already.
+  bool start();
+  // Brings all slaves to INIT and ends the thread. No tick may run any more.
+  void stop();
+
+  // In the tick, each member once: the first one takes what came back, the last one sends. Null: there are no slaves
+  // yet. Real-time safe.
+  ethercat::Master* begin_turn() noexcept;
+  void end_turn() noexcept;
+  // Where the points of a member are in its process data; only after begin_turn() returned a master.
+  using Fields = std::vector<std::optional<EthercatField>>;
+  [[nodiscard]] const Fields& outputs(std::size_t member) const noexcept { return running_->outputs[member]; }
+  [[nodiscard]] const Fields& inputs(std::size_t member) const noexcept { return running_->inputs[member]; }
+
+ private:
+  struct Running {
+    explicit Running(ethercat::Link& link, std::vector<ethercat::SlavePlan> plans) : master(link, std::move(plans)) {}
+    ethercat::Master master;
+    std::vector<Fields> outputs;  // by member
+    std::vector<Fields> inputs;
+  };
+  // What the tick tells the thread: one writes, one reads.
+  class EventQueue {
+   public:
+    void push(const ethercat::Event& event) noexcept;
+    bool pop(ethercat::Event& event) noexcept;
+
+   private:
+    std::array<ethercat::Event, 256> events_{};
+    std::atomic<std::size_t> written_{0};
+    std::atomic<std::size_t> read_{0};
+  };
+
+  void work();
+  [[nodiscard]] std::string prepare();
+  [[nodiscard]] std::string check(const std::vector<ethercat::FoundSlave>& found) const;
+  void make_fields(const std::vector<ethercat::FoundSlave>& found, Running& running) const;
+  [[nodiscard]] Fields fields_of(const EthercatMember& member, const std::vector<config::IoPoint>& points,
+                                 const std::vector<ethercat::Pdo>& pdos) const;
+  void report(const std::string& problem);
+  void report_events();
+  void report_carrier();
+  bool wait(std::chrono::milliseconds time);
+
+  std::string interface_;
+  std::vector<EthercatMember> members_;
+  std::unique_ptr<ethercat::PacketLink> link_;
+  std::unique_ptr<Running> owned_;
+  std::atomic<Running*> ready_{nullptr};
+  Running* running_ = nullptr;  // the tick's
+  std::size_t turn_ = 0;        // members that had theirs in this tick
+  EventQueue events_;
+  std::string reported_;
+  bool had_carrier_ = true;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stop_ = false;  // guarded by the mutex
+  rt::Thread thread_;
+};
+
+}  // namespace indurop::io

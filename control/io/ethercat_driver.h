@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A slave of an EtherCAT bus as a device of I/O dispatch: points are objects in its process data.
+
+#pragma once
+
+#include <memory>
+
+#include "control/io/driver.h"
+#include "control/io/ethercat_bus.h"
+
+namespace indurop::io {
+
+class EthercatDriver final : public Driver {
+ public:
+  EthercatDriver(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
+                 std::span<const config::IoPoint> inputs, std::shared_ptr<EthercatBus> bus);
+
+  [[nodiscard]] bool in_tick() const noexcept override { return true; }
+  bool open() override { return bus_->start(); }
+  Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) override;
+  void close() noexcept override { bus_->stop(); }
+  [[nodiscard]] std::string problem() const override { return "the system has no thread for the bus"; }
+
+ private:
+  Outcome exchange(ethercat::Master& master, std::span<Sample> outputs, std::span<Sample> inputs) const noexcept;
+
+  std::shared_ptr<EthercatBus> bus_;
+  std::size_t member_;
+  std::size_t place_;
+};
+
+}  // namespace indurop::io

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// A node moves drives over EtherCAT: ioconfig.xml names slaves of a bus, here simulated ones at a veth pair.
+#include "node_of_drives.h"
+
+namespace indurop::test {
+namespace {
+
+TEST_F(EthercatNode, A_drive_moves_as_the_program_commands) {
+  simulate(2);
+  Program& sut = run_node_with_two_drives();
+  EXPECT_TRUE(moves()) << sut.out() << sut.err();
+  EXPECT_EQ(number("AXIS1_IN.error"), 0);
+  EXPECT_EQ(number("AXIS1_IN.mode"), 8);
+  EXPECT_TRUE(value<bool>("TEST_CELL::link_good"));
+  EXPECT_EQ(value<std::uint8_t>("TEST_CELL::I0_quality"), 1);
+  EXPECT_TRUE(sut.prints("EtherCAT ec0: slave 1 (InduRoP simulated drive): operates"));
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0) << sut.err();
+}
+
+TEST_F(EthercatNode, A_pulled_drive_is_named_and_comes_back) {
+  simulate(2);
+  Program& sut = run_node_with_two_drives();
+  ASSERT_TRUE(moves()) << sut.out() << sut.err();
+  drives_->input("0s power_off slave=1 for=300ms\n");
+  EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 2; }));
+  EXPECT_TRUE(sut.prints("EtherCAT ec0: slave 1 (InduRoP simulated drive): does not answer; check its power"));
+  EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 1; })) << sut.out();
+  EXPECT_TRUE(moves());
+}
+
+TEST_F(EthercatNode, A_bus_that_is_not_there_yet_is_waited_for) {
+  Program& sut = run_node_with_two_drives();
+  EXPECT_TRUE(
+      sut.prints("EtherCAT ec0: no slave answers; check the cable, and the power of the first slave; trying "
+                 "again"));
+  EXPECT_FALSE(value<bool>("TEST_CELL::link_good"));
+  EXPECT_GT(value<std::uint32_t>("TEST_CELL::link_errors"), 0U);
+  simulate(1);
+  EXPECT_TRUE(sut.prints("EtherCAT ec0: device axis2 is slave 1, and 1 answer, from 0 on; check the cable"));
+  drives_.reset();
+  simulate(2);
+  EXPECT_TRUE(moves()) << sut.out() << sut.err();
+}
+
+TEST_F(EthercatNode, Another_device_than_the_file_says_is_not_used) {
+  simulate(1);
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0' slave='0' vendor='0x2' quality='TEST_CELL::link_good'\n"
+      "  in='TEST_CELL::AXIS1_IN'/>");
+  EXPECT_TRUE(
+      sut.prints("EtherCAT ec0: slave 0, device axis1: it is InduRoP simulated drive, vendor 0x0, product 0x49525001, "
+                 "revision 0x1, and the file says another one; `indurop io scan ec0` shows what is there"))
+      << sut.out();
+  EXPECT_FALSE(value<bool>("TEST_CELL::link_good"));
+}
+
+TEST_F(EthercatNode, An_object_that_the_slave_does_not_map_is_named) {
+  simulate(1);
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0' slave='0' quality='TEST_CELL::link_good'>\n"
+      "  <input variable='speeds[1]' at='7000:1' quality='TEST_CELL::I0_quality'/>\n"
+      "  <input variable='TEST_CELL::AXIS1_IN.status' at='status'/>\n"
+      "</device>");
+  EXPECT_TRUE(
+      sut.prints("I/O device axis1: the slave has no input 7000:1 (7000:01) in its process data; it has "
+                 "603f:00, 6041:00, 6061:00, 6064:00"))
+      << sut.out();
+  EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 3; }));
+  EXPECT_TRUE(wait_until([&] { return number("AXIS1_IN.status") != 0; })) << "the other points are exchanged";
+}
+
+}  // namespace
+}  // namespace indurop::test
