@@ -43,7 +43,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   }
   jogging_.step(in.jog, mode_.permits_jogging());
   overrides_.step(in, queue_.interrupted(), mode_, jogging_.on());
-  robot_.job.watch(in.single_step, in.breakpoints);
+  robot_.job.set_pauses(in.single_step, in.breakpoints);
   plans_.expect_work(robot_.states.powered());
   run_state(signals);
   gate_.pass();

@@ -52,7 +52,7 @@ void LastGate::check_clear() noexcept {
     FaultText why;
     describe(fault, robot_.tool.places().clearance(), why);
     group_.trip(fault.code, 0, 1);
-    robot_.job.say(why);
+    robot_.job.set_message(why);
   }
 }
 

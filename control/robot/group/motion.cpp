@@ -136,7 +136,7 @@ void Group::motion_failed(const Fault& fault, int source, std::uint32_t ticket) 
   }
   job.fail(fault, why, source);
   if (!by_job && fault.pair >= 0) {
-    job.say(why);
+    job.set_message(why);
   }
   finish_service(Fault{fault.code, fault.axis});
   resuming_.cancel_way_back();

@@ -29,7 +29,7 @@ void Reloading::take_result(bool wanted, bool possible, Signals& signals) noexce
   if (loader_.crash()[0] != '\0') {
     group_.break_down("the thread that reads jobs", loader_.crash());
   } else if (wanted && loader_.program() == nullptr) {
-    robot_.job.say(loader_.why());
+    robot_.job.set_message(loader_.why());
     group_.finish_service(ErrorCode::Line);
   } else if (wanted && !possible) {
     group_.finish_service(ErrorCode::State);
@@ -44,7 +44,7 @@ ErrorCode Reloading::take_program(Program& program, Signals& signals) noexcept {
   const std::string& held = robot_.tool.tool().name;
   const auto same = std::find_if(tools.begin(), tools.end(), [&](const Tool& tool) { return tool.name == held; });
   if (same == tools.end()) {
-    robot_.job.say("the tool that is held is not in the files any more; lay it down first (SVC_AD_TOOL 0)");
+    robot_.job.set_message("the tool that is held is not in the files any more; lay it down first (SVC_AD_TOOL 0)");
     return ErrorCode::Tool;
   }
   const auto tool = static_cast<int>(same - tools.begin());

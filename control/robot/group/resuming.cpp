@@ -67,7 +67,7 @@ void Resuming::say_how_far(const Joints& to) noexcept {
       text, sizeof text,
       "the robot is %.0f mm (axis %d: %.0f deg) from where its job left the path; %.0f mm (%.0f deg) is the most", away,
       static_cast<int>(axis) + 1, degrees(turned), robot_.parts.settings.regain_distance, degrees(kMostTurned));
-  robot_.job.say(text);
+  robot_.job.set_message(text);
 }
 
 ErrorCode Resuming::resume() noexcept {

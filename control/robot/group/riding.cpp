@@ -111,7 +111,7 @@ ErrorCode Riding::track(const Command& command, bool turns) noexcept {
     FaultText why;
     std::snprintf(why, sizeof why, "belt %d is not told: its reader has to write MC_BELT[%d] in each period, for 0.4 s",
                   carrier.belt + 1, carrier.belt);
-    robot_.job.say(why);
+    robot_.job.set_message(why);
     return ErrorCode::Belt;
   }
   get_off();
@@ -150,7 +150,7 @@ void Riding::lose_product(const char* why) noexcept {
     group_.stop_for(Fault{ErrorCode::Belt});
   }
   leave(false);
-  robot_.job.say(text);
+  robot_.job.set_message(text);
 }
 
 ErrorCode Riding::join() noexcept {
@@ -299,7 +299,7 @@ void Riding::drop(ErrorCode code) noexcept {
     FaultText why;
     std::snprintf(why, sizeof why, "the tool fell off belt %d: %s; ride slower, nearer", tracking_.ridden().belt + 1,
                   to_string(code));
-    robot_.job.say(why);
+    robot_.job.set_message(why);
   }
   tracking_.drop();
   held_ = false;

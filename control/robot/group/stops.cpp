@@ -93,7 +93,7 @@ void Stops::stop_for_mode(ErrorCode code) noexcept {
   group_.set_job_aside();
   if (robot_.job.running()) {
     robot_.job.stop();
-    robot_.job.say(to_string(code));
+    robot_.job.set_message(to_string(code));
   }
   group_.finish_service(code);
   group_.drop_motions(code);

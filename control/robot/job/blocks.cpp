@@ -9,12 +9,6 @@
 
 namespace indurop::robot {
 
-namespace {
-
-constexpr std::size_t kDeepest = 8;
-
-}  // namespace
-
 // Parses "IF ... GOTO label" in one line, or the beginning of a block.
 void BlockReader::if_goto() {
   const int formula = expressions_.read("a condition");
@@ -74,8 +68,8 @@ void BlockReader::for_block() {
     line_.error(step, "a FOR with STEP 0 would never end");
   }
   const int counter = line_.failed() ? -1 : known >= 0 ? known : expressions_.declare(name);
-  if (line_.failed() || draft_.job().variables.size() >= kMostVariables) {
-    line_.error(name, "more than " + std::to_string(kMostVariables) + " variables; split the job and use CALL");
+  if (line_.failed() || draft_.job().variables.size() >= kMaxVariables) {
+    line_.error(name, "more than " + std::to_string(kMaxVariables) + " variables; split the job and use CALL");
     return;
   }
   const int limit = static_cast<int>(draft_.job().variables.size());
@@ -104,8 +98,8 @@ void BlockReader::loop() {
   }
   const auto loops = std::count_if(blocks_.begin(), blocks_.end(),
                                    [](const Block& block) { return std::string_view(block.word) == "LOOP"; });
-  if (static_cast<std::size_t>(loops) >= kDeepest) {
-    line_.error(line_.first(), "at most " + std::to_string(kDeepest) + " LOOPs inside each other; use CALL");
+  if (static_cast<std::size_t>(loops) >= kMaxLoops) {
+    line_.error(line_.first(), "at most " + std::to_string(kMaxLoops) + " LOOPs inside each other; use CALL");
   }
   blocks_.push_back({"LOOP", line_.number(), draft_.next() - 1, kNone, {}, -1, 1, false});
 }

@@ -68,8 +68,8 @@ int ExpressionReader::declare(const JobToken& name) {
     line_.error(name, "there is already a variable " + in_quotes(name.text));
     return -1;
   }
-  if (draft_.job().variables.size() >= kMostVariables) {
-    line_.error(name, "more than " + std::to_string(kMostVariables) + " variables; split the job and use CALL");
+  if (draft_.job().variables.size() >= kMaxVariables) {
+    line_.error(name, "more than " + std::to_string(kMaxVariables) + " variables; split the job and use CALL");
     return -1;
   }
   draft_.job().variables.emplace_back(name.text);

@@ -71,9 +71,9 @@ void FlowReader::arm() {
   } else if (!line_.failed() && !line_.accept("CALL")) {
     line_.error(line_.peek(),
                 "expected CALL and the name of a job, found " + JobLine::shown(line_.peek()) + "; ON I4 CALL eject");
-  } else if (!line_.failed() && draft_.book().interrupts.size() >= kMostInterrupts) {
+  } else if (!line_.failed() && draft_.book().interrupts.size() >= kMaxInterrupts) {
     line_.error(line_.first(),
-                "there are more than " + std::to_string(kMostInterrupts) +
+                "there are more than " + std::to_string(kMaxInterrupts) +
                     " ON in these jobs; have a PLC program join their conditions, or call one job for several");
   }
   Step& step = draft_.add(Op::Arm);

@@ -1,108 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interrupts of a job: conditions that are monitored while it runs. One that becomes true stops the robot on its path;
-// the job it calls runs, the robot returns, and the interrupted job continues.
+#include "control/robot/job/interrupts.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "control/robot/job/runner.h"
-
 namespace indurop::robot {
 
-bool JobRunner::holds(int interrupt, Signals& signals) const noexcept {
-  const auto formula = static_cast<std::size_t>(book_.interrupts[static_cast<std::size_t>(interrupt)].formula);
-  const double value = book_.formulas[formula].value({}, signals);
+void Interrupts::reset() noexcept {
+  all_ = {};
+  phase_ = Phase::None;
+}
+
+bool Interrupts::is_true(std::size_t interrupt, Signals& signals) const noexcept {
+  const double value = book_.formulas[static_cast<std::size_t>(book_.interrupts[interrupt].formula)].value({}, signals);
   return !std::isnan(value) && value != 0;
 }
 
-// Arms an interrupt. A condition that is already true has to become false before it triggers.
-JobRunner::Next JobRunner::arm(const Step& step, Signals& signals) noexcept {
-  if (step.op == Op::Arm) {
-    Watched& one = watched_[static_cast<std::size_t>(step.slot)];
-    one = one.on ? one : Watched{true, holds(step.slot, signals), false};
-    return Next::Go;
+void Interrupts::arm(int interrupt, Signals& signals) noexcept {
+  const auto i = static_cast<std::size_t>(interrupt);
+  if (!all_[i].armed) {
+    all_[i] = {true, is_true(i, signals), false};
   }
+}
+
+void Interrupts::disarm(int job) noexcept {
   for (std::size_t i = 0; i < book_.interrupts.size(); ++i) {
-    watched_[i] = book_.interrupts[i].job == step.index ? Watched{} : watched_[i];
+    all_[i] = book_.interrupts[i].job == job ? Monitored{} : all_[i];
   }
-  return Next::Go;
 }
 
-// Called once per period. Returns true if the job does nothing else in this period.
-bool JobRunner::interrupt(Signals& signals, MotionPort& port) noexcept {
+void Interrupts::monitor(Signals& signals) noexcept {
   for (std::size_t i = 0; i < book_.interrupts.size(); ++i) {
-    Watched& one = watched_[i];
-    if (one.on) {
-      const bool now = holds(static_cast<int>(i), signals);
-      one.pending = one.pending || (now && !one.was);
-      one.was = now;
+    Monitored& one = all_[i];
+    if (one.armed) {
+      const bool now = is_true(i, signals);
+      one.pending = one.pending || (now && !one.was_true);
+      one.was_true = now;
     }
   }
-  if (serving_ == Serving::None) {
-    const auto* const first =
-        std::find_if(watched_.begin(), watched_.end(), [](const Watched& each) { return each.pending; });
-    if (first == watched_.end()) {
-      return false;
-    }
-    if (depth_ + 1 >= kDeepest) {
-      fail({ErrorCode::Line}, "an interrupt came here, but jobs call each other too deep for another one", 0);
-      return true;
-    }
-    served_ = static_cast<int>(first - watched_.begin());
-    serving_ = Serving::Leaving;
-  }
-  if (serving_ == Serving::Leaving) {
-    if (!port.step_aside()) {
-      return true;
-    }
-    begin_interrupt();
-  } else if (serving_ == Serving::Returning) {
-    if (port.is_back()) {
-      end_interrupt();
-    }
-    return true;
-  }
-  return false;
 }
 
-void JobRunner::begin_interrupt() noexcept {
-  interrupted_ = {state_, depth_, waited_, modal_, tool_, triggers_, present_, since_, in_job_};
-  watched_[static_cast<std::size_t>(served_)].pending = false;
-  serving_ = Serving::Runs;
-  state_ = JobState::Runs;
-  waited_ = 0;
-  triggers_ = {};
-  in_job_ = false;
-  ++depth_;
-  frame() = {};
-  frame().job = book_.interrupts[static_cast<std::size_t>(served_)].job;
+bool Interrupts::any_pending() const noexcept {
+  return std::any_of(all_.begin(), all_.end(), [](const Monitored& each) { return each.pending; });
 }
 
-JobRunner::Next JobRunner::leave_interrupt(MotionPort& port) noexcept {
-  const bool waits = std::any_of(triggers_.begin(), triggers_.end(), [](const Trigger& each) { return each.waits; });
-  Fault fault;
-  if (!waits && port.settled() && port.come_back(fault)) {
-    serving_ = Serving::Returning;
-  } else if (!fault.ok()) {
-    fail(fault, "this job was called by ON and has ended too far from where the path was left; end it with MOVJ BACK",
-         0);
-  }
-  return Next::Wait;
+void Interrupts::serve_first() noexcept {
+  const auto* const first = std::find_if(all_.begin(), all_.end(), [](const Monitored& each) { return each.pending; });
+  served_ = static_cast<std::size_t>(first - all_.begin());
+  phase_ = Phase::Leaving;
 }
 
-void JobRunner::end_interrupt() noexcept {
-  const Interrupted& left = interrupted_;
-  depth_ = left.depth;
-  state_ = left.state;
-  waited_ = left.waited;
-  modal_ = left.modal;
-  tool_ = left.tool;
-  triggers_ = left.triggers;
-  present_ = left.present;
-  since_ = left.since;
-  in_job_ = left.in_job;
-  serving_ = Serving::None;
-  served_ = -1;
+int Interrupts::begin() noexcept {
+  all_[served_].pending = false;
+  phase_ = Phase::Running;
+  return book_.interrupts[served_].job;
 }
 
 }  // namespace indurop::robot

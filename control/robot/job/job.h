@@ -117,8 +117,9 @@ struct Job {
   std::size_t parameters = 0;
 };
 
-inline constexpr std::size_t kMostVariables = 32;  // per job
-inline constexpr std::size_t kMostInterrupts = 8;  // of all jobs together
+inline constexpr std::size_t kMaxVariables = 32;  // per job
+inline constexpr std::size_t kMaxInterrupts = 8;  // of all jobs together
+inline constexpr std::size_t kMaxLoops = 8;       // inside each other
 
 // A shared variable that jobs use, and the first place where it is used.
 struct NamedVariable {

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "control/robot/job/motion_line.h"
 
 namespace indurop::robot {
 
@@ -12,61 +15,60 @@ constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting continue
 constexpr int kPartsPerStep = 4;     // of formulas; a longer formula counts as several steps
 constexpr int kOffsets = 3;          // x, y, z
 
-}  // namespace
-
-std::span<const Formula> JobRunner::formulas_of(const Step& step) const noexcept {
+std::span<const Formula> formulas_of(const JobBook& book, const Step& step) noexcept {
   if (step.formula < 0) {
     return {};
   }
   const auto first = static_cast<std::size_t>(step.formula);
   switch (step.op) {
     case Op::Call:
-      return std::span(book_.formulas).subspan(first, static_cast<std::size_t>(step.mid));
+      return std::span(book.formulas).subspan(first, static_cast<std::size_t>(step.mid));
     case Op::Move:
-      return std::span(book_.formulas).subspan(first, kOffsets);
+      return std::span(book.formulas).subspan(first, kOffsets);
     default:
-      return std::span(book_.formulas).subspan(first, 1);
+      return std::span(book.formulas).subspan(first, 1);
   }
 }
 
-bool JobRunner::touches_world(const Step& step) const noexcept {
-  const auto formulas = formulas_of(step);
+// Returns whether the step reads or changes the outside world.
+bool touches_world(const JobBook& book, const Step& step) noexcept {
+  const auto formulas = formulas_of(book, step);
   return step.op == Op::Set || step.op == Op::WaitUntil || step.op == Op::WaitTime || step.op == Op::Tool ||
          step.op == Op::Load || step.op == Op::Arm || step.op == Op::Disarm || step.op == Op::Try ||
          step.op == Op::EndTry || step.op == Op::Recover ||
          std::any_of(formulas.begin(), formulas.end(), [](const Formula& each) { return each.looks_out(); });
 }
 
-int JobRunner::cost_of(const Step& step) const noexcept {
+int cost_of(const JobBook& book, const Step& step) noexcept {
   int parts = 0;
-  for (const Formula& formula : formulas_of(step)) {
+  for (const Formula& formula : formulas_of(book, step)) {
     parts += static_cast<int>(formula.size());
   }
   return 1 + parts / kPartsPerStep;
 }
 
+}  // namespace
+
 bool JobRunner::compute(int formula, Signals& signals, double& value) noexcept {
-  value = book_.formulas[static_cast<std::size_t>(formula)].value(frame().variables, signals);
+  value = book_.formulas[static_cast<std::size_t>(formula)].value(jobs_.variables(), signals);
   if (std::isnan(value)) {
     refuse({ErrorCode::Line}, "this has no value; is there a division by 0?");
   }
   return !std::isnan(value);
 }
 
-void JobRunner::modal(const Step& step) noexcept {
+void MotionSettings::apply(const Step& step) noexcept {
   if (step.op == Op::Zone) {
-    modal_.zone = step.value;
-    return;
-  }
-  if (step.op == Op::Acceleration) {
-    modal_.acceleration = step.value;
-    return;
-  }
-  if (step.index == 1) {
-    modal_.tool_speed = step.value;
-  } else {
-    modal_.speed = step.value;
-    modal_.tool_speed = 0;
+    zone = step.value;
+  } else if (step.op == Op::Acceleration) {
+    acceleration = step.value;
+  } else if (step.op == Op::Tool) {
+    tool = step.index;
+  } else if (step.op == Op::Speed && step.index == 1) {
+    tool_speed = step.value;
+  } else if (step.op == Op::Speed) {
+    speed = step.value;
+    tool_speed = 0;
   }
 }
 
@@ -90,64 +92,58 @@ JobReport JobRunner::report(int source) const noexcept {
   report.state = state_;
   report.job = static_cast<std::uint32_t>(job_ + 1);
   const bool moves = running() && source > 0;
-  const int called = moves ? source >> kLineBits : line_job_;
-  report.line = moves ? line_of(source) : line_;
+  const MotionLine shown = moves ? MotionLine::of(source) : MotionLine{line_job_, line_};
+  report.line = shown.line;
   report.cycles = cycles_;
   report.name = job_ >= 0 ? job_of(job_).name.c_str() : "";
-  report.called = job_ >= 0 && called >= 0 ? job_of(called).name.c_str() : report.name;
+  report.called = job_ >= 0 && shown.job >= 0 ? job_of(shown.job).name.c_str() : report.name;
   report.message = message_;
   return report;
 }
 
-const Step* JobRunner::present() const noexcept {
-  const auto& steps = job_of(frame().job).steps;
-  const auto at = static_cast<std::size_t>(frame().step);
-  return at < steps.size() ? &steps[at] : nullptr;
-}
-
 void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcept {
-  if (serving_ != Serving::Leaving || port.place().ticket != 0) {
-    fire(seconds, signals, port);
+  const PathPlace place = port.place();
+  if (!interrupts_.is(Interrupts::Phase::Leaving) || place.ticket != 0) {
+    outputs_.step(seconds, place, port.settled(), signals, pulses_);
   }
-  if (!running() || interrupt(signals, port)) {
+  if (!running() || serve_interrupts(signals, port)) {
     return;
   }
   bool first = true;
   for (int left = kStepsPerPeriod; left > 0 && running(); first = false) {
-    const Step* step = present();
-    left -= step == nullptr ? 1 : cost_of(*step);
+    const Step* step = jobs_.step();
+    left -= step == nullptr ? 1 : cost_of(book_, *step);
     Next next = Next::Wait;
     if (step == nullptr) {
       next = leave(port);
-    } else if (pauses_before(*step)) {
+    } else if (pauses_.before(jobs_)) {
       if (port.settled()) {
         state_ = JobState::Paused;
         line_ = step->line;
-        line_job_ = frame().job;
+        line_job_ = jobs_.job();
       }
       return;
-    } else if (!touches_world(*step) || port.settled()) {
+    } else if (!touches_world(book_, *step) || port.settled()) {
       line_ = step->line;
-      line_job_ = frame().job;
-      last_job_ = frame().job;
-      last_step_ = frame().step;
+      line_job_ = jobs_.job();
+      pauses_.note(jobs_);
       next = run(*step, first ? seconds : 0, signals, port);
     }
     if (next == Next::Wait) {
       return;
     }
     waited_ = 0;
-    free_ = false;
+    pauses_.note_end();
     state_ = running() ? JobState::Runs : state_;
   }
 }
 
 JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
-  if (serving_ == Serving::Runs && depth_ == interrupted_.depth + 1) {
+  if (interrupts_.is(Interrupts::Phase::Running) && jobs_.depth() == interrupted_.depth + 1) {
     return leave_interrupt(port);
   }
-  if (depth_ > 0) {
-    --depth_;
+  if (jobs_.depth() > 0) {
+    jobs_.return_to(jobs_.depth() - 1);
     return Next::Go;
   }
   if (port.settled()) {
@@ -173,56 +169,58 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
       return call(step, signals);
     case Op::Arm:
     case Op::Disarm:
-      next = arm(step, signals);
+      arm(step, signals);
       break;
     case Op::Return:
-      frame().step = static_cast<int>(job_of(frame().job).steps.size());
+      jobs_.leave();
       return Next::Go;
     case Op::Speed:
     case Op::Zone:
     case Op::Acceleration:
-      modal(step);
+      settings_.apply(step);
       break;
     case Op::SetOnPath:
       next = set_on_path(step, signals);
       break;
     case Op::Tool:
     case Op::Load:
-      next = hold(step, port);
+      next = select(step, port);
       break;
     case Op::Set:
     case Op::Assign:
-      next = step.pulse > 0 ? pulse(step, signals) : assign(step, signals);
+      next = set(step, signals);
       break;
     case Op::Try:
     case Op::Recover:
       break;
     case Op::Goto:
-      jump(step.index);
+      jobs_.jump(step.index);
       return Next::Go;
     case Op::If:
     case Op::Unless:
       return branch(step, signals);
     case Op::Again:
     case Op::EndTry:
-      frame().step = step.index;
+      jobs_.go_to(step.index);
       return Next::Go;
     case Op::Loop:
-      loop(step);
+      jobs_.begin_loop(step);
       break;
     case Op::End:
-      end_loop(step);
+      jobs_.end_loop(step);
       return Next::Go;
   }
-  frame().step += next == Next::Go ? 1 : 0;
+  if (next == Next::Go) {
+    jobs_.advance();
+  }
   return next;
 }
 
-JobRunner::Next JobRunner::hold(const Step& step, MotionPort& port) noexcept {
+JobRunner::Next JobRunner::select(const Step& step, MotionPort& port) noexcept {
   if (!(step.op == Op::Tool ? port.take_tool(step.index) : port.take_load(step.index))) {
     return Next::Wait;
   }
-  tool_ = step.op == Op::Tool ? step.index : tool_;
+  settings_.apply(step);
   return Next::Go;
 }
 
@@ -261,41 +259,43 @@ JobRunner::Next JobRunner::move(const Step& step, Signals& signals, MotionPort& 
     command.target.is_pose = step.formula >= 0;
     command.target.pose = port.tip_at(command.target.joints);
   } else {
-    command.target = book_.target(step.index, tool_);
+    command.target = book_.target(step.index, settings_.tool);
   }
   if (step.formula >= 0 && !shift(step, signals, command.target)) {
     return Next::Wait;
   }
   if (step.mid >= 0) {
-    command.mid = book_.target(step.mid, tool_);
+    command.mid = book_.target(step.mid, settings_.tool);
   }
-  command.speed = modal_.speed;
-  command.tool_speed = step.move == Move::Joint ? 0 : modal_.tool_speed;
-  command.zone = modal_.zone;
-  command.acceleration = modal_.acceleration;
+  command.speed = settings_.speed;
+  command.tool_speed = step.move == Move::Joint ? 0 : settings_.tool_speed;
+  command.zone = settings_.zone;
+  command.acceleration = settings_.acceleration;
   command.straight = step.move == Move::Joint && step.value != 0;
   command.more = step.move == Move::Spline && step.value != 0;
-  command.source = frame().job << kLineBits | static_cast<int>(step.line);
-  const auto& steps = job_of(frame().job).steps;
-  const auto behind = static_cast<std::size_t>(frame().step) + 1;
-  command.alone = behind < steps.size() && steps[behind].op == Op::SetOnPath;
+  command.source = MotionLine{jobs_.job(), step.line}.source();
+  const auto following = static_cast<std::size_t>(jobs_.index()) + 1;
+  command.alone = following < jobs_.steps().size() && jobs_.steps()[following].op == Op::SetOnPath;
   command.ticket = ++ticket_;
   if (const Fault fault = port.move(command); !fault.ok()) {
     fail(fault, to_string(fault.code), command.source);
     return Next::Wait;
   }
-  ++frame().step;
+  jobs_.advance();
   return Next::Go;
 }
 
-JobRunner::Next JobRunner::assign(const Step& step, Signals& signals) noexcept {
+JobRunner::Next JobRunner::set(const Step& step, Signals& signals) noexcept {
+  if (step.pulse > 0) {
+    return pulses_.start(static_cast<std::size_t>(step.index), step.pulse, signals) ? Next::Go : Next::Wait;
+  }
   double value = 0;
   if (!compute(step.formula, signals, value)) {
     return Next::Wait;
   }
   const auto index = static_cast<std::size_t>(step.index);
   if (step.op == Op::Assign) {
-    frame().variables[index] = value;
+    jobs_.variables()[index] = value;
   } else {
     pulses_.forget(index);
     signals.write(index, value);
@@ -309,11 +309,11 @@ JobRunner::Next JobRunner::branch(const Step& step, Signals& signals) noexcept {
     return Next::Wait;
   }
   if (step.op == Op::If && value != 0) {
-    jump(step.index);
+    jobs_.jump(step.index);
   } else if (step.op == Op::Unless && value == 0) {
-    frame().step = step.index;
+    jobs_.go_to(step.index);
   } else {
-    ++frame().step;
+    jobs_.advance();
   }
   return Next::Go;
 }
@@ -343,54 +343,39 @@ JobRunner::Next JobRunner::wait_time(const Step& step, double seconds) noexcept 
 }
 
 JobRunner::Next JobRunner::call(const Step& step, Signals& signals) noexcept {
-  if (depth_ + 1 >= kDeepest) {
+  if (jobs_.is_full()) {
     refuse({ErrorCode::Line}, "jobs call each other too deep; does one call itself without end?");
     return Next::Wait;
   }
-  Frame called;
-  called.job = step.index;
+  CallStack::Variables arguments{};
   for (int i = 0; i < step.mid; ++i) {
-    if (!compute(step.formula + i, signals, called.variables[static_cast<std::size_t>(i)])) {
+    if (!compute(step.formula + i, signals, arguments[static_cast<std::size_t>(i)])) {
       return Next::Wait;
     }
   }
-  ++frame().step;
-  ++depth_;
-  frame() = called;
+  jobs_.advance();
+  jobs_.call(step.index, arguments);
   return Next::Go;
 }
 
-void JobRunner::jump(int step) noexcept {
-  Frame& here = frame();
-  here.step = step;
-  // Loops that do not enclose the label are left; one that is entered from outside runs once.
-  const auto& steps = job_of(here.job).steps;
-  int open = 0;
-  for (int i = 0; i < step; ++i) {
-    const Op op = steps[static_cast<std::size_t>(i)].op;
-    open += op == Op::Loop ? 1 : op == Op::End ? -1 : 0;
+JobRunner::Next JobRunner::set_on_path(const Step& step, Signals& signals) noexcept {
+  if (outputs_.is_full()) {
+    return Next::Wait;
   }
-  for (; here.loops < open; ++here.loops) {
-    here.left[static_cast<std::size_t>(here.loops)] = 1;
+  double value = 0;
+  if (step.formula >= 0 && !compute(step.formula, signals, value)) {
+    return Next::Wait;
   }
-  here.loops = open;
+  const bool by_time = step.timeout > 0;
+  outputs_.add({step.index, value, ticket_, by_time, step.mid == 1, by_time ? step.timeout : step.value, step.pulse});
+  return Next::Go;
 }
 
-void JobRunner::loop(const Step& step) noexcept {
-  constexpr double kForEver = 0;
-  frame().left[static_cast<std::size_t>(frame().loops++)] = step.value > 0 ? step.value : kForEver;
-}
-
-void JobRunner::end_loop(const Step& step) noexcept {
-  Frame& here = frame();
-  double& left = here.left[static_cast<std::size_t>(here.loops - 1)];
-  const bool for_ever = left == 0;
-  left -= for_ever ? 0 : 1;
-  if (for_ever || left > 0) {
-    here.step = step.index + 1;
+void JobRunner::arm(const Step& step, Signals& signals) noexcept {
+  if (step.op == Op::Arm) {
+    interrupts_.arm(step.slot, signals);
   } else {
-    --here.loops;
-    ++here.step;
+    interrupts_.disarm(step.index);
   }
 }
 

@@ -6,10 +6,13 @@
 
 #include <indurop/robot/controller.h>
 
-#include <array>
-#include <span>
+#include <cstdint>
 
+#include "control/robot/job/call_stack.h"
+#include "control/robot/job/interrupts.h"
 #include "control/robot/job/job.h"
+#include "control/robot/job/path_outputs.h"
+#include "control/robot/job/pauses.h"
 #include "control/robot/job/pulses.h"
 #include "control/robot/kinematics/errors.h"
 
@@ -41,9 +44,20 @@ class MotionPort {
   [[nodiscard]] virtual bool is_back() const noexcept { return true; }
 };
 
+// Settings of motions that apply until a line changes them.
+struct MotionSettings {
+  double speed = 1;       // part of full speed
+  double tool_speed = 0;  // m/s; 0: that of `speed`
+  double zone = 0;        // m
+  double acceleration = 1;
+  int tool = 0;
+
+  void apply(const Step& step) noexcept;
+};
+
 class JobRunner {
  public:
-  explicit JobRunner(const JobBook& book) noexcept : book_(book) {}
+  explicit JobRunner(const JobBook& book) noexcept : book_(book), jobs_(book), interrupts_(book) {}
 
   // Starts a job. `job` counts from 0 and exists; `line`: where to start, with the settings (speed and so on) of the
   // lines before it. Returns false if there is no step from that line on. Real-time safe, like all functions of this
@@ -55,13 +69,10 @@ class JobRunner {
   [[nodiscard]] bool is_in(int source) const noexcept;
   // Steps back to such a motion: its line is the next one to run.
   void go_back(int source) noexcept;
-  void say(const char* text) noexcept;
+  void set_message(const char* text) noexcept;
   // Sets where to pause: before every line, or before these lines.
-  void watch(bool each, const Breakpoints& lines) noexcept {
-    single_ = each;
-    breakpoints_ = lines;
-  }
-  [[nodiscard]] int tool() const noexcept { return tool_; }
+  void set_pauses(bool each, const Breakpoints& lines) noexcept { pauses_.set(each, lines); }
+  [[nodiscard]] int tool() const noexcept { return settings_.tool; }
   // The load that is held where the job starts.
   [[nodiscard]] int load() const noexcept { return load_; }
   // Ends the job where it is. `why` is kept as message and must outlive this object; null: ended by request.
@@ -89,20 +100,7 @@ class JobRunner {
 
  private:
   enum class Next { Go, Wait };
-  static constexpr int kLineBits = 20;  // MoveCommand::source = job and line
-  static std::uint32_t line_of(int source) noexcept {
-    return static_cast<std::uint32_t>(source) & ((1U << kLineBits) - 1);
-  }
-  static constexpr int kDeepest = 8;
-  struct Frame {
-    int job = 0;
-    int step = 0;
-    int loops = 0;
-    std::array<double, kDeepest> left{};  // times the open loops still run
-    std::array<double, kMostVariables> variables{};
-  };
 
-  [[nodiscard]] const Step* present() const noexcept;
   Next run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept;
   Next move(const Step& step, Signals& signals, MotionPort& port) noexcept;
   // Adds the offset of a motion. Returns false if the offset has no value.
@@ -110,97 +108,48 @@ class JobRunner {
   // Returns false if the formula has no value; the job has then failed.
   bool compute(int formula, Signals& signals, double& value) noexcept;
   Next wait_until(const Step& step, double seconds, Signals& signals) noexcept;
+  Next wait_time(const Step& step, double seconds) noexcept;
   Next set_on_path(const Step& step, Signals& signals) noexcept;
-  // Interrupts (interrupts.cpp).
-  void describe(const char* why, int source) noexcept;
-  void refuse(Fault fault, const char* why) noexcept;
-  Next arm(const Step& step, Signals& signals) noexcept;
-  [[nodiscard]] bool holds(int interrupt, Signals& signals) const noexcept;
-  bool interrupt(Signals& signals, MotionPort& port) noexcept;
+  Next set(const Step& step, Signals& signals) noexcept;
+  Next select(const Step& step, MotionPort& port) noexcept;
+  Next branch(const Step& step, Signals& signals) noexcept;
+  Next call(const Step& step, Signals& signals) noexcept;
+  void arm(const Step& step, Signals& signals) noexcept;
+  Next leave(MotionPort& port) noexcept;
+
+  // Interrupts and errors (runner_breaks.cpp).
+  bool serve_interrupts(Signals& signals, MotionPort& port) noexcept;
   void begin_interrupt() noexcept;
   Next leave_interrupt(MotionPort& port) noexcept;
   void end_interrupt() noexcept;
-  void fire(double seconds, Signals& signals, const MotionPort& port) noexcept;
-  void modal(const Step& step) noexcept;
-  Next hold(const Step& step, MotionPort& port) noexcept;
-  Next assign(const Step& step, Signals& signals) noexcept;
-  Next pulse(const Step& step, Signals& signals) noexcept {
-    return pulses_.start(static_cast<std::size_t>(step.index), step.pulse, signals) ? Next::Go : Next::Wait;
-  }
-  Next branch(const Step& step, Signals& signals) noexcept;
-  Next wait_time(const Step& step, double seconds) noexcept;
-  Next call(const Step& step, Signals& signals) noexcept;
-  [[nodiscard]] std::span<const Formula> formulas_of(const Step& step) const noexcept;
-  [[nodiscard]] int cost_of(const Step& step) const noexcept;
-  [[nodiscard]] bool touches_world(const Step& step) const noexcept;
-  void jump(int step) noexcept;
-  [[nodiscard]] bool pauses_before(const Step& step) const noexcept;
-  void loop(const Step& step) noexcept;
-  void end_loop(const Step& step) noexcept;
-  Next leave(MotionPort& port) noexcept;
+  void describe(const char* why, int source) noexcept;
+  void refuse(Fault fault, const char* why) noexcept;
 
-  [[nodiscard]] Frame& frame() noexcept { return frames_[static_cast<std::size_t>(depth_)]; }
-  [[nodiscard]] const Frame& frame() const noexcept { return frames_[static_cast<std::size_t>(depth_)]; }
   [[nodiscard]] const Job& job_of(int index) const noexcept { return book_.jobs[static_cast<std::size_t>(index)]; }
 
   const JobBook& book_;
   JobState state_ = JobState::Idle;
-  std::array<Frame, kDeepest> frames_{};
-  int depth_ = 0;
-  int job_ = -1;
+  int job_ = -1;  // that was started
+  CallStack jobs_;
   double waited_ = 0;  // s in the present step
-  // Settings that apply until a line changes them.
-  struct Modal {
-    double speed = 1, tool_speed = 0, zone = 0, acceleration = 1;
-  };
-  Modal modal_;
-  int tool_ = 0;
+  MotionSettings settings_;
   int load_ = 0;
-  // An output that is to be set during a motion.
-  struct Trigger {
-    bool waits = false;
-    int signal = 0;
-    double value = 0;
-    std::uint32_t ticket = 0;
-    bool by_time = false, after = false;
-    double amount = 0;  // m or s
-    double pulse = 0;   // s; 0: it is set permanently
-  };
-  using Triggers = std::array<Trigger, 16>;
-  Triggers triggers_{};
+  PathOutputs outputs_;
   Pulses pulses_;
-  // Monitored conditions, in the order of the book.
-  struct Watched {
-    bool on = false;
-    bool was = false;      // value of its condition in the last period
-    bool pending = false;  // it has become true
-  };
-  std::array<Watched, kMostInterrupts> watched_{};
-  enum class Serving { None, Leaving, Runs, Returning };
-  Serving serving_ = Serving::None;
-  int served_ = -1;
+  Interrupts interrupts_;
   // The state to continue with after the interrupt.
   struct Interrupted {
     JobState state = JobState::Runs;
     int depth = -1;
     double waited = 0;
-    Modal modal;
-    int tool = 0;
-    Triggers triggers{};
-    std::uint32_t present = 0;
-    double since = 0;
+    MotionSettings settings;
+    PathOutputs outputs;
     bool in_job = false;
   };
   Interrupted interrupted_;
-  std::uint32_t ticket_ = 0;   // last motion that was commanded
-  std::uint32_t present_ = 0;  // motion that was followed last
-  double since_ = 0;           // s for which this motion has been followed
-  bool single_ = false;
-  Breakpoints breakpoints_{};
-  bool free_ = false;    // the present line does not pause again
+  std::uint32_t ticket_ = 0;  // last motion that was commanded
+  Pauses pauses_;
   bool in_job_ = false;  // started with a line other than the first, and has not moved yet
-  int last_step_ = -1;   // step of last_job_ that ran last
-  int last_job_ = -1;
   std::uint32_t line_ = 0;
   int line_job_ = -1;  // job whose file contains that line
   std::uint32_t cycles_ = 0;

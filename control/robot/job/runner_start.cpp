@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Starts, pauses and continues jobs: at their first line or another one, after a stop, one step further or back.
+
+#include <algorithm>
+#include <cstdio>
+
+#include "control/robot/job/motion_line.h"
+#include "control/robot/job/runner.h"
+
+namespace indurop::robot {
+
+bool JobRunner::start(int job, std::uint32_t line) noexcept {
+  const auto& steps = job_of(job).steps;
+  const auto first = std::find_if(steps.begin(), steps.end(), [&](const Step& each) { return each.line >= line; });
+  if (line > 0 && first == steps.end()) {
+    return false;
+  }
+  state_ = JobState::Runs;
+  jobs_.reset(job);
+  job_ = job;
+  waited_ = 0;
+  settings_ = {};
+  load_ = 0;
+  line_ = 0;
+  line_job_ = job;
+  message_[0] = '\0';
+  outputs_ = {};
+  interrupts_.reset();
+  ticket_ = 0;
+  pauses_.reset();
+  in_job_ = first != steps.begin();
+  for (auto before = steps.begin(); before != first; ++before) {
+    settings_.apply(*before);
+    load_ = before->op == Op::Load ? before->index : load_;
+  }
+  jobs_.jump(static_cast<int>(first - steps.begin()));
+  return true;
+}
+
+void JobRunner::resume() noexcept {
+  if (interrupts_.is(Interrupts::Phase::Leaving)) {
+    interrupts_.end();
+  } else if (interrupts_.is(Interrupts::Phase::Returning)) {
+    end_interrupt();
+  }
+  state_ = JobState::Runs;
+  message_[0] = '\0';
+  pauses_.pass();
+}
+
+bool JobRunner::is_in(int source) const noexcept {
+  return MotionLine::of(source).job == jobs_.job();
+}
+
+void JobRunner::go_back(int source) noexcept {
+  const auto& steps = jobs_.steps();
+  const auto found = std::find_if(steps.begin(), steps.end(), [&](const Step& each) {
+    return each.op == Op::Move && each.line == MotionLine::of(source).line;
+  });
+  jobs_.jump(static_cast<int>(found - steps.begin()));
+  line_ = found->line;
+  line_job_ = jobs_.job();
+  state_ = JobState::Paused;
+  pauses_.reset();
+}
+
+void JobRunner::forget() noexcept {
+  state_ = JobState::Idle;
+  jobs_.reset();
+  job_ = -1;
+  waited_ = 0;
+  outputs_ = {};
+  interrupts_.reset();
+  pauses_.reset();
+  line_ = 0;
+  line_job_ = -1;
+  message_[0] = '\0';
+}
+
+void JobRunner::set_message(const char* text) noexcept {
+  std::snprintf(message_, sizeof message_, "%s", text);
+}
+
+}  // namespace indurop::robot
