@@ -18,7 +18,7 @@ ALLOWED = {
     "control/robot/path/follower.h Follower": (
         {"files": 4, "functions": 66}, "the kept path and the joint motion are classes to be"),
     "control/robot/plan/planner.h Planner": (
-        {"files": 8, "data members": 37, "functions": 50}, "looking ahead, timing and rehearsal are classes to be"),
+        {"files": 8, "data members": 38, "functions": 51}, "looking ahead, timing and rehearsal are classes to be"),
 }
 
 CLASS = re.compile(r"\b(class|struct)\s+(?:\[\[[^\]]*\]\]\s*)?(?:alignas\([^)]*\)\s*)?((?:\w+::)*\w+)\s*(?:final\s*)?"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// All files at once, by a call that POSIX does not have.
 #include "core/rt/open_files.h"
 
 #include <linux/close_range.h>

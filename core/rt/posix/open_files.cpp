@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One file after the other.
 #include "core/rt/open_files.h"
 
 #include <fcntl.h>
