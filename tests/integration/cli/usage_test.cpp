@@ -58,7 +58,7 @@ TEST_F(CommandLine, Options_may_stand_before_the_verb) {
 }
 
 TEST_F(CommandLine, Without_a_node_it_says_how_to_start_one) {
-  for (const char* verb : {"status", "vars", "jitter", "overruns", "log", "audit"}) {
+  for (const char* verb : {"status", "vars", "jitter", "overruns", "log"}) {
     const auto sut = indurop({verb});
     EXPECT_EQ(sut.code, 6) << verb;
     EXPECT_THAT(sut.err, HasSubstr("indurop run module.xml")) << verb;
