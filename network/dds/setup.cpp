@@ -166,7 +166,7 @@ Result<Joined, base::Problem> join_network(const NetworkSettings& settings) {
   }
   const auto id = static_cast<dds_domainid_t>(settings.domain);
   Entity domain(dds_create_domain(id, domain_configuration(settings, interface->name).c_str()));
-  if (!domain.ok()) {
+  if (!domain.ok() && domain.get() != DDS_RETCODE_PRECONDITION_NOT_MET) {
     return base::Problem{fmt::format("DDS domain {}: {}", settings.domain, domain.why())};
   }
   const Qos qos(dds_create_qos());

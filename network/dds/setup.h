@@ -16,7 +16,8 @@ namespace indurop::dds {
 // Returns the domain's configuration for a network interface. Reasons for each line: docs/design/mirror.md.
 std::string domain_configuration(const NetworkSettings& settings, const std::string& interface_name);
 
-// A participant in its own DDS domain object.
+// A participant in its own DDS domain object, or in that of an earlier participant of this process in the same domain:
+// then it ends with that one at the latest, and has its settings.
 class Participant {
  public:
   Participant() = default;

@@ -50,7 +50,7 @@ Server::Server(tools::ServeOptions options, Admission admission, const std::stri
       gate_(std::move(admission.gate), &users_),
       authority_(std::move(admission.authority)),
       audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
-      leases_(audit_),
+      leases_(audit_, options_.link),
       jogs_(audit_),
       api_(gate_, users_, audit_, leases_, jogs_,
            facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
@@ -105,7 +105,7 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
                               : refusal(status::kNotFound, "there is nothing at this path; see /api/v1/openapi.json");
   }
   match.call.who = request.client.name;
-  if (is_remote(match)) {
+  if (match.route->remote != Remote::Same && is_remote(match)) {
     return ask_remote(std::move(match), ticket);
   }
   switch (match.route->pace) {

@@ -11,9 +11,10 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 
 import harness
-from harness import wait_for
+from harness import TOKEN, wait_for
 from plant_test import API, start_agent, take_domain
 from websocket import WebSocket
 
@@ -104,12 +105,13 @@ def test_follows_values_and_says_when_they_are_old(setting):
     client.close()
 
 
-def deploy(setting, domain, *modules):
+def deploy(setting, domain, *modules, board=None):
     """These of tests/modules, every 10 ms, by the board's agent; a module that is there already is replaced."""
+    board = board or setting.node
     for name in modules:
         shutil.copy(pathlib.Path(setting.fake_node).parent / "modules" / f"{name}.so", setting.folder)
     (setting.folder / "plant.xml").write_text(
-        f"""<plant name="{setting.node}"><domain>{domain % 200 + 1}</domain><external>off</external><board name="{setting.node}">""" + "".join(
+        f"""<plant name="{board}"><domain>{domain % 200 + 1}</domain><external>off</external><board name="{board}">""" + "".join(
             f"""<module><filename>./{name}.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>
 <period>10ms</period><priority>{i + 1}</priority></module>""" for i, name in enumerate(modules)) + "</board></plant>\n")
     done = subprocess.run([setting.programs / "indurop", "deploy", "plant.xml", "--health", "300ms", "--domain", str(domain), "--one-host"],
@@ -143,7 +145,6 @@ def test_sets_forces_and_releases_and_logs_it(setting):
         answer = remote.post(base + "/set", {"values": values})
         assert answer.status == 422 and answer.json()["message"], answer.body
         assert looks(near)["value"] == 3, "all or nothing"
-    assert remote.post(base + "/force", {"values": {"looks": 5}, "lease": True}).status == 409
     assert remote.post(base + "/force", {"values": {"looks": 5}, "reason": "stuck"}).status == 200
     forced = wait_for(lambda: remote.get(base + "/forces").json()["forces"], "the force to be seen")
     assert (forced[0]["name"], forced[0]["value"], forced[0]["reason"]) == ("nt::looks", 5, "stuck") and "ana" in forced[0]["who"], forced
@@ -166,6 +167,76 @@ def test_sets_forces_and_releases_and_logs_it(setting):
     done = sorted(one["action"] for one in notes if one["outcome"] == "done" and one["who"] == "ana")
     assert done == ["force", "lock", "lock", "release", "set", "set", "stop"], notes
     assert len([one for one in notes if one["outcome"] not in ("begun", "done")]) >= 7, "what was refused is noted, too"
+    end_deployed(setting, agent)
+
+
+def renewed_beyond(server, base, lease, still):
+    """Renews a lease for longer than it holds without that; `still` holds all the time."""
+    end = time.monotonic() + 1.5 * lease["lease_ns"] / 1e9
+    while time.monotonic() < end:
+        answer = server.post(f"{base}/leases/{lease['lease']}/renew")
+        assert answer.status == 200, answer.body
+        assert still(), "it is renewed"
+        time.sleep(lease["lease_ns"] / 20e9)
+
+
+def test_a_lease_ends_with_its_client(setting):
+    domain, agent, near, remote = begin_deployed(setting)
+    setting.tokens.write_text(f"ana {TOKEN}\nbob {TOKEN[::-1]}\n")
+    setting.end(remote.child)
+    remote = start_remote_server(setting, domain)
+    wait_for(lambda: variables(remote, setting), "variables")
+    base = board_of(setting)
+    forces = lambda: near.get(base + "/forces").json()["forces"]
+    take = lambda: remote.post(base + "/force", {"values": {"looks": 3}, "lease": True, "reason": "stuck"}).json()
+    wrong = remote.post(base + "/force", {"values": {"look": 3}, "lease": True})
+    assert wrong.status == 422, wrong.body
+    lease = take()
+    assert lease["forced"] == ["looks"], lease
+    renew = f"{base}/leases/{lease['lease']}/renew"
+    assert (forces()[0]["lease"], forces()[0]["reason"]) == (True, "stuck"), forces()
+    wait_for(lambda: remote.get(base + "/forces").json()["forces"], "the force to be seen")
+    renewed_beyond(remote, base, lease, forces)
+    assert remote.post(renew, token=TOKEN[::-1]).status == 404, "of another user"
+    assert remote.post(base + "/leases/nothing/renew").status == 404
+    wait_for(lambda: not forces(), "the end of a lease that its client does not renew")
+    assert remote.post(renew).status == 404
+    audit = lambda words: [one for one in remote.get(API + "/audit", Authorization="Bearer " + TOKEN).json()["audit"] if words in one["outcome"]]
+    ended = wait_for(lambda: audit("did not renew it in time"), "a note about it")
+    assert (ended[0]["who"], ended[0]["what"]) == ("ana", "looks=3"), ended
+    lease = take()
+    assert remote.post(f"{base}/leases/{lease['lease']}/end").status == 200
+    wait_for(lambda: not forces(), "the end of a lease that its client has ended")
+    lease = take()
+    done = subprocess.run([setting.programs / "indurop", "unforce", "looks", "--node", setting.node], env=setting.environment, check=False)
+    assert done.returncode == 0 and not forces()
+    wait_for(lambda: remote.post(f"{base}/leases/{lease['lease']}/renew").status == 404, "the loss of what another user has released")
+    assert audit("lost: "), "it is noted"
+    many = []
+    for i in range(32):
+        many.append(remote.post(base + "/force", {"values": {f"block.word[{i}]": 1}, "lease": True}).json()["lease"])
+        assert all(remote.post(f"{base}/leases/{one}/renew").status == 200 for one in many), i
+    full = remote.post(base + "/force", {"values": {"looks": 3}, "lease": True})
+    assert full.status == 422 and "32 forces with a lease" in full.json()["message"], full.body
+    setting.end(remote.child, signal.SIGKILL)
+    wait_for(lambda: not forces(), "the end of leases whose server was killed")
+    end_deployed(setting, agent)
+
+
+def test_a_board_that_does_not_answer_costs_no_lease_of_another_one(setting):
+    domain, agent, near, remote = begin_deployed(setting)
+    other = setting.node + "_other"
+    hung = start_agent(setting, other, domain)
+    deploy(setting, domain, "faulty", board=other)
+    base, of_other = board_of(setting), f"{API}/boards/{other}"
+    force = {"values": {"looks": 3}, "lease": True}
+    lost = wait_for(lambda: (answer := remote.post(of_other + "/force", force)).status == 200 and answer, "a lease of the other board").json()
+    lease = remote.post(base + "/force", force).json()
+    hung.send_signal(signal.SIGSTOP)
+    renewed_beyond(remote, base, lease, lambda: near.get(base + "/forces").json()["forces"])
+    wait_for(lambda: remote.post(f"{of_other}/leases/{lost['lease']}/renew").status == 404, "the loss of what its board does not answer for")
+    hung.send_signal(signal.SIGCONT)
+    setting.end(hung)
     end_deployed(setting, agent)
 
 

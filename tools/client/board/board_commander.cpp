@@ -5,20 +5,13 @@
 
 #include <algorithm>
 
-#include "core/keys/credentials.h"
 #include "core/rt/clock.h"
+#include "tools/client/board/command_exchange.h"
 #include "tools/client/board/deploy_key.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
-namespace {
-
-using deploy::Outcome;
-
-constexpr std::int64_t kRepeatNs = 200'000'000;
-
-}  // namespace
 
 Result<BoardCommander, Failure> BoardCommander::make(Messages& messages, const std::filesystem::path& keys) {
   if (keys.empty()) {
@@ -41,27 +34,17 @@ Result<Answered, Failure> BoardCommander::send(deploy::DeployLink& link, std::ui
     }
     commands_ = std::move(opened).value();
   }
-  deploy::Command command{self, deploy::host_name(), board.board, board.agent, board.plant, action, target, 0, {}};
-  bool taken = false;
+  CommandExchange exchange({self, deploy::host_name(), board.board, board.agent, board.plant, action, target, 0, {}},
+                           key_);
   const std::int64_t begin = rt::now_ns();
-  std::int64_t send_ns = 0;
   while (!interrupted() && rt::now_ns() < begin + timeout_ns) {
-    if (rt::now_ns() >= send_ns) {
-      commands_->send(command);
-      send_ns = rt::now_ns() + kRepeatNs;
+    if (rt::now_ns() >= exchange.due_ns()) {
+      commands_->send(exchange.command());
+      exchange.sent(rt::now_ns());
     }
-    link.wait(rt::mono_time(std::min(send_ns, begin + timeout_ns)));
+    link.wait(rt::mono_time(std::min(exchange.due_ns(), begin + timeout_ns)));
     for (const deploy::CommandReply& reply : commands_->take_replies()) {
-      if (reply.commander != command.commander || reply.board != command.board || reply.agent != command.agent) {
-        continue;
-      }
-      if (reply.outcome == Outcome::Nonce && !taken) {
-        command.nonce = reply.nonce;
-        command.signature = key_.empty() ? "" : keys::signature_of(deploy::command_text(command), key_);
-        send_ns = 0;
-      } else if (reply.nonce == command.nonce && reply.outcome == Outcome::UnderWay) {
-        taken = true;
-      } else if (reply.nonce == command.nonce && reply.outcome != Outcome::Nonce) {
+      if (exchange.take(reply)) {
         return Answered{reply, rt::now_ns() - begin};
       }
     }
@@ -69,11 +52,12 @@ Result<Answered, Failure> BoardCommander::send(deploy::DeployLink& link, std::ui
   if (interrupted()) {
     return Failure{interrupt_code(), "interrupted"};
   }
-  return Failure{kUnreachable,
-                 fmt::format("{} within {}",
-                             taken ? "the board is still working on it"
-                                   : "its agent did not answer (agents of older releases do not know all commands)",
-                             human_age(timeout_ns))};
+  return Failure{
+      kUnreachable,
+      fmt::format("{} within {}",
+                  exchange.under_way() ? "the board is still working on it"
+                                       : "its agent did not answer (agents of older releases do not know all commands)",
+                  human_age(timeout_ns))};
 }
 
 }  // namespace indurop::tools

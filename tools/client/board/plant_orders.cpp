@@ -78,17 +78,9 @@ std::map<std::string, std::string> PlantWatch::texts(const char* name, const std
   return all;
 }
 
-Result<std::string, Failure> PlantWatch::order(const std::string& board, const RemoteOrder& order) {
+Result<deploy::BoardReport, Failure> PlantWatch::report(const std::string& board) {
   if (!open()) {
     return Failure{kUnreachable, problem_};
-  }
-  KeptMessages messages;
-  if (commander_ == nullptr) {
-    auto made = BoardCommander::make(messages, settings_.keys);
-    if (!made) {
-      return Failure{kFailed, messages.texts.empty() ? made.error().text : messages.texts.front()};
-    }
-    commander_ = std::make_unique<BoardCommander>(std::move(made).value());
   }
   update();
   const BoardRoster::Entry* entry = roster_.find(board);
@@ -103,8 +95,24 @@ Result<std::string, Failure> PlantWatch::order(const std::string& board, const R
   if (entry == nullptr) {
     return Failure{kUnreachable, fmt::format("board {} is not heard", board)};
   }
-  const auto answered = commander_->send(*link_, settings_.self, entry->report, action_of(order.what),
-                                         target_of(order, entry->report.release), kPatienceNs);
+  return entry->report;
+}
+
+Result<std::string, Failure> PlantWatch::order(const std::string& board, const RemoteOrder& order) {
+  const auto there = report(board);
+  if (!there) {
+    return there.error();
+  }
+  KeptMessages messages;
+  if (commander_ == nullptr) {
+    auto made = BoardCommander::make(messages, settings_.keys);
+    if (!made) {
+      return Failure{kFailed, messages.texts.empty() ? made.error().text : messages.texts.front()};
+    }
+    commander_ = std::make_unique<BoardCommander>(std::move(made).value());
+  }
+  const auto answered = commander_->send(*link_, settings_.self, *there, action_of(order.what),
+                                         target_of(order, there->release), kPatienceNs);
   if (!answered) {
     return Failure{answered.error().code, fmt::format("board {}: {}", board, answered.error().text)};
   }

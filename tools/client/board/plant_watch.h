@@ -41,6 +41,9 @@ class PlantWatch {
   // have none.
   [[nodiscard]] std::map<std::string, std::string> texts(const char* name, const std::vector<std::string>& boards);
 
+  // What the board's agent reported last, which names the plant that it runs; waits for that up to a second.
+  Result<deploy::BoardReport, Failure> report(const std::string& board);
+
   struct RemoteOrder {
     enum class What : std::uint8_t {
       Set,

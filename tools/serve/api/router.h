@@ -45,8 +45,8 @@ enum class Pace { Quick, Files, SignIn, Orders, Wait, Holds, Plant, PlantOrders,
 using Answer = Reply (*)(Api& api, const Call& call);
 
 // How a request about a board of another host is answered: only by a server on that host; from what the board's agent
-// reported; or by a request or command to that agent.
-enum class Remote { No, Reported, Asked };
+// reported; by a request or command to that agent; or by this server, as for a local board.
+enum class Remote { No, Reported, Asked, Same };
 
 struct Route {
   Method method;

@@ -20,6 +20,7 @@ std::span<const Route> all_routes() {
   constexpr Remote kLocalOnly = Remote::No;
   constexpr Remote kReported = Remote::Reported;
   constexpr Remote kAsked = Remote::Asked;
+  constexpr Remote kSame = Remote::Same;
   static constexpr std::array kRoutes{
       Route{kPost, "/api/v1/session", Role::Unknown, Pace::SignIn, &answers::sign_in, kLocalOnly},
       Route{kGet, "/api/v1/session", kLook, Pace::Quick, &answers::session, kLocalOnly},
@@ -50,9 +51,8 @@ std::span<const Route> all_routes() {
       Route{kGet, "/api/v1/boards/{board}/forces", kLook, Pace::Quick, &answers::forces, kReported},
       Route{kPost, "/api/v1/boards/{board}/force", kTune, Pace::Orders, &answers::force, kAsked},
       Route{kPost, "/api/v1/boards/{board}/release", kTune, Pace::Orders, &answers::release, kAsked},
-      Route{kPost, "/api/v1/boards/{board}/leases/{lease}/renew", kTune, Pace::Holds, &answers::renew_lease,
-            kLocalOnly},
-      Route{kPost, "/api/v1/boards/{board}/leases/{lease}/end", kTune, Pace::Holds, &answers::end_lease, kLocalOnly},
+      Route{kPost, "/api/v1/boards/{board}/leases/{lease}/renew", kTune, Pace::Holds, &answers::renew_lease, kSame},
+      Route{kPost, "/api/v1/boards/{board}/leases/{lease}/end", kTune, Pace::Holds, &answers::end_lease, kSame},
       Route{kPost, "/api/v1/boards/{board}/jog", kOperate, Pace::Holds, &answers::begin_jog, kLocalOnly},
       Route{kPost, "/api/v1/boards/{board}/jog/{jog}/keep", kOperate, Pace::Holds, &answers::keep_jog, kLocalOnly},
       Route{kPost, "/api/v1/boards/{board}/jog/{jog}/end", kOperate, Pace::Holds, &answers::end_jog, kLocalOnly},

@@ -12,6 +12,7 @@
 #include "store/operate/item.h"
 #include "tools/client/board/board_run.h"
 #include "tools/serve/door/request.h"
+#include "tools/serve/leases/lease_desk.h"
 
 namespace indurop::serve {
 namespace {
@@ -32,6 +33,21 @@ Json newest(const Json& list, std::uint64_t count) {
   Json out = Json::array();
   for (std::size_t i = all.size() - std::min<std::size_t>(all.size(), count); i < all.size(); ++i) {
     out.push_back(all[i]);
+  }
+  return out;
+}
+
+Refused not_done(const tools::Failure& failure) {
+  return {failure.code == kUnreachable ? status::kNoAnswer : status::kWrongValue, {failure.text}};
+}
+
+// A command with the values of the request, and their names.
+std::pair<tools::PlantWatch::RemoteOrder, std::vector<std::string>> order_of(tools::PlantWatch::RemoteOrder::What what,
+                                                                             const WriteRequest& request) {
+  std::pair<tools::PlantWatch::RemoteOrder, std::vector<std::string>> out{{what, {}, request.for_ns, {}, {}}, {}};
+  for (const auto& [name, value] : request.values) {
+    out.first.lines.push_back(name + "=" + value);
+    out.second.push_back(name);
   }
   return out;
 }
@@ -174,30 +190,29 @@ std::vector<std::string> RemoteBoard::full_names(const std::vector<std::string>&
   return full;
 }
 
-Result<std::string, Refused> RemoteBoard::send(Order order, const Affected& affected, ChangeNote& note) {
+std::optional<Refused> RemoteBoard::prepare(Order& order, const Affected& affected, ChangeNote& note) {
   const operate::Who who = note.who();
   order.who = who.name + " at " + who.from;
   order.reason = who.reason;
   if (!one_line(order.reason) || !std::all_of(order.lines.begin(), order.lines.end(), one_line)) {
     return Refused{status::kWrongValue, {"names, values and reasons for a board of another host are one line each"}};
   }
-  if (auto unnoted = note.begin(affected)) {
-    return std::move(*unnoted);
+  return note.begin(affected);
+}
+
+Result<std::string, Refused> RemoteBoard::send(Order order, const Affected& affected, ChangeNote& note) {
+  if (auto refused = prepare(order, affected, note)) {
+    return std::move(*refused);
   }
   auto done = watch_->order(name(), order);
   if (!done) {
-    return Refused{done.error().code == kUnreachable ? status::kNoAnswer : status::kWrongValue, {done.error().text}};
+    return not_done(done.error());
   }
   return std::move(done).value();
 }
 
 Board::Done RemoteBoard::write(Order::What what, const WriteRequest& request, ChangeNote& note) {
-  Order order{what, {}, request.for_ns, {}, {}};
-  std::vector<std::string> names;
-  for (const auto& [name, value] : request.values) {
-    order.lines.push_back(name + "=" + value);
-    names.push_back(name);
-  }
+  auto [order, names] = order_of(what, request);
   const auto answer = send(std::move(order), {full_names(names)}, note);
   if (!answer) {
     return answer.error();
@@ -209,12 +224,23 @@ Board::Done RemoteBoard::set(const WriteRequest& request, ChangeNote& note) {
   return write(Order::What::Set, request, note);
 }
 
-Board::Done RemoteBoard::force(const WriteRequest& request, ChangeNote& note, LeaseDesk& /*leases*/) {
-  if (request.lease) {
-    return Refused{status::kConflict,
-                   {"a lease is for boards of this host: force it for a time (for_ns), or until it is released"}};
+Board::Done RemoteBoard::force(const WriteRequest& request, ChangeNote& note, LeaseDesk& leases) {
+  if (!request.lease) {
+    return write(Order::What::Force, request, note);
   }
-  return write(Order::What::Force, request, note);
+  auto [order, names] = order_of(Order::What::Force, request);
+  if (auto refused = prepare(order, {full_names(names)}, note)) {
+    return std::move(*refused);
+  }
+  const auto board = watch_->report(name());
+  if (!board) {
+    return not_done(board.error());
+  }
+  const auto lease = leases.take(*board, note.who(), text_of(request), order);
+  if (!lease) {
+    return not_done(lease.error());
+  }
+  return Json{{"forced", Json(names)}, {"lease", *lease}, {"lease_ns", LeaseDesk::kLeaseNs}};
 }
 
 Board::Done RemoteBoard::release(const WriteRequest& request, ChangeNote& note) {

@@ -47,8 +47,9 @@ class RemoteBoard final : public Board {
   using Order = tools::PlantWatch::RemoteOrder;
   // Requests a text of the agent, a JSON object; `what` is what is missing if there is no answer.
   Result<base::Json, Refused> ask(const char* text, const char* what);
-  // Notes the command, sends it and returns the agent's answer.
-  // Sends a command that affects this. Returns the agent's message.
+  // Completes a command that affects this with its user and notes it; returns why it must not be sent.
+  static std::optional<Refused> prepare(Order& order, const Affected& affected, ChangeNote& note);
+  // The same and sends it. Returns the agent's message.
   Result<std::string, Refused> send(Order order, const Affected& affected, ChangeNote& note);
   // Returns full names, as far as the reported variables have them.
   [[nodiscard]] std::vector<std::string> full_names(const std::vector<std::string>& names) const;

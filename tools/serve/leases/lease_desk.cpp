@@ -32,27 +32,74 @@ std::string LeaseDesk::take(const std::string& board, const operate::Who& who, c
   return desk_.add(std::move(held));
 }
 
+Result<std::string, tools::Failure> LeaseDesk::take(const deploy::BoardReport& board, const operate::Who& who,
+                                                    const std::string& what,
+                                                    const tools::PlantWatch::RemoteOrder& order) {
+  if (keeper_ == nullptr) {
+    auto opened = tools::LeaseKeeper::open(link_);
+    if (!opened) {
+      return std::move(opened).error();
+    }
+    keeper_ = std::move(opened).value();
+    (void)renewing_.add([this] { keeper_->run(); });
+  }
+  const auto number = keeper_->take(board, order);
+  if (!number) {
+    return number.error();
+  }
+  Held held;
+  held.board = board.board;
+  held.who = who;
+  held.what = what;
+  held.remote = *number;
+  return desk_.add(std::move(held));
+}
+
+LeaseDesk::~LeaseDesk() {
+  if (keeper_ != nullptr) {
+    keeper_->stop();
+  }
+}
+
+const char* LeaseDesk::renew(Held& held) {
+  if (held.remote) {
+    return keeper_->holds(*held.remote)
+               ? nullptr
+               : "lost: the board has ended it (another user released or re-forced one of the values, or its node was "
+                 "started again), or does not answer";
+  }
+  auto store = vars::Store::attach(held.board, vars::Mode::ReadWrite);
+  return store && held.bind(*store) && operate::renew(held.lease, *store, kLeaseNs)
+             ? nullptr
+             : "lost: another user released or re-forced one of the values, or the node was started again";
+}
+
 bool LeaseDesk::renew(const std::string& board, const std::string& name, const std::string& who) {
   end_overdue();
-  return desk_.keep(board, name, who, [&board](Held& held) -> const char* {
-    auto store = vars::Store::attach(board, vars::Mode::ReadWrite);
-    return store && held.bind(*store) && operate::renew(held.lease, *store, kLeaseNs)
-               ? nullptr
-               : "lost: another user released or re-forced one of the values, or the node was started again";
-  });
+  return desk_.keep(board, name, who, [this](Held& held) { return renew(held); });
 }
 
 bool LeaseDesk::end(const std::string& board, const std::string& name, const std::string& who) {
-  return desk_.end(board, name, who, [&board](Held& held) {
-    auto store = vars::Store::attach(board, vars::Mode::ReadWrite);
+  return desk_.end(board, name, who, [this](Held& held) {
+    if (held.remote) {
+      keeper_->end(*held.remote);
+      return;
+    }
+    auto store = vars::Store::attach(held.board, vars::Mode::ReadWrite);
     if (store && held.bind(*store)) {
-      operate::end(board, *store, held.lease, held.who);
+      operate::end(held.board, *store, held.lease, held.who);
     }
   });
 }
 
 void LeaseDesk::end_overdue() {
-  desk_.expire([](Held& /*held*/) {}, "ended: its client did not renew it in time");
+  // A node of this host releases it on its own.
+  const auto end_remote = [this](Held& held) {
+    if (held.remote) {
+      keeper_->end(*held.remote);
+    }
+  };
+  desk_.expire(end_remote, "ended: its client did not renew it in time");
 }
 
 }  // namespace indurop::serve

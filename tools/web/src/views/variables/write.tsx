@@ -5,7 +5,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { board_path, message_of, post } from "../../api/http";
 import { add_lease } from "../../shell/leases";
-import { plant, useMay } from "../../shell/plant";
+import { useMay } from "../../shell/plant";
 import { value_text } from "../../ui/format";
 import { has_parts, type Part } from "../../ui/paths";
 
@@ -68,8 +68,6 @@ interface Props {
 }
 
 export function Write({ board, part, value, forced, done }: Props) {
-  const is_local = plant.get().boards?.find((one) => one.board === board)?.here ?? true;
-  const durations = is_local ? DURATIONS : DURATIONS.filter(([, ns]) => ns >= 0);  // leases are for boards of this host
   const may_force = useMay("tune");
   const [text, set_text] = useState("");
   const touched = useRef(false);  // not a state: the effect needs it immediately
@@ -110,7 +108,7 @@ export function Write({ board, part, value, forced, done }: Props) {
       {may_force && <div class="bar">
         <button type="button" onClick={() => send_value("/force", until, `Forced to ${text} ${DURATIONS[duration][0]}.`)}>Force</button>
         <select aria-label="How long to force" value={duration} onChange={(event) => set_duration(Number(event.currentTarget.value))}>
-          {durations.map(([name], i) => <option key={name} value={i}>{name}</option>)}
+          {DURATIONS.map(([name], i) => <option key={name} value={i}>{name}</option>)}
         </select>
         {forced && <button type="button" onClick={() => send("/release", { names: [part.name] }, "Released.")}>Release</button>}
       </div>}
