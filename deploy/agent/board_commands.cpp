@@ -188,11 +188,13 @@ CommandReply BoardCommands::begin(const Command& command, const std::string& pla
   if (why.empty() && (plant.empty() || command.plant != plant)) {
     why = plant.empty() ? "nothing is deployed to it" : fmt::format("it runs plant {} now", plant);
   }
-  if (why.empty() && !busy.empty()) {
-    why = busy;
+  const auto order = command.action == Action::Force ? parse_write_order(command.target) : std::nullopt;
+  if (why.empty() && order && order->renew) {
+    return write(command);  // changes nothing and waits for nothing
   }
-  if (why.empty() && command_) {
-    why = fmt::format("it is carrying out a command from {}; try again", command_->host);
+  if (why.empty()) {
+    why = busy.empty() && command_ ? fmt::format("it is carrying out a command from {}; try again", command_->host)
+                                   : busy;
   }
   if (!why.empty()) {
     log_.warning("a command from {} was refused: {}", command.host, why);

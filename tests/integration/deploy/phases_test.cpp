@@ -3,7 +3,10 @@
 // was committed or, once one board has committed the next, that. (The trial: faults_test.cpp.)
 
 #include "core/base/read_file.h"
+#include "core/rt/clock.h"
+#include "deploy/link/command_link.h"
 #include "deploy/link/deploy_link.h"
+#include "deploy/transaction/write_words.h"
 #include "killed_fixture.h"
 
 namespace indurop::test {
@@ -237,6 +240,60 @@ TEST_F(Phases, A_board_that_stands_still_until_the_network_loses_it_goes_on) {
   const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 0) << outcome.err << agent("a").err() << agent("b").err();
   EXPECT_NE(new_one(), "");
+}
+
+// Sends one command to a board and returns its answer, the text of it.
+std::string answer_to(deploy::Command command, const std::string& board, int domain) {
+  deploy::LinkSettings settings;
+  settings.network.domain = domain;
+  settings.network.one_host = true;
+  settings.self = command.commander = deploy::new_session();
+  const auto opened = deploy::DeployLink::open(settings);
+  const auto commands = opened ? deploy::CommandLink::open(*opened->link, deploy::CommandSide::Commander)
+                               : base::Problem{"there is no link"};
+  EXPECT_TRUE(commands);
+  std::optional<std::string> answer;
+  EXPECT_TRUE(wait_until([&] {
+    for (const auto& news : opened->link->take_boards()) {
+      if (news.report.board == board) {
+        command.board = board;
+        command.agent = news.report.agent;
+        command.plant = news.report.plant;
+      }
+    }
+    (*commands)->send(command);
+    opened->link->wait(rt::MonoClock::now() + 100ms);
+    for (const deploy::CommandReply& reply : (*commands)->take_replies()) {
+      if (reply.commander == command.commander && reply.outcome == deploy::Outcome::Nonce) {
+        command.nonce = reply.nonce;
+      } else if (reply.commander == command.commander) {
+        answer = reply.text;
+      }
+    }
+    return answer.has_value();
+  }));
+  return answer.value_or("");
+}
+
+TEST_F(Phases, A_lease_is_renewed_while_a_deployment_is_under_way) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
+#endif
+  hold_the_check();
+  Program& deployer = deploy_until_checking();
+  deploy::Command command;
+  command.action = deploy::Action::Force;
+  deploy::WriteOrder force;
+  force.lines = {"x=1"};
+  command.target = text_of(force);
+  EXPECT_EQ(answer_to(command, board("a"), link_domain()), "a deployment is under way");
+  deploy::WriteOrder renewal;
+  renewal.for_ns = 1;
+  renewal.renew = true;
+  command.target = text_of(renewal);
+  EXPECT_EQ(answer_to(command, board("a"), link_domain()), "this lease no longer exists") << "it was looked up";
+  let_b_check();
+  EXPECT_EQ(deployer.finish().code, 0);
 }
 
 TEST_F(Phases, A_board_killed_while_it_is_healthy_takes_all_back) {
