@@ -50,8 +50,10 @@ class PlcDebug : public CommandLine {
   static std::string config() { return file("out/module.xml"); }
   static std::string file(const std::string& name) { return (scratch() / name).string(); }
   // With what it says on stderr.
-  static Outcome debug(const std::string& script, const std::vector<std::string>& more = {"--run", config()}) {
-    std::vector<std::string> command{"plc", "debug", file("d.st"), "--until", "1s"};
+  static Outcome debug(const std::string& script, const std::vector<std::string>& more = {"--run", config()},
+                       const std::vector<std::string>& end = {"--until", "1s"}) {
+    std::vector<std::string> command{"plc", "debug", file("d.st")};
+    command.insert(command.end(), end.begin(), end.end());
     command.insert(command.end(), more.begin(), more.end());
     Program program(indurop_command(command), background());
     program.input(script);
@@ -88,6 +90,13 @@ TEST_F(PlcDebug, It_stands_at_breakpoints_and_where_it_was_sent) {
                                        "T#10ms  d.st:25 in main  total := total / (5 - m.n);\n"
                                        "T#20ms  d.st:15 in Motor  t(IN := on, PT := T#20ms);\nn = 2\n"),
                              HasSubstr("T#20ms  d.st:16 in Motor  run := t.Q; n := n + 1;\nn = 2\n")));
+}
+
+TEST_F(PlcDebug, A_script_does_not_go_on_where_nothing_would_stop_it_again) {
+  const Outcome sut = debug("c\nb 24\nc\nq\n", {"--run", config()}, {});
+  EXPECT_EQ(sut.code, 0) << sut.out;
+  EXPECT_THAT(sut.out, AllOf(HasSubstr("nothing would stop the program again: set a breakpoint"),
+                             HasSubstr("T#0s  d.st:25 in main  total := total / (5 - m.n);\n")));
 }
 
 TEST_F(PlcDebug, A_fault_shows_its_line_and_the_values_that_led_there) {

@@ -44,13 +44,14 @@ std::string trimmed(const std::string& text) {
 }  // namespace
 
 DebugSession::DebugSession(Context& context, const plc::Compiled& compiled, DebugLink& link, std::string node,
-                           pid_t process)
+                           pid_t process, bool ends)
     : context_(context),
       code_(compiled),
       link_(link),
       node_(std::move(node)),
       process_(process),
-      prompts_(::isatty(STDIN_FILENO) == 1) {
+      prompts_(::isatty(STDIN_FILENO) == 1),
+      ends_(ends) {
   for (const plc::ModuleText& module : compiled.modules) {
     for (const plc::DebugTable::Line& line : module.debug.lines) {
       if (first_file_.empty() && line.at.file != nullptr) {
@@ -199,7 +200,7 @@ std::optional<bool> DebugSession::obey(const std::string& line) {
 
 // Nothing: the program remains stopped.
 std::optional<bool> DebugSession::travel(const std::string& verb, const std::string& rest) {
-  if (verb == "c" || verb == "continue") {
+  if ((verb == "c" || verb == "continue") && can_stop()) {
     return aim(Aim::Run);
   }
   if (verb == "s" || verb == "step") {
@@ -250,6 +251,10 @@ void DebugSession::show_values(const std::string& verb, const std::string& rest)
     }
   } else if (verb == "set") {
     set(rest);
+  } else if (verb == "c" || verb == "continue") {
+    context_.out.error(
+        "nothing would stop the program again: set a breakpoint before (break LINE), or end the simulation with "
+        "--until 10s");
   } else if (verb == "h" || verb == "help") {
     context_.out.line(kHelp);
   } else if (!verb.empty() && verb.front() != '#') {  // '#' begins a comment in a script

@@ -18,8 +18,9 @@ namespace indurop::tools {
 
 class DebugSession {
  public:
-  // `node`: the name of the simulated node, whose process is `process`.
-  DebugSession(Context& context, const plc::Compiled& compiled, DebugLink& link, std::string node, pid_t process);
+  // `node`: the name of the simulated node, whose process is `process`. `ends`: the simulation ends on its own.
+  DebugSession(Context& context, const plc::Compiled& compiled, DebugLink& link, std::string node, pid_t process,
+               bool ends);
 
   // Runs until the user leaves or the node ends. Returns the exit code.
   int run();
@@ -38,6 +39,8 @@ class DebugSession {
   // Executes a command. Nothing: stay at the prompt.
   std::optional<bool> obey(const std::string& line);
   bool aim(Aim aim);
+  // Returns whether a user, a breakpoint or the end of the simulation can stop the program once it runs.
+  [[nodiscard]] bool can_stop() const { return prompts_ || ends_ || !breakpoints_.empty(); }
   std::optional<bool> travel(const std::string& verb, const std::string& rest);
   void show_values(const std::string& verb, const std::string& rest);
   void print_place();
@@ -67,6 +70,7 @@ class DebugSession {
   std::string stop_line_;
   std::optional<std::int64_t> began_ns_;
   bool prompts_ = false;
+  bool ends_;
 };
 
 }  // namespace indurop::tools

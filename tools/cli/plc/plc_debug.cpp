@@ -107,7 +107,7 @@ int debug(Context& context, Request& request) {
     return kFailed;
   }
   context.node = node;
-  const int code = DebugSession(context, compiled, link, node, started.value()).run();
+  const int code = DebugSession(context, compiled, link, node, started.value(), !request.until.empty()).run();
   link.close();
   end(started.value());
   (void)run_child({launch.program.string(), "clean", "--node", node, "-q"});
