@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
+#include <span>
 
 #include "control/plc/check/designator.h"
 #include "control/plc/check/loss.h"
@@ -119,6 +121,16 @@ const Type* ExpressionChecker::value(Expression& expression, const Type* wanted)
   const Type* type = value_or_instance(expression, wanted);
   if (type == nullptr || type->kind != Type::Kind::Block) {
     return type;
+  }
+  const auto items = wanted == nullptr ? std::span<const EnumItem>() : std::span(wanted->items);
+  const auto hidden = std::find_if(items.begin(), items.end(), [&](const EnumItem& item) {
+    return expression.kind == Expression::Kind::Name && upper(item.name) == upper(expression.name);
+  });
+  if (hidden != items.end()) {
+    context_.error(expression.at,
+                   fmt::format("'{}' is {} here, which hides a value of {}, write {}#{}", expression.name,
+                               with_article(*type), wanted->name, wanted->name, hidden->name));
+    return nullptr;
   }
   const bool is_struct = type->pou != nullptr && type->pou->tree->is_struct;
   context_.error(expression.at, fmt::format("{} is not a value{}, name one of its {}", with_article(*type),
