@@ -75,6 +75,12 @@ export function start_polling(): void {
   void poll_again();
 }
 
+// What a user of a read-only page does to get the right to write.
+export function how_to_write({ write, users }: ServerStatus): string {
+  if (!write) return "start the server with: indurop serve --write";
+  return users ? "sign in as a user who may write" : "open the address that the server prints";
+}
+
 // The board that the address names, else the first running one of this host, else the first running one, else the first.
 export function useBoard(): BoardSummary | null {
   const { boards } = useStore(plant);

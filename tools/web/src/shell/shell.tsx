@@ -6,7 +6,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { token, token_was_rejected } from "../api/http";
 import { address, change_query, place } from "../ui/address";
 import { useStore } from "../ui/store";
-import { plant, useBoard } from "./plant";
+import { how_to_write, plant, useBoard } from "./plant";
 import { sign_out, SignIn } from "./sign_in";
 import { set_theme, theme, THEMES, type Theme } from "./theme";
 
@@ -46,7 +46,7 @@ function why_not_current(): string {
   if (link === "lost") return "The server cannot be reached. The page shows the last values, and reconnects automatically.";
   if (error) return `${error} Trying again.`;
   if (!status || !boards) return "";
-  if (unknown && !status.may_write) return `${unknown}The page is read-only. To write, ${status.users ? "sign in" : "open the address that the server prints"}.`;
+  if (unknown && !status.may_write) return `${unknown}The page is read-only. To write, ${how_to_write(status)}.`;
   if (boards.length === 0 && !status.plant) return "No node is running on this host. Start one with: indurop run module.xml";
   return "";
 }

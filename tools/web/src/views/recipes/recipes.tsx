@@ -5,7 +5,7 @@ import { useState } from "preact/hooks";
 import { board_path, get, message_of, post } from "../../api/http";
 import type { Recipe, RecipeValues } from "../../api/types";
 import { NoBoard } from "../../shell/no_board";
-import { useBoard, useMay } from "../../shell/plant";
+import { how_to_write, plant, useBoard, useMay } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { clock, plural, value_text } from "../../ui/format";
 import { DataTable, Panel, Waiting } from "../../ui/parts";
@@ -62,6 +62,7 @@ function Save({ act }: { act: Act }) {
 }
 
 export function Recipes() {
+  const { status } = useStore(plant);
   const may_load = useMay("operate");
   const may_save = useMay("tune");
   const chosen = useStore(place).query.get("r") ?? "";
@@ -88,7 +89,7 @@ export function Recipes() {
         {may_save && <Save act={act} />}
         <p role="status" class={result.bad ? "bad" : "good"}>{result.text}</p>
         {value && recipes.length === 0 && <p class="quiet">{PURPOSE} This board has no recipes yet.{" "}
-          {may_save ? "" : "To save one, start the server with: indurop serve --write"}</p>}
+          {status && !may_save && `To save one, ${how_to_write(status)}.`}</p>}
         {recipes.length > 0 && (
           <DataTable label="Recipes">
               <thead><tr><th scope="col">Recipe</th><th scope="col" class="number">Values</th><th scope="col">Saved</th><th scope="col">Comment</th>

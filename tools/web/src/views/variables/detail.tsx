@@ -3,7 +3,7 @@
 
 import { board_path, get } from "../../api/http";
 import type { Variable } from "../../api/types";
-import { plant } from "../../shell/plant";
+import { how_to_write, plant } from "../../shell/plant";
 import { address } from "../../ui/address";
 import { span, value_text } from "../../ui/format";
 import { Fact } from "../../ui/parts";
@@ -60,6 +60,6 @@ export function Detail({ board, part, live, close, changed }: Props) {
         <p><a href={address("plots", { board, c: plotted.join(",") })}>{plotted.length === 1 ? "Plot" : `Plot ${plotted.length} numbers`}</a></p>)}
       {status?.may_write &&
         <Write key={`${board} ${part.name}`} board={board} part={part} value={value} forced={forced.length > 0} done={() => { answer.refresh(); changed(); }} />}
-      {status && !status.may_write && <p class="quiet">This page is read-only. To write, start the server with: indurop serve --write</p>}
+      {status && !status.may_write && <p class="quiet">This page is read-only. To write, {how_to_write(status)}.</p>}
     </aside>);
 }
