@@ -72,7 +72,7 @@ await browser.run({
   async "Without a token nothing can be written"() {
     const page = await browser.open(`variables?v=${OVERRIDE}`, { token: false });
     await sees(page, "read-only");
-    await sees(page, "This page is read-only");
+    await sees(page, "This page is read-only. To write, open the address that the server prints.");
     check(await page.$("form.write") === null, "there is a form to write");
     await page.close();
   },
