@@ -25,6 +25,7 @@ extern const Verb kForcesVerb;
 extern const Verb kGetVerb;
 extern const Verb kHistoryVerb;
 extern const Verb kHzVerb;
+extern const Verb kIoVerb;
 extern const Verb kJitterVerb;
 extern const Verb kKeysVerb;
 extern const Verb kLockVerb;

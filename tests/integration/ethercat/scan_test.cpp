@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// `indurop io scan`: the slaves of a bus, before a node, while it runs and after it.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "node_of_drives.h"
+
+namespace indurop::test {
+namespace {
+
+using EthercatScan = EthercatNode;
+
+TEST_F(EthercatScan, A_scan_lists_the_slaves_and_writes_a_file_for_them) {
+  const Outcome nobody = indurop({"io", "scan", "ec0"});
+  EXPECT_EQ(nobody.code, 6);
+  EXPECT_CONTAINS(nobody.err, "ec0: no slave answers; check the cable, and the power of the first slave");
+  simulate(2);
+  const std::string file = (folder() / "found.xml").string();
+  const Outcome sut = indurop({"io", "scan", "ec0", "--write", file, "--namespace", "CELL"});
+  EXPECT_EQ(sut.code, 0) << sut.err;
+  EXPECT_CONTAINS(sut.out, "InduRoP simulated drive");
+  EXPECT_CONTAINS(sut.out, "0x49525001");
+  EXPECT_CONTAINS(sut.out, "607a:0");
+  std::ifstream written(file);
+  const std::string text{std::istreambuf_iterator<char>(written), {}};
+  EXPECT_CONTAINS(text,
+                  "  <device name=\"slave1\" driver=\"ethercat\" address=\"ec0\" slave=\"1\" vendor=\"0x0\" "
+                  "product=\"0x49525001\" revision=\"0x1\"\n          in=\"CELL::SLAVE1_IN\" "
+                  "out=\"CELL::SLAVE1_OUT\"/>\n");
+  const auto json = indurop({"io", "scan", "ec0", "-o", "json"}).json();
+  ASSERT_EQ(json["slaves"].size(), 2U);
+  EXPECT_EQ(json["slaves"][1]["position"], 1);
+  EXPECT_EQ(json["slaves"][1]["state"], "INIT");
+  EXPECT_EQ(json["slaves"][1]["outputs"][2]["at"], "607a:0");
+  EXPECT_EQ(json["slaves"][1]["outputs"][2]["type"], "int32");
+}
+
+TEST_F(EthercatScan, A_node_that_ends_leaves_its_slaves_in_init) {
+  simulate(2);
+  Program& sut = run_node_with_two_drives();
+  ASSERT_TRUE(moves()) << sut.out() << sut.err();
+  const auto state = [&] { return indurop({"io", "scan", "ec0", "-o", "json"}).json()["slaves"][1]["state"]; };
+  EXPECT_TRUE(wait_until([&] { return state() == "OP"; }));
+  EXPECT_TRUE(moves()) << "although a scan was on the bus";
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0) << sut.err();
+  EXPECT_EQ(state(), "INIT");
+}
+
+}  // namespace
+}  // namespace indurop::test

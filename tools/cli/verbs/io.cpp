@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop io: field devices, without a node.
+#include <fmt/format.h>
+
+#include "control/io/ethercat/link/packet_link.h"
+#include "core/base/replace_file.h"
+#include "core/rt/clock.h"
+#include "tools/cli/fieldbus/scan_file.h"
+#include "tools/cli/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+using io::ethercat::FoundSlave;
+using io::ethercat::Pdo;
+using io::ethercat::PdoEntry;
+
+struct Options {
+  std::string interface;
+  std::filesystem::path file;
+  std::string space = "IO";
+};
+
+std::string hex(std::uint32_t number) {
+  return fmt::format("0x{:x}", number);
+}
+
+// As CoE numbers them.
+std::string type_name(std::uint8_t type, std::uint8_t bits) {
+  switch (type) {
+    case 0x01:
+      return "bool";
+    case 0x02:
+    case 0x03:
+    case 0x04:
+    case 0x15:
+      return fmt::format("int{}", bits);
+    case 0x05:
+    case 0x06:
+    case 0x07:
+    case 0x1B:
+      return fmt::format("uint{}", bits);
+    case 0x08:
+    case 0x11:
+      return fmt::format("float{}", bits);
+    default:
+      return fmt::format("{} bits", bits);
+  }
+}
+
+struct Object {  // of the process data
+  std::string at;
+  std::string type;
+  std::string name;
+};
+
+std::vector<Object> objects_of(const std::vector<Pdo>& pdos) {
+  std::vector<Object> all;
+  for (const Pdo& pdo : pdos) {
+    for (const PdoEntry& entry : pdo.entries) {
+      if (entry.index != 0 && pdo.sync_manager != 0xFF) {
+        all.push_back({fmt::format("{:04x}:{:x}", entry.index, entry.subindex), type_name(entry.type, entry.bits),
+                       entry.name.empty() ? pdo.name : entry.name});
+      }
+    }
+  }
+  return all;
+}
+
+JsonValue json_of(const std::vector<Object>& objects) {
+  JsonValue all = JsonValue::array();
+  for (const Object& object : objects) {
+    JsonValue one = JsonValue::object();
+    one["at"] = object.at;
+    one["type"] = object.type;
+    one["name"] = object.name;
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+void add_objects(Table& to, std::size_t place, const char* point, const std::vector<Object>& objects) {
+  for (const Object& object : objects) {
+    to.add({Cell(std::to_string(place)), Cell(point), Cell(object.at), Cell(object.type), Cell(object.name)});
+  }
+}
+
+void print_slaves(Context& context, const std::vector<FoundSlave>& slaves) {
+  constexpr Align kRight = Align::Right;
+  Table table({{"SLAVE", "position", kRight},
+               {"STATE", "state"},
+               {"ALIAS", "alias", kRight},
+               {"VENDOR", "vendor", kRight},
+               {"PRODUCT", "product", kRight},
+               {"REVISION", "revision", kRight},
+               {"NAME", "name"},
+               {"", "inputs"},
+               {"", "outputs"}});
+  Table all({{"SLAVE", "", kRight}, {"POINT", ""}, {"AT", ""}, {"TYPE", ""}, {"NAME", ""}});
+  for (std::size_t place = 0; place < slaves.size(); ++place) {
+    const FoundSlave& slave = slaves[place];
+    const auto& identity = slave.sii.identity;
+    const bool is_known = slave.problem.empty();
+    const auto inputs = objects_of(slave.sii.inputs);
+    const auto outputs = objects_of(slave.sii.outputs);
+    table.add({{std::to_string(place), place},
+               Cell(std::string(to_string(slave.state))),
+               {std::to_string(slave.alias), slave.alias},
+               {hex(identity.vendor), identity.vendor},
+               {hex(identity.product), identity.product},
+               {hex(identity.revision), identity.revision},
+               Cell(is_known ? slave.sii.name : slave.problem, is_known ? Style::Bold : Style::Bad),
+               {"", json_of(inputs)},
+               {"", json_of(outputs)}});
+    add_objects(all, place, "input", inputs);
+    add_objects(all, place, "output", outputs);
+  }
+  print_table(context, table, JsonValue::object(), "slaves");
+  if (context.format == Format::Table && !all.empty()) {
+    context.out.line("");
+    print_table(context, all, JsonValue::object(), "");
+  }
+}
+
+int scan(Context& context, const Options& options) {
+  auto link = io::ethercat::PacketLink::open(options.interface);
+  if (!link) {
+    context.out.error(link.error());
+    return kFailed;
+  }
+  const auto found = io::ethercat::Scan(**link, [&link] {
+                       (*link)->wait(std::chrono::milliseconds(1));
+                       return rt::MonoClock::now().time_since_epoch();
+                     }).run();
+  if (!found) {
+    context.out.error(fmt::format("{}: {}", options.interface, found.error()));
+    return kUnreachable;
+  }
+  print_slaves(context, *found);
+  if (options.file.empty()) {
+    return kOk;
+  }
+  const std::string text = scan_file(*found, options.interface, options.space);
+  if (const auto written = base::replace_file(options.file, text, base::Durable::No); !written) {
+    context.out.error(base::cannot_write(options.file, written.error()));
+    return kFailed;
+  }
+  context.out.note(
+      fmt::format("{} is written; its variables {}::* have to be declared", options.file.string(), options.space));
+  return kOk;
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  base::Options& verb = app.command("scan", "List the slaves of an EtherCAT bus, with what they exchange", [] {});
+  verb.add("interface", "INTERFACE", options->interface, "Where the cable is").required();
+  verb.add("--write", "FILE", options->file, "Write an ioconfig.xml for them").completes(base::Completion::File);
+  verb.add("--namespace", "NAME", options->space, "Of the variables in that file (default: IO)");
+  add_format_option(verb, context, {Format::Table, Format::Json, Format::Csv});
+  verb.details(
+      "Reads the EEPROM of each slave by its position. No state and no output changes; still, it is one more talker\n"
+      "on the bus: do not scan a bus that moves a machine.\n");
+  return [options](Context& c) { return scan(c, *options); };
+}
+
+}  // namespace
+
+const Verb kIoVerb{"io", "Before it runs", "Field devices, without a node: scan an EtherCAT bus",
+                   "Needs root or CAP_NET_RAW.\n"
+                   "Examples:\n"
+                   "  indurop io scan eth1\n"
+                   "  indurop io scan eth1 --write ioconfig.xml\n",
+                   &declare};
+
+}  // namespace indurop::tools
