@@ -115,12 +115,19 @@ struct IoAxis {
   base::SourcePlace out_place;
 };
 
+// An object that is set in PREOP, each time the slave comes up.
+struct IoObjectValue {
+  IoObject object;
+  std::vector<std::uint8_t> bytes;  // the low one first
+};
+
 // A slave of an EtherCAT bus; the address of the device is the network interface.
 struct IoSlave {
   int position = 0;                     // on the cable, from 0
   std::optional<std::uint32_t> vendor;  // has to be found there; empty: any
   std::optional<std::uint32_t> product;
   std::optional<std::uint32_t> revision;
+  std::vector<IoObjectValue> values;  // in the order in which they are set
 };
 
 struct IoCsv {

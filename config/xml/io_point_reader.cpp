@@ -9,6 +9,7 @@
 
 #include "config/xml/attributes.h"
 #include "config/xml/element_rules.h"
+#include "config/xml/io_object_reader.h"
 #include "config/xml/values.h"
 #include "core/base/duration.h"
 #include "core/base/text.h"
@@ -146,24 +147,14 @@ class PointReader {
         point_.object.index = object.name == point_.at ? object.index : point_.object.index;
       }
     }
-    if (at && std::find(known.begin(), known.end(), *at) == known.end() && !(is_slave && read_index(*at))) {
+    if (at && std::find(known.begin(), known.end(), *at) == known.end() &&
+        !(is_slave && read_io_object(*at, point_.object))) {
       const std::string what =
           is_slave ? "a slave's object is 6064 or 7000:1, or a name of a drive's object; it has no" : "a drive has no";
       report_.error(point_.at_place, fmt::format("at: {} {} {}{}", what, point_.output ? "output" : "input",
                                                  base::in_quotes(*at), base::suggestion(*at, known)));
     }
     point_.type = WireType::Int32;
-  }
-
-  // An index and a subindex of an object, as manuals write them: 6064, 7000:1.
-  bool read_index(const std::string& text) {
-    constexpr std::uint32_t kMaxSubindex = 255;
-    const std::size_t colon = text.find(':');
-    const auto index = read_hex(text.substr(0, colon), 0xFFFF);
-    const auto subindex =
-        colon == std::string::npos ? std::optional(0U) : read_hex(text.substr(colon + 1), kMaxSubindex);
-    point_.object = {static_cast<std::uint16_t>(index.value_or(0)), static_cast<std::uint8_t>(subindex.value_or(0))};
-    return index && *index != 0 && subindex;
   }
 
   void read_column() {

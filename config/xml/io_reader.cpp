@@ -12,6 +12,7 @@
 #include "config/xml/attributes.h"
 #include "config/xml/document.h"
 #include "config/xml/element_rules.h"
+#include "config/xml/io_object_reader.h"
 #include "config/xml/io_point_reader.h"
 #include "config/xml/values.h"
 #include "core/base/text.h"
@@ -69,8 +70,13 @@ class DeviceReader {
     }
     attributes_.finish(fmt::format("<device driver=\"{}\">", name_of(device_.driver)));
     check_no_text(element_, report_);
+    const bool is_slave = device_.driver == IoDriver::Ethercat;
     for (const base::Element& child : element_.children) {
-      if (is_known(child, element_, {"input", "output"}, report_)) {
+      const bool known = is_slave ? is_known(child, element_, {"input", "output", "set"}, report_)
+                                  : is_known(child, element_, {"input", "output"}, report_);
+      if (known && child.name == "set") {
+        read_io_value(child, device_, report_);
+      } else if (known) {
         device_.points.push_back(read_io_point(child, device_, report_));
       }
     }

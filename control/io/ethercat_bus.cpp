@@ -196,6 +196,12 @@ std::string EthercatBus::prepare() {
     plans.push_back(ethercat::plan_of(slave.sii, logical));
     logical += static_cast<std::uint32_t>(plans.back().output_bytes + plans.back().input_bytes);
   }
+  for (const EthercatMember& member : members_) {
+    for (const config::IoObjectValue& value : member.slave.values) {
+      plans[static_cast<std::size_t>(member.slave.position)].start_objects.push_back(
+          {value.object.index, value.object.subindex, false, value.bytes});
+    }
+  }
   link_ = std::move(*link);
   owned_ = std::make_unique<Running>(*link_, std::move(plans));
   make_fields(*found, *owned_);

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/xml/io_object_reader.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "config/xml/attributes.h"
+#include "config/xml/element_rules.h"
+#include "config/xml/values.h"
+#include "core/base/text.h"
+
+namespace indurop::config {
+namespace {
+
+// The types of whole numbers in a device, by their bytes.
+struct NumberType {
+  const char* name;
+  unsigned bytes;
+  std::int64_t low;
+  std::int64_t high;
+};
+constexpr std::array<NumberType, 6> kNumberTypes{{{"int8", 1, -0x80, 0x7F},
+                                                  {"uint8", 1, 0, 0xFF},
+                                                  {"int16", 2, -0x8000, 0x7FFF},
+                                                  {"uint16", 2, 0, 0xFFFF},
+                                                  {"int32", 4, -0x80000000LL, 0x7FFFFFFF},
+                                                  {"uint32", 4, 0, 0xFFFFFFFF}}};
+
+}  // namespace
+
+bool read_io_object(const std::string& text, IoObject& object) {
+  constexpr std::uint32_t kMaxIndex = 0xFFFF;
+  constexpr std::uint32_t kMaxSubindex = 0xFF;
+  const std::size_t colon = text.find(':');
+  const auto index = read_hex(text.substr(0, colon), kMaxIndex);
+  const auto subindex = colon == std::string::npos ? std::optional(0U) : read_hex(text.substr(colon + 1), kMaxSubindex);
+  object = {static_cast<std::uint16_t>(index.value_or(0)), static_cast<std::uint8_t>(subindex.value_or(0))};
+  return index && *index != 0 && subindex;
+}
+
+void read_io_value(const base::Element& element, IoDevice& device, base::Diagnostics& report) {
+  Attributes attributes(element, report);
+  IoObjectValue read;
+  base::SourcePlace place;
+  const auto at = attributes.need("at", "at=\"6060\"", &place);
+  if (at && !read_io_object(*at, read.object)) {
+    report.error(place, fmt::format("at: {} is no object; write its index, 6060, or with a subindex, 1c12:1",
+                                    base::in_quotes(*at)));
+  }
+  std::vector<std::string> words;
+  for (const NumberType& type : kNumberTypes) {
+    words.emplace_back(type.name);
+  }
+  const bool has_type = attributes.need("type", "type=\"int8\"").has_value();
+  const auto type = has_type ? attributes.choose("type", words) : std::nullopt;
+  const bool has_value = attributes.need("value", "value=\"8\"").has_value();
+  if (type && has_value) {
+    const NumberType& number = kNumberTypes.at(*type);
+    const auto value = attributes.integer("value", number.low, number.high).value_or(0);
+    for (unsigned i = 0; i < number.bytes; ++i) {
+      read.bytes.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i)));
+    }
+  }
+  if (is_leaf(element, report)) {
+    check_no_text(element, report);
+  }
+  attributes.finish("<set> of an ethercat device");
+  device.slave.values.push_back(std::move(read));
+}
+
+}  // namespace indurop::config

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects of EtherCAT slaves in ioconfig.xml.
+
+#pragma once
+
+#include <string>
+
+#include "config/model/io_config.h"
+#include "core/base/diagnostics.h"
+#include "core/base/xml_element.h"
+
+namespace indurop::config {
+
+// Reads an index and a subindex of an object, as manuals write them: 6064, 7000:1. False: it is none.
+bool read_io_object(const std::string& text, IoObject& object);
+
+// Reads a <set> of an EtherCAT device, adds it to the device, and reports all its errors.
+void read_io_value(const base::Element& element, IoDevice& device, base::Diagnostics& report);
+
+}  // namespace indurop::config
