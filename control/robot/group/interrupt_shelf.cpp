@@ -13,7 +13,7 @@ bool InterruptShelf::step_aside() noexcept {
     asked_ = !plans_.free();
     request_ = plans_.request();
     plans_.forget();
-    follower.set_aside();
+    follower.keep_path();
     follower.stop();
   }
   if (!follower.idle() || plans_.holds_forgotten()) {
@@ -22,7 +22,7 @@ bool InterruptShelf::step_aside() noexcept {
   follower.reset(robot_.commanded());  // braking ends where the path ends; nothing of it was saved yet
   leaving_ = false;
   used_ = true;
-  path_ = follower.path_aside();
+  path_ = follower.kept_path();
   tool_ = robot_.tool.number();
   ahead_.clear();
   plans_.ahead().swap(ahead_);
@@ -46,7 +46,7 @@ bool InterruptShelf::come_back(Fault& fault) noexcept {
 // The interrupted job becomes the current one again, to be left or continued.
 void InterruptShelf::restore() noexcept {
   used_ = false;
-  robot_.follower.put_aside(path_);
+  robot_.follower.set_kept_path(path_);
   plans_.ahead().clear();
   plans_.ahead().swap(ahead_);
   plans_.set_request(request_);

@@ -46,7 +46,7 @@ class InterruptShelf {
   Resuming& resuming_;
   bool leaving_ = false;
   bool used_ = false;
-  Follower::Aside path_;
+  KeptPath path_;
   ReadAhead ahead_;
   PlanRequest request_;
   bool asked_ = false;  // a plan was being made

@@ -18,7 +18,7 @@ constexpr double kThere = 1e-9;       // rad
 
 void Resuming::set_aside() noexcept {
   set_aside(robot_.tool.number(), !plans_.free());
-  robot_.follower.set_aside();
+  robot_.follower.keep_path();
 }
 
 void Resuming::set_aside(int tool, bool asked) noexcept {
@@ -34,7 +34,7 @@ void Resuming::drop() noexcept {
 
 void Resuming::pause() noexcept {
   set_aside(robot_.tool.number(), false);
-  robot_.follower.set_aside();
+  robot_.follower.keep_path();
   group_.come_to_standby();
   group_.finish_service(ErrorCode::Ok);
 }
@@ -80,7 +80,7 @@ ErrorCode Resuming::resume() noexcept {
   if (!group_.change_tool(aside_tool_)) {
     return ErrorCode::State;
   }
-  const Joints to = robot_.follower.aside();
+  const Joints to = robot_.follower.kept_path().q;
   if (!is_near(to)) {
     say_how_far(to);
     return ErrorCode::Away;
@@ -119,8 +119,8 @@ ErrorCode Resuming::step_back() noexcept {
   if (!aside_ || passed_known_ == 0) {
     return ErrorCode::NoResume;
   }
-  const bool between = !robot_.follower.has_path_aside() && !asked_ && plans_.ahead().empty();
-  const Joints off = robot_.follower.aside() - robot_.commanded();
+  const bool between = !robot_.follower.kept_path().known() && !asked_ && plans_.ahead().empty();
+  const Joints off = robot_.follower.kept_path().q - robot_.commanded();
   const bool there = off.head(robot_.count()).cwiseAbs().maxCoeff() <= kThere;
   if (const ErrorCode code = group_.may_move(); code != ErrorCode::Ok) {
     return code;
@@ -159,7 +159,7 @@ void Resuming::end_way_back() noexcept {
 
 void Resuming::continue_on_path(bool asked) noexcept {
   plans_.disconnect();
-  robot_.follower.go_on();
+  robot_.follower.resume();
   robot_.axes.start_here();
   asked_ = false;
   if (asked) {

@@ -8,21 +8,13 @@
 
 namespace indurop::robot {
 
-namespace {
-
-constexpr double kRounded = 1e-6;  // a lower speed counts as none
-
-}  // namespace
-
 void Follower::reset(const Joints& q) noexcept {
-  if (keep_) {
-    put_aside();
+  if (keeps_) {
+    keeps_ = false;
+    path_.keep(q_, kept_);
   }
-  count_ = 0;
-  blend_ = {};
-  in_blend_ = false;
+  path_.clear();
   mode_ = mode_ == Mode::Hold ? Mode::Hold : Mode::Run;
-  state_ = {};
   speed_ = acceleration_ = 0;
   q_ = q;
   past_.joints.fill(q);
@@ -30,15 +22,33 @@ void Follower::reset(const Joints& q) noexcept {
 }
 
 void Follower::add(const Segment& segment, const Blend& blend) noexcept {
-  const auto i = static_cast<std::size_t>(count_++);
-  segments_[i] = segment;
-  blends_[i] = blend;
-  if (count_ == 1) {
-    state_ = {};
+  path_.add(segment, blend);
+  if (path_.count() == 1) {
     begin_piece();
-  } else if (count_ == 2) {
-    try_blend();
+  } else if (path_.count() == 2) {
+    begin_blend();
   }
+}
+
+void Follower::keep_path() noexcept {
+  keeps_ = true;
+  if (idle()) {
+    keeps_ = false;
+    path_.keep(q_, kept_);
+  }
+}
+
+void Follower::resume() noexcept {
+  reset(kept_.q);
+  if (!kept_.known()) {
+    return;
+  }
+  path_.take(kept_);
+  if (path_.joints_timed()) {
+    path_.segment().tip_speed = joint_motions_.tip_speed_of(path_.segment());
+  }
+  pace_ = {};
+  replan();
 }
 
 void Follower::set_override(double part) noexcept {
@@ -86,75 +96,66 @@ void Follower::stop_hard(double hardness) noexcept {
 }
 
 double Follower::to_go() const noexcept {
-  if (!idle() && segment(0).timed) {
-    return (piece_end() - state_.position) / std::max(wanted_pace(), kStill);
+  if (!idle() && path_.segment().timed) {
+    return (path_.piece_end() - path_.state().position) / std::max(wanted_pace(), kStill);
   }
   return idle() ? 0 : std::max(0.0, profile_.duration() - time_);
 }
 
 double Follower::wanted_pace() const noexcept {
-  return mode_ == Mode::Run && override_ >= kStill ? std::min(override_, pace_for(segment(0).tip_speed)) : 0;
-}
-
-// Returns the pace at which the tip keeps its speed limit.
-double Follower::pace_for(double tip_speed) const noexcept {
-  return tip_speed > tip_limit_ ? tip_limit_ / tip_speed : 1;
-}
-
-int Follower::source() const noexcept {
-  if (idle()) {
-    return 0;
-  }
-  const Segment& now = segment(0);
-  return now.chain == nullptr ? now.source : now.chain->source_at(now.timed ? passed_[0] : state_.position);
-}
-
-double Follower::piece_end() const noexcept {
-  return in_blend_ ? blend_.length() : segment(0).length - blend_.zone;
-}
-
-const LineLimits& Follower::piece_limits() const noexcept {
-  return in_blend_ ? blend_.limits : segment(0).limits;
+  const double allowed = joint_motions_.pace_for(path_.segment().tip_speed);
+  return mode_ == Mode::Run && override_ >= kStill ? std::min(override_, allowed) : 0;
 }
 
 // Whether a path is followed by its timing is decided where it begins: at rest, with no blend into the next one.
 // It is then followed at the requested pace at once, since the timing itself begins at rest.
 void Follower::begin_piece() noexcept {
-  Segment& first = segments_[0];
+  Segment& first = path_.segment();
+  const LineState& state = path_.state();
   to_end_ = false;
-  if (!in_blend_ && state_.position <= 0 && state_.velocity <= 0 && (first.timing.known() || first.together)) {
+  if (!path_.in_blend() && state.position <= 0 && state.velocity <= 0 && (first.timing.known() || first.together)) {
     if (first.together) {
       first.tip_speed = 0;
-      make_joint_timing(first, {first.from, Joints::Zero(), Joints::Zero()}, most_, wanted_pace());
+      joint_motions_.time(first, wanted_pace());
     } else {
       first.take_timing();
     }
-    passed_.fill(0);
-    state_ = {0, wanted_pace(), 0};
+    path_.begin_timing();
+    path_.set_state({0, wanted_pace(), 0});
   }
   replan();
 }
 
+void Follower::begin_blend() noexcept {
+  if (!stopping() && path_.begin_blend()) {
+    to_end_ = false;
+    replan();
+  }
+}
+
 // A piece with a timing is planned again in each period.
 void Follower::replan() noexcept {
-  if (segment(0).timed) {
+  if (path_.segment().timed) {
     time_ = 0;
     return;
   }
-  LineLimits limits = piece_limits();
+  const LineState& state = path_.state();
+  const Blend& blend = path_.blend();
+  LineLimits limits = path_.piece_limits();
   Profile next;
   bool to_end = false;
   if (mode_ == Mode::Run && override_ >= kStill) {
-    const double most = pace_for(in_blend_ ? blend_.tip_speed : segment(0).tip_speed);
-    limits.velocity = std::min(limits.velocity * override_, most);
-    const double exit = in_blend_ || blend_.zone > 0 ? std::min(blend_.limits.velocity, pace_for(blend_.tip_speed)) : 0;
-    next = Profile::to_position(state_, piece_end(), exit, limits);
+    limits.velocity = std::min(limits.velocity * override_, joint_motions_.pace_for(path_.tip_speed()));
+    const double exit = path_.in_blend() || blend.zone > 0
+                            ? std::min(blend.limits.velocity, joint_motions_.pace_for(blend.tip_speed))
+                            : 0;
+    next = Profile::to_position(state, path_.piece_end(), exit, limits);
     to_end = !next.overshoots();
   } else {
-    next = Profile::to_velocity(state_, 0, limits);
+    next = Profile::to_velocity(state, 0, limits);
   }
-  if (!to_end && !in_blend_ && blend_.zone > 0 && next.end().position > piece_end()) {
-    next = into_blend();
+  if (!to_end && !path_.in_blend() && blend.zone > 0 && next.end().position > path_.piece_end()) {
+    next = path_.into_blend();
     to_end = true;
     if (next.overshoots() && to_end_) {
       return;  // due to rounding; it is nearly there as planned
@@ -165,33 +166,11 @@ void Follower::replan() noexcept {
   time_ = 0;
 }
 
-// Returns the time at which the end of the present piece is passed; it is between these two times.
-double Follower::crossing(double from, double to) const noexcept {
-  const double end = piece_end();
-  return bisect({from, to}, 50, [&](double time) { return profile_.at(time).position < end; }).fails;
-}
-
 void Follower::next_piece() noexcept {
-  // Without a blend it has come to rest, except for rounding.
-  if (segment(0).timed || (blend_.zone <= 0 && state_.velocity < kRounded)) {
-    state_ = {};
+  if (path_.next_piece()) {
+    begin_blend();
   }
-  if (in_blend_ || blend_.zone <= 0) {
-    // Continue with the next segment, after the blend if there was one.
-    state_.position = in_blend_ ? blend_.zone : 0;
-    std::move(segments_.begin() + 1, segments_.begin() + count_, segments_.begin());
-    std::move(blends_.begin() + 1, blends_.begin() + count_, blends_.begin());
-    --count_;
-    in_blend_ = false;
-    blend_ = {};
-    if (count_ >= 2) {
-      try_blend();
-    }
-  } else {
-    state_.position = 0;
-    in_blend_ = true;
-  }
-  if (count_ > 0 && mode_ != Mode::HardStop) {
+  if (!idle() && mode_ != Mode::HardStop) {
     begin_piece();
   }
 }
@@ -199,26 +178,26 @@ void Follower::next_piece() noexcept {
 double Follower::advance(double seconds) noexcept {
   double moved = 0;
   // Short paths may begin and end within one period; after this many the rest waits for the next period.
-  for (int pieces = 0; pieces < 4 && count_ > 0; ++pieces) {
-    const bool timed = segment(0).timed;
+  for (int pieces = 0; pieces < 4 && !idle(); ++pieces) {
+    const bool timed = path_.segment().timed;
     if (timed) {
       profile_ = pace_of_timing(seconds);
       time_ = 0;
     }
     const double until = time_ + seconds;
-    const bool running = !timed && to_end_;
+    const double end = path_.piece_end();
     double reached = until;
     bool crossed = false;
-    if (running) {
+    if (!timed && to_end_) {
       crossed = until >= profile_.duration();
       reached = crossed ? profile_.duration() : until;
-    } else if (profile_.at(until).position >= piece_end()) {
+    } else if (profile_.at(until).position >= end) {
       crossed = true;
-      reached = crossing(time_, until);
+      reached = bisect({time_, until}, 50, [&](double time) { return profile_.at(time).position < end; }).fails;
     }
-    const double from = state_.position;
-    state_ = profile_.at(reached);
-    moved += state_.position - from;
+    const double from = path_.state().position;
+    path_.set_state(profile_.at(reached));
+    moved += path_.state().position - from;
     seconds = until - reached;
     time_ = reached;
     if (!crossed) {
@@ -230,68 +209,81 @@ double Follower::advance(double seconds) noexcept {
 }
 
 // Distances are counted over all pieces.
-void Follower::note(double moved) noexcept {
+void Follower::note_step(double moved) noexcept {
   past_.moved = {moved, past_.moved[0]};
   past_.joints = {q_, past_.joints[0], past_.joints[1]};
 }
 
-Reach Follower::joints_on_piece(double place, const Joints& near, Joints& q) const noexcept {
-  return in_blend_ ? places_.on(segment(0), blend_, segment(1), place, near, q)
-                   : places_.on(segment(0), place, near, q);
+// The speed of a joint motion with a timing is that of the fastest joint.
+void Follower::note_speed(double seconds) noexcept {
+  if (!path_.segment().timed) {
+    speed_ = path_.state().velocity;
+    acceleration_ = path_.state().acceleration;
+    return;
+  }
+  double moved = 0;
+  if (path_.joints_timed()) {
+    const Joints turned = past_.joints[0] - past_.joints[1];
+    moved = turned.cwiseAbs().cwiseQuotient(joint_motions_.limits().velocity).maxCoeff();
+  } else {
+    moved = path_.note_passed();
+  }
+  const double speed = moved / seconds;
+  acceleration_ = (speed - speed_) / seconds;
+  speed_ = speed;
 }
 
-Reach Follower::joints_ahead(double distance, const Joints& near, Joints& q) const noexcept {
-  const double place = state_.position + distance;
-  double beyond = place - piece_end();
-  if (beyond <= 0 || count_ < 2 || (blend_.zone <= 0 && !in_blend_)) {
-    return joints_on_piece(place, near, q);
+Fault Follower::redirect(const Segment& target) noexcept {
+  JointMotions::Beginning from;
+  if (path_.motion(q_, from.now) != Reach::Ok) {
+    return {ErrorCode::Singular};
   }
-  if (!in_blend_) {
-    if (beyond <= blend_.length()) {
-      return places_.on(segment(0), blend_, segment(1), beyond, near, q);
+  from.moving = !at_rest();
+  from.exact = !from.moving || (path_.segment().move == Move::Joint && !path_.in_blend());
+  Segment next = target;
+  if (const Fault fault = joint_motions_.begin(next, from, wanted_pace()); !fault.ok()) {
+    return fault;
+  }
+  path_.replace(next, {0, next.made_for, 0});
+  past_.moved.fill(next.made_for * period_);
+  time_ = 0;
+  return {};
+}
+
+// Returns the further course of the pace of a motion with a timing.
+Profile Follower::pace_of_timing(double seconds) noexcept {
+  Segment& s = path_.segment();
+  const bool joints = s.move == Move::Joint;
+  double wanted = wanted_pace();
+  if (path_.state().position <= 0 && !s.moving) {
+    // Before the motion begins, the pace may jump.
+    if (joints && s.made_for != joint_motions_.made_for(wanted)) {
+      joint_motions_.time(s, wanted);
     }
-    beyond -= blend_.length();
+    path_.set_state({0, joints ? std::min(wanted, s.fastest) : wanted, 0});
   }
-  return places_.on(segment(1), blend_.zone + beyond, near, q);
+  if (joints) {
+    if (s.made_for >= 1 && wanted < 1 && joint_motions_.leave_margin(s, path_.state().position)) {
+      path_.set_state({0, 1, 0});
+    } else if (s.made_for >= 1) {
+      return Profile::coast(path_.state());
+    }
+    const LineState& state = path_.state();
+    if (state.position < s.settled || (wanted == state.velocity && state.acceleration == 0)) {
+      return Profile::coast(state);
+    }
+    wanted = std::min(wanted, s.fastest);
+  }
+  return pace_.next(path_.state(), wanted, seconds, s.pace_limits);
 }
 
-// Returns the distance to where a blend begins or ends.
-double Follower::smooth_until(double distance) const noexcept {
-  if (count_ < 2 || (blend_.zone <= 0 && !in_blend_)) {
-    return HUGE_VAL;
-  }
-  const double end = piece_end() - state_.position;
-  if (distance < end) {
-    return end;
-  }
-  return !in_blend_ && distance < end + blend_.length() ? end + blend_.length() : HUGE_VAL;
-}
-
-double Follower::left() const noexcept {
-  const double here = piece_end() - state_.position;
-  if (count_ < 2 || (blend_.zone <= 0 && !in_blend_)) {
-    return here;
-  }
-  return here + (in_blend_ ? 0 : blend_.length()) + segment(1).length - blend_.zone;
-}
-
-// Moves along the path, over the ends of pieces.
-void Follower::go(double distance) noexcept {
-  state_.position += distance;
-  for (int pieces = 0; pieces < 4 && count_ > 1 && state_.position > piece_end(); ++pieces) {
-    const double beyond = state_.position - piece_end();
-    next_piece();
-    state_.position += beyond;
-  }
-}
-
-Fault Follower::allowed(const Joints& from, const Joints& to, double seconds) const noexcept {
+Fault Follower::allowed(const Joints& to, double seconds) const noexcept {
   constexpr double kSlack = 1.05;  // planned limits are exact for joint motions, sampled for the others
-  if (const int beyond = places_.arm().goes_beyond(from, to, 1e-6); beyond >= 0) {
+  if (const int beyond = places_.arm().goes_beyond(q_, to, 1e-6); beyond >= 0) {
     return {ErrorCode::JointLimit, beyond + 1};
   }
   for (int i = 0; i < kAxes; ++i) {
-    if (!(std::abs(to[i] - from[i]) <= kSlack * seconds * most_.velocity[i] + 1e-9)) {
+    if (!(std::abs(to[i] - q_[i]) <= kSlack * seconds * joint_motions_.limits().velocity[i] + 1e-9)) {
       return {ErrorCode::Speed, i + 1};
     }
   }
@@ -301,20 +293,19 @@ Fault Follower::allowed(const Joints& from, const Joints& to, double seconds) co
 Fault Follower::brake(double seconds) noexcept {
   double distance = 0;
   Joints q = q_;
-  if (const Reach reach = brake_.next(*this, past_, seconds, distance, q); reach != Reach::Ok) {
+  if (const Reach reach = brake_.next(path_, past_, seconds, distance, q); reach != Reach::Ok) {
     return {reach == Reach::JointLimit ? ErrorCode::JointLimit : ErrorCode::Singular};
   }
-  const Fault fault = allowed(q_, q, seconds);
-  if (!fault.ok()) {
+  if (const Fault fault = allowed(q, seconds); !fault.ok()) {
     return fault;
   }
-  const double before = state_.velocity;
-  go(distance);
-  state_.velocity = distance / seconds;
-  state_.acceleration = (state_.velocity - before) / seconds;
+  const double before = path_.state().velocity;
+  path_.go(distance);
+  const double velocity = distance / seconds;
+  path_.set_state({path_.state().position, velocity, (velocity - before) / seconds});
   q_ = q;
-  note(distance);
-  note_place(seconds);
+  note_step(distance);
+  note_speed(seconds);
   if (distance <= 0) {
     reset(q_);
   }
@@ -323,10 +314,10 @@ Fault Follower::brake(double seconds) noexcept {
 
 Fault Follower::place(double seconds) noexcept {
   Joints q = q_;
-  if (const Reach reach = joints_on_piece(state_.position, q_, q); reach != Reach::Ok) {
+  if (const Reach reach = path_.joints_at(path_.state().position, q_, q); reach != Reach::Ok) {
     return {reach == Reach::JointLimit ? ErrorCode::JointLimit : ErrorCode::Singular};
   }
-  const Fault fault = allowed(q_, q, seconds);
+  const Fault fault = allowed(q, seconds);
   if (fault.ok()) {
     q_ = q;
   }
@@ -336,28 +327,28 @@ Fault Follower::place(double seconds) noexcept {
 Fault Follower::step(double seconds) noexcept {
   if (idle()) {
     mode_ = stopping() ? Mode::Run : mode_;
-    note(0);
+    note_step(0);
     return {};
   }
   period_ = seconds;
   if (mode_ == Mode::HardStop) {
     return brake(seconds);
   }
-  const Joints end = segment(count_ - 1).to;
+  const Joints end = path_.last().to;
   const double moved = advance(seconds);
-  if (count_ == 0) {
-    const Fault fault = allowed(q_, end, seconds);
+  if (idle()) {
+    const Fault fault = allowed(end, seconds);
     if (fault.ok()) {
       q_ = end;
     }
     mode_ = mode_ == Mode::Stop ? Mode::Run : mode_;
-    note(moved);
+    note_step(moved);
     return fault;
   }
   const Fault fault = place(seconds);
-  note(moved);
-  note_place(seconds);
-  if (mode_ == Mode::Stop && state_.velocity <= 0) {
+  note_step(moved);
+  note_speed(seconds);
+  if (mode_ == Mode::Stop && path_.state().velocity <= 0) {
     reset(q_);
   }
   return fault;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "control/robot/axis/set_point_gate.h"
+#include "control/robot/path/follower.h"
 #include "group_cell.h"
 #include "jerk_reference.h"
 
