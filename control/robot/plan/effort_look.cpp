@@ -11,8 +11,9 @@ namespace {
 constexpr double kOfEffort = 0.99;  // part of the limits; margin for values between samples
 constexpr int kFewestSamples = 32;  // number of places
 constexpr int kMostSamples = 1500;
-constexpr double kStep = 0.004;    // s between instants of a timing
-constexpr double kSlowest = 0.02;  // part of the speed; below this the motion is rejected
+constexpr double kStep = 0.004;  // s between instants of a timing
+// Part of the speed below which a motion is rejected after however long a planning: it would nearly stand still.
+constexpr double kStandstill = 1e-4;
 
 // The torque of an axis as a function of the part of the speed: gravity and dry friction, damping, and inertial
 // torques, which grow with its square.
@@ -45,7 +46,7 @@ LineLimits slower_by(double factor, const LineLimits& limits) noexcept {
 }  // namespace
 
 void EffortBound::look(const Dynamics& dynamics, const Joints& q, const Joints& first, const Joints& second,
-                       std::span<const Pace> paces) noexcept {
+                       std::span<const Pace> paces, double slowest) noexcept {
   const Joints rest = Joints::Zero();
   const Joints still = dynamics.torques(q, rest, rest);
   const Joints bent = dynamics.torques(q, first, second) - still;
@@ -62,8 +63,8 @@ void EffortBound::look(const Dynamics& dynamics, const Joints& q, const Joints& 
         continue;
       }
       part_ = enough(share, part_, effort);
-      if (part_ < kSlowest) {
-        part_ = kSlowest;
+      if (part_ < slowest) {
+        part_ = slowest;
         fault_ = {ErrorCode::Torque, i + 1};
       }
     }
@@ -168,11 +169,11 @@ void EffortLook::next_way(Segment& segment) noexcept {
 void EffortLook::look_at_joints(const Segment& segment, double part) noexcept {
   if (way_ == Way::JointsStraight) {
     const Joints way = segment.to - segment.from;
-    bound_.look(*places_.dynamics(), segment.from + part * way, way / segment.length, Joints::Zero(), paces_);
+    bound_.look(*places_.dynamics(), segment.from + part * way, way / segment.length, Joints::Zero(), paces_, slowest_);
     return;
   }
   const JointState state = joint_timing_.at(part * joint_timing_.duration());
-  bound_.look(*places_.dynamics(), state.position, state.velocity, state.acceleration, paces_);
+  bound_.look(*places_.dynamics(), state.position, state.velocity, state.acceleration, paces_, slowest_);
 }
 
 // Checks the previous place, by differences.
@@ -184,11 +185,12 @@ void EffortLook::look_at_tool(const Segment& segment, double part) noexcept {
   if (next_ >= 2) {
     const double step = whole / count_;
     bound_.look(*places_.dynamics(), seen_[1], (seen_[2] - seen_[0]) / (2 * step),
-                (seen_[2] - 2 * seen_[1] + seen_[0]) / (step * step), paces_);
+                (seen_[2] - 2 * seen_[1] + seen_[0]) / (step * step), paces_, slowest_);
   }
 }
 
-Fault EffortLook::look(Segment& segment) noexcept {
+Fault EffortLook::look(Segment& segment, bool may_refuse) noexcept {
+  slowest_ = may_refuse ? EffortBound::kSlowest : kStandstill;
   const double part = static_cast<double>(next_) / count_;
   if (segment.move == Move::Joint) {
     look_at_joints(segment, part);
@@ -201,6 +203,28 @@ Fault EffortLook::look(Segment& segment) noexcept {
   }
   if (++next_ > count_) {
     next_way(segment);
+  }
+  return {};
+}
+
+Fault check_holding(const Dynamics& dynamics, const Joints* places, int count, int& place) noexcept {
+  const auto still = [&](int i) { return dynamics.torques(places[i], Joints::Zero(), Joints::Zero()); };
+  std::array<Joints, 3> near{Joints::Zero(), still(0), still(1)};
+  for (place = 1; place < count; ++place) {
+    near = {near[1], near[2], still(place + 1)};
+    for (int i = 0; i < kAxes; ++i) {
+      const double effort = kOfEffort * dynamics.effort()[i];
+      const double moved = places[place + 1][i] - places[place - 1][i];
+      const double dry = moved == 0 ? 0 : std::copysign(dynamics.friction().dry[i], moved);
+      // The greatest torque may lie between two places.
+      const double slope = (near[2][i] - near[0][i]) / 2;
+      const double bend = near[2][i] - 2 * near[1][i] + near[0][i];
+      const double peak =
+          2 * std::abs(slope) <= std::abs(bend) && bend != 0 ? near[1][i] - slope * slope / (2 * bend) : near[1][i];
+      if (effort > 0 && std::max(std::abs(near[1][i] + dry), std::abs(peak + dry)) > effort) {
+        return {ErrorCode::Torque, i + 1};
+      }
+    }
   }
   return {};
 }

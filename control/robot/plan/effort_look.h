@@ -22,10 +22,12 @@ class EffortBound {
     double acceleration = 0;
   };
 
+  // A motion that would have to be slower than this part of its speed is rejected.
+  static constexpr double kSlowest = 0.02;
   // Checks a place. `first` and `second` are derivatives by the place on the path. All functions of this class are
   // real-time safe.
   void look(const Dynamics& dynamics, const Joints& q, const Joints& first, const Joints& second,
-            std::span<const Pace> paces) noexcept;
+            std::span<const Pace> paces, double slowest = kSlowest) noexcept;
   // Returns the factor on the duration of the motion.
   [[nodiscard]] double slower() const noexcept { return 1 / part_; }
   // Returns Torque if no slower motion is possible.
@@ -44,8 +46,9 @@ class EffortLook {
   // Begins with a segment. If it is done() then, there is nothing to check.
   void begin(const Segment& segment) noexcept;
   [[nodiscard]] bool done() const noexcept { return way_ == Way::None; }
-  // Checks one more place. Errors: Torque.
-  Fault look(Segment& segment) noexcept;
+  // Checks one more place. `may_refuse`: rejects a motion that would have to be far slower, which else becomes as slow
+  // as that. Errors: Torque.
+  Fault look(Segment& segment, bool may_refuse) noexcept;
 
  private:
   // How a segment may be followed: joint timing at or below full pace, at one speed, or by its timing.
@@ -62,6 +65,7 @@ class EffortLook {
 
   const Places& places_;
   const JointLimits& joints_;
+  double slowest_ = EffortBound::kSlowest;
   EffortBound bound_;
   Way way_ = Way::None;
   JointTiming joint_timing_;
@@ -70,6 +74,10 @@ class EffortLook {
   int count_ = 0;
   std::array<Joints, 3> seen_;
 };
+
+// Returns Torque if the arm cannot move along a path however slowly it does, given `count` + 1 equally spaced places;
+// `place` is then where.
+Fault check_holding(const Dynamics& dynamics, const Joints* places, int count, int& place) noexcept;
 
 // Limits a path at one speed by torques, checked at `count` + 1 equally spaced places. Returns false if that is
 // impossible.

@@ -24,6 +24,12 @@ ErrorCode code_of(Reach reach) noexcept {
   return ErrorCode::Unreachable;
 }
 
+// An arm with few axes may not reach the orientation: compares it with the one that it reaches.
+bool misses_orientation(const Arm& arm, const Pose& pose, const Joints& q) noexcept {
+  constexpr double kTurned = 2e-3;  // rad
+  return arm.count() < 6 && rotation_between(arm.forward(q).orientation, pose.orientation).norm() > kTurned;
+}
+
 bool finite(const Target& target) noexcept {
   return target.joints.allFinite() && target.pose.position.allFinite() && target.pose.orientation.coeffs().allFinite();
 }
@@ -102,8 +108,7 @@ void Planner::begin(const Joints& from, double acceleration) noexcept {
   narrow_.fill({0, from});
   slowest_ = HUGE_VAL;
   stretches_ = 0;
-  unseen_ = narrows_ = false;
-  constexpr int kStepByStep = 4;
+  unseen_ = false;
   work_ = 0;
   weight_ = places_.inverse().closed_form() ? 1 : kStepByStep;
   searches_ = 1;
@@ -127,8 +132,8 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   if (command.move == Move::Joint) {
     measure_joint_motion(command.speed);
     segment_.together = segment_.length > 0 && command.zone <= 0 && !command.straight;
-    begin_clear();
-    return check_joint_way();
+    const Fault fault = begin_clear();
+    return fault.ok() ? check_joint_way() : fault;
   }
   if (command.move == Move::Circle) {
     if (!finite(command.mid)) {
@@ -196,16 +201,10 @@ Fault Planner::check_next() noexcept {
   }
   volumes_[static_cast<std::size_t>(next_)] = volume(here);
   note_volume(volume(here), spacing * next_, here);
-  narrows_ = narrows_ || misses_orientation(spacing * next_, here);
+  if (misses_orientation(places_.arm(), segment_.pose_at(spacing * next_), here)) {
+    weight_ = kSettlesSlowly;
+  }
   return {};
-}
-
-// An arm with few axes may not reach the orientation: compares it with the one that it reaches.
-bool Planner::misses_orientation(double place, const Joints& q) const noexcept {
-  constexpr double kTurned = 2e-3;  // rad
-  const Arm& arm = places_.arm();
-  return arm.count() < 6 &&
-         rotation_between(arm.forward(q).orientation, segment_.pose_at(place).orientation).norm() > kTurned;
 }
 
 // Goes from one place to another in as many steps as it takes to stay in the same posture: next to a singular position
@@ -279,14 +278,24 @@ Fault Planner::look(int& places) noexcept {
   }
   segment_.to = samples_[static_cast<std::size_t>(count_)];
   measure_tip();
-  if (misses_orientation(segment_.length, segment_.to)) {
+  if (misses_orientation(places_.arm(), segment_.end, segment_.to)) {
     return {ErrorCode::Unreachable};
   }
-  begin_clear();
-  return {};
+  return begin_clear();
 }
 
-void Planner::time_it() noexcept {
+// What the arm cannot hold is rejected before it is rehearsed, which may take long.
+Fault Planner::time_it() noexcept {
+  if (places_.dynamics() != nullptr) {
+    work_ += count_;
+    int place = 0;
+    if (const Fault fault = check_holding(*places_.dynamics(), samples_.data(), count_, place); !fault.ok()) {
+      if (segment_.chain != nullptr) {
+        segment_.source = segment_.chain->source_at(segment_.length / count_ * place);
+      }
+      return fault;
+    }
+  }
   for (int i = 0; i < noted_; ++i) {
     leave_for_changes(rates_[static_cast<std::size_t>(i)], joints_, segment_.limits);
   }
@@ -301,6 +310,7 @@ void Planner::time_it() noexcept {
   } else {
     rehearse_profile();
   }
+  return {};
 }
 
 Fault Planner::check(int places) noexcept {
@@ -330,7 +340,8 @@ Fault Planner::check(int places) noexcept {
         break;
       case Stage::Effort:
         --places;
-        if (const Fault fault = effort_.look(segment_); !fault.ok()) {
+        work_ += segment_.move == Move::Joint ? 1 : weight_ + 1;
+        if (const Fault fault = effort_.look(segment_, may_refuse()); !fault.ok()) {
           stage_ = Stage::Done;
           return fault;
         }

@@ -19,9 +19,9 @@ namespace indurop::robot {
 
 class Planner {
  public:
-  // Places that are checked until a motion is rejected: 50 ms on an ordinary processor. What is not rejected until then
-  // is planned to its end, however slow it becomes.
-  static constexpr int kMostWork = 16000;
+  // Work after which no motion is rejected for being slow, nor for torques of its movement: it is planned to its end,
+  // however slow it becomes. In places in closed form, of which each takes 15 000 instructions at most.
+  static constexpr int kMostWork = 12000;
 
   Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool);
 
@@ -49,6 +49,9 @@ class Planner {
 
  private:
   static constexpr int kMost = 256;
+  // What a place takes by iteration, in places in closed form: if the pose is reached, and if its orientation is missed
+  // on the path. The closest orientation may change as fast as joints near a singular position.
+  static constexpr int kStepByStep = 4, kSettlesSlowly = 5;
   static constexpr double kSlowestPace = 0.02;  // part of full speed below which a path counts as singular
   using Samples = std::array<Joints, kMost + 1>;
 
@@ -57,9 +60,9 @@ class Planner {
   enum class Stage { Look, Clear, Search, RehearseTiming, RehearseProfile, Effort, Done };
 
   Fault look(int& places) noexcept;
-  void time_it() noexcept;
+  Fault time_it() noexcept;
   // Collision check (planner_collisions.cpp).
-  void begin_clear() noexcept;
+  Fault begin_clear() noexcept;
   Fault clear(int& places) noexcept;
   bool joints_on_way(double place, const Joints& near, Joints& q) const noexcept;
   [[nodiscard]] bool clear(const Segment& first, const Blend& blend, const Segment& second) noexcept;
@@ -87,7 +90,6 @@ class Planner {
   Fault check_next() noexcept;
   Fault walk(double from, const Joints& start, double to, Joints& q) noexcept;
   [[nodiscard]] Fault check_joint_way() const noexcept;
-  [[nodiscard]] bool misses_orientation(double place, const Joints& q) const noexcept;
   Fault look_closer() noexcept;
   [[nodiscard]] double volume(const Joints& q) const noexcept;
   void choose_windows(const Joints* places, const double* volumes, int count, double from, double spacing,
@@ -121,10 +123,9 @@ class Planner {
   int noted_ = 0;
   int rehearsals_ = 0;
   int searches_ = 0;
-  bool unseen_ = false;   // the last rehearsal did not reach the end
-  bool narrows_ = false;  // an orientation is missed on the path, and the closest one may change fast
-  // Work done so far, in places; with an arm without a closed form one place counts as several. A motion is rejected
-  // before kMostWork or not at all, except for collisions and torques, which are always checked.
+  bool unseen_ = false;  // the last rehearsal did not reach the end
+  // Work done so far, in places; with an arm without a closed form one place counts as several. After kMostWork a
+  // motion is rejected only for collisions, and for what only the whole rehearsal or check of torques finds in a place.
   int work_ = 0;
   double most_factor_ = 1;  // of the rehearsed motion: one that takes more than this many times as long is rejected
   int weight_ = 1;

@@ -14,15 +14,14 @@ constexpr double kParts = 8;  // of a joint path: the longest step
 
 }  // namespace
 
-void Planner::begin_clear() noexcept {
+Fault Planner::begin_clear() noexcept {
   const bool joints = segment_.move == Move::Joint;
   if (!places_.clearance().known() || segment_.length <= 0) {
-    if (joints) {
-      end_look();
-    } else {
-      time_it();
+    if (!joints) {
+      return time_it();
     }
-    return;
+    end_look();
+    return {};
   }
   stage_ = Stage::Clear;
   clear_.begin(segment_.from, places_.tool());
@@ -35,6 +34,7 @@ void Planner::begin_clear() noexcept {
   } else {
     walk_.begin(segment_.length, 2 * segment_.length / count_);
   }
+  return {};
 }
 
 // Joint angles at a place; places that were checked before are already known.
@@ -72,10 +72,9 @@ Fault Planner::clear(int& places) noexcept {
     return {};
   }
   if (segment_.move != Move::Joint) {
-    time_it();
-  } else {
-    end_look();
+    return time_it();
   }
+  end_look();
   return {};
 }
 

@@ -75,7 +75,8 @@ void Planner::begin_rehearsal(double duration) noexcept {
 
 double Planner::rehearsal_step() const noexcept {
   constexpr double kNear = 0.1;
-  return segment_.chain != nullptr || narrows_ || least_volume_ < kNear * usual_volume_ ? kFineStep : kStep;
+  return segment_.chain != nullptr || weight_ == kSettlesSlowly || least_volume_ < kNear * usual_volume_ ? kFineStep
+                                                                                                         : kStep;
 }
 
 void Planner::rehearse() noexcept {

@@ -13,6 +13,7 @@
 
 #include "control/robot/path/profile.h"
 #include "drive_faults.h"
+#include "heavy_arm.h"
 #include "robot_fixture.h"
 
 namespace indurop::robot {
@@ -176,6 +177,45 @@ TEST_P(RefusalOfFiveAxes, Keeps_limits_where_the_orientation_is_not_reached) {
 }
 
 INSTANTIATE_TEST_SUITE_P(With_another_orientation, RefusalOfFiveAxes, testing::Values("five_axis"));
+
+class RefusalOfHeavyLinks : public Refusal {
+ protected:
+  // What the axes need to rest somewhere on the planned motion.
+  Joints resting(const Dynamics& dynamics) const {
+    constexpr int kPlaces = 300;
+    const Segment& s = planner->segment();
+    Joints q = s.from;
+    Joints most = Joints::Zero();
+    for (int i = 0; i <= kPlaces; ++i) {
+      places.on(s, s.length * i / kPlaces, q, q);
+      most = most.cwiseMax(dynamics.torques(q, Joints::Zero(), Joints::Zero()).cwiseAbs());
+    }
+    return most;
+  }
+};
+
+// Where an axis can hardly hold the arm, the check of torques finds a motion too slow after all of its rehearsal.
+TEST_P(RefusalOfHeavyLinks, Takes_no_more_than_its_work) {
+  const Joints strong = joints_of({250, 250, 130, 26, 22, 12});
+  const Dynamics dynamics = arm_from_urdf("arm.urdf", heavy_cell_arm(strong).urdf)->dynamics;
+  int refused = 0;
+  for (const long seed : {20L, 81L, 198L, 235L, 261L, 265L}) {
+    SCOPED_TRACE(seed);
+    ASSERT_TRUE(plan_random(seed)->ok());
+    const auto axis = static_cast<Eigen::Index>(seed % 3 + 1);
+    Joints effort = strong;
+    effort[axis] = resting(dynamics)[axis] / 0.99 * (1 + decades(1e-7, 1e-2));
+    const ArmModel heavy = arm_from_urdf("arm.urdf", heavy_cell_arm(effort).urdf).value();
+    places.weigh(&heavy.dynamics);
+    const Fault fault = *plan_random(seed);
+    places.weigh(nullptr);
+    EXPECT_TRUE(fault.ok() || planner->work() <= Planner::kMostWork) << to_string(fault.code) << planner->work();
+    refused += fault.ok() ? 0 : 1;
+  }
+  EXPECT_GE(refused, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of_the_cell, RefusalOfHeavyLinks, testing::Values("cell"));
 
 class RefusalOfIrb4600 : public Refusal {};
 
