@@ -166,7 +166,7 @@ void EffortLook::next_way(Segment& segment) noexcept {
   way_ = Way::None;
 }
 
-void EffortLook::look_at_joints(const Segment& segment, double part) noexcept {
+void EffortLook::check_joints(const Segment& segment, double part) noexcept {
   if (way_ == Way::JointsStraight) {
     const Joints way = segment.to - segment.from;
     bound_.look(*places_.dynamics(), segment.from + part * way, way / segment.length, Joints::Zero(), paces_, slowest_);
@@ -177,7 +177,7 @@ void EffortLook::look_at_joints(const Segment& segment, double part) noexcept {
 }
 
 // Checks the previous place, by differences.
-void EffortLook::look_at_tool(const Segment& segment, double part) noexcept {
+void EffortLook::check_tool(const Segment& segment, double part) noexcept {
   const double whole = way_ == Way::Timing ? segment.timing.duration() : segment.length;
   const double along = way_ == Way::Timing ? segment.timing.at(part * whole).place : part * whole;
   seen_ = {seen_[1], seen_[2], seen_[2]};
@@ -193,9 +193,9 @@ Fault EffortLook::look(Segment& segment, bool may_refuse) noexcept {
   slowest_ = may_refuse ? EffortBound::kSlowest : kStandstill;
   const double part = static_cast<double>(next_) / count_;
   if (segment.move == Move::Joint) {
-    look_at_joints(segment, part);
+    check_joints(segment, part);
   } else {
-    look_at_tool(segment, part);
+    check_tool(segment, part);
   }
   if (!bound_.fault().ok()) {
     way_ = Way::None;

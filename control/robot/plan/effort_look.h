@@ -58,8 +58,8 @@ class EffortLook {
 
   void begin_way(const Segment& segment, Way way) noexcept;
   void next_way(Segment& segment) noexcept;
-  void look_at_joints(const Segment& segment, double part) noexcept;
-  void look_at_tool(const Segment& segment, double part) noexcept;
+  void check_joints(const Segment& segment, double part) noexcept;
+  void check_tool(const Segment& segment, double part) noexcept;
   static Paces changing(const PaceLimits& limits, double most) noexcept;
   static Paces at_one_speed(const LineLimits& limits) noexcept;
 
