@@ -111,7 +111,7 @@ void Clearance::connect(const std::vector<std::pair<std::string, std::string>>& 
       } else if (!zone && nearest.distance(a, b, places[i], places[k]) <= margin_) {
         append(touching_, plain(first), plain(second));
       } else {
-        append(looked_at_, plain(first), plain(second));
+        append(checked_, plain(first), plain(second));
         add_pair(a, b);
       }
     }
@@ -146,8 +146,8 @@ void Clearance::name(int pair, char* to, std::size_t size) const noexcept {
 }
 
 std::string Clearance::text() const {
-  std::string text = "kept apart: " + (looked_at_.empty() ? "none" : looked_at_);
-  text += touching_.empty() ? "" : "; not looked at, since they touch with all joints at zero: " + touching_;
+  std::string text = "kept apart: " + (checked_.empty() ? "none" : checked_);
+  text += touching_.empty() ? "" : "; not checked, since they touch with all joints at zero: " + touching_;
   text += let_touch_.empty() ? "" : "; may touch (ignore_collisions): " + let_touch_;
   return text;
 }

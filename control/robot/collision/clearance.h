@@ -64,7 +64,7 @@ class Clearance {
   std::vector<Part> parts_;
   std::vector<Pair> pairs_;
   std::size_t first_zone_ = 0;
-  std::string looked_at_, touching_, let_touch_;
+  std::string checked_, touching_, let_touch_;
 };
 
 }  // namespace indurop::robot
