@@ -148,9 +148,9 @@ Formula ExpressionReader::product(const char* what, int depth) {
 }
 
 Formula ExpressionReader::operand(const char* what, int depth) {
-  constexpr int kDeepest = 10;
-  if (depth > kDeepest) {
-    line_.error(line_.peek(), "more than " + std::to_string(kDeepest) + " brackets inside each other");
+  constexpr int kMaxBrackets = 10;
+  if (depth > kMaxBrackets) {
+    line_.error(line_.peek(), "more than " + std::to_string(kMaxBrackets) + " brackets inside each other");
     return {};
   }
   if (line_.accept("-")) {

@@ -7,7 +7,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr std::size_t kLongest = 16;  // parts of a condition, which is evaluated in each period
+constexpr std::size_t kMaxParts = 16;  // parts of a condition, which is evaluated in each period
 
 }  // namespace
 
@@ -65,8 +65,8 @@ void FlowReader::arm() {
   const int formula = expressions_.read("a condition");
   const Formula& condition = draft_.book().formulas.back();
   if (!line_.failed() && (condition.looks_in() || !condition.looks_out())) {
-    line_.error(start, "an interrupt watches shared variables, and no variables of the job");
-  } else if (!line_.failed() && condition.size() > kLongest) {
+    line_.error(start, "an interrupt monitors shared variables, and no variables of the job");
+  } else if (!line_.failed() && condition.size() > kMaxParts) {
     line_.error(start, "this condition is too long to be watched; have a PLC program compute it");
   } else if (!line_.failed() && !line_.accept("CALL")) {
     line_.error(line_.peek(),

@@ -70,7 +70,7 @@ void Formula::push(const FormulaPart& part) {
 }
 
 double Formula::value(std::span<const double> variables, Signals& signals) const noexcept {
-  std::array<double, kDeepest + 1> stack{};
+  std::array<double, kMaxOperands + 1> stack{};
   std::size_t top = 0;
   for (const FormulaPart& part : parts_) {
     double now = part.value;

@@ -41,12 +41,12 @@ struct FormulaPart {
 
 class Formula {
  public:
-  static constexpr int kDeepest = 16;        // operands on the stack
-  static constexpr std::size_t kMost = 100;  // parts
+  static constexpr int kMaxOperands = 16;        // operands on the stack
+  static constexpr std::size_t kMaxParts = 100;  // parts
 
   void push(const FormulaPart& part);
   // Returns false if the expression is deeper or longer than can be evaluated.
-  [[nodiscard]] bool fits() const noexcept { return deepest_ <= kDeepest && parts_.size() <= kMost; }
+  [[nodiscard]] bool fits() const noexcept { return deepest_ <= kMaxOperands && parts_.size() <= kMaxParts; }
   [[nodiscard]] std::size_t size() const noexcept { return parts_.size(); }
   // Returns whether it reads variables of the job.
   [[nodiscard]] bool looks_in() const noexcept { return looks_in_; }

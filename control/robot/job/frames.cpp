@@ -14,7 +14,8 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kNearest = 0.001;  // m between points that teach a frame, and from the third to the line of the others
+// m between points that teach a frame, and from the third to the line of the others
+constexpr double kLeastDistance = 0.001;
 
 Vec3 place_of(const Target& target, const Arm& arm) {
   return target.is_pose ? target.pose.position : arm.forward(target.joints).position;
@@ -25,12 +26,12 @@ Vec3 place_of(const Target& target, const Arm& arm) {
 std::string taught(const std::array<Vec3, 3>& at, Pose& frame) {
   const Vec3 x = at[1] - at[0];
   const Vec3 side = at[2] - at[0];
-  if (x.norm() < kNearest || side.norm() < kNearest) {
+  if (x.norm() < kLeastDistance || side.norm() < kLeastDistance) {
     return "two of its points are the same place; teach the origin, a point on x, and one on the side of y";
   }
   const Vec3 z = x.cross(side);
-  if (z.norm() / x.norm() < kNearest) {
-    return "its three points lie on one line; the third one says where y is, so teach it beside that line";
+  if (z.norm() / x.norm() < kLeastDistance) {
+    return "its three points lie on one line; the third one says where y is, so teach it away from that line";
   }
   Mat3 axes;
   axes.col(0) = x.normalized();

@@ -106,7 +106,7 @@ void PlaceReader::frame() {
   const JobToken name = line_.take();
   if (name.kind != JobToken::Kind::Word || !line_.accept("=")) {
     line_.error(name.kind != JobToken::Kind::Word ? name : line_.peek(),
-                "expected a name and '='; FRAME pallet = POSE 500 0 100 RPY 0 0 45, or = POINTS origin on_x beside_y");
+                "expected a name and '='; FRAME pallet = POSE 500 0 100 RPY 0 0 45, or = POINTS origin on_x side_y");
     return;
   }
   WorkFrame frame;

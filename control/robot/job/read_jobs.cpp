@@ -21,12 +21,12 @@ ReadJobs parse_jobs(const std::vector<JobFile>& files, const ArmShape& shape) {
     parser.read(file);
   }
   parser.resolve();
-  constexpr unsigned kHighest = 9999;
+  constexpr unsigned kHighestNumber = 9999;
   for (std::size_t i = 0; i < book.points.size(); ++i) {
     const std::string& name = book.points[i].name;
     unsigned number = 0;
     const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
-    if (name[0] != 'P' || error != std::errc{} || end != name.data() + name.size() || number > kHighest) {
+    if (name[0] != 'P' || error != std::errc{} || end != name.data() + name.size() || number > kHighestNumber) {
       continue;
     }
     if (book.numbered.size() <= number) {

@@ -56,9 +56,9 @@ void ToolReader::taught_tool(Tool& tool) {
     line_.accept(",");
     names_.declare(JobNames::In::ToolPoint, draft_.book().tools.size(), point);
   }
-  constexpr std::size_t kFewest = 3;
-  constexpr std::size_t kMost = 32;
-  if (count < kFewest || count > kMost) {
+  constexpr std::size_t kLeastPoints = 3;
+  constexpr std::size_t kMaxPoints = 32;
+  if (count < kLeastPoints || count > kMaxPoints) {
     line_.error(first,
                 "a tool is taught by 3 points or more, 32 at most, at which its tip touches the same place, turned "
                 "otherwise each time; here are " +

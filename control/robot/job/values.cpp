@@ -51,7 +51,7 @@ void ValueReader::set_on_path(Step wanted) {
     return;
   }
   if (wanted.formula >= 0 && draft_.book().formulas[static_cast<std::size_t>(wanted.formula)].looks_out()) {
-    line_.error(line_.first(), "what is set on the way is computed before; it cannot look at shared variables");
+    line_.error(line_.first(), "what is set on the way is computed before; it cannot read shared variables");
     return;
   }
   const JobToken number = line_.peek();

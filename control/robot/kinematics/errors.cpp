@@ -53,7 +53,7 @@ const char* to_string(ErrorCode code) noexcept {
     case ErrorCode::NoResume:
       return "there is no job to go on with; start one";
     case ErrorCode::Away:
-      return "the robot is too far from where its job left the path; bring it back there, or start the job anew";
+      return "the robot is too far from where its job left the path; bring it back there, or start the job again";
     case ErrorCode::Full:
       return "there are more commands than there is room for";
     case ErrorCode::Master:
@@ -69,7 +69,7 @@ const char* to_string(ErrorCode code) noexcept {
     case ErrorCode::Contact:
       return "something pushes against the arm, or it does not hold what TOOL and LOAD say";
     case ErrorCode::Belt:
-      return "the belt's place is not told, jumps or goes too quickly; see to its encoder, then track it anew";
+      return "the belt has no position, jumps or moves too fast; check its encoder, then track it again";
     case ErrorCode::NoTorque:
       return "the axis cannot push with a torque: rated_torque, masses in the URDF, or the drive's mode 10 is missing";
     case ErrorCode::Planner:

@@ -30,9 +30,10 @@ TEST(Interrupt, Errors_are_reported_with_their_place) {
               ElementsAre("main.job:1:12: error: there is no job 'ejct'; did you mean 'eject'?\n"));
   EXPECT_THAT(errors_of("ON I1 eject\n"),
               ElementsAre(HasSubstr("main.job:1:7: error: expected CALL and the name of a job, found 'eject'")));
-  EXPECT_THAT(errors_of("VAR n\nON n CALL eject\n"),
-              ElementsAre("main.job:2:4: error: an interrupt watches shared variables, and no variables of the job\n"));
-  EXPECT_THAT(errors_of("ON 1 CALL eject\n"), ElementsAre(HasSubstr("main.job:1:4: error: an interrupt watches")));
+  EXPECT_THAT(
+      errors_of("VAR n\nON n CALL eject\n"),
+      ElementsAre("main.job:2:4: error: an interrupt monitors shared variables, and no variables of the job\n"));
+  EXPECT_THAT(errors_of("ON 1 CALL eject\n"), ElementsAre(HasSubstr("main.job:1:4: error: an interrupt monitors")));
   EXPECT_THAT(errors_of("ON I1 CALL two\n"),
               ElementsAre("main.job:1:12: error: job 'two' takes 1 value, here are 0\n"));
   EXPECT_THAT(errors_of("OFF eject\n"), ElementsAre(HasSubstr("main.job:1:5: error: expected CALL")));
