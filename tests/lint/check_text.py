@@ -137,7 +137,7 @@ def retired_words():
 
 # Rooms whose names and messages use the terms, too, and pages that do not.
 PLAIN_ROOMS = ("include/indurop/", "core/", "glb2idl/", "scheduler/", "config/", "store/", "history/", "control/io/",
-               "control/plc/", "node/", "network/", "deploy/", "tools/", "examples/", "tests/")
+               "control/plc/", "control/robot/", "node/", "network/", "deploy/", "tools/", "examples/", "tests/")
 OPEN_PAGES = ("docs/words.md", "docs/options.md", "tests/data/")
 # Names in files or messages that other releases read, and what they are called by in the code that writes them.
 FIXED_NAMES = re.compile(r"\bindurop/told\b|indurop::Told|struct Told|external/wish|`Wish`|\bindurop_wire_Wish\w*|\bbool(ean)? anew\b|\b(run|old)(\.|->)anew\b|"

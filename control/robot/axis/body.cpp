@@ -43,7 +43,7 @@ void AxisBody::put(const LineState& state) noexcept {
 }
 
 bool AxisBody::leads() const noexcept {
-  return !placed_anew_ && !parts_.pushing.pushes() && parts_.state != AxisState::Disabled &&
+  return !displaced_ && !parts_.pushing.pushes() && parts_.state != AxisState::Disabled &&
          parts_.state != AxisState::ErrorStop && parts_.state != AxisState::Homing;
 }
 
@@ -52,7 +52,7 @@ void AxisBody::measure(const DriveIn& in, double seconds) noexcept {
   parts_.measured.position = parts_.units.position(in.position);
   parts_.measured.speed = sensed_ ? (parts_.measured.position - before) / seconds : 0;
   sensed_ = true;
-  placed_anew_ = parts_.state == AxisState::Homing;
+  displaced_ = parts_.state == AxisState::Homing;
 }
 
 }  // namespace indurop::robot

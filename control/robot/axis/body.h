@@ -71,7 +71,7 @@ class AxisBody {
   // Returns whether its gate has to bring it to rest; the gate then reports its state to braked().
   [[nodiscard]] bool brakes() const noexcept { return parts_.following.brakes(); }
   // Returns whether the drive has not followed since the last period: the commanded position may be anywhere.
-  [[nodiscard]] bool placed_anew() const noexcept { return placed_anew_; }
+  [[nodiscard]] bool displaced() const noexcept { return displaced_; }
   // Returns whether it pushes with a torque: the set point is the drive's position.
   [[nodiscard]] bool pushes() const noexcept { return parts_.pushing.pushes(); }
   [[nodiscard]] bool led_by_drive() const noexcept { return parts_.pushing.led_by_drive(); }
@@ -93,12 +93,12 @@ class AxisBody {
               const AxisNeighbours& row) noexcept;
   // Takes the measured position.
   void measure(const DriveIn& in, double seconds) noexcept;
-  void place_anew() noexcept { placed_anew_ = true; }
+  void set_displaced() noexcept { displaced_ = true; }
 
  private:
   AxisParts parts_;
   bool sensed_ = false;
-  bool placed_anew_ = true;
+  bool displaced_ = true;
 };
 
 }  // namespace indurop::robot

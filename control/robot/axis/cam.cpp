@@ -161,11 +161,11 @@ double Cam::slope_at(double master) const noexcept {
 }
 
 std::pair<double, double> Cam::extent() const noexcept {
-  constexpr int kLooks = 16;  // in each part
+  constexpr int kSamples = 16;  // in each part
   std::pair<double, double> found{HUGE_VAL, -HUGE_VAL};
   for (std::size_t i = 0; i + 1 < count_; ++i) {
-    for (int k = 0; k <= kLooks; ++k) {
-      const double x = points_[i].x + (points_[i + 1].x - points_[i].x) * k / kLooks;
+    for (int k = 0; k <= kSamples; ++k) {
+      const double x = points_[i].x + (points_[i + 1].x - points_[i].x) * k / kSamples;
       const double y = between(points_[i], points_[i + 1], x).position();
       found = {std::min(found.first, y), std::max(found.second, y)};
     }

@@ -49,7 +49,7 @@ void CommandTable::look(std::size_t place, const Command& now) noexcept {
 }
 
 void CommandTable::enter(std::size_t place, const Command& now) noexcept {
-  for (int ticket = 0; ticket < kMost; ++ticket) {
+  for (int ticket = 0; ticket < kMaxCommands; ++ticket) {
     if (!at(ticket).used) {
       at(ticket) = {true, false, false, static_cast<int>(place), now};
       tickets_[place] = ticket;
@@ -62,7 +62,7 @@ void CommandTable::enter(std::size_t place, const Command& now) noexcept {
 
 int CommandTable::take() noexcept {
   int first = kNone;
-  for (int ticket = 0; ticket < kMost; ++ticket) {
+  for (int ticket = 0; ticket < kMaxCommands; ++ticket) {
     const Entry& entry = at(ticket);
     // Numbers may wrap around.
     if (entry.used && !entry.taken &&

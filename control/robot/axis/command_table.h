@@ -11,7 +11,7 @@ namespace indurop::robot {
 class CommandTable {
  public:
   static constexpr int kNone = -1;
-  static constexpr int kMost = 64;
+  static constexpr int kMaxCommands = 64;
 
   // Called once per period. `known` is false while the commanding board has not been received. Commands that are there
   // the first time are not executed, but answered with Aborted. All functions of this class are real-time safe.
@@ -51,7 +51,7 @@ class CommandTable {
   void enter(std::size_t place, const Command& now) noexcept;
 
   bool first_ = true;
-  std::array<Entry, kMost> entries_{};
+  std::array<Entry, kMaxCommands> entries_{};
   std::array<int, kCommands> tickets_{};
   std::array<std::uint32_t, kCommands> seen_{};
   CommandAnswers answers_{};

@@ -32,7 +32,7 @@ void AxisControl::sense(const DriveIn& in, double seconds) noexcept {
 void AxisControl::sense_without_power(const DriveIn& in) noexcept {
   const bool moved = busy();
   put({measured(), 0, 0});  // the commanded position of a drive without power is where it is
-  place_anew();
+  set_displaced();
   if (moved) {
     fail(ErrorCode::Drive, 1);
   } else if (state() == AxisState::Standstill && wants_power()) {

@@ -12,7 +12,7 @@ namespace indurop::robot {
 namespace {
 
 // Minimum part of the axis' limits for catching up, whatever its master does. The gate limits the sum anyway.
-constexpr double kLeast = 0.2;
+constexpr double kLeastPart = 0.2;
 constexpr double kMargin = 1 + 1e-4;
 
 LineState difference(double now, const LineState& before, double seconds) noexcept {
@@ -23,7 +23,7 @@ LineState difference(double now, const LineState& before, double seconds) noexce
 constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();  // of what a position is computed from
 
 double left(double limit, double used, double most) noexcept {
-  return std::max(limit - std::abs(used), std::min(limit, kLeast * most));
+  return std::max(limit - std::abs(used), std::min(limit, kLeastPart * most));
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ ErrorCode AxisCoupling::step(const Master& master, const SetPointGate& gate, dou
   if (!begun_) {
     begin(master.before, seconds);
   }
-  const LineState& told = gate.state();
+  const LineState& set_point = gate.state();
   const LineState last = law_state_;
   step_phase(seconds);
   law_state_ = difference(law_.at(master.now + phase_.position), last, seconds);
@@ -94,7 +94,8 @@ ErrorCode AxisCoupling::step(const Master& master, const SetPointGate& gate, dou
     return code;
   }
   if (!planned_) {
-    plan({told.position - last.position, told.velocity - last.velocity, told.acceleration - last.acceleration},
+    plan({set_point.position - last.position, set_point.velocity - last.velocity,
+          set_point.acceleration - last.acceleration},
          seconds);
   }
   time_ += seconds;
@@ -107,7 +108,7 @@ ErrorCode AxisCoupling::step(const Master& master, const SetPointGate& gate, dou
   // The gate allows for the rounding of paths, which in short periods is as large as the jerk limit.
   const double rounding = law_.rounding_at(master.now, phase_.position) + kRounding * std::abs(next);
   const double noise = 8 * rounding / (seconds * seconds);
-  const double change = difference(next, told, seconds).acceleration - told.acceleration;
+  const double change = difference(next, set_point, seconds).acceleration - set_point.acceleration;
   if (std::abs(change) > most_.jerk * seconds * kMargin + noise) {
     return ErrorCode::Jerk;
   }
@@ -115,7 +116,7 @@ ErrorCode AxisCoupling::step(const Master& master, const SetPointGate& gate, dou
   const bool settled = gap_.duration() <= 0 || time_ >= gap_.duration() + 2 * seconds;
   synced_ = synced_ || (settled && next == wanted && !phasing_ && !(held_ && to_place_));
   planned_ = next == wanted;
-  put(next, told, seconds);
+  put(next, set_point, seconds);
   return ErrorCode::Ok;
 }
 
@@ -190,12 +191,12 @@ void AxisCoupling::hold(bool held) noexcept {
 }
 
 bool AxisCoupling::leave(const SetPointGate& gate, double seconds) noexcept {
-  const LineState& told = gate.state();
+  const LineState& set_point = gate.state();
   const LineState next = gate.unloaded();
   const LineState later{next.position + 2 * seconds * next.velocity, next.velocity, next.acceleration};
   brakes_ = brakes_ || gate.check(next.position, 1) != ErrorCode::Ok || !gate.can_rest(later);
   if (brakes_ ? gate.at_rest() : gate.coasts()) {
-    state_ = {told.position, told.velocity, 0};
+    state_ = {set_point.position, set_point.velocity, 0};
     brakes_ = false;
     return true;
   }

@@ -126,19 +126,19 @@ bool AxisMotion::keeps_bounds() const noexcept {
 // An axis that turns back before an end keeps braking through standstill, as it could also have come to rest there. It
 // always has to be able to rest before the end, or at least no nearer to it than if it braked now.
 bool AxisMotion::turns_in_time(double side) const noexcept {
-  constexpr int kLooks = 32;
+  constexpr int kSamples = 32;
   constexpr double kMargin = 2e-3;  // rad, between two samples
   const LineLimits hard = hardest();
   const auto rest = [&](const LineState& from) { return side * (from.position + ramp(from, 0, hard).distance); };
   const double most = std::max((side > 0 ? upper_ : -lower_) - kMargin, rest(state_)) + kMotionRounding;
   // Until it turns back, if it does.
   int turned = 1;
-  while (turned < kLooks && side * profile_.at(profile_.duration() * turned / kLooks).velocity > 0) {
+  while (turned < kSamples && side * profile_.at(profile_.duration() * turned / kSamples).velocity > 0) {
     ++turned;
   }
-  const double until = turned < kLooks ? profile_.duration() * turned / kLooks : profile_.duration();
-  for (int i = 1; i <= kLooks; ++i) {
-    const LineState there = profile_.at(until * i / kLooks);
+  const double until = turned < kSamples ? profile_.duration() * turned / kSamples : profile_.duration();
+  for (int i = 1; i <= kSamples; ++i) {
+    const LineState there = profile_.at(until * i / kSamples);
     if (side * there.velocity > 0 && rest(there) > most) {
       return false;
     }

@@ -68,7 +68,7 @@ void AxisMotions::step_own(double seconds) noexcept {
   }
   parts_.motion.step(seconds);
   // A motion that passes its end continues with the next one in the same period, several times if they are short.
-  for (int i = 0; parts_.motion.passed() && i < CommandTable::kMost; ++i) {
+  for (int i = 0; parts_.motion.passed() && i < CommandTable::kMaxCommands; ++i) {
     const double rest = parts_.motion.rest_of_step();
     end_motion(ErrorCode::Ok);
     parts_.motion.step(rest);

@@ -310,7 +310,7 @@ void AxisMotions::choose_passing() noexcept {
 
 // It must be possible to come to rest where the next motion leads.
 double AxisMotions::passing_into_next() const noexcept {
-  constexpr double kLeast = 1e-6;
+  constexpr double kLeastSpeed = 1e-6;
   const Command& next = answers_.table().command(queue_.front());
   const AxisService service = axis_service_of(next);
   AxisOrder order;
@@ -325,10 +325,10 @@ double AxisMotions::passing_into_next() const noexcept {
   if (works && ahead && (to_a_place || service == AxisService::MoveVelocity)) {
     passing = velocity_of(next.buffer, own, other);
   }
-  while (passing > kLeast && to_a_place && ramp({0, passing, 0}, 0, order.braking).distance > std::abs(way)) {
+  while (passing > kLeastSpeed && to_a_place && ramp({0, passing, 0}, 0, order.braking).distance > std::abs(way)) {
     passing *= 0.98;
   }
-  return passing > kLeast ? passing : 0;
+  return passing > kLeastSpeed ? passing : 0;
 }
 
 }  // namespace indurop::robot

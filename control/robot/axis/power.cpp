@@ -7,9 +7,9 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kPowerTime = 3;    // s a drive may take to switch on or to leave a fault
-constexpr int kHolds = 1;           // option of a command: holds power as long as it has its Execute
-constexpr double kLetGoTime = 0.5;  // s to wait for switching off; a drive that stays on is used
+constexpr double kPowerTime = 3;       // s a drive may take to switch on or to leave a fault
+constexpr int kHolds = 1;              // option of a command: holds power as long as it has its Execute
+constexpr double kPowerOffTime = 0.5;  // s to wait for switching off; a drive that stays on is used
 
 }  // namespace
 
@@ -67,8 +67,8 @@ void AxisPower::interrupt() noexcept {
 void AxisPower::switch_on(int ticket) noexcept {
   owner_ = {ticket, AxisService::PowerOn};
   waited_ = 0;
-  letting_go_ = parts_.drive.enabled() && !wanted_;
-  wanted_ = !letting_go_;
+  switching_off_ = parts_.drive.enabled() && !wanted_;
+  wanted_ = !switching_off_;
 }
 
 bool AxisPower::keep() noexcept {
@@ -89,9 +89,9 @@ void AxisPower::wait_for_power(double seconds) noexcept {
     return;
   }
   waited_ += seconds;
-  if (letting_go_) {
-    letting_go_ = parts_.drive.enabled() && waited_ <= kLetGoTime;
-    wanted_ = !letting_go_;
+  if (switching_off_) {
+    switching_off_ = parts_.drive.enabled() && waited_ <= kPowerOffTime;
+    wanted_ = !switching_off_;
   } else if (parts_.drive.enabled()) {
     answers_.finish(owner_, ErrorCode::Ok);
   } else if (waited_ > kPowerTime) {

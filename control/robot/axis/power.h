@@ -55,8 +55,8 @@ class AxisPower {
   AxisAnswers& answers_;
   AxisOwner owner_;
   bool wanted_ = false;
-  bool letting_go_ = false;  // waits for the drive, still on from before PowerOn, to switch off
-  double waited_ = 0;        // s
+  bool switching_off_ = false;  // waits for the drive, still on from before PowerOn, to switch off
+  double waited_ = 0;           // s
   bool emergency_ = false;
   bool group_stops_ = false;
   bool quick_stopped_ = false;

@@ -32,7 +32,7 @@ class CommandQueue {
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
 
  private:
-  std::array<int, CommandTable::kMost> tickets_{};
+  std::array<int, CommandTable::kMaxCommands> tickets_{};
   int count_ = 0;
 };
 

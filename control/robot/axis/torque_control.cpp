@@ -21,18 +21,18 @@ double towards(double from, double to, double step) noexcept {
 
 }  // namespace
 
-void TorqueControl::take(const Wish& wish) noexcept {
-  wish_ = wish;
+void TorqueControl::take(const Request& request) noexcept {
+  request_ = request;
   if (phase_ == Phase::Off) {
     phase_ = Phase::Resting;
-    asked_ = carried_ = told_ = speed_ = 0;
+    asked_ = carried_ = torque_ = speed_ = 0;
     reached_ = false;
   }
 }
 
 void TorqueControl::off() noexcept {
   phase_ = Phase::Off;
-  told_ = 0;
+  torque_ = 0;
   reached_ = false;
 }
 
@@ -49,9 +49,9 @@ void TorqueControl::push(int late) noexcept {
 // An axis that comes free is accelerated by the torque increase until that is measured and corrected, which limits the
 // ramp.
 double TorqueControl::ramp(double smooth, double period) const noexcept {
-  const double safe = kFaster * wish_.velocity * load_.inertia / (late_ * period * smooth);
-  const double quick = std::max(std::abs(wish_.torque), std::abs(asked_)) / kQuick;
-  return std::min(safe, wish_.ramp > 0 ? wish_.ramp : quick);
+  const double safe = kFaster * request_.velocity * load_.inertia / (late_ * period * smooth);
+  const double quick = std::max(std::abs(request_.torque), std::abs(asked_)) / kQuick;
+  return std::min(safe, request_.ramp > 0 ? request_.ramp : quick);
 }
 
 // The torque is the estimated torque of the obstacle plus the torque that accelerates the axis towards its velocity;
@@ -61,25 +61,25 @@ void TorqueControl::step(double speed, double period) noexcept {
   const bool held = !(override_ > 0);
   const double smooth = std::max(kSmooth, kDelays * late_ * period);
   const double step = ramp(smooth, period) * period;
-  asked_ = towards(asked_, held ? 0 : wish_.torque, step);
-  const double way = asked_ != 0 ? std::copysign(1, asked_) : std::copysign(1, wish_.torque);
+  asked_ = towards(asked_, held ? 0 : request_.torque, step);
+  const double way = asked_ != 0 ? std::copysign(1, asked_) : std::copysign(1, request_.torque);
   const double most = std::abs(asked_);
   const double seen = given_[static_cast<std::size_t>(late_)] - load_.inertia * (speed - speed_) / period;
   carried_ += std::min(1.0, period / smooth) * (seen - carried_);
   speed_ = speed;
-  const double velocity = wish_.velocity * override_;
+  const double velocity = request_.velocity * override_;
   const bool stands = std::abs(speed) < kStanding * velocity;
   double carried = std::clamp(way * carried_, -most, most);
   carried = stands ? std::min(carried + step, most) : carried;
   carried_ = way * carried;
   const double missing = (velocity - way * speed) / smooth;
-  const double acceleration = std::clamp(missing, -wish_.acceleration, wish_.acceleration);
-  const double grown = std::min(most, std::max(0.0, way * told_) + step);
+  const double acceleration = std::clamp(missing, -request_.acceleration, request_.acceleration);
+  const double grown = std::min(most, std::max(0.0, way * torque_) + step);
   const double wanted = std::clamp(carried + load_.inertia * acceleration, -most, grown);
   std::copy_backward(given_.begin(), given_.end() - 1, given_.end());
-  told_ = std::clamp(way * wanted, std::min(load_.lower, 0.0), std::max(load_.upper, 0.0));
-  given_[0] = told_;
-  reached_ = asked_ == wish_.torque && way * told_ >= most * kReached;
+  torque_ = std::clamp(way * wanted, std::min(load_.lower, 0.0), std::max(load_.upper, 0.0));
+  given_[0] = torque_;
+  reached_ = asked_ == request_.torque && way * torque_ >= most * kReached;
 }
 
 }  // namespace indurop::robot

@@ -15,7 +15,7 @@ class TorqueControl {
   // N m, N m/s, rad/s, rad/s^2; N and m for an axis that slides. The torque has a sign, velocity and acceleration are
   // above 0. The ramp is a maximum: it is slower if an obstacle that gives way would make the axis too fast. 0: as fast
   // as that allows.
-  struct Wish {
+  struct Request {
     double torque = 0;
     double ramp = 0;
     double velocity = 1;
@@ -35,7 +35,7 @@ class TorqueControl {
   };
 
   // Starts with this request, or replaces an earlier one. Real-time safe, like all functions of this class.
-  void take(const Wish& wish) noexcept;
+  void take(const Request& request) noexcept;
   void off() noexcept;
   // The axis is at rest; the drive is commanded to change its mode.
   void enter() noexcept;
@@ -51,12 +51,12 @@ class TorqueControl {
   [[nodiscard]] Phase phase() const noexcept { return phase_; }
   [[nodiscard]] bool on() const noexcept { return phase_ != Phase::Off; }
   [[nodiscard]] bool pushes() const noexcept { return phase_ == Phase::Pushing; }
-  [[nodiscard]] const Wish& wish() const noexcept { return wish_; }
+  [[nodiscard]] const Request& request() const noexcept { return request_; }
   [[nodiscard]] const Load& load() const noexcept { return load_; }
   // Periods from a change of the set point until its effect is measured.
   [[nodiscard]] int late() const noexcept { return late_; }
   // Torque set point, without what the arm needs.
-  [[nodiscard]] double torque() const noexcept { return told_; }
+  [[nodiscard]] double torque() const noexcept { return torque_; }
   // Returns whether it pushes with the full requested torque.
   [[nodiscard]] bool reached() const noexcept { return reached_; }
 
@@ -66,13 +66,13 @@ class TorqueControl {
   [[nodiscard]] double ramp(double smooth, double period) const noexcept;
 
   Phase phase_ = Phase::Off;
-  Wish wish_;
+  Request request_;
   Load load_;
   int late_ = 1;
   double override_ = 1;
   double asked_ = 0;    // with its ramp
   double carried_ = 0;  // estimated torque of the obstacle
-  double told_ = 0;
+  double torque_ = 0;
   std::array<double, kMostLate + 1> given_{};  // the last ones
   double speed_ = 0;
   bool reached_ = false;

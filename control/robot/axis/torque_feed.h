@@ -19,17 +19,17 @@ class TorqueFeed {
   // Computes the next period.
   const Joints& step(const Joints& needed, double period) noexcept {
     if (left_ >= kTime) {
-      missing_ = told_ - needed;
+      missing_ = torque_ - needed;
     }
-    told_ = needed + std::max(0.0, left_ / kTime) * missing_;
+    torque_ = needed + std::max(0.0, left_ / kTime) * missing_;
     left_ -= period;
-    return told_;
+    return torque_;
   }
 
  private:
   static constexpr double kTime = 0.1;  // s
   double left_ = 0;                     // until the full torque is commanded
-  Joints told_ = Joints::Zero();
+  Joints torque_ = Joints::Zero();
   Joints missing_ = Joints::Zero();
 };
 

@@ -112,7 +112,7 @@ ErrorCode TorqueMode::step(const Measured& now, const AxisBounds& bounds, double
 bool TorqueMode::too_fast(double speed, double most, double resolution, double seconds) noexcept {
   const double steps = 2 / resolution / seconds;
   slowing_ += seconds;
-  const double velocity = std::max(push_.wish().velocity, slowing_ < kSlowingTime ? slowing_from_ : 0);
+  const double velocity = std::max(push_.request().velocity, slowing_ < kSlowingTime ? slowing_from_ : 0);
   too_fast_ = std::abs(speed) > std::min(kTooFast * velocity, most) + steps ? too_fast_ + 1 : 0;
   return too_fast_ >= kPeriodsTooFast;
 }

@@ -11,7 +11,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLooks{20};
+constexpr std::chrono::milliseconds kPoll{20};
 constexpr std::chrono::milliseconds kSoon{1};
 
 FileNames names_of(const Settings& settings) {
@@ -50,7 +50,7 @@ void ProgramLoader::run() noexcept {
     look_for_work();
   } else if (!guarded_(loop, this, crash_, sizeof crash_)) {
     static_cast<void>(program_.release());  // its state is unknown
-    for (; !ending_.load(std::memory_order_relaxed); std::this_thread::sleep_for(kLooks)) {
+    for (; !ending_.load(std::memory_order_relaxed); std::this_thread::sleep_for(kPoll)) {
       State asked = State::Asked;
       state_.compare_exchange_strong(asked, State::Made, std::memory_order_acq_rel);
     }
@@ -59,7 +59,7 @@ void ProgramLoader::run() noexcept {
 
 // The thread polls: waking it would be a system call of the tick.
 void ProgramLoader::look_for_work() noexcept {
-  for (; !ending_.load(std::memory_order_relaxed); std::this_thread::sleep_for(kLooks)) {
+  for (; !ending_.load(std::memory_order_relaxed); std::this_thread::sleep_for(kPoll)) {
     const State state = state_.load(std::memory_order_acquire);
     if (state == State::Asked) {
       read();

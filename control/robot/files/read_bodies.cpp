@@ -75,7 +75,7 @@ void tell(const ArmModel& model, const JobBook& book, const std::string& urdf, c
   const bool asked = !book.keepouts.empty() || !book.bodies.empty();
   if (model.arm.chain_length() == 0) {
     if (asked || !model.bodies.empty()) {
-      found.push_back({Severity::Warning, urdf, {1, 1}, "collisions of a delta are not looked at"});
+      found.push_back({Severity::Warning, urdf, {1, 1}, "collisions of a delta are not checked"});
     }
   } else if (model.bodies.empty() && asked) {
     found.push_back(
@@ -85,7 +85,7 @@ void tell(const ArmModel& model, const JobBook& book, const std::string& urdf, c
          "no link has a body (<collision> with a <box>, <cylinder> or <sphere>): only tools are kept out of "
          "zones, not the arm"});
   } else if (model.bodies.empty()) {
-    found.push_back({Severity::Note, urdf, {1, 1}, "no link has a body (<collision>): collisions are not looked at"});
+    found.push_back({Severity::Note, urdf, {1, 1}, "no link has a body (<collision>): collisions are not checked"});
   }
   if (clearance.known()) {
     found.push_back({Severity::Note, urdf, {1, 1}, clearance.text()});

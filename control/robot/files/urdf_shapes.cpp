@@ -51,7 +51,7 @@ bool BodyReader::carried(const urdf::LinkConstSharedPtr& link, Pose& home, int& 
     const auto& before = one->parent_joint;
     if (before == nullptr || before->type != urdf::Joint::FIXED) {
       say(base::Diagnostic::Severity::Warning, place_in_urdf(text_, "link", link->name),
-          "link '" + link->name + "' is not looked at when collisions are: it is moved by joint '" +
+          "link '" + link->name + "' is not checked for collisions: it is moved by joint '" +
               (before == nullptr ? std::string("?") : before->name) + "', which is not between root and tool");
       return false;
     }
@@ -73,7 +73,7 @@ std::optional<Solid> BodyReader::solid_of(const urdf::Geometry& geometry, const 
     solid = Solid::ball(dynamic_cast<const urdf::Sphere&>(geometry).radius, place);
   } else {
     say(base::Diagnostic::Severity::Warning, at,
-        "link '" + link + "': this mesh is not looked at when collisions are; 'indurop-solids " + file_ +
+        "link '" + link + "': this mesh is not checked for collisions; 'indurop-solids " + file_ +
             " NEW.urdf' puts boxes, cylinders and balls around all of them");
     return {};
   }
@@ -120,15 +120,15 @@ std::vector<LinkBody> shapes_of(const urdf::ModelInterface& model, const std::ve
   // In order from the base, regardless of names.
   std::stable_sort(bodies.begin(), bodies.end(),
                    [](const LinkBody& a, const LinkBody& b) { return a.joint < b.joint; });
-  constexpr std::size_t kMost = 64;
+  constexpr std::size_t kMaxSolids = 64;
   std::size_t solids = 0;
   for (const LinkBody& body : bodies) {
     solids += body.solids.size();
   }
-  if (solids > kMost) {
+  if (solids > kMaxSolids) {
     found.push_back(wrong_urdf(file, text, 0,
                                "the links have " + std::to_string(solids) + " bodies (<collision>), " +
-                                   std::to_string(kMost) + " are possible; write fewer, larger ones"));
+                                   std::to_string(kMaxSolids) + " are possible; write fewer, larger ones"));
   }
   return bodies;
 }

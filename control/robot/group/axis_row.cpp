@@ -78,8 +78,8 @@ bool AxisRow::any_wants_power() const noexcept {
   return std::any_of(begin(), end(), [](const AxisControl& a) { return a.wants_power(); });
 }
 
-bool AxisRow::any_placed_anew() const noexcept {
-  return std::any_of(begin(), end(), [](const AxisControl& a) { return a.placed_anew(); });
+bool AxisRow::any_displaced() const noexcept {
+  return std::any_of(begin(), end(), [](const AxisControl& a) { return a.displaced(); });
 }
 
 bool AxisRow::any_pushes() const noexcept {

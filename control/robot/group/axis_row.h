@@ -41,7 +41,7 @@ class AxisRow {
   [[nodiscard]] bool any_busy() const noexcept;
   [[nodiscard]] bool any_enabled() const noexcept;
   [[nodiscard]] bool any_wants_power() const noexcept;
-  [[nodiscard]] bool any_placed_anew() const noexcept;
+  [[nodiscard]] bool any_displaced() const noexcept;
   [[nodiscard]] bool any_pushes() const noexcept;
   [[nodiscard]] bool all_enabled() const noexcept;
   [[nodiscard]] bool all_homed() const noexcept;

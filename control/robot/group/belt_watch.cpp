@@ -21,16 +21,16 @@ LineState moved_on(const LineState& from, double jerk, double t) noexcept {
 
 BeltWatch::BeltWatch(double period) noexcept : period_(period), pull_(std::min(kQuick, kMostOfPeriod / period)) {}
 
-void BeltWatch::begin_anew() noexcept {
-  heard_ = 0;
-  told_for_ = 0;
+void BeltWatch::restart() noexcept {
+  received_ = 0;
+  known_for_ = 0;
 }
 
 // A filter with fading memory: three equal poles, so that it does not oscillate.
-void BeltWatch::hear(double place, double seconds) noexcept {
-  if (heard_ == 0) {
+void BeltWatch::take(double place, double seconds) noexcept {
+  if (received_ == 0) {
     measured_ = {place, 0, 0};
-  } else if (heard_ == 1) {
+  } else if (received_ == 1) {
     measured_ = {place, (place - measured_.position) / seconds, 0};
     smooth_ = measured_;
     now_ = before_ = measured_;
@@ -39,7 +39,7 @@ void BeltWatch::hear(double place, double seconds) noexcept {
     const double off = place - measured_.position;
     if (std::abs(off) > kJump) {
       jumped_ = true;
-      begin_anew();
+      restart();
       return;
     }
     const double keeps = std::exp(-kQuick * seconds);
@@ -48,7 +48,7 @@ void BeltWatch::hear(double place, double seconds) noexcept {
     measured_.velocity += 1.5 * takes * takes * (1 + keeps) / seconds * off;
     measured_.acceleration += takes * takes * takes / (seconds * seconds) * off;
   }
-  heard_ = std::min(heard_ + 1, 2);
+  received_ = std::min(received_ + 1, 2);
 }
 
 void BeltWatch::sense(const BeltIn& in) noexcept {
@@ -57,19 +57,19 @@ void BeltWatch::sense(const BeltIn& in) noexcept {
   beat_ = in.beat;
   silent_ += period_;
   if (!std::isfinite(in.place) || silent_ > kPatience) {
-    begin_anew();
+    restart();
   }
-  if (heard_ == 2) {
+  if (received_ == 2) {
     measured_ = moved_on(measured_, 0, period_);
     smooth_ = moved_on(smooth_, jerk_, period_);
-    told_for_ += period_;
+    known_for_ += period_;
     jumped_ = jumped_ && !known();
   }
   if (fresh && std::isfinite(in.place)) {
-    hear(in.place, silent_);
+    take(in.place, silent_);
     silent_ = 0;
   }
-  if (heard_ < 2) {
+  if (received_ < 2) {
     return;
   }
   jerk_ =

@@ -18,7 +18,7 @@ class BeltWatch {
   // Takes the value of its reader once a period. All functions of this class are real-time safe.
   void sense(const BeltIn& in) noexcept;
   // Returns whether its position has been reported for long enough to be relied on, and still is.
-  [[nodiscard]] bool known() const noexcept { return told_for_ >= kSettles; }
+  [[nodiscard]] bool known() const noexcept { return known_for_ >= kSettles; }
   // Returns whether it is unknown because an impossible position was reported.
   [[nodiscard]] bool jumped() const noexcept { return jumped_; }
   // The present state in mm or degrees; velocity and acceleration as differences between periods.
@@ -30,16 +30,16 @@ class BeltWatch {
   static constexpr double kSettles = 0.3;   // s
   static constexpr double kPatience = 0.1;  // s without a beat
 
-  void hear(double place, double seconds) noexcept;
-  void begin_anew() noexcept;
+  void take(double place, double seconds) noexcept;
+  void restart() noexcept;
 
   double period_;
   double pull_;  // 1/s, rate of the smoothed position towards the measured one
   bool first_ = true;
   std::uint32_t beat_ = 0;
-  int heard_ = 0;      // positions received, up to 2
-  double silent_ = 0;  // s since the last one
-  double told_for_ = 0;
+  int received_ = 0;      // positions received, up to 2
+  double silent_ = 0;     // s since the last one
+  double known_for_ = 0;  // s
   bool jumped_ = false;
   LineState measured_;  // estimated from the reported positions
   LineState smooth_;    // follows the estimate, changing its jerk only

@@ -7,7 +7,7 @@ namespace indurop::robot {
 
 Fault CollisionsAhead::step(bool carried) noexcept {
   const bool alone = carried || robot_.axes.any_busy();
-  if (!alone || robot_.axes.any_placed_anew() || !robot_.tool.places().clearance().known() ||
+  if (!alone || robot_.axes.any_displaced() || !robot_.tool.places().clearance().known() ||
       robot_.states.is(GroupState::Homing)) {
     begun_ = false;
     return {};
@@ -20,7 +20,7 @@ Fault CollisionsAhead::step(bool carried) noexcept {
 // Checks the way from the last set point to this one, and on to rest if all axes brake at once. The one before was
 // checked in the same way, so the gates can still brake there.
 Fault CollisionsAhead::check() noexcept {
-  constexpr int kLooks = 24;
+  constexpr int kSamples = 24;
   constexpr double kParts = 4;  // of the way to rest: the longest step
   const Joints last = robot_.axes.passed();
   const Joints next = robot_.commanded();
@@ -29,7 +29,7 @@ Fault CollisionsAhead::check() noexcept {
   }
   ClearWalk walk;
   walk.begin(1, 1);
-  if (!walk.all(clear_, kLooks, [&](double place, const Joints&, Joints& q) {
+  if (!walk.all(clear_, kSamples, [&](double place, const Joints&, Joints& q) {
         q = last + place * (next - last);
         return true;
       })) {
@@ -39,7 +39,7 @@ Fault CollisionsAhead::check() noexcept {
   const double longest = robot_.axes.stops(stops);
   to_rest_.take(clear_);
   walk.begin(longest, longest / kParts);
-  if (!walk.all(to_rest_, kLooks, [&](double time, const Joints&, Joints& q) {
+  if (!walk.all(to_rest_, kSamples, [&](double time, const Joints&, Joints& q) {
         q = next;
         for (int i = 0; i < robot_.count(); ++i) {
           q[i] = stops[at(i)].at(time).position;

@@ -9,7 +9,7 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kFastest = 0.98 * kReducedSpeed;  // m/s of the tip
-constexpr double kFarthest = 1;                    // m
+constexpr double kFarthestMove = 1;                // m
 constexpr double kMostTurned = kPi / 2;
 constexpr double kAhead = 8;              // s of tip motion that are planned: more would delay the start
 constexpr double kTurning = 0.15;         // part of full speed
@@ -48,10 +48,10 @@ void Jogging::step(const JogRequest& jog, bool permitted) noexcept {
 }
 
 const WorkFrame* Jogging::work_frame(std::string_view name) const noexcept {
-  constexpr std::size_t kMost = sizeof(JogRequest::work) - 1;
+  constexpr std::size_t kMaxLength = sizeof(JogRequest::work) - 1;
   const std::vector<WorkFrame>& frames = robot_.parts.book.frames;
   const auto found = std::find_if(frames.begin(), frames.end(), [&](const WorkFrame& frame) {
-    return std::string_view(frame.name).substr(0, kMost) == name;
+    return std::string_view(frame.name).substr(0, kMaxLength) == name;
   });
   return found != frames.end() ? &*found : nullptr;
 }
@@ -93,7 +93,7 @@ MoveCommand Jogging::tip_motion(int direction, double part) const noexcept {
   const bool turns = direction >= 3;
   const double speed = std::abs(speed_) * (turns ? kTurning * robot_.parts.tool.turn_velocity : kFastest);
   Vec3 way = Vec3::Zero();
-  way[direction % 3] = std::copysign(part * std::min(turns ? kMostTurned : kFarthest, kAhead * speed), speed_);
+  way[direction % 3] = std::copysign(part * std::min(turns ? kMostTurned : kFarthestMove, kAhead * speed), speed_);
   MoveCommand command;
   command.move = Move::Line;
   command.target.is_pose = true;

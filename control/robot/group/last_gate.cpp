@@ -10,7 +10,7 @@ namespace indurop::robot {
 // Paths were planned inside the box, and a stop follows them. Single axes have to be able to come to rest inside.
 bool LastGate::leaves_workspace() const noexcept {
   const Workspace& box = robot_.tool.places().box();
-  if (!box.known() || robot_.axes.any_placed_anew()) {
+  if (!box.known() || robot_.axes.any_displaced()) {
     return false;
   }
   const Vec3 last = robot_.tip(robot_.axes.passed()).position;
@@ -20,14 +20,14 @@ bool LastGate::leaves_workspace() const noexcept {
 
 // Returns whether the tool comes to rest inside the box if all axes brake at once.
 bool LastGate::rests_inside(const Vec3& start) const noexcept {
-  constexpr int kLooks = 12;
+  constexpr int kSamples = 12;
   std::array<Profile, kAxes> stops;
   const double longest = robot_.axes.stops(stops);
   WayInside way(robot_.tool.places().box(), start);
-  for (int k = 1; k <= kLooks; ++k) {
+  for (int k = 1; k <= kSamples; ++k) {
     Joints q = Joints::Zero();
     for (int i = 0; i < robot_.count(); ++i) {
-      q[i] = stops[at(i)].at(longest * k / kLooks).position;
+      q[i] = stops[at(i)].at(longest * k / kSamples).position;
     }
     if (!way.next(robot_.tip(q).position)) {
       return false;
@@ -58,7 +58,7 @@ void LastGate::check_clear() noexcept {
 
 void LastGate::pass() noexcept {
   for (int i = 0; i < robot_.count(); ++i) {
-    if (robot_.axes[i].placed_anew()) {
+    if (robot_.axes[i].displaced()) {
       robot_.axes.gate(i).stand(robot_.axes[i].commanded().position);
     }
   }
@@ -123,7 +123,7 @@ void LastGate::brake() noexcept {
   const Joints q = in_step_ ? brake_.next() : Joints::Zero();
   for (int i = 0; i < robot_.count(); ++i) {
     SetPointGate& gate = robot_.axes.gate(i);
-    if (in_step_ && !robot_.axes[i].placed_anew() && gate.check(q[i], hardness_) == ErrorCode::Ok) {
+    if (in_step_ && !robot_.axes[i].displaced() && gate.check(q[i], hardness_) == ErrorCode::Ok) {
       gate.pass(q[i], hardness_);
     } else {
       gate.brake(hardness_);

@@ -54,7 +54,7 @@ class MotionQueue {
   Plans& plans_;
   Riding& riding_;
   CommandMotion motion_;
-  std::array<int, CommandTable::kMost> motions_{};  // tickets
+  std::array<int, CommandTable::kMaxCommands> motions_{};  // tickets
   int count_ = 0;
   int fed_ = 0;  // number of motions given to the planner
   Pose start_;   // where the next motion begins

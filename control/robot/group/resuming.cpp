@@ -12,7 +12,7 @@ namespace {
 constexpr double kSlowly = 0.1;       // part of full speed, on the way back to the path
 constexpr double kTipSlowly = 0.1;    // m/s, of the tip
 constexpr double kMostTurned = 0.79;  // rad that a joint may be away: farther, it may be another posture
-constexpr double kThere = 1e-9;       // rad
+constexpr double kSameJoints = 1e-9;  // rad
 
 }  // namespace
 
@@ -101,7 +101,7 @@ bool Resuming::is_near(const Joints& place) const noexcept {
 
 // Requests no motion if the robot is already there.
 void Resuming::ask_for_way_back(const Joints& to) noexcept {
-  if ((to - robot_.commanded()).head(robot_.count()).cwiseAbs().maxCoeff() > kThere) {
+  if ((to - robot_.commanded()).head(robot_.count()).cwiseAbs().maxCoeff() > kSameJoints) {
     MoveCommand back;
     back.straight = true;
     back.target.joints = to;
@@ -121,7 +121,7 @@ ErrorCode Resuming::step_back() noexcept {
   }
   const bool between = !robot_.follower.kept_path().known() && !asked_ && plans_.ahead().empty();
   const Joints off = robot_.follower.kept_path().q - robot_.commanded();
-  const bool there = off.head(robot_.count()).cwiseAbs().maxCoeff() <= kThere;
+  const bool there = off.head(robot_.count()).cwiseAbs().maxCoeff() <= kSameJoints;
   if (const ErrorCode code = group_.may_move(); code != ErrorCode::Ok) {
     return code;
   }

@@ -109,7 +109,8 @@ ErrorCode Riding::track(const Command& command, bool turns) noexcept {
   const BeltWatch& watch = belts_[at(carrier.belt)];
   if (!watch.known()) {
     FaultText why;
-    std::snprintf(why, sizeof why, "belt %d is not told: its reader has to write MC_BELT[%d] in each period, for 0.4 s",
+    std::snprintf(why, sizeof why,
+                  "belt %d has no position: its reader has to write MC_BELT[%d] in each period, for 0.4 s",
                   carrier.belt + 1, carrier.belt);
     robot_.job.set_message(why);
     return ErrorCode::Belt;
@@ -134,14 +135,14 @@ void Riding::sense(const std::array<BeltIn, kBelts>& belts) noexcept {
     belts_[k].sense(belts[k]);
   }
   if (tracking_.known() && !belt().known()) {
-    lose_product(belt().jumped() ? "jumped" : "is not told any more");
+    lose_product(belt().jumped() ? "jumped" : "has no position any more");
   }
 }
 
 // The tool comes to rest on its own, without the belt.
 void Riding::lose_product(const char* why) noexcept {
   FaultText text;
-  std::snprintf(text, sizeof text, "belt %d %s: see to its encoder and its reader, then track it anew",
+  std::snprintf(text, sizeof text, "belt %d %s: check its encoder and its reader, then track it again",
                 tracking_.carrier().belt + 1, why);
   tracking_.forget();
   product_lost_ = true;

@@ -97,14 +97,14 @@ void TorqueWatch::feed(Outputs& out) noexcept {
     return;
   }
   const auto share = [this](int axis, double torque) {
-    constexpr double kMost = 32767;
+    constexpr double kLargest16 = 32767;
     const double thousandths = robot_.axes[axis].command_way() * kThousandth * torque / rated_[axis];
-    return static_cast<std::int16_t>(std::clamp(std::round(thousandths), -kMost, kMost));
+    return static_cast<std::int16_t>(std::clamp(std::round(thousandths), -kLargest16, kLargest16));
   };
-  const Joints& told = feed_.step(needed(), robot_.period);
+  const Joints& torques = feed_.step(needed(), robot_.period);
   for (int i = 0; i < robot_.count(); ++i) {
     const double most = robot_.tool.dynamics().effort()[i] > 0 ? robot_.tool.dynamics().effort()[i] : HUGE_VAL;
-    out.drives[at(i)].torque_offset = share(i, std::clamp(told[i], -most, most));
+    out.drives[at(i)].torque_offset = share(i, std::clamp(torques[i], -most, most));
     out.drives[at(i)].torque = share(i, robot_.axes[i].torque());
   }
 }

@@ -10,8 +10,8 @@ void Tracking::set(const Carrier& carrier, const BeltWatch& watch) noexcept {
   has_lag_ = false;
 }
 
-LineState Tracking::seen(const LineState& told) const noexcept {
-  return {scale() * (told.position - zero_), scale() * told.velocity, scale() * told.acceleration};
+LineState Tracking::seen(const LineState& belt) const noexcept {
+  return {scale() * (belt.position - zero_), scale() * belt.velocity, scale() * belt.acceleration};
 }
 
 Pose Tracking::carried(const Carrier& carrier, double by, const Pose& pose) noexcept {

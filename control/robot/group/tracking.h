@@ -69,7 +69,7 @@ class Tracking {
 
  private:
   enum class Phase { Off, Joining, Riding, Leaving };
-  [[nodiscard]] LineState seen(const LineState& told) const noexcept;
+  [[nodiscard]] LineState seen(const LineState& belt) const noexcept;
   void put(double position) noexcept;
 
   double period_;

@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kThere = 1e-9;           // rad
+constexpr double kAtTarget = 1e-9;        // rad
 constexpr int kWorkspaceSamples = 24;     // of a new path
 constexpr int kCollisionSamples = 64;     // of a new path: more take too long
 constexpr double kSameWay = 0.84;         // up to this pace, axes that arrive together take the path of full pace
@@ -17,7 +17,7 @@ constexpr double kNearlyFull = 1 - 1e-9;  // a pace that leaves a margin for cha
 
 // Returns whether a joint that brakes at once comes to rest beyond its target.
 bool passes(double position, double target, double stop) noexcept {
-  return (target - position) * (target - stop) < 0 && std::abs(target - stop) > kThere;
+  return (target - position) * (target - stop) < 0 && std::abs(target - stop) > kAtTarget;
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ TEST_F(AxisCommands, Factors_slow_down_what_they_name) {
 TEST_F(AxisCommands, More_than_there_is_room_for_are_refused) {
   cell.in.hold = true;
   give(1, AxisService::MoveVelocity, 0, 1);
-  for (int i = 1; i < CommandTable::kMost; ++i) {
+  for (int i = 1; i < CommandTable::kMaxCommands; ++i) {
     give(1, AxisService::MoveAbsolute, 1, 1, BufferMode::Buffered);
     cell.step();
   }
