@@ -16,7 +16,7 @@ MOST = {"files": 3, "data members": 25, "functions": 40}
 # finding, too, and so is an entry that is no longer needed.
 ALLOWED = {
     "control/robot/plan/planner.h Planner": (
-        {"files": 8, "data members": 38, "functions": 51}, "looking ahead, timing and rehearsal are classes to be"),
+        {"files": 8, "data members": 37, "functions": 50}, "looking ahead, timing and rehearsal are classes to be"),
 }
 
 CLASS = re.compile(r"\b(class|struct)\s+(?:\[\[[^\]]*\]\]\s*)?(?:alignas\([^)]*\)\s*)?((?:\w+::)*\w+)\s*(?:final\s*)?"

@@ -11,9 +11,9 @@ namespace {
 using EthercatScan = EthercatNode;
 
 TEST_F(EthercatScan, A_scan_lists_the_slaves_and_writes_a_file_for_them) {
-  const Outcome nobody = indurop({"io", "scan", "ec0"});
-  EXPECT_EQ(nobody.code, 6);
-  EXPECT_CONTAINS(nobody.err, "ec0: no slave answers; check the cable, and the power of the first slave");
+  const Outcome empty_bus = indurop({"io", "scan", "ec0"});
+  EXPECT_EQ(empty_bus.code, 6);
+  EXPECT_CONTAINS(empty_bus.err, "ec0: no slave answers; check the cable, and the power of the first slave");
   simulate(2);
   const std::string file = (folder() / "found.xml").string();
   const Outcome sut = indurop({"io", "scan", "ec0", "--write", file, "--namespace", "CELL"});
