@@ -294,7 +294,7 @@ class Functions(Sample):
 
     def test_retired_word_in_a_name_and_in_a_message(self):
         self.put("core/rt/a.cpp", HEAD + 'int let_go();\nint LetGo();\nauto text = "nobody reads";\nint outlet_gone;\n')
-        self.put("tools/cli/a.cpp", HEAD + "int let_go();\n")  # a room that is not finished
+        self.put("cmake/a.cpp", HEAD + "int let_go();\n")  # not in a room of the product
         self.assertEqual([one.split(":")[0] for one in check_text.words(self.root)], ["core/rt/a.cpp"] * 3)
 
     def test_long_function(self):

@@ -136,7 +136,7 @@ TEST_F(WithNode, Of_a_struct_is_held_what_was_said) {
 TEST_F(WithNode, A_lease_ends_with_its_client) {
   for (const int signal : {SIGINT, SIGKILL, SIGSTOP}) {
     Program sut(indurop_command({"force", "tick=7", "gain=3", "--lease", "--reason", "trial"}), background());
-    ASSERT_TRUE(sut.prints("held while this runs")) << sut.out();
+    ASSERT_TRUE(sut.prints("held while this command runs")) << sut.out();
     const auto begin = indurop({"get", "tick"});
     EXPECT_EQ(begin.out, "7\n");
     const auto left = [] {
@@ -155,7 +155,7 @@ TEST_F(WithNode, A_lease_ends_with_its_client) {
 
 TEST_F(WithNode, A_lease_leaves_forces_of_other_users_alone) {
   Program sut(indurop_command({"force", "tick=7", "gain=3", "--lease"}), background());
-  ASSERT_TRUE(sut.prints("held while this runs")) << sut.out();
+  ASSERT_TRUE(sut.prints("held while this command runs")) << sut.out();
   ASSERT_EQ(indurop({"force", "tick=9"}).code, 0);
   EXPECT_EQ(sut.wait(), 1) << "it has lost one, and says so";
   EXPECT_EQ(indurop({"get", "tick"}).out, "9\n") << "the other's force goes on";
