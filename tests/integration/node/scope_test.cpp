@@ -60,7 +60,7 @@ TEST_F(Scope, Shows_a_picture_without_a_trigger_if_it_may) {
   start_and_wait(kModules);
   const Outcome none = scope({"nt::counted", "--trigger", "nt::sum > 1000", "--timeout", "300ms"});
   EXPECT_EQ(none.code, 6);
-  EXPECT_CONTAINS(none.err, "no trigger within 0.3 s: ");
+  EXPECT_CONTAINS(none.err, "no trigger within 0.3 s, in ");
   const Outcome sut =
       scope({"nt::counted", "--trigger", "nt::sum > 1000", "--mode", "auto", "-n", "1", "--pre", "10", "--post", "20"});
   EXPECT_EQ(sut.code, 0) << sut.err;

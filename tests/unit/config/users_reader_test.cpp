@@ -62,11 +62,11 @@ TEST(UsersReader, Refuses_all_mistakes_at_once_and_repeats_no_secret) {
                           HasSubstr("users.xml:2:28: error: role: 'boss' is none of look, operate, tune, program"),
                           HasSubstr("users.xml:3:3: error: <user> has no name; write name=\"anna\""),
                           HasSubstr("users.xml:4:32: error: unknown attribute 'pasword'"),
-                          HasSubstr("users.xml:5:43: error: password: this is no hash"),
-                          HasSubstr("users.xml:5:58: error: token: this is no hash"),
-                          HasSubstr("users.xml:5:72: error: boards: 'a b' is no pattern"),
+                          HasSubstr("users.xml:5:42: error: password: this is no hash"),
+                          HasSubstr("users.xml:5:57: error: token: this is no hash"),
+                          HasSubstr("users.xml:5:71: error: boards: 'a b' is no pattern"),
                           HasSubstr("users.xml:6:3: error: a second user 'eve', the first is in line 4"),
-                          HasSubstr("users.xml:7:3: error: unknown element <group>")));
+                          HasSubstr("users.xml:7:3: error: unknown element '<group>'")));
   for (const std::string& line : lines_of("<users><user name=\"t\" role=\"look\" password=\"hunter2\"/></users>")) {
     EXPECT_EQ(line.find("hunter2"), std::string::npos);
   }
