@@ -15,24 +15,24 @@ namespace {
 // While it exists, the terminal does not show what is typed.
 class NoEcho {
  public:
-  NoEcho() {
-    termios silent{};
-    changed_ = ::tcgetattr(STDIN_FILENO, &before_) == 0;
-    silent = before_;
-    silent.c_lflag &= ~static_cast<tcflag_t>(ECHO);
-    changed_ = changed_ && ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent) == 0;
+  NoEcho() : known_(::tcgetattr(STDIN_FILENO, &before_) == 0) {
+    if (known_) {
+      termios silent = before_;
+      silent.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+      (void)::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent);
+    }
   }
   NoEcho(const NoEcho&) = delete;
   NoEcho& operator=(const NoEcho&) = delete;
   ~NoEcho() {
-    if (changed_) {
+    if (known_) {
       (void)::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_);
     }
   }
 
  private:
   termios before_{};
-  bool changed_ = false;
+  bool known_;
 };
 
 std::optional<std::string> read_line() {

@@ -273,7 +273,8 @@ const Verb kUsersVerb{
     "Examples:\n"
     "  indurop users add anna --role administer\n"
     "  indurop users add ben --role operate --boards 'press*' --variables 'press::*'\n"
-    "  indurop users add logger --role look --no-password && indurop users token logger\n",
+    "  indurop users add logger --role look --no-password\n"
+    "  indurop users token logger\n",
     &declare};
 
 }  // namespace indurop::tools

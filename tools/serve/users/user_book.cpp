@@ -30,8 +30,8 @@ Role role_of(config::UserRole role) noexcept {
 
 // Of a user who does not exist: the time that a refusal takes reveals nothing.
 const std::string& hash_of_no_user() {
-  static const std::string hash = keys::hash_of_password(tools::random_word());
-  return hash;
+  static const std::string kHash = keys::hash_of_password(tools::random_word());
+  return kHash;
 }
 
 }  // namespace
