@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "core/keys/plant_keys.h"
+#include "tools/cli/command/pattern_option.h"
 #include "tools/cli/verbs/keys_request.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/text/suggest.h"
@@ -185,18 +186,6 @@ void add_days(base::Options& verb, KeysRequest& request) {
       .range(1, kMostDays);
 }
 
-void add_patterns(base::Options& verb, const char* name, std::vector<std::string>& to, const char* help) {
-  const auto take = [&to](const std::string& text) {
-    std::string wrong;
-    for (std::string& pattern : keys::pattern_list(text)) {
-      wrong = wrong.empty() ? keys::pattern_problem(pattern) : wrong;
-      to.push_back(std::move(pattern));
-    }
-    return wrong;
-  };
-  verb.add(name, "PATTERNS", take, help);
-}
-
 Action declare(base::Options& app, Context& context) {
   auto request = std::make_shared<KeysRequest>();
   auto chosen_action = std::make_shared<Action>();
@@ -217,8 +206,9 @@ Action declare(base::Options& app, Context& context) {
             "A program that takes part in <external secure=\"on\">, instead of boards");
   made->add("--viewer", "NAME", request->viewer, "A user who may read, instead of boards");
   made->add("--deployer", "NAME", request->deployer, "A user who may deploy, instead of boards");
-  add_patterns(*made, "--read", request->read, "Variables it may read: names and patterns, with commas between them");
-  add_patterns(*made, "--write", request->write, "Variables it may set, and read");
+  add_pattern_option(*made, "--read", request->read,
+                     "Variables it may read: names and patterns, with commas between them");
+  add_pattern_option(*made, "--write", request->write, "Variables it may set, and read");
   add_days(*made, *request);
   add_format_option(*verb("list", "Show who has keys, and until when they are valid", &list), context,
                     {Format::Table, Format::Json, Format::Csv});

@@ -11,8 +11,8 @@
 #include "core/base/file_problem.h"
 #include "core/base/replace_file.h"
 #include "core/keys/password.h"
-#include "core/keys/variable_rights.h"
 #include "tools/cli/command/password_prompt.h"
+#include "tools/cli/command/pattern_option.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/process/random_word.h"
 #include "tools/client/text/suggest.h"
@@ -214,18 +214,6 @@ int remove(Context& context, const UsersRequest& request) {
   });
 }
 
-void add_patterns(base::Options& verb, const char* option, std::vector<std::string>& to, const char* help) {
-  const auto take = [&to](const std::string& text) {
-    std::string wrong;
-    for (std::string& pattern : keys::pattern_list(text)) {
-      wrong = wrong.empty() ? keys::pattern_problem(pattern) : wrong;
-      to.push_back(std::move(pattern));
-    }
-    return wrong;
-  };
-  verb.add(option, "PATTERNS", take, help);
-}
-
 Action declare(base::Options& app, Context& context) {
   auto request = std::make_shared<UsersRequest>();
   auto chosen = std::make_shared<Action>();
@@ -242,10 +230,10 @@ Action declare(base::Options& app, Context& context) {
     return made;
   };
   const auto add_limits = [&request](base::Options& made) {
-    add_patterns(made, "--boards", request->boards,
-                 "Boards that the user may change: names and patterns, with commas between them (default: all)");
-    add_patterns(made, "--variables", request->variables,
-                 "Variables that the user may change; with it no modules, no locks (default: all)");
+    add_pattern_option(made, "--boards", request->boards,
+                       "Boards that the user may change: names and patterns, with commas between them (default: all)");
+    add_pattern_option(made, "--variables", request->variables,
+                       "Variables that the user may change; with it no modules, no locks (default: all)");
   };
   add_format_option(verb("list", "Show the users and their roles", &list, false), context,
                     {Format::Table, Format::Json, Format::Csv});
