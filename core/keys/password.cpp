@@ -2,6 +2,7 @@
 #include "core/keys/password.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <openssl/rand.h>
@@ -31,14 +32,6 @@ struct ScryptHash {
   std::vector<std::uint8_t> salt;
   std::vector<std::uint8_t> hash;
 };
-
-std::string hex_of(const std::vector<std::uint8_t>& bytes) {
-  std::string text;
-  for (const std::uint8_t byte : bytes) {
-    text += fmt::format("{:02x}", byte);
-  }
-  return text;
-}
 
 std::optional<std::vector<std::uint8_t>> bytes_of_hex(std::string_view text, std::size_t count) {
   std::vector<std::uint8_t> bytes(count);
@@ -112,8 +105,8 @@ std::string hash_of_password(std::string_view password) {
   if (::RAND_bytes(hash.salt.data(), static_cast<int>(hash.salt.size())) != 1) {
     std::abort();  // the system gives no random numbers
   }
-  return fmt::format("{}{}:{}:{}:{}:{}", kScrypt, hash.log_cost, hash.block, hash.parallel, hex_of(hash.salt),
-                     hex_of(scrypt(password, hash)));
+  return fmt::format("{}{}:{}:{}:{:02x}:{:02x}", kScrypt, hash.log_cost, hash.block, hash.parallel,
+                     fmt::join(hash.salt, ""), fmt::join(scrypt(password, hash), ""));
 }
 
 bool is_password(std::string_view password, std::string_view hash) {
