@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 namespace indurop::serve {
 
@@ -12,20 +13,22 @@ class NoteLimit {
   static constexpr std::int64_t kWindowNs = 60'000'000'000;
   static constexpr std::uint64_t kMostNotes = 30;  // in a window
 
-  // Returns the number of refusals to log now, this one included; 0: log nothing.
-  std::uint64_t count(std::int64_t now_ns) noexcept {
+  // Returns true if one more entry may be logged now, and counts it.
+  bool take(std::int64_t now_ns) noexcept {
     if (notes_ == 0 || now_ns - since_ns_ > kWindowNs) {
       since_ns_ = now_ns;
       notes_ = 0;
     }
-    ++not_noted_;
     if (notes_ == kMostNotes) {
-      return 0;
+      return false;
     }
     ++notes_;
-    const std::uint64_t noted = not_noted_;
-    not_noted_ = 0;
-    return noted;
+    return true;
+  }
+  // Returns the number of refusals to log now, this one included; 0: log nothing.
+  std::uint64_t count(std::int64_t now_ns) noexcept {
+    ++not_noted_;
+    return take(now_ns) ? std::exchange(not_noted_, 0) : 0;
   }
 
  private:

@@ -16,14 +16,6 @@ WrongTokens::One& WrongTokens::of(const std::string& key, std::int64_t now_ns) {
   return all_[key];
 }
 
-bool WrongTokens::may_note(std::int64_t now_ns) {
-  if (notes_ == 0 || now_ns - notes_since_ns_ > kWindowNs) {
-    notes_since_ns_ = now_ns;
-    notes_ = 0;
-  }
-  return notes_ < kMostNotes;
-}
-
 WrongTokens::Verdict WrongTokens::wrong(const std::string& address, std::int64_t now_ns) {
   One& one = of(limits_key(address), now_ns);
   const bool first = one.count == 0;
@@ -35,8 +27,7 @@ WrongTokens::Verdict WrongTokens::wrong(const std::string& address, std::int64_t
     constexpr std::uint64_t kMostSteps = 10;
     verdict.delay_ns = std::min(kMostDelayNs, kFirstDelayNs << std::min(one.count - kAtOnce - 1, kMostSteps));
   }
-  if ((first || now_ns - one.noted_ns > kWindowNs) && may_note(now_ns)) {
-    ++notes_;
+  if ((first || now_ns - one.noted_ns > kWindowNs) && notes_.take(now_ns)) {
     one.noted_ns = now_ns;
     verdict.note = one.not_noted;
     one.not_noted = 0;

@@ -9,17 +9,19 @@
 #include <map>
 #include <string>
 
+#include "tools/serve/door/note_limit.h"
+
 namespace indurop::serve {
 
 class WrongTokens {
  public:
   static constexpr std::size_t kMostAddresses = 256;
-  static constexpr std::int64_t kWindowNs = 60'000'000'000;   // after this time without a wrong one the counts are
-                                                              // cleared
-  static constexpr std::uint64_t kAtOnce = 3;                 // these are refused without delay
-  static constexpr std::int64_t kFirstDelayNs = 250'000'000;  // doubled with each further one
+  static constexpr std::int64_t kWindowNs = NoteLimit::kWindowNs;  // after this time without a wrong one the counts are
+                                                                   // cleared
+  static constexpr std::uint64_t kAtOnce = 3;                      // these are refused without delay
+  static constexpr std::int64_t kFirstDelayNs = 250'000'000;       // doubled with each further one
   static constexpr std::int64_t kMostDelayNs = 2'000'000'000;
-  static constexpr std::uint64_t kMostNotes = 30;  // maximum log entries in a window, for all addresses together
+  static constexpr std::uint64_t kMostNotes = NoteLimit::kMostNotes;  // for all addresses together
 
   struct Verdict {
     std::int64_t delay_ns = 0;
@@ -37,11 +39,9 @@ class WrongTokens {
     std::int64_t noted_ns = 0;
   };
   One& of(const std::string& key, std::int64_t now_ns);
-  bool may_note(std::int64_t now_ns);
 
   std::map<std::string, One> all_;
-  std::int64_t notes_since_ns_ = 0;
-  std::uint64_t notes_ = 0;
+  NoteLimit notes_;
 };
 
 }  // namespace indurop::serve
