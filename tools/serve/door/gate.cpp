@@ -171,7 +171,7 @@ std::optional<Reply> Gate::refuse(const Request& request, const Needed& needed) 
     reply.allow = "GET, POST";
     return reply;
   }
-  if (auto refused = refuse_client(client_of(request), needed)) {
+  if (auto refused = refuse_client(request.client, needed)) {
     return refused;
   }
   if (request.has_body && !is_json(request.content_type)) {

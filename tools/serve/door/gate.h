@@ -44,7 +44,7 @@ class Gate {
   explicit Gate(GateSettings settings, Accounts* accounts = nullptr)
       : settings_(std::move(settings)), accounts_(accounts) {}
 
-  // Returns the refusal of a request that needs this, or nothing if it is allowed.
+  // Returns the refusal of a request that needs this, or nothing if it is allowed. Its `client` is that of client_of().
   [[nodiscard]] std::optional<Reply> refuse(const Request& request, const Needed& needed) const;
   // Returns the client identified by the token, else by the certificate.
   [[nodiscard]] Client client_of(const Request& request) const;
@@ -58,7 +58,7 @@ class Gate {
   [[nodiscard]] bool host_known(std::string_view host) const;
   [[nodiscard]] bool same_origin(const Request& request) const;
   [[nodiscard]] std::optional<Reply> refuse_client(const Client& client, const Needed& needed) const;
-  [[nodiscard]] Client client_of_token(std::string_view token) const;
+  [[nodiscard]] Client client_of_token(std::string_view sent) const;
 
   GateSettings settings_;
   Accounts* accounts_;

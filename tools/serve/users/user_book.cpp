@@ -49,7 +49,7 @@ void UserBook::refresh() {
     version = {found.st_mtim.tv_sec * kSecondNs + found.st_mtim.tv_nsec, found.st_ino,
                static_cast<std::uint64_t>(found.st_size)};
   }
-  if (version == version_ && problem_.empty() && !users_.file.empty()) {
+  if (version_ == version && problem_.empty()) {
     return;
   }
   version_ = version;

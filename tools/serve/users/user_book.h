@@ -62,7 +62,7 @@ class UserBook final : public Accounts {
     SessionFigures figures;
     std::string password;  // hash: a session ends when the password is changed
   };
-  // What tells that the file has changed.
+  // What tells that the file has changed. All 0: it is not there.
   struct Version {
     std::int64_t changed_ns = 0;
     std::uint64_t number = 0;  // inode
@@ -77,7 +77,7 @@ class UserBook final : public Accounts {
   std::filesystem::path file_;
   std::int64_t (*now_ns_)() = nullptr;
   std::mutex lock_;
-  Version version_;
+  std::optional<Version> version_;  // nothing: it was not read yet
   std::string problem_;
   config::PlantUsers users_;
   std::map<std::string, Session, std::less<>> sessions_;  // by hash of the token

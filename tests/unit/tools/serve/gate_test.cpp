@@ -39,7 +39,8 @@ GateSettings here(bool writes) {
 }
 
 // What the table asks for these.
-std::optional<Reply> refusal_of(const Gate& gate, const Request& request) {
+std::optional<Reply> refusal_of(const Gate& gate, Request request) {
+  request.client = gate.client_of(request);
   return gate.refuse(request, needed_for(all_routes(), request));
 }
 

@@ -142,8 +142,10 @@ void walk(const Check& check) {
   }
 }
 
-int answer_of(const GateSettings& settings, const Request& request) {
-  return code_of_reply(Gate(settings).refuse(request, needed_for(all_routes(), request)));
+int answer_of(const GateSettings& settings, Request request) {
+  const Gate gate(settings);
+  request.client = gate.client_of(request);
+  return code_of_reply(gate.refuse(request, needed_for(all_routes(), request)));
 }
 
 TEST(WhoMay, Is_the_same_for_every_line_of_the_table) {
