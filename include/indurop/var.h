@@ -5,8 +5,8 @@
 
 #pragma once
 
-#include <indurop/detail/access.h>
 #include <indurop/detail/freshness.h>
+#include <indurop/detail/ring_access.h>
 #include <indurop/string.h>
 
 #include <array>

@@ -122,7 +122,7 @@ constexpr const char* kSizes =
 // Until the last one has answered, a writer asks all of its readers again in this interval, and each answers: with many
 // of them that costs the time in which the last one would. So each is asked as often as if there were eight, and on one
 // host all boards together ask as often as those of eight would. Parts are sent again anyway (kKeepAliveNs in
-// packing.h).
+// frame_layout.h).
 std::string quick_repair(const NetworkSettings& settings) {
   constexpr std::chrono::milliseconds kQuick{10};
   constexpr std::chrono::milliseconds kUsual{100};

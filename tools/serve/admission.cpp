@@ -142,7 +142,7 @@ Result<std::vector<Token>, base::Problem> parse_tokens(std::string_view text) {
 
 Result<Admission, tools::Failure> admission_of(const tools::ServeOptions& options) {
   Admission admission;
-  GateSettings& gate = admission.gate;
+  AccessGateSettings& gate = admission.gate;
   gate.loopback = is_loopback(options.bind);
   gate.tls = !options.cert.empty();
   gate.write = options.write;
@@ -172,7 +172,7 @@ Result<Admission, tools::Failure> admission_of(const tools::ServeOptions& option
     gate.tokens.push_back({"operator", tools::random_word()});
   }
   if (!options.client_ca.empty()) {
-    auto authority = ClientAuthority::open(options.client_ca, options.revoked);
+    auto authority = ClientCertificates::open(options.client_ca, options.revoked);
     if (!authority) {
       return tools::Failure{kFailed, std::move(authority).error().text};
     }

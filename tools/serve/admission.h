@@ -11,14 +11,14 @@
 #include "core/base/problem.h"
 #include "tools/client/failure.h"
 #include "tools/console/serve_options.h"
-#include "tools/serve/client_authority.h"
-#include "tools/serve/door/gate.h"
+#include "tools/serve/client_certificates.h"
+#include "tools/serve/door/access_gate.h"
 
 namespace indurop::serve {
 
 struct Admission {
-  GateSettings gate;
-  ClientAuthority authority;
+  AccessGateSettings gate;
+  ClientCertificates authority;
 };
 // Evaluates these options. Creates the token file if one is named but does not exist.
 Result<Admission, tools::Failure> admission_of(const tools::ServeOptions& options);

@@ -29,7 +29,7 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
   return facts;
 }
 
-DoorSettings door_of(const tools::ServeOptions& options, const GateSettings& gate) {
+DoorSettings door_of(const tools::ServeOptions& options, const AccessGateSettings& gate) {
   DoorSettings settings;
   settings.bind = options.bind;
   settings.port = static_cast<int>(options.port);
@@ -69,7 +69,7 @@ std::string Server::choose_subprotocol(const Request& request) {
 
 Client Server::identify(const std::string& certificate) {
   Client client = authority_.identify(certificate);
-  if (!client.refusal.empty() || !ClientAuthority::is_person(certificate)) {
+  if (!client.refusal.empty() || !ClientCertificates::is_person(certificate)) {
     return client;
   }
   return users_.client_named(client.name).value_or(client);
@@ -246,7 +246,7 @@ std::unique_ptr<Visitor> Server::receive(const Request& request, Line& line) {
 }
 
 void Server::announce() const {
-  const GateSettings& gate = gate_.settings();
+  const AccessGateSettings& gate = gate_.settings();
   // A token that is in no file can be obtained from this output only.
   const bool shown = !gate.tokens.empty() && options_.token_file.empty();
   fmt::print("{}://{}:{}/{}\n", gate.tls ? "https" : "http", options_.bind, door_->port(),

@@ -45,7 +45,7 @@ class Server final : public House {
  private:
   // One more thread with its own boards and jobs. The worker ends first.
   struct Helper {
-    explicit Helper(const std::string& node, const RemoteBoards* remote = nullptr, std::size_t reader = 0)
+    explicit Helper(const std::string& node, const RemotePoller* remote = nullptr, std::size_t reader = 0)
         : boards(node, remote, reader) {}
     Boards boards;
     Worker worker;
@@ -64,15 +64,15 @@ class Server final : public House {
 
   tools::ServeOptions options_;
   UserBook users_;
-  Gate gate_;
-  ClientAuthority authority_;
+  AccessGate gate_;
+  ClientCertificates authority_;
   Audit audit_;
   AlarmDesk alarms_;
   LeaseDesk leases_;
   JogDesk jogs_;
   Api api_;
   Page page_;
-  RemoteBoards remote_boards_;
+  RemotePoller remote_boards_;
   Boards boards_;
   Hub hub_;
   std::unique_ptr<Door> door_;  // declared after everything its connections use
@@ -82,7 +82,7 @@ class Server final : public House {
   Helper orders_;
   Helper holds_;
   struct Plant {
-    Plant(const deploy::LinkSettings& settings, const std::string& node, const RemoteBoards& boards_of_it)
+    Plant(const deploy::LinkSettings& settings, const std::string& node, const RemotePoller& boards_of_it)
         : watch(settings), boards(node, &boards_of_it, kReader, &watch) {}
     static constexpr std::size_t kReader = 1;  // the door's thread is 0
     tools::PlantWatch watch;                   // used by the worker's thread

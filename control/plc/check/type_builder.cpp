@@ -9,7 +9,7 @@
 
 #include "control/plc/check/expression_checker.h"
 #include "control/plc/check/foreign_types.h"
-#include "control/plc/check/overlap.h"
+#include "control/plc/check/union_fields.h"
 #include "control/plc/library/standard.h"
 
 namespace indurop::plc {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "control/plc/model/place.h"
+#include "control/plc/model/source_place.h"
 
 namespace indurop::plc {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "control/plc/model/elementary.h"
-#include "control/plc/model/place.h"
+#include "control/plc/model/source_place.h"
 
 namespace indurop::plc {
 struct Type;      // resolved type, see control/plc/check/type.h

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "control/plc/model/place.h"
+#include "control/plc/model/source_place.h"
 #include "core/base/diagnostics.h"
 
 namespace indurop::plc {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "control/plc/model/diagnostics.h"
-#include "control/plc/model/place.h"
+#include "control/plc/model/source_place.h"
 
 namespace indurop::plc::plcopen {
 

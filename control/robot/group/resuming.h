@@ -24,7 +24,7 @@ class Resuming {
   void set_aside() noexcept;
   // The same for a job whose path is kept already; `asked`: a plan was being made for it.
   void set_aside(int tool, bool asked) noexcept;
-  // Pauses the job: the robot is at standstill, and no motion of the job is in progress.
+  // LineBreakpoints the job: the robot is at standstill, and no motion of the job is in progress.
   void pause() noexcept;
   void drop() noexcept;
   // Services: JobResume, and JobBack, which goes back one motion in a job that pauses between two motions.

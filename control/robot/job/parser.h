@@ -5,7 +5,7 @@
 
 #include "control/robot/job/blocks.h"
 #include "control/robot/job/bodies.h"
-#include "control/robot/job/flow.h"
+#include "control/robot/job/flow_statements.h"
 #include "control/robot/job/motions.h"
 #include "control/robot/job/places.h"
 #include "control/robot/job/statement.h"

@@ -8,11 +8,11 @@
 
 #include <cstdint>
 
+#include "control/robot/job/breakpoints.h"
 #include "control/robot/job/call_stack.h"
 #include "control/robot/job/interrupts.h"
 #include "control/robot/job/job.h"
 #include "control/robot/job/path_outputs.h"
-#include "control/robot/job/pauses.h"
 #include "control/robot/job/pulses.h"
 #include "control/robot/kinematics/errors.h"
 
@@ -148,7 +148,7 @@ class JobRunner {
   };
   Interrupted interrupted_;
   std::uint32_t ticket_ = 0;  // last motion that was commanded
-  Pauses pauses_;
+  LineBreakpoints pauses_;
   bool in_job_ = false;  // started with a line other than the first, and has not moved yet
   std::uint32_t line_ = 0;
   int line_job_ = -1;  // job whose file contains that line

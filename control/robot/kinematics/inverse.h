@@ -3,8 +3,9 @@
 
 #pragma once
 
-#include "control/robot/kinematics/closed_forms.h"
 #include "control/robot/kinematics/numeric.h"
+#include "control/robot/kinematics/parallel_axes.h"
+#include "control/robot/kinematics/spherical_wrist.h"
 
 namespace indurop::robot {
 

@@ -3,9 +3,9 @@
 // on axis 1 alone (two solutions); the sum of the parallel angles and the last two angles yield the orientation (two
 // solutions); then axes 2 and 3 reach axis 4 like the legs of a compass (two solutions).
 
-#include <cmath>
+#include "control/robot/kinematics/parallel_axes.h"
 
-#include "control/robot/kinematics/closed_forms.h"
+#include <cmath>
 
 namespace indurop::robot {
 

@@ -3,11 +3,11 @@
 // axes 2 and 3 (two solutions), these reach it like the legs of a compass (two solutions), and the wrist yields the
 // orientation (two solutions).
 
+#include "control/robot/kinematics/spherical_wrist.h"
+
 #include <array>
 #include <cmath>
 #include <utility>
-
-#include "control/robot/kinematics/closed_forms.h"
 
 namespace indurop::robot {
 

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "network/mirror/frames/beacons.h"
 #include "network/mirror/frames/landing.h"
 #include "network/mirror/frames/mirror_block.h"
+#include "network/mirror/frames/peer_beacons.h"
 #include "network/mirror/frames/plane.h"
 #include "network/mirror/frames/receiver.h"
 #include "network/mirror/frames/schedule.h"

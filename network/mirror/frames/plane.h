@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/base/problem.h"
-#include "network/mirror/frames/packing.h"
+#include "network/mirror/frames/frame_layout.h"
 
 namespace indurop::mirror {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "network/dds/endpoint.h"
-#include "network/mirror/frames/packing.h"
+#include "network/mirror/frames/frame_layout.h"
 #include "network/mirror/frames/settings.h"
 
 namespace indurop::mirror {

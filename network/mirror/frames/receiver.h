@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "core/base/problem.h"
+#include "network/mirror/frames/frame_layout.h"
 #include "network/mirror/frames/landing.h"
 #include "network/mirror/frames/mirror_block.h"
-#include "network/mirror/frames/packing.h"
 #include "network/mirror/frames/plane.h"
 #include "network/mirror/frames/staging.h"
 #include "network/mirror/frames/update_word.h"

@@ -20,7 +20,7 @@ Sender::Sender(vars::Store& store, const Settings& settings, std::uint64_t sessi
       block_(block),
       session_(session),
       board_(settings.network.board),
-      collectors_{Collector(store), Collector(store)} {
+      collectors_{ChangeCollector(store), ChangeCollector(store)} {
   std::vector<Parcel> parcels;
   std::vector<const vars::DirectoryEntry*> entries;
   std::vector<const Writers*> writers;
@@ -56,7 +56,7 @@ Sender::Sender(vars::Store& store, const Settings& settings, std::uint64_t sessi
   layout_ = abi::fnv1a64(layout_text.data(), layout_text.size());
   block_.outgoing = static_cast<std::uint32_t>(entries.size());
   block_.parts = static_cast<std::uint32_t>(parts_.size());
-  for (Collector& collector : collectors_) {
+  for (ChangeCollector& collector : collectors_) {
     (void)collector.collect(0);
   }
 }

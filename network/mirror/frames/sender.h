@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/schema/schema.h"
-#include "network/mirror/frames/collector.h"
+#include "network/mirror/frames/change_collector.h"
+#include "network/mirror/frames/frame_layout.h"
 #include "network/mirror/frames/mirror_block.h"
-#include "network/mirror/frames/packing.h"
 #include "network/mirror/frames/plane.h"
 #include "network/mirror/frames/settings.h"
 #include "store/vars/store.h"
@@ -60,7 +60,7 @@ class Sender {
   std::string board_;
   std::string schema_text_;
   std::vector<Outbox> parts_;
-  std::array<Collector, 2> collectors_;  // for the prompt and the bulk thread
+  std::array<ChangeCollector, 2> collectors_;  // for the prompt and the bulk thread
   Plane* plane_ = nullptr;
   std::array<std::uint64_t, 2> updates_{};  // for the prompt and the bulk thread
   std::uint64_t update_sum_ = 0;            // sum over the parts that change together

@@ -17,7 +17,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "network/mirror/frames/packing.h"
+#include "network/mirror/frames/frame_layout.h"
 
 namespace indurop::mirror {
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "tools/serve/door/access_gate.h"
 #include "tools/serve/door/door.h"
-#include "tools/serve/door/gate.h"
 #include "tools/serve/door/http_head.h"
 
 namespace {

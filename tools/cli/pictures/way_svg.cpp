@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/svg_style.h"
-#include "tools/cli/pictures/chart_svg.h"
+#include "tools/cli/pictures/recording_svg.h"
 
 namespace indurop::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include "history/recorder/sources.h"
 #include "history/recording/mcap_reader.h"
 #include "tools/cli/command/node_program.h"
-#include "tools/cli/pictures/chart_svg.h"
+#include "tools/cli/pictures/recording_svg.h"
 #include "tools/cli/recordings/recorded_csv.h"
 #include "tools/cli/recordings/replayed_over.h"
 #include "tools/client/process/child.h"

@@ -10,8 +10,8 @@
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 #include "core/base/text.h"
-#include "tools/cli/pictures/chart_svg.h"
 #include "tools/cli/pictures/chart_text.h"
+#include "tools/cli/pictures/recording_svg.h"
 #include "tools/cli/verbs/verbs.h"
 
 namespace indurop::tools {

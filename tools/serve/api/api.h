@@ -14,7 +14,7 @@
 #include "history/alarms/alarm_book.h"
 #include "tools/client/node/known_uses.h"
 #include "tools/serve/audit.h"
-#include "tools/serve/door/gate.h"
+#include "tools/serve/door/access_gate.h"
 
 namespace indurop::serve {
 
@@ -52,10 +52,10 @@ class UserBook;
 
 class Api {
  public:
-  Api(const Gate& gate, UserBook& users, Audit& audit, LeaseDesk& leases, JogDesk& jogs, ServerFacts facts)
+  Api(const AccessGate& gate, UserBook& users, Audit& audit, LeaseDesk& leases, JogDesk& jogs, ServerFacts facts)
       : gate_(&gate), users_(&users), audit_(&audit), leases_(&leases), jogs_(&jogs), facts_(std::move(facts)) {}
 
-  [[nodiscard]] const Gate& gate() const noexcept { return *gate_; }
+  [[nodiscard]] const AccessGate& gate() const noexcept { return *gate_; }
   [[nodiscard]] UserBook& users() const noexcept { return *users_; }
   [[nodiscard]] const ServerFacts& facts() const noexcept { return facts_; }
   [[nodiscard]] Audit& audit() const noexcept { return *audit_; }
@@ -71,7 +71,7 @@ class Api {
     tools::KnownUses uses;
   };
 
-  const Gate* gate_;
+  const AccessGate* gate_;
   UserBook* users_;
   Audit* audit_;
   LeaseDesk* leases_;

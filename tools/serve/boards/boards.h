@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "tools/serve/boards/board.h"
-#include "tools/serve/boards/remote_boards.h"
+#include "tools/serve/boards/remote_poller.h"
 
 namespace indurop::serve {
 
 class Boards {
  public:
   // `remote`: boards of other hosts; `reader` identifies this thread among their readers; `watch`: see RemoteBoard.
-  explicit Boards(std::string only, const RemoteBoards* remote = nullptr, std::size_t reader = 0,
+  explicit Boards(std::string only, const RemotePoller* remote = nullptr, std::size_t reader = 0,
                   tools::PlantWatch* watch = nullptr)
       : only_(std::move(only)), remote_(remote), reader_(reader), watch_(watch) {}
 
@@ -34,7 +34,7 @@ class Boards {
   [[nodiscard]] bool is_local(const std::string& name) const;
 
   std::string only_;
-  const RemoteBoards* remote_;
+  const RemotePoller* remote_;
   std::size_t reader_;
   tools::PlantWatch* watch_;
   std::unordered_multimap<std::string, std::unique_ptr<Board>> boards_;  // those requested so far, by name

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "config/model/users.h"
-#include "tools/serve/door/gate.h"
+#include "tools/serve/door/access_gate.h"
 
 namespace indurop::serve {
 

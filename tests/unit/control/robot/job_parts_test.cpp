@@ -166,11 +166,11 @@ TEST(Interrupts, That_are_disarmed_do_not_come) {
   EXPECT_FALSE(sut.any_pending());
 }
 
-TEST(Pauses, Come_before_the_first_step_of_each_line_and_not_twice_before_the_same) {
+TEST(LineBreakpoints, Come_before_the_first_step_of_each_line_and_not_twice_before_the_same) {
   const JobBook book = book_of({{"main.job", "WAIT 1s\nWAIT 2s\n"}});
   CallStack jobs(book);
   jobs.reset(0);
-  Pauses sut;
+  LineBreakpoints sut;
   EXPECT_FALSE(sut.before(jobs));
   sut.set(true, {});
   EXPECT_TRUE(sut.before(jobs));
@@ -182,11 +182,11 @@ TEST(Pauses, Come_before_the_first_step_of_each_line_and_not_twice_before_the_sa
   EXPECT_TRUE(sut.before(jobs));
 }
 
-TEST(Pauses, Come_before_lines_with_a_breakpoint_only) {
+TEST(LineBreakpoints, Come_before_lines_with_a_breakpoint_only) {
   const JobBook book = book_of({{"main.job", "WAIT 1s\nWAIT 2s\n"}});
   CallStack jobs(book);
   jobs.reset(0);
-  Pauses sut;
+  LineBreakpoints sut;
   Breakpoints lines{};
   lines[0].job = 1;
   lines[0].line = 2;

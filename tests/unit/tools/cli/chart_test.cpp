@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tools/cli/pictures/chart_svg.h"
 #include "tools/cli/pictures/chart_text.h"
+#include "tools/cli/pictures/recording_svg.h"
 #include "tools/cli/pictures/way_svg.h"
 #include "tools/client/recordings/recording.h"
 

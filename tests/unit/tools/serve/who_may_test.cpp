@@ -9,7 +9,7 @@
 #include <string>
 
 #include "tools/serve/api/router.h"
-#include "tools/serve/door/gate.h"
+#include "tools/serve/door/access_gate.h"
 #include "tools/serve/door/house.h"
 
 namespace indurop::serve {
@@ -71,8 +71,8 @@ Request request_for(const Route& route, const Asker& asker, bool header) {
   return request;
 }
 
-GateSettings settings_of(bool loopback, bool write) {
-  GateSettings settings;
+AccessGateSettings settings_of(bool loopback, bool write) {
+  AccessGateSettings settings;
   settings.loopback = loopback;
   settings.tls = !loopback;
   settings.write = write;
@@ -105,7 +105,7 @@ int level_of(const Request& request) {
   return last == "end" ? request.path.find("/jog/") != std::string::npos ? 2 : 3 : kLevels.at(last);
 }
 
-int expected(const Request& request, const Asker& asker, const GateSettings& settings) {
+int expected(const Request& request, const Asker& asker, const AccessGateSettings& settings) {
   const int level = level_of(request);
   if (level == 0) {
     return 0;
@@ -127,7 +127,7 @@ template <class Check>
 void walk(const Check& check) {
   for (const bool loopback : {true, false}) {
     for (const bool write : {true, false}) {
-      const GateSettings settings = settings_of(loopback, write);
+      const AccessGateSettings settings = settings_of(loopback, write);
       for (const Route& route : all_routes()) {
         for (const Asker& asker : kAskers) {
           for (const bool header : {true, false}) {
@@ -142,20 +142,20 @@ void walk(const Check& check) {
   }
 }
 
-int answer_of(const GateSettings& settings, Request request) {
-  const Gate gate(settings);
+int answer_of(const AccessGateSettings& settings, Request request) {
+  const AccessGate gate(settings);
   request.client = gate.client_of(request);
   return code_of_reply(gate.refuse(request, needed_for(all_routes(), request)));
 }
 
 TEST(WhoMay, Is_the_same_for_every_line_of_the_table) {
-  walk([](const GateSettings& settings, const Request& request, const Asker& asker) {
+  walk([](const AccessGateSettings& settings, const Request& request, const Asker& asker) {
     EXPECT_EQ(answer_of(settings, request), expected(request, asker, settings));
   });
 }
 
 TEST(WhoMay, Nothing_is_answered_under_another_name_or_to_another_page) {
-  walk([](const GateSettings& settings, Request request, const Asker& /*asker*/) {
+  walk([](const AccessGateSettings& settings, Request request, const Asker& /*asker*/) {
     for (const char* host :
          {"", "evil.com", "localhost:evil.com", "localhost.evil.com", "evil.com:8080", "[::1", "[::1]8080"}) {
       request.host = host;
@@ -171,7 +171,7 @@ TEST(WhoMay, Nothing_is_answered_under_another_name_or_to_another_page) {
 }
 
 TEST(WhoMay, What_is_not_in_the_table_asks_for_no_less) {
-  const GateSettings settings = settings_of(false, true);
+  const AccessGateSettings settings = settings_of(false, true);
   for (const char* path : {"/api/", "/api/v1", "/api/v1/nothing", "/api/v2/boards", "/api/v1/stream"}) {
     for (const Method method : {Method::Get, Method::Post}) {
       Request request = request_for({method, path, Role::Unknown, Pace::Quick, nullptr, Remote::No}, kAskers[0], true);
@@ -181,7 +181,7 @@ TEST(WhoMay, What_is_not_in_the_table_asks_for_no_less) {
 }
 
 TEST(WhoMay, A_client_of_some_boards_changes_no_other_and_not_the_plant) {
-  GateSettings settings = settings_of(true, true);
+  AccessGateSettings settings = settings_of(true, true);
   for (const Route& route : all_routes()) {
     Request request = request_for(route, kAskers[0], true);
     request.certificate = {"ben", Role::Program, {}, {"press*", "table"}, {}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "network/mirror/frames/packing.h"
+#include "network/mirror/frames/frame_layout.h"
 
 #include <gmock/gmock.h>
 

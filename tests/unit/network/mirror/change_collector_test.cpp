@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "network/mirror/frames/collector.h"
+#include "network/mirror/frames/change_collector.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -31,7 +31,7 @@ class CollectorOf : public ::testing::Test {
     auto made = vars::Store::create(node_, schema);
     EXPECT_TRUE(made.ok());
     store_ = std::make_unique<vars::Store>(std::move(made).value());
-    sut_ = std::make_unique<Collector>(*store_);
+    sut_ = std::make_unique<ChangeCollector>(*store_);
   }
   ~CollectorOf() override {
     store_.reset();
@@ -51,7 +51,7 @@ class CollectorOf : public ::testing::Test {
 
   std::string node_;
   std::unique_ptr<vars::Store> store_;
-  std::unique_ptr<Collector> sut_;
+  std::unique_ptr<ChangeCollector> sut_;
   std::uint64_t a_ = 0;
   std::uint64_t b_ = 0;
   bool changed_ = false;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/robot/job/pauses.h"
+#include "control/robot/job/breakpoints.h"
 
 #include <algorithm>
 
 namespace indurop::robot {
 
-bool Pauses::before(const CallStack& jobs) const noexcept {
+bool LineBreakpoints::before(const CallStack& jobs) const noexcept {
   const Step& step = *jobs.step();
   const bool in_line = jobs.job() == last_job_ && last_step_ >= 0 && jobs.index() > last_step_ &&
                        jobs.steps()[static_cast<std::size_t>(last_step_)].line == step.line;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/serve/door/gate.h"
+#include "tools/serve/door/access_gate.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -88,12 +88,12 @@ std::string host_name(std::string_view host) {
   return lower(name);
 }
 
-Client Gate::client_of(const Request& request) const {
+Client AccessGate::client_of(const Request& request) const {
   const std::string_view sent = sent_token(request);
   return sent.empty() ? request.certificate : client_of_token(sent);
 }
 
-Client Gate::client_of_token(std::string_view sent) const {
+Client AccessGate::client_of_token(std::string_view sent) const {
   if (accounts_ != nullptr) {
     if (auto client = accounts_->client_of_token(sent)) {
       return std::move(*client);
@@ -110,12 +110,12 @@ Client Gate::client_of_token(std::string_view sent) const {
   return client;
 }
 
-bool Gate::host_known(std::string_view host) const {
+bool AccessGate::host_known(std::string_view host) const {
   const std::string name = host_name(host);
   return !name.empty() && std::find(settings_.hosts.begin(), settings_.hosts.end(), name) != settings_.hosts.end();
 }
 
-bool Gate::same_origin(const Request& request) const {
+bool AccessGate::same_origin(const Request& request) const {
   if (request.origin.empty()) {
     return request.fetch_site.empty() || request.fetch_site == "same-origin" || request.fetch_site == "none" ||
            (request.method == Method::Get && !request.stream);
@@ -127,7 +127,7 @@ bool Gate::same_origin(const Request& request) const {
   return lower(request.origin) == (settings_.tls ? "https://" : "http://") + lower(request.host);
 }
 
-std::optional<Reply> Gate::refuse_client(const Client& client, const Needed& needed) const {
+std::optional<Reply> AccessGate::refuse_client(const Client& client, const Needed& needed) const {
   if (needed.role == Role::Unknown) {
     return std::nullopt;
   }
@@ -158,7 +158,7 @@ std::optional<Reply> Gate::refuse_client(const Client& client, const Needed& nee
   return std::nullopt;
 }
 
-std::optional<Reply> Gate::refuse(const Request& request, const Needed& needed) const {
+std::optional<Reply> AccessGate::refuse(const Request& request, const Needed& needed) const {
   if (!host_known(request.host)) {
     return refusal(status::kMisdirected, "this server is not called '" + request.host +
                                              "'; start it with --host NAME to let it be called so");

@@ -14,10 +14,10 @@
 
 namespace indurop::mirror {
 
-class Collector {
+class ChangeCollector {
  public:
   // All arguments, and `store`, are borrowed until the end.
-  explicit Collector(const vars::Store& store) : store_(store) {}
+  explicit ChangeCollector(const vars::Store& store) : store_(store) {}
 
   // Copies the variable to `image` whenever it has changed, and sets `changed`. `writers` null: any process may write
   // it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What certificates of a plant let do through the server, and that revoked ones count no more.
-#include "tools/serve/client_authority.h"
+#include "tools/serve/client_certificates.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ class Authority : public testing::Test {
   ~Authority() override { fs::remove_all(folder_); }
 
   Client client(const fs::path& participant) const {
-    const auto authority = ClientAuthority::open(folder_ / "keys" / "ca.pem", {});
+    const auto authority = ClientCertificates::open(folder_ / "keys" / "ca.pem", {});
     EXPECT_TRUE(authority);
     return authority->identify(*base::read_file(participant / "identity.pem"));
   }
@@ -51,7 +51,7 @@ TEST_F(Authority, Only_deployers_write) {
 }
 
 TEST_F(Authority, A_revoked_client_has_no_rights_at_once) {
-  const auto authority = ClientAuthority::open(folder_ / "keys" / "ca.pem", {});
+  const auto authority = ClientCertificates::open(folder_ / "keys" / "ca.pem", {});
   ASSERT_TRUE(authority);
   const std::string certificate = *base::read_file(plant_.deployer() / "identity.pem");
   EXPECT_EQ(authority->identify(certificate).refusal, "");
@@ -61,19 +61,19 @@ TEST_F(Authority, A_revoked_client_has_no_rights_at_once) {
 }
 
 TEST_F(Authority, Without_a_readable_list_no_client_has_rights) {
-  const auto authority = ClientAuthority::open(folder_ / "keys" / "ca.pem", {});
+  const auto authority = ClientCertificates::open(folder_ / "keys" / "ca.pem", {});
   const std::string certificate = *base::read_file(plant_.deployer() / "identity.pem");
   for (const char* content : {"", "nonsense"}) {
     std::ofstream(folder_ / "keys" / "revoked.pem") << content;
     EXPECT_NE(authority->identify(certificate).refusal, "") << content;
-    EXPECT_FALSE(ClientAuthority::open(folder_ / "keys" / "ca.pem", {})) << content;
+    EXPECT_FALSE(ClientCertificates::open(folder_ / "keys" / "ca.pem", {})) << content;
   }
   const keys::PlantKeys other(folder_ / "other");
   ASSERT_TRUE(other.make("cell", {"drive"}, until_));
-  EXPECT_FALSE(ClientAuthority::open(folder_ / "keys" / "ca.pem", folder_ / "other" / "revoked.pem"));
+  EXPECT_FALSE(ClientCertificates::open(folder_ / "keys" / "ca.pem", folder_ / "other" / "revoked.pem"));
   fs::remove(folder_ / "keys" / "revoked.pem");
   EXPECT_NE(authority->identify(certificate).refusal, "");
-  EXPECT_FALSE(ClientAuthority::open(folder_ / "keys" / "ca.pem", {}));
+  EXPECT_FALSE(ClientCertificates::open(folder_ / "keys" / "ca.pem", {}));
 }
 
 }  // namespace

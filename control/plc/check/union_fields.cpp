@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/plc/check/overlap.h"
+#include "control/plc/check/union_fields.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "network/mirror/frames/collector.h"
+#include "network/mirror/frames/change_collector.h"
 
 #include <algorithm>
 #include <cstring>
 
 namespace indurop::mirror {
 
-void Collector::add(const vars::DirectoryEntry& entry, std::uint8_t* image, bool* changed, const Writers* writers) {
+void ChangeCollector::add(const vars::DirectoryEntry& entry, std::uint8_t* image, bool* changed,
+                          const Writers* writers) {
   auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) { return g.writers == writers; });
   if (group == groups_.end()) {
     groups_.push_back({writers, {}, {}, {}, 0});
@@ -24,7 +25,7 @@ void Collector::add(const vars::DirectoryEntry& entry, std::uint8_t* image, bool
   group->differing.reserve(group->items.size());
 }
 
-bool Collector::copy_if_different(Group& group, Item& item) const noexcept {
+bool ChangeCollector::copy_if_different(Group& group, Item& item) const noexcept {
   std::uint8_t* const to = group.copies.data() + item.place;
   const std::span<std::uint8_t> value(to, item.entry->value_size);
   if (item.ring == nullptr) {
@@ -38,7 +39,7 @@ bool Collector::copy_if_different(Group& group, Item& item) const noexcept {
   return true;
 }
 
-void Collector::copy_differing(Group& group) const noexcept {
+void ChangeCollector::copy_differing(Group& group) const noexcept {
   group.differing.clear();
   for (std::uint32_t i = 0; i < group.items.size(); ++i) {
     if (copy_if_different(group, group.items[i])) {
@@ -48,7 +49,7 @@ void Collector::copy_differing(Group& group) const noexcept {
 }
 
 // Returns false if the writers are in a run.
-bool Collector::collect_group(Group& group, std::int64_t now_ns) const noexcept {
+bool ChangeCollector::collect_group(Group& group, std::int64_t now_ns) const noexcept {
   const std::uint64_t before = group.writers == nullptr ? 0 : group.writers->runs();
   const bool patient = group.writers == nullptr || group.waiting_since_ns == 0 ||
                        now_ns - group.waiting_since_ns < group.writers->patience_ns;
@@ -69,7 +70,7 @@ bool Collector::collect_group(Group& group, std::int64_t now_ns) const noexcept 
   return true;
 }
 
-bool Collector::collect(std::int64_t now_ns) noexcept {
+bool ChangeCollector::collect(std::int64_t now_ns) noexcept {
   bool poll_again = false;
   for (Group& group : groups_) {
     if (collect_group(group, now_ns)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/serve/boards/remote_boards.h"
+#include "tools/serve/boards/remote_poller.h"
 
 #include <algorithm>
 #include <utility>
@@ -27,7 +27,7 @@ std::vector<std::string> names_of(const std::vector<std::shared_ptr<tools::Repor
 
 }  // namespace
 
-RemoteBoards::Some RemoteBoards::all() const {
+RemotePoller::Some RemotePoller::all() const {
   const std::lock_guard<std::mutex> guard(mutex_);
   Some some;
   for (const auto& [name, board] : boards_) {
@@ -36,19 +36,19 @@ RemoteBoards::Some RemoteBoards::all() const {
   return some;
 }
 
-std::vector<std::string> RemoteBoards::names() const {
+std::vector<std::string> RemotePoller::names() const {
   std::vector<std::string> names = names_of(all());
   std::erase_if(names, runs_here);
   return names;
 }
 
-std::shared_ptr<tools::ReportedBoard> RemoteBoards::find(const std::string& name) const {
+std::shared_ptr<tools::ReportedBoard> RemotePoller::find(const std::string& name) const {
   const std::lock_guard<std::mutex> guard(mutex_);
   const auto known = boards_.find(name);
   return known != boards_.end() && !runs_here(name) ? known->second : nullptr;
 }
 
-void RemoteBoards::update(const tools::PlantWatch& watch) {
+void RemotePoller::update(const tools::PlantWatch& watch) {
   for (const base::Json& row : watch.rows()) {
     const std::string name = row["board"].text().value_or("");
     if (name.empty() || runs_here(name)) {
@@ -68,7 +68,7 @@ void RemoteBoards::update(const tools::PlantWatch& watch) {
   }
 }
 
-void RemoteBoards::learn(tools::PlantWatch& watch, const Some& boards) {
+void RemotePoller::learn(tools::PlantWatch& watch, const Some& boards) {
   const auto texts = watch.texts("variables", names_of(boards));
   for (const auto& board : boards) {
     const auto text = texts.find(board->name());
@@ -78,7 +78,7 @@ void RemoteBoards::learn(tools::PlantWatch& watch, const Some& boards) {
   }
 }
 
-void RemoteBoards::ask(tools::PlantWatch& watch, const Some& boards) {
+void RemotePoller::ask(tools::PlantWatch& watch, const Some& boards) {
   Some others;
   const auto take = [&](const Some& asked) {
     const auto texts = watch.texts("values", names_of(asked));
@@ -103,7 +103,7 @@ void RemoteBoards::ask(tools::PlantWatch& watch, const Some& boards) {
   }
 }
 
-void RemoteBoards::poll(tools::PlantWatch& watch) {
+void RemotePoller::poll(tools::PlantWatch& watch) {
   update(watch);
   const std::int64_t now = rt::now_ns();
   Some due;
@@ -120,7 +120,7 @@ void RemoteBoards::poll(tools::PlantWatch& watch) {
   }
 }
 
-void RemoteBoards::fetch(tools::PlantWatch& watch, const std::string& name) {
+void RemotePoller::fetch(tools::PlantWatch& watch, const std::string& name) {
   update(watch);
   const auto board = find(name);
   if (board == nullptr || !board->report().heard) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "network/mirror/frames/beacons.h"
+#include "network/mirror/frames/peer_beacons.h"
 
 #include <algorithm>
 #include <chrono>

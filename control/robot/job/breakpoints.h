@@ -11,7 +11,7 @@
 
 namespace indurop::robot {
 
-class Pauses {
+class LineBreakpoints {
  public:
   // Sets where to pause: before every line, or before these lines.
   void set(bool each, const Breakpoints& lines) noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/serve/client_authority.h"
+#include "tools/serve/client_certificates.h"
 
 #include <fmt/format.h>
 
@@ -10,13 +10,13 @@
 
 namespace indurop::serve {
 
-Result<ClientAuthority, base::Problem> ClientAuthority::open(const std::filesystem::path& authority,
-                                                             const std::filesystem::path& revoked) {
+Result<ClientCertificates, base::Problem> ClientCertificates::open(const std::filesystem::path& authority,
+                                                                   const std::filesystem::path& revoked) {
   const auto text = base::read_file(authority);
   if (!text) {
     return base::Problem{base::cannot_read(authority.string(), text.error())};
   }
-  ClientAuthority made;
+  ClientCertificates made;
   made.authority_ = *text;
   const auto facts = keys::read_certificate(made.authority_);
   if (!facts) {
@@ -36,7 +36,7 @@ Result<ClientAuthority, base::Problem> ClientAuthority::open(const std::filesyst
   return made;
 }
 
-std::string ClientAuthority::read_list(std::string& list) const {
+std::string ClientCertificates::read_list(std::string& list) const {
   if (revoked_.empty()) {
     return {};
   }
@@ -51,13 +51,13 @@ std::string ClientAuthority::read_list(std::string& list) const {
   return {};
 }
 
-bool ClientAuthority::is_person(const std::string& certificate) {
+bool ClientCertificates::is_person(const std::string& certificate) {
   const auto facts = keys::read_certificate(certificate);
   const auto role = facts ? keys::plant_role(*facts) : std::nullopt;
   return facts && (!keys::is_plant_certificate(*facts) || role == keys::Role::Deployer || role == keys::Role::Viewer);
 }
 
-Client ClientAuthority::identify(const std::string& certificate) const {
+Client ClientCertificates::identify(const std::string& certificate) const {
   const auto facts = keys::read_certificate(certificate);
   if (authority_.empty() || !facts || facts->common_name.empty()) {
     return {{}, Role::Unknown, "the certificate names no user", {}, {}};

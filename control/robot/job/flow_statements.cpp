@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/robot/job/flow.h"
+#include "control/robot/job/flow_statements.h"
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/serve/door/gate.h"
+#include "tools/serve/door/access_gate.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -30,8 +30,8 @@ Request write() {
   return request;
 }
 
-GateSettings here(bool writes) {
-  GateSettings settings;
+AccessGateSettings here(bool writes) {
+  AccessGateSettings settings;
   settings.write = writes;
   settings.hosts = {"localhost", "127.0.0.1", "::1"};
   settings.tokens = {{"operator", kToken}};
@@ -39,7 +39,7 @@ GateSettings here(bool writes) {
 }
 
 // What the table asks for these.
-std::optional<Reply> refusal_of(const Gate& gate, Request request) {
+std::optional<Reply> refusal_of(const AccessGate& gate, Request request) {
   request.client = gate.client_of(request);
   return gate.refuse(request, needed_for(all_routes(), request));
 }
@@ -48,12 +48,12 @@ int code(const std::optional<Reply>& reply) {
   return reply ? reply->status : 0;
 }
 
-TEST(Gate, Lets_anybody_on_this_machine_look) {
-  EXPECT_EQ(code(refusal_of(Gate(here(false)), look())), 0);
+TEST(AccessGate, Lets_anybody_on_this_machine_look) {
+  EXPECT_EQ(code(refusal_of(AccessGate(here(false)), look())), 0);
 }
 
-TEST(Gate, Refuses_names_that_are_not_this_machine) {
-  const Gate gate(here(false));
+TEST(AccessGate, Refuses_names_that_are_not_this_machine) {
+  const AccessGate gate(here(false));
   for (const char* host : {"evil.example", "evil.example:8080", "", "127.0.0.1.evil.example", "[::2]:8080",
                            "localhost:evil.com", "localhost:", "localhost:80:80", "localhost:123456", "[::1", "[::1]x",
                            "[::1]:x", "localhost@evil.com", "localhost.", " "}) {
@@ -68,8 +68,8 @@ TEST(Gate, Refuses_names_that_are_not_this_machine) {
   }
 }
 
-TEST(Gate, Refuses_pages_of_other_sites) {
-  const Gate gate(here(true));
+TEST(AccessGate, Refuses_pages_of_other_sites) {
+  const AccessGate gate(here(true));
   for (const char* origin : {"http://evil.example", "https://127.0.0.1:8080", "http://127.0.0.1:8081", "null"}) {
     Request request = write();
     request.origin = origin;
@@ -83,10 +83,10 @@ TEST(Gate, Refuses_pages_of_other_sites) {
   EXPECT_EQ(code(refusal_of(gate, unnamed)), 403);
 }
 
-TEST(Gate, Lets_pages_of_named_origins_follow_variables_and_do_nothing_else) {
-  GateSettings settings = here(true);
+TEST(AccessGate, Lets_pages_of_named_origins_follow_variables_and_do_nothing_else) {
+  AccessGateSettings settings = here(true);
   settings.origins = {"https://app.foxglove.dev"};
-  const Gate gate(settings);
+  const AccessGate gate(settings);
   Request stream = look();
   stream.stream = true;
   stream.path = "/";
@@ -103,18 +103,18 @@ TEST(Gate, Lets_pages_of_named_origins_follow_variables_and_do_nothing_else) {
   EXPECT_EQ(code(refusal_of(gate, order)), 403);
 }
 
-TEST(Gate, Wants_to_know_who_follows_from_elsewhere_whatever_the_path) {
-  GateSettings settings = here(false);
+TEST(AccessGate, Wants_to_know_who_follows_from_elsewhere_whatever_the_path) {
+  AccessGateSettings settings = here(false);
   settings.loopback = false;
   Request stream = look();
   stream.stream = true;
   stream.path = "/";
-  EXPECT_EQ(code(refusal_of(Gate(settings), stream)), 401);
+  EXPECT_EQ(code(refusal_of(AccessGate(settings), stream)), 401);
 }
 
-TEST(Gate, Rejects_writes_without_the_option_and_a_token) {
-  EXPECT_EQ(code(refusal_of(Gate(here(false)), write())), 403);
-  const Gate gate(here(true));
+TEST(AccessGate, Rejects_writes_without_the_option_and_a_token) {
+  EXPECT_EQ(code(refusal_of(AccessGate(here(false)), write())), 403);
+  const AccessGate gate(here(true));
   EXPECT_EQ(code(refusal_of(gate, write())), 0);
   Request wrong = write();
   wrong.authorization = "Bearer abcdefghijklmnopqrstuvwxyy";
@@ -129,8 +129,8 @@ TEST(Gate, Rejects_writes_without_the_option_and_a_token) {
   EXPECT_EQ(code(refusal_of(gate, wrong)), 401);
 }
 
-TEST(Gate, Takes_a_body_only_as_json) {
-  const Gate gate(here(true));
+TEST(AccessGate, Takes_a_body_only_as_json) {
+  const AccessGate gate(here(true));
   Request request = write();
   for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded", "application/jsonp"}) {
     request.content_type = type;
@@ -140,11 +140,11 @@ TEST(Gate, Takes_a_body_only_as_json) {
   EXPECT_EQ(code(refusal_of(gate, request)), 0);
 }
 
-TEST(Gate, Asks_everybody_who_comes_from_outside_for_a_token) {
-  GateSettings settings = here(false);
+TEST(AccessGate, Asks_everybody_who_comes_from_outside_for_a_token) {
+  AccessGateSettings settings = here(false);
   settings.loopback = false;
   settings.tls = true;
-  const Gate gate(settings);
+  const AccessGate gate(settings);
   EXPECT_EQ(code(refusal_of(gate, look())), 401);
   EXPECT_EQ(code(refusal_of(gate, look("/index.html"))), 0);  // the page itself is no secret
   Request stream = look("/api/v1/stream");
@@ -155,10 +155,10 @@ TEST(Gate, Asks_everybody_who_comes_from_outside_for_a_token) {
   EXPECT_EQ(gate.client_of(stream).name, "operator");
 }
 
-TEST(Gate, Answers_get_and_post_only) {
+TEST(AccessGate, Answers_get_and_post_only) {
   Request request = look();
   request.method = Method::Other;
-  EXPECT_EQ(code(refusal_of(Gate(here(true)), request)), 405);
+  EXPECT_EQ(code(refusal_of(AccessGate(here(true)), request)), 405);
 }
 
 TEST(ConstantTime, Is_equality) {

@@ -14,14 +14,14 @@
 
 namespace indurop::serve {
 
-class ClientAuthority {
+class ClientCertificates {
  public:
   // Accepts no certificate.
-  ClientAuthority() = default;
+  ClientCertificates() = default;
   // `revoked`: a revocation list of this authority; empty: the file revoked.pem in the folder of `authority`, which
   // must exist for a plant's authority.
-  static Result<ClientAuthority, base::Problem> open(const std::filesystem::path& authority,
-                                                     const std::filesystem::path& revoked);
+  static Result<ClientCertificates, base::Problem> open(const std::filesystem::path& authority,
+                                                        const std::filesystem::path& revoked);
 
   // `certificate`: PEM, signed by the authority and valid now.
   [[nodiscard]] Client identify(const std::string& certificate) const;

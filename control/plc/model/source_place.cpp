@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/plc/model/place.h"
+#include "control/plc/model/source_place.h"
 
 namespace indurop::plc {
 

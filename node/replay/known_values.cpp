@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the recording before the replay: which values are known from its beginning on, and where each module begins.
+// Reads the recording before the replay: which values are known from its beginning on.
 
 #include <vector>
 
@@ -78,35 +78,6 @@ void ReplayedModules::leave_out_if_unknown(ReplayedModule& module) const {
         "module {} does not run: the recording has no values of its inputs ({}); its outputs are taken from "
         "the recording",
         module.name, module.unknown_inputs);
-  }
-}
-
-// Each module begins at its last keyframe that comes before the first run that is wanted.
-void ReplayedModules::find_keyframes_to_begin_at() {
-  if (options_.replay.from_tick == 0) {
-    return;
-  }
-  auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_);
-  std::vector<std::uint64_t> newest(modules_.size(), 0);  // number of the run that begins with it
-  while (recorded) {
-    auto item = recorded->next();
-    if (!item) {
-      continue;  // known when it is replayed
-    }
-    if (!*item) {
-      break;
-    }
-    if (const auto* keyframe = std::get_if<RecordedKeyframe>(&**item); keyframe != nullptr) {
-      if (const ReplayedModule* module = of_recording(keyframe->module); module != nullptr) {
-        newest[module->index] = keyframe->words.run;
-      }
-    } else if (const auto* run = std::get_if<RecordedRun>(&**item); run != nullptr) {
-      ReplayedModule* const module = of_recording(run->words.module);
-      if (module != nullptr && run->words.tail.number == newest[module->index] &&
-          run->words.tail.tick <= options_.replay.from_tick) {
-        module->kept.begin_at(newest[module->index]);
-      }
-    }
   }
 }
 

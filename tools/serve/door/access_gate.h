@@ -29,7 +29,7 @@ class Accounts {
   virtual std::optional<Client> client_of_token(std::string_view token) = 0;
 };
 
-struct GateSettings {
+struct AccessGateSettings {
   bool loopback = true;  // the server can be reached from this machine only
   bool tls = false;
   bool write = false;
@@ -38,10 +38,10 @@ struct GateSettings {
   std::vector<std::string> origins;  // of third-party pages that may follow variables
 };
 
-class Gate {
+class AccessGate {
  public:
   // `accounts`: null: there are none but the tokens of the settings. Must outlive the gate.
-  explicit Gate(GateSettings settings, Accounts* accounts = nullptr)
+  explicit AccessGate(AccessGateSettings settings, Accounts* accounts = nullptr)
       : settings_(std::move(settings)), accounts_(accounts) {}
 
   // Returns the refusal of a request that needs this, or nothing if it is allowed. Its `client` is that of client_of().
@@ -52,7 +52,7 @@ class Gate {
   [[nodiscard]] bool may(const Client& client, Role role) const {
     return client.role >= role && (role <= Role::Look || settings_.write);
   }
-  [[nodiscard]] const GateSettings& settings() const noexcept { return settings_; }
+  [[nodiscard]] const AccessGateSettings& settings() const noexcept { return settings_; }
 
  private:
   [[nodiscard]] bool host_known(std::string_view host) const;
@@ -60,7 +60,7 @@ class Gate {
   [[nodiscard]] std::optional<Reply> refuse_client(const Client& client, const Needed& needed) const;
   [[nodiscard]] Client client_of_token(std::string_view sent) const;
 
-  GateSettings settings_;
+  AccessGateSettings settings_;
   Accounts* accounts_;
 };
 

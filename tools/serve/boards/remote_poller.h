@@ -16,7 +16,7 @@
 
 namespace indurop::serve {
 
-class RemoteBoards {
+class RemotePoller {
  public:
   // Requests what is due; takes up to two seconds if a board does not answer. Called by the thread that receives from
   // boards.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/pictures/chart_svg.h"
+#include "tools/cli/pictures/recording_svg.h"
 
 #include <fmt/format.h>
 
