@@ -14,7 +14,7 @@ constexpr std::size_t kShown = 10;
 // Shortens the value of a struct or an array, so that a line holds two.
 std::string shortened(const std::string& value) {
   constexpr std::size_t kMaxColumns = 40;
-  return value.size() <= kMaxColumns ? value : value.substr(0, kMaxColumns - 3) + "...";
+  return value.size() <= kMaxColumns ? value : fmt::format("{}...", value.substr(0, kMaxColumns - 3));
 }
 
 std::string ticks_to_compare(const config::Replay& replay) {
