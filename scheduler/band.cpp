@@ -2,17 +2,12 @@
 #include "scheduler/band.h"
 
 #include <csignal>
-#include <cstdio>
 
 namespace indurop::scheduler {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
 constexpr std::chrono::microseconds kPoll{50};  // how often a process that must finish first is polled
-
-void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
-  counter.store(counter.load(kRelaxed) + by, kRelaxed);
-}
 
 }  // namespace
 
@@ -118,38 +113,6 @@ void Band::release(const Release& release) noexcept {
   wake_.wake();
 }
 
-void Band::overrun(const Release& release) noexcept {
-  TaskState* running = runner_.current();
-  TaskState& culprit = running != nullptr ? *running : *tasks_.front();
-  const Release& unfinished = pending_[done_.load(std::memory_order_acquire) % kBacklog];
-  record_overrun(culprit, release.tick, running != nullptr, rt::to_ns(unfinished.time));
-}
-
-void Band::record_overrun(TaskState& culprit, std::uint64_t tick, bool started, std::int64_t release_ns) noexcept {
-  count(culprit.record->overruns);
-  OverrunLine line{};
-  line.tick = tick;
-  line.module = culprit.task.index;
-  line.started = started;
-  if (started && plan_.kind != BandKind::Process) {
-    const std::int64_t start = runner_.current_start();
-    line.own_ns = rt::to_ns(kernel_.now()) - start;
-    line.latency_ns = start - release_ns;
-    line.previous = runner_.previous_module();
-    line.previous_ns = runner_.previous_exec();
-  } else {
-    if (started) {
-      const std::int64_t start = culprit.slot->start_ns.load(kRelaxed);
-      line.own_ns = rt::to_ns(kernel_.now()) - start;
-      line.latency_ns = start - release_ns;
-    }
-    line.previous = trace_.module.load(kRelaxed);
-    line.previous_ns = trace_.exec_ns.load(kRelaxed);
-  }
-  log_overrun(block_, line);
-  apply_policy(culprit, tick, line.own_ns);
-}
-
 void Band::account_process(TaskState& state) noexcept {
   ProcessSlot& slot = *state.slot;
   const std::uint64_t done = slot.done.load(std::memory_order_acquire);
@@ -219,39 +182,6 @@ void Band::run_inline(std::uint64_t tick, rt::MonoTime release, std::uint64_t lo
   done_.store(released_.load(kRelaxed), std::memory_order_seq_cst);
   next_due_ = tick + 1;
   decided_tick_.store(tick + 1, std::memory_order_seq_cst);
-}
-
-void Band::find_inline_overrun(std::uint64_t tick, std::int64_t release_ns) noexcept {
-  const std::int64_t next = release_ns + basic_period_ns_;
-  std::size_t i = 0;
-  while (i < tasks_.size() && runner_.times(i).end_ns <= next) {
-    ++i;
-  }
-  if (i == tasks_.size()) [[likely]] {
-    return;
-  }
-  // The first to pass the next release is the culprit; those after it were only delayed.
-  TaskState& culprit = *tasks_[i];
-  const RunTimes& times = runner_.times(i);
-  count(culprit.record->overruns);
-  OverrunLine line{tick, culprit.task.index, times.end_ns - times.start_ns, times.start_ns - release_ns, -1, 0, true};
-  if (i > 0) {
-    line.previous = static_cast<std::int32_t>(tasks_[i - 1]->task.index);
-    line.previous_ns = runner_.times(i - 1).end_ns - runner_.times(i - 1).start_ns;
-  }
-  log_overrun(block_, line);
-  apply_policy(culprit, tick, line.own_ns);
-}
-
-void Band::apply_policy(TaskState& culprit, std::uint64_t tick, std::int64_t own_ns) noexcept {
-  if (culprit.task.overrun == OverrunPolicy::StopModule) {
-    char text[kTextLength];
-    std::snprintf(text, sizeof text, "overrun after %lld us (policy stop-module)",
-                  static_cast<long long>(own_ns / 1000));
-    quarantine(culprit, FaultKind::Overrun, tick, text, hooks_);
-  } else if (culprit.task.overrun == OverrunPolicy::StopNode && hooks_.stop_node != nullptr) {
-    hooks_.stop_node(hooks_.context, culprit.task.index, "overrun (policy stop-node)");
-  }
 }
 
 bool Band::gate_open(std::uint64_t tick, bool& poll) const noexcept {

@@ -5,17 +5,23 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 #include "scheduler/run_block.h"
 
 namespace indurop::scheduler {
 
+// Adds to a counter that the calling thread alone changes.
+inline void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
+  counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
+}
+
 inline void add_sample(Distribution& to, std::int64_t value) noexcept {
   constexpr auto kRelaxed = std::memory_order_relaxed;
   const std::int64_t positive = value < 0 ? 0 : value;
-  const std::uint64_t count = to.count.load(kRelaxed);
-  if (count == 0 || positive < to.min.load(kRelaxed)) {
+  const std::uint64_t counted = to.count.load(kRelaxed);
+  if (counted == 0 || positive < to.min.load(kRelaxed)) {
     to.min.store(positive, kRelaxed);
   }
   if (positive > to.max.load(kRelaxed)) {
@@ -23,7 +29,7 @@ inline void add_sample(Distribution& to, std::int64_t value) noexcept {
   }
   to.sum.store(to.sum.load(kRelaxed) + positive, kRelaxed);
   to.histogram.add(static_cast<std::uint64_t>(positive));
-  to.count.store(count + 1, kRelaxed);
+  to.count.store(counted + 1, kRelaxed);
 }
 
 // J_n = T_0 + n * period - T_n with T_0 the first execution. One late first execution would shift every J_n, so the

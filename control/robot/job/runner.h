@@ -117,7 +117,7 @@ class JobRunner {
   void arm(const Step& step, Signals& signals) noexcept;
   Next leave(MotionPort& port) noexcept;
 
-  // Interrupts and errors (runner_breaks.cpp).
+  // Interrupts and errors (runner_interrupts.cpp).
   bool serve_interrupts(Signals& signals, MotionPort& port) noexcept;
   void begin_interrupt() noexcept;
   Next leave_interrupt(MotionPort& port) noexcept;
