@@ -233,12 +233,12 @@ Status Engine::start(std::uint64_t ticks) {
     join();
     return started;
   }
-  epoch_ns_ = rt::to_ns(kernel_.now()) + kLeadNs + warm_up_ns(settings_.basic_period_ns);
+  std::int64_t epoch = rt::to_ns(kernel_.now()) + kLeadNs + warm_up_ns(settings_.basic_period_ns);
   if (settings_.grid_ns > 0) {
-    const std::int64_t past = (epoch_ns_ - settings_.phase_ns) % settings_.grid_ns;
-    epoch_ns_ += past > 0 ? settings_.grid_ns - past : -past;
+    const std::int64_t past = (epoch - settings_.phase_ns) % settings_.grid_ns;
+    epoch += past > 0 ? settings_.grid_ns - past : -past;
   }
-  block_.epoch_ns = epoch_ns_;
+  block_.epoch_ns = epoch;
   if (Status started = start_watchdog(); !started) {
     request_stop();
     join();
@@ -272,13 +272,13 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
   }
   const std::int64_t basic = settings_.basic_period_ns;
   TickWait wait(kernel_, settings_.spin, basic);
-  for (std::int64_t t = epoch_ns_ - warm_up_ns(basic); t < epoch_ns_; t += basic) {
+  for (std::int64_t t = epoch_ns() - warm_up_ns(basic); t < epoch_ns(); t += basic) {
     wait.wait_until(rt::mono_time(t));
   }
   std::uint64_t missed = 0;  // ticks since the last one that was run
   WorkTime work;
   for (std::uint64_t tick = 0; !stop_.load(std::memory_order_acquire); ++tick) {
-    const std::int64_t planned = epoch_ns_ + static_cast<std::int64_t>(tick) * basic;
+    const std::int64_t planned = epoch_ns() + static_cast<std::int64_t>(tick) * basic;
     const std::int64_t begin = rt::to_ns(wait.wait_until(rt::mono_time(planned)));
     const std::int64_t late = begin - planned;
     const std::uint64_t first = tick;
@@ -321,7 +321,7 @@ void Engine::end_run(Core& core, std::uint64_t ticks, std::uint64_t lost) noexce
 }
 
 void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept {
-  const rt::MonoTime epoch = rt::mono_time(epoch_ns_);
+  const rt::MonoTime epoch = rt::mono_time(epoch_ns());
   const auto since = std::chrono::nanoseconds(static_cast<std::int64_t>(tick) * settings_.basic_period_ns);
   if (core.primary) {
     block_.tick.store(tick + 1, std::memory_order_release);
@@ -344,7 +344,7 @@ void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcep
 }
 
 void Engine::step(std::uint64_t tick, rt::MonoTime epoch) noexcept {
-  epoch_ns_ = rt::to_ns(epoch);
+  block_.epoch_ns = rt::to_ns(epoch);
   for (const auto& core : cores_) {
     do_tick(*core, tick, 0);
   }
@@ -365,8 +365,8 @@ void Engine::watchdog_loop() noexcept {
   // Half a basic period after a tick, where the wake-up delays no tick if they share a core.
   const std::int64_t grid = period >= settings_.basic_period_ns ? settings_.basic_period_ns : period;
   while (!stop_watchdog_.load(std::memory_order_acquire)) {
-    const std::int64_t earliest = rt::to_ns(kernel_.now()) + period - epoch_ns_;
-    kernel_.sleep_until(rt::mono_time(epoch_ns_ + (earliest / grid) * grid + grid / 2));
+    const std::int64_t earliest = rt::to_ns(kernel_.now()) + period - epoch_ns();
+    kernel_.sleep_until(rt::mono_time(epoch_ns() + (earliest / grid) * grid + grid / 2));
     const rt::MonoTime now = kernel_.now();
     const bool stopping = stop_.load(std::memory_order_acquire);
     for (const auto& band : bands_) {

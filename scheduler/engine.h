@@ -94,6 +94,7 @@ class Engine {
   void do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept;
   void wake_waiting() noexcept;
   void watchdog_loop() noexcept;
+  [[nodiscard]] std::int64_t epoch_ns() const noexcept { return block_.epoch_ns.load(std::memory_order_relaxed); }
 
   RunBlock& block_;
   EngineSettings settings_;
@@ -105,7 +106,6 @@ class Engine {
   std::vector<std::unique_ptr<KernelThread>> threads_;
   std::unique_ptr<KernelThread> watchdog_;
   bool gated_ = false;  // bands wait for their predecessors explicitly
-  std::int64_t epoch_ns_ = 0;
   std::atomic<bool> stop_{false};
   std::atomic<bool> stop_watchdog_{false};
   std::atomic<int> ticking_{0};

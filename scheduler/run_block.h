@@ -16,7 +16,7 @@
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
-inline constexpr std::uint32_t kRunAbi = 6;
+inline constexpr std::uint32_t kRunAbi = 7;
 inline constexpr std::size_t kTextLength = 160;
 
 enum class NodeState : std::uint32_t { Starting, Running, Stopping, Stopped, Failed };
@@ -185,7 +185,9 @@ struct RunBlock {
   std::int64_t basic_period_ns;
   std::int64_t macro_period_ns;
   std::uint64_t slot_count;
-  std::int64_t epoch_ns;                 // CLOCK_MONOTONIC of tick 0
+  // CLOCK_MONOTONIC of tick 0. A module whose devices have a clock of their own moves it a little, and all later ticks
+  // with it.
+  std::atomic<std::int64_t> epoch_ns;
   std::atomic<std::int64_t> virtual_ns;  // time of a simulation; 0: CLOCK_MONOTONIC
   std::atomic<std::uint64_t> tick;       // number of the last tick begun + 1; 0: none
   std::atomic<std::uint64_t> lost_ticks;

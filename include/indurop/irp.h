@@ -113,6 +113,11 @@ std::chrono::nanoseconds period() noexcept;
 // (start(), threads of a module's own, non-real-time modules), those of the present period. Real-time safe.
 std::uint64_t tick() noexcept;
 std::int64_t release_ns() noexcept;
+// Moves all later ticks of the node by this time, so that the schedule follows a clock of devices (EtherCAT): at most
+// by a hundredth of the basic period with each call, or nothing if the caller is no thread module of a node. All
+// modules of the node move along, statistics count from the moved ticks, and the node leaves the grid that boards of a
+// plant share. One module of a node may do so. Real-time safe.
+void shift_ticks(std::chrono::nanoseconds by) noexcept;
 // The current time of the node in ns: CLOCK_MONOTONIC; in a simulation its virtual time. Real-time safe.
 std::int64_t now_ns() noexcept;
 

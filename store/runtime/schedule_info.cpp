@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/rt/clock.h"
@@ -92,6 +93,16 @@ std::int64_t release_ns() noexcept {
   }
   const RunBlock* run = current_run();
   return run != nullptr ? run->epoch_ns + static_cast<std::int64_t>(present_tick(*run)) * run->basic_period_ns : 0;
+}
+
+void shift_ticks(std::chrono::nanoseconds by) noexcept {
+  constexpr std::int64_t kShare = 100;
+  RunBlock* const run = runtime::hot.run.load(std::memory_order_acquire);
+  if (run == nullptr || !runtime::Process::get().hosted() || runtime::current_module() >= run->module_count) {
+    return;
+  }
+  const std::int64_t most = run->basic_period_ns / kShare;
+  run->epoch_ns.fetch_add(std::clamp(by.count(), -most, most), std::memory_order_relaxed);
 }
 
 std::int64_t now_ns() noexcept {

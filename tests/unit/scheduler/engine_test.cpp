@@ -248,6 +248,36 @@ TEST_F(EngineThreads, A_tick_that_comes_right_before_the_next_one_is_lost_and_no
   }
 }
 
+RunBlock* g_block = nullptr;
+std::vector<std::int64_t> g_starts;
+
+TEST_F(EngineThreads, Ticks_follow_a_grid_that_a_module_moves) {
+  constexpr std::int64_t kPeriod = 1'000'000;
+  constexpr std::int64_t kMove = 7'000;
+  TickClock ticks;
+  g_tick_clock = &ticks;
+  const std::vector<Task> tasks = {periodic(0, kPeriod, 1, [] {
+    g_starts.push_back(rt::to_ns(g_tick_clock->now()));
+    g_block->epoch_ns += g_starts.size() % 2 == 0 ? kMove : -kMove / 7;
+  })};
+  block = make_block(tasks, kPeriod, kPeriod);
+  EngineSettings settings;
+  settings.basic_period_ns = kPeriod;
+  settings.realtime = false;
+  settings.spin.mode = SpinMode::Off;
+  Engine sut(*block, tasks, settings, Hooks{}, ticks);
+  g_block = block.get();
+  g_starts.clear();
+  ASSERT_TRUE(sut.start(40).ok());
+  sut.join();
+  ASSERT_EQ(g_starts.size(), 40U);
+  for (std::size_t i = 1; i < g_starts.size(); ++i) {
+    EXPECT_EQ(g_starts[i] - g_starts[i - 1], kPeriod + (i % 2 == 0 ? kMove : -kMove / 7)) << i;
+  }
+  EXPECT_EQ(block->lost_ticks.load(), 0U);
+  EXPECT_EQ(block->modules()[0].latency.max.load(), 0);
+}
+
 TEST_F(EngineThreads, Skips_a_release_while_the_band_is_still_busy) {
   const std::vector<Task> tasks = {periodic(0, 2'000'000, 1, [] { ++g_other; }), periodic(1, 4'000'000, 2, [] {
                                      ++g_calls;

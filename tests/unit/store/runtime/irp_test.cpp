@@ -111,7 +111,24 @@ TEST(Schedule, Of_a_thread_module_is_that_of_its_run_however_late) {
   EXPECT_TRUE(irp::stop_requested());
 }
 
+TEST(Schedule, Is_moved_by_a_hundredth_of_the_period_at_most) {
+  using std::chrono::nanoseconds;
+  TestNode node;
+  const Hosted hosted(node);
+  auto& run = node.run();
+  const std::int64_t before = run.epoch_ns;
+  irp::shift_ticks(nanoseconds(3));
+  irp::shift_ticks(nanoseconds(-13));
+  EXPECT_EQ(run.epoch_ns, before - 10);
+  irp::shift_ticks(nanoseconds(run.basic_period_ns));
+  EXPECT_EQ(run.epoch_ns, before - 10 + run.basic_period_ns / 100);
+  indurop::runtime::set_current_module(indurop::runtime::kNoModule);
+  irp::shift_ticks(nanoseconds(1));
+  EXPECT_EQ(run.epoch_ns, before - 10 + run.basic_period_ns / 100);
+}
+
 TEST(Schedule, Outside_a_node_is_empty) {
+  irp::shift_ticks(std::chrono::nanoseconds(1));
   EXPECT_EQ(irp::period(), std::chrono::nanoseconds(0));
   EXPECT_EQ(irp::tick(), 0U);
   EXPECT_EQ(irp::release_ns(), 0);
