@@ -121,6 +121,14 @@ struct IoObjectValue {
   std::vector<std::uint8_t> bytes;  // the low one first
 };
 
+// Pulses of the slave's clock (SYNC0, SYNC1), at which it takes outputs and reads inputs.
+struct IoSync {
+  std::uint16_t activate = 0;  // AssignActivate of the device's description; 0: none
+  base::Nanos cycle{0};
+  base::Nanos shift{0};  // after the frames
+  base::Nanos sync1{0};  // cycle of SYNC1
+};
+
 // A slave of an EtherCAT bus; the address of the device is the network interface.
 struct IoSlave {
   int position = 0;                     // on the cable, from 0
@@ -128,6 +136,7 @@ struct IoSlave {
   std::optional<std::uint32_t> product;
   std::optional<std::uint32_t> revision;
   std::vector<IoObjectValue> values;  // in the order in which they are set
+  IoSync sync;
 };
 
 struct IoCsv {

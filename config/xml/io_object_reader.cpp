@@ -70,4 +70,34 @@ void read_io_value(const base::Element& element, IoDevice& device, base::Diagnos
   device.slave.values.push_back(std::move(read));
 }
 
+void read_io_sync(const base::Element& element, IoDevice& device, base::Diagnostics& report) {
+  constexpr std::uint32_t kMaxActivate = 0xFFFF;
+  constexpr base::Nanos kMinCycle{10'000};
+  constexpr base::Nanos kMaxCycle{1'000'000'000};
+  Attributes attributes(element, report);
+  IoSync& sync = device.slave.sync;
+  if (sync.activate != 0) {
+    report.error(element.place, "the device has a <sync> already; remove one");
+  }
+  base::SourcePlace place;
+  if (const auto text = attributes.need("activate", "activate=\"0x300\"", &place)) {
+    const auto activate = read_hex(std::string_view(*text).substr(text->starts_with("0x") ? 2 : 0), kMaxActivate);
+    if (!activate || *activate == 0) {
+      report.error(place, fmt::format("activate: {} is not what starts pulses; write AssignActivate of the device's "
+                                      "description, 0x300 for SYNC0 alone",
+                                      base::in_quotes(*text)));
+    }
+    sync.activate = static_cast<std::uint16_t>(activate.value_or(1));
+  }
+  if (attributes.need("cycle", "cycle=\"1ms\"")) {
+    sync.cycle = attributes.duration("cycle", kMinCycle, kMaxCycle).value_or(kMaxCycle);
+  }
+  sync.shift = attributes.duration("shift", base::Nanos{0}, kMaxCycle).value_or(sync.cycle / 2);
+  sync.sync1 = attributes.duration("sync1", base::Nanos{0}, kMaxCycle).value_or(sync.sync1);
+  if (is_leaf(element, report)) {
+    check_no_text(element, report);
+  }
+  attributes.finish("<sync> of an ethercat device");
+}
+
 }  // namespace indurop::config

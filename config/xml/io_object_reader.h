@@ -16,5 +16,7 @@ bool read_io_object(const std::string& text, IoObject& object);
 
 // Reads a <set> of an EtherCAT device, adds it to the device, and reports all its errors.
 void read_io_value(const base::Element& element, IoDevice& device, base::Diagnostics& report);
+// The same for its <sync>.
+void read_io_sync(const base::Element& element, IoDevice& device, base::Diagnostics& report);
 
 }  // namespace indurop::config

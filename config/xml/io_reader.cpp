@@ -72,10 +72,12 @@ class DeviceReader {
     check_no_text(element_, report_);
     const bool is_slave = device_.driver == IoDriver::Ethercat;
     for (const base::Element& child : element_.children) {
-      const bool known = is_slave ? is_known(child, element_, {"input", "output", "set"}, report_)
+      const bool known = is_slave ? is_known(child, element_, {"input", "output", "set", "sync"}, report_)
                                   : is_known(child, element_, {"input", "output"}, report_);
       if (known && child.name == "set") {
         read_io_value(child, device_, report_);
+      } else if (known && child.name == "sync") {
+        read_io_sync(child, device_, report_);
       } else if (known) {
         device_.points.push_back(read_io_point(child, device_, report_));
       }
@@ -294,6 +296,12 @@ void check_slave(const IoDevice& device, const IoConfig& config, base::Diagnosti
         device.slave.position == other.slave.position) {
       report.error(device.place, fmt::format("slave {} of {} has the device in line {} already; move its points there",
                                              device.slave.position, device.address, other.place.line));
+    }
+    if (device.slave.sync.activate != 0 && other.slave.sync.activate != 0 && device.address != other.address) {
+      report.error(device.place,
+                   fmt::format("<sync>: the tick follows the clocks of {} already, as the device in line {} "
+                               "says, and can follow one bus only; remove <sync> here",
+                               other.address, other.place.line));
     }
   }
 }

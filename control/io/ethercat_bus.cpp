@@ -75,6 +75,7 @@ bool EthercatBus::start() {
   if (thread_.joinable()) {
     return true;
   }
+  period_ = irp::period();
   auto thread = rt::Thread::start({"irp-ethercat", 0, -1, kStackBytes}, [this, module = runtime::current_module()] {
     runtime::set_current_module(module);
     work();
@@ -125,6 +126,9 @@ void EthercatBus::end_turn() noexcept {
     return;
   }
   running_->master.send(now());
+  if (running_->master.clocks().reference()) {
+    irp::shift_ticks(std::chrono::nanoseconds(running_->master.clocks().tick_correction()));
+  }
   ethercat::Event event;
   while (running_->master.next_event(event)) {
     events_.push(event);
@@ -197,13 +201,15 @@ std::string EthercatBus::prepare() {
     logical += static_cast<std::uint32_t>(plans.back().output_bytes + plans.back().input_bytes);
   }
   for (const EthercatMember& member : members_) {
+    ethercat::SlavePlan& plan = plans[static_cast<std::size_t>(member.slave.position)];
     for (const config::IoObjectValue& value : member.slave.values) {
-      plans[static_cast<std::size_t>(member.slave.position)].start_objects.push_back(
-          {value.object.index, value.object.subindex, false, value.bytes});
+      plan.start_objects.push_back({value.object.index, value.object.subindex, false, value.bytes});
     }
+    const config::IoSync& sync = member.slave.sync;
+    plan.sync = {sync.activate, sync.cycle, sync.shift, sync.sync1};
   }
   link_ = std::move(*link);
-  owned_ = std::make_unique<Running>(*link_, std::move(plans));
+  owned_ = std::make_unique<Running>(*link_, std::move(plans), period_);
   make_fields(*found, *owned_);
   return {};
 }
@@ -221,6 +227,12 @@ std::string EthercatBus::check(const std::vector<ethercat::FoundSlave>& found) c
           "device {} is slave {}, and {} answer, from 0 on; check the cable after the last one, or the "
           "position in the file",
           member.device, place, found.size());
+    }
+    if (period_.count() > 0 && member.slave.sync.cycle % period_ != std::chrono::nanoseconds(0)) {
+      return fmt::format(
+          "slave {}, device {}: the cycle of <sync> is {} us, which is no multiple of the module's period, {} us",
+          place, member.device, member.slave.sync.cycle / std::chrono::microseconds(1),
+          period_ / std::chrono::microseconds(1));
     }
     const ethercat::Identity& identity = found[place].sii.identity;
     const auto differs = [](const std::optional<std::uint32_t>& wanted, std::uint32_t is) {

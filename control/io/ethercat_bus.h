@@ -55,7 +55,8 @@ class EthercatBus {
 
  private:
   struct Running {
-    explicit Running(ethercat::Link& link, std::vector<ethercat::SlavePlan> plans) : master(link, std::move(plans)) {}
+    Running(ethercat::Link& link, std::vector<ethercat::SlavePlan> plans, ethercat::Clock period)
+        : master(link, std::move(plans), period) {}
     ethercat::Master master;
     std::vector<Fields> outputs;  // by member
     std::vector<Fields> inputs;
@@ -88,8 +89,9 @@ class EthercatBus {
   std::unique_ptr<ethercat::PacketLink> link_;
   std::unique_ptr<Running> owned_;
   std::atomic<Running*> ready_{nullptr};
-  Running* running_ = nullptr;  // the tick's
-  std::size_t turn_ = 0;        // members that had theirs in this tick
+  Running* running_ = nullptr;          // the tick's
+  std::size_t turn_ = 0;                // members that had theirs in this tick
+  std::chrono::nanoseconds period_{0};  // of the module
   EventQueue events_;
   std::string reported_;
   bool had_carrier_ = true;

@@ -41,7 +41,8 @@ constexpr std::array<Form, ethercat::kFaultKinds> kForms{
      {"sdo_silence", FaultKind::SdoSilence, true},
      {"other_identity", FaultKind::OtherIdentity, true, true},
      {"eeprom_busy", FaultKind::EepromBusy, true, true},
-     {"emergency", FaultKind::Emergency, true, false, "code"}}};
+     {"emergency", FaultKind::Emergency, true, false, "code"},
+     {"clock_jumps", FaultKind::ClockJumps, true, false, "by"}}};
 
 std::string example_of(const Form& form) {
   return fmt::format("{}{}{}{}", form.word, form.slave ? " slave=0" : "", form.lasts ? " for=5ms" : "",

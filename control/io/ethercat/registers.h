@@ -81,6 +81,7 @@ inline constexpr std::uint16_t kAlInvalidMailbox = 0x0016;
 inline constexpr std::uint16_t kAlSyncWatchdog = 0x001B;
 inline constexpr std::uint16_t kAlInvalidOutputs = 0x001D;
 inline constexpr std::uint16_t kAlInvalidInputs = 0x001E;
+inline constexpr std::uint16_t kAlNoSync = 0x002D;
 inline constexpr std::uint16_t kAlInvalidDc = 0x0030;
 // What the slave reports with this code.
 std::string_view al_status_text(std::uint16_t code) noexcept;

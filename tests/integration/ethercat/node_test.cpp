@@ -56,6 +56,36 @@ TEST_F(EthercatNode, Another_device_than_the_file_says_is_not_used) {
   EXPECT_FALSE(value<bool>("TEST_CELL::link_good"));
 }
 
+TEST_F(EthercatNode, The_tick_follows_the_clocks_of_drives) {
+  simulate(2);
+  const std::string sync = "<sync activate='0x300' cycle='2ms' shift='500us'/>\n";
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0' slave='0' in='TEST_CELL::AXIS1_IN'\n"
+      "  out='TEST_CELL::AXIS1_OUT'>\n" +
+      sync +
+      "</device>\n"
+      "<device name='axis2' driver='ethercat' address='ec0' slave='1' quality='TEST_CELL::I0_quality'>\n" +
+      sync +
+      "  <input variable='speeds[1]' at='6041'/>\n"
+      "</device>");
+  EXPECT_TRUE(moves()) << sut.out() << sut.err();
+  EXPECT_TRUE(sut.prints("EtherCAT ec0: slave 1 (InduRoP simulated drive): operates"));
+  drives_->input("0s clock_jumps slave=1 by=300us\n");
+  EXPECT_TRUE(sut.prints("EtherCAT ec0: slave 1 (InduRoP simulated drive): its clock does not follow")) << sut.out();
+}
+
+TEST_F(EthercatNode, Pulses_that_fit_no_period_are_refused) {
+  simulate(1);
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0' slave='0' in='TEST_CELL::AXIS1_IN'>\n"
+      "  <sync activate='0x300' cycle='3ms'/>\n"
+      "</device>");
+  EXPECT_TRUE(
+      sut.prints("EtherCAT ec0: slave 0, device axis1: the cycle of <sync> is 3000 us, which is no multiple of the "
+                 "module's period, 2000 us"))
+      << sut.out();
+}
+
 TEST_F(EthercatNode, Objects_are_set_before_the_exchange_begins) {
   simulate(1);
   Program& sut = run_node(

@@ -24,7 +24,7 @@ class Bus {
     }
     packets_ = std::move(*opened);
     link_ = std::make_unique<PatientLink>(*packets_);
-    master_ = std::make_unique<Master>(*link_, plans_of_drives(drives));
+    master_ = std::make_unique<Master>(*link_, plans_of_drives(drives), std::chrono::milliseconds(1));
   }
   void cycle() {
     now_ += kCycle;

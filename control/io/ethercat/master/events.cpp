@@ -36,6 +36,11 @@ std::string words(const Event& event) {
       return fmt::format("did not answer for object {:04x}h", event.detail);
     case Problem::WrongCounter:
       return fmt::format("wrong working counter {}", event.detail);
+    case Problem::NoClock:
+      return "has no distributed clock, and the file wants pulses of it; remove <sync>";
+    case Problem::ClockNotInStep:
+      return fmt::format("its clock does not follow the reference clock: {} ns ahead of it",
+                         static_cast<std::int32_t>(event.detail));
     case Problem::EmergencySent:
       break;
   }

@@ -9,12 +9,18 @@ namespace indurop::io::ethercat {
 namespace {
 
 constexpr std::size_t kSourceAt = 6;
-constexpr unsigned kMaxReceived = 64;     // frames in one cycle
-constexpr unsigned kServicePatience = 3;  // cycles
-constexpr std::size_t kStatusWord = 2;    // of the broadcast that counts the slaves
+constexpr unsigned kMaxReceived = 64;      // frames in one cycle
+constexpr unsigned kServicePatience = 3;   // cycles
+constexpr std::size_t kStatusWord = 2;     // of the broadcast that counts the slaves
+constexpr std::size_t kClockBytes = 8;     // of a system time
+constexpr std::uint16_t kClocks = 0xFFFF;  // as the place of a datagram: it is of no slave
 
 std::size_t process_size(const SlavePlan& plan) noexcept {
   return plan.output_bytes + plan.input_bytes;
+}
+
+bool want_clocks(const std::vector<SlavePlan>& plans) noexcept {
+  return std::any_of(plans.begin(), plans.end(), [](const SlavePlan& plan) { return plan.sync.activation != 0; });
 }
 
 // The same datagrams, but for what slaves change.
@@ -34,13 +40,14 @@ bool are_same(Bytes sent, Bytes received) noexcept {
 
 }  // namespace
 
-Master::Master(Link& link, std::vector<SlavePlan> plans) : link_(link), plans_(std::move(plans)) {
+Master::Master(Link& link, std::vector<SlavePlan> plans, Clock period)
+    : link_(link), plans_(std::move(plans)), clocks_(want_clocks(plans_) ? plans_.size() : 0, period) {
   for (std::size_t i = 0; i < plans_.size(); ++i) {
-    slaves_.emplace_back(plans_[i], i, events_);
+    slaves_.emplace_back(plans_[i], i, events_, clocks_);
     data_.push_back({plans_[i].safe_outputs, std::vector<std::uint8_t>(plans_[i].input_bytes), false, false});
   }
   plan_frames();
-  service_.items.reserve(plans_.size());
+  service_.items.reserve(plans_.size() + 1);
 }
 
 void Master::plan_frames() {
@@ -49,7 +56,7 @@ void Master::plan_frames() {
     const std::size_t size = process_size(plans_[i]);
     if (process_.empty() || size + kDatagramOverhead > room) {
       process_.emplace_back();
-      room = kMaxFrame - kFrameHeader - kDatagramOverhead - kStatusWord;
+      room = kMaxFrame - kFrameHeader - kDatagramOverhead - kStatusWord - kDatagramOverhead - kClockBytes;
     }
     if (size > 0) {
       process_.back().items.push_back({static_cast<std::uint16_t>(i), 0, size});
@@ -59,7 +66,7 @@ void Master::plan_frames() {
 }
 
 void Master::send(Clock now) noexcept {
-  send_process();
+  send_process(now);
   if (!service_.is_out) {
     send_service(now);
   }
@@ -70,6 +77,13 @@ void Master::receive(Clock now) noexcept {
     data.fresh = false;
   }
   take_frames(now);
+  if (const auto lost = clocks_.take_lost()) {
+    events_.push({now, static_cast<std::uint16_t>(lost->place), Problem::ClockNotInStep,
+                  static_cast<std::uint32_t>(lost->ahead_ns)});
+  }
+  if (clock_at_ != 0 && !process_.empty() && process_.front().is_out) {
+    clocks_.not_passed();
+  }
   expire(now);
 }
 
@@ -127,6 +141,10 @@ void Master::take_frame(Bytes bytes, Clock now) noexcept {
 
 void Master::take_process(const Frame& frame, Bytes bytes, Clock now) noexcept {
   slaves_seen_ = load<std::uint16_t>(bytes, kFrameHeader + kDatagramHeader + kStatusWord);
+  clocks_.count(slaves_seen_, now);
+  if (&frame == &process_.front() && clock_at_ != 0) {
+    take_clock(bytes, now);
+  }
   for (const Item& item : frame.items) {
     SlaveControl& slave = slaves_[item.place];
     Data& data = data_[item.place];
@@ -143,6 +161,10 @@ void Master::take_process(const Frame& frame, Bytes bytes, Clock now) noexcept {
 void Master::take_service(const Frame& frame, Bytes bytes, Clock now) noexcept {
   for (const Item& item : frame.items) {
     const bool is_answered = load<std::uint16_t>(bytes, item.data_at + item.size) > 0;
+    if (item.place == kClocks) {
+      clocks_.answer(bytes.subspan(item.data_at, item.size), is_answered, now);
+      continue;
+    }
     slaves_[item.place].answer(bytes.subspan(item.data_at, item.size), is_answered, now);
   }
 }
@@ -159,7 +181,15 @@ void Master::expire(Clock now) noexcept {
     service_.is_out = false;
     slots_[service_.index] = Slot::Lost;
     ++counters_.lost;
-    for (const Item& item : service_.items) {
+    lose_service(now);
+  }
+}
+
+void Master::lose_service(Clock now) noexcept {
+  for (const Item& item : service_.items) {
+    if (item.place == kClocks) {
+      clocks_.lost(now);
+    } else {
       slaves_[item.place].lost(now);
     }
   }
@@ -177,11 +207,37 @@ void Master::send_frame(Frame& frame) noexcept {
   frame.age = 0;
 }
 
-void Master::send_process() noexcept {
+// The reference writes its time into this datagram, and those behind it read it.
+void Master::add_clock(Frame& frame, Clock now) noexcept {
+  clock_at_ = 0;
+  const auto reference = clocks_.reference();
+  if (!reference) {
+    return;
+  }
+  std::array<std::uint8_t, kClockBytes> time{};
+  store<std::int64_t>(time, 0, clocks_.reference_time(now));
+  clock_sent_at_ = now;
+  clock_at_ = frame.builder.add(Command::Armw, frame.index, address_of(position(*reference), reg::kSystemTime), time)
+                  .value_or(0);
+}
+
+void Master::take_clock(Bytes bytes, Clock now) noexcept {
+  // No slave before the reference has a clock, so without it none counts.
+  if (load<std::uint16_t>(bytes, clock_at_ + kClockBytes) > 0) {
+    clocks_.passed(load<std::int64_t>(bytes, clock_at_), clock_sent_at_, now);
+  } else {
+    clocks_.not_passed();
+  }
+}
+
+void Master::send_process(Clock now) noexcept {
   for (Frame& frame : process_) {
     frame.index = next_index_++;
     frame.builder.clear();
     frame.builder.add(Command::Brd, frame.index, address_of(0, reg::kAlStatus), kStatusWord);
+    if (&frame == &process_.front()) {
+      add_clock(frame, now);
+    }
     for (Item& item : frame.items) {
       const SlavePlan& plan = plans_[item.place];
       const Data& data = data_[item.place];
@@ -196,6 +252,22 @@ void Master::send_process() noexcept {
   }
 }
 
+void Master::add_clock_query(Clock now) noexcept {
+  const auto query = clocks_.query(now);
+  if (!query) {
+    return;
+  }
+  const std::size_t size = query->data.empty() ? query->length : query->data.size();
+  if (const auto at = add(service_, *query)) {
+    service_.items.push_back({kClocks, *at, size});
+  }
+}
+
+std::optional<std::size_t> Master::add(Frame& frame, const Query& query) noexcept {
+  return query.data.empty() ? frame.builder.add(query.command, frame.index, query.address, query.length)
+                            : frame.builder.add(query.command, frame.index, query.address, query.data);
+}
+
 void Master::send_service(Clock now) noexcept {
   service_.builder.clear();
   service_.items.clear();
@@ -207,22 +279,19 @@ void Master::send_service(Clock now) noexcept {
       continue;
     }
     const std::size_t size = query->data.empty() ? query->length : query->data.size();
-    const auto at = query->data.empty()
-                        ? service_.builder.add(query->command, service_.index, query->address, size)
-                        : service_.builder.add(query->command, service_.index, query->address, query->data);
+    const auto at = add(service_, *query);
     if (!at) {
       next_service_ = place;  // it is first in the next frame
       break;
     }
     service_.items.push_back({static_cast<std::uint16_t>(place), *at, size});
   }
+  add_clock_query(now);
   if (!service_.items.empty()) {
     ++next_index_;
     send_frame(service_);
     if (!service_.is_out) {
-      for (const Item& item : service_.items) {
-        slaves_[item.place].lost(now);
-      }
+      lose_service(now);
     }
   }
 }

@@ -27,8 +27,8 @@ struct BusCounters {
 
 class Master {
  public:
-  // The plans in the order of the slaves on the cable.
-  Master(Link& link, std::vector<SlavePlan> plans);
+  // The plans in the order of the slaves on the cable; `period`: between two cycles.
+  Master(Link& link, std::vector<SlavePlan> plans, Clock period);
   Master(const Master&) = delete;
   Master& operator=(const Master&) = delete;
   ~Master() = default;
@@ -59,6 +59,8 @@ class Master {
   // How many slaves answered in the last cycle, in the configuration or not.
   [[nodiscard]] std::uint16_t slaves_seen() const noexcept { return slaves_seen_; }
   bool next_event(Event& event) noexcept { return events_.pop(event); }
+  // Not used, and nothing is sent for them, unless a plan wants pulses of a slave's clock.
+  [[nodiscard]] const Clocks& clocks() const noexcept { return clocks_; }
 
  private:
   struct Item {  // a datagram of a slave in a frame
@@ -88,13 +90,19 @@ class Master {
   void take_service(const Frame& frame, Bytes bytes, Clock now) noexcept;
   [[nodiscard]] Frame* frame_of(std::uint8_t index) noexcept;
   void expire(Clock now) noexcept;
-  void send_process() noexcept;
+  void send_process(Clock now) noexcept;
+  void add_clock(Frame& frame, Clock now) noexcept;
+  void take_clock(Bytes bytes, Clock now) noexcept;
   void send_service(Clock now) noexcept;
+  void add_clock_query(Clock now) noexcept;
+  static std::optional<std::size_t> add(Frame& frame, const Query& query) noexcept;
+  void lose_service(Clock now) noexcept;
   void send_frame(Frame& frame) noexcept;
 
   Link& link_;
   std::vector<SlavePlan> plans_;
   Events events_;
+  Clocks clocks_;
   std::deque<SlaveControl> slaves_;
   std::vector<Data> data_;
   std::vector<Frame> process_;
@@ -104,6 +112,8 @@ class Master {
   std::uint8_t next_index_ = 0;
   BusCounters counters_;
   std::uint16_t slaves_seen_ = 0;
+  std::size_t clock_at_ = 0;  // of the reference's time in the first frame; 0: it is not in it
+  Clock clock_sent_at_{0};
 };
 
 }  // namespace indurop::io::ethercat

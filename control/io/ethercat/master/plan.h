@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +20,14 @@ struct StartObject {  // set in PREOP, each time the slave comes up
   std::vector<std::uint8_t> value;
 };
 
+// Pulses of the slave's clock, at which it takes outputs and reads inputs.
+struct SyncPlan {
+  std::uint16_t activation = 0;  // what starts them, as the device's description says (AssignActivate); 0: none
+  std::chrono::nanoseconds cycle{0};
+  std::chrono::nanoseconds shift{0};  // of the pulse after the frame passes the reference clock
+  std::chrono::nanoseconds sync1{0};  // cycle of SYNC1
+};
+
 struct SlavePlan {
   std::string name;
   Identity identity;          // revision and serial 0: any
@@ -32,6 +41,7 @@ struct SlavePlan {
   std::size_t input_bytes = 0;
   std::vector<std::uint8_t> safe_outputs;  // sent while the application gives none
   std::vector<StartObject> start_objects;
+  SyncPlan sync;
 };
 
 // The plan for a slave with its own mapping, at this logical address. Its safe outputs are zeros.

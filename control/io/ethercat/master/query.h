@@ -39,13 +39,15 @@ enum class Problem : std::uint8_t {
   Moved,          // another slave of the configuration answers there
   WrongIdentity,  // product code that was found
   EepromBusy,
-  StateRefused,  // AL status code
-  StateTimeout,  // requested state
-  StateLost,     // left OP on its own: AL status code
-  SdoAborted,    // abort code
-  SdoTimeout,    // index of the object
-  WrongCounter,  // working counter that came
-  EmergencySent  // error code
+  StateRefused,   // AL status code
+  StateTimeout,   // requested state
+  StateLost,      // left OP on its own: AL status code
+  SdoAborted,     // abort code
+  SdoTimeout,     // index of the object
+  WrongCounter,   // working counter that came
+  EmergencySent,  // error code
+  NoClock,
+  ClockNotInStep  // how far it is ahead of the reference, ns, as a signed number
 };
 
 struct Event {

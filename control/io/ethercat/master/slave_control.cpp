@@ -26,11 +26,12 @@ constexpr Clock limit_of(AlState state) noexcept {
 
 }  // namespace
 
-SlaveControl::SlaveControl(const SlavePlan& plan, std::size_t place, Events& events)
+SlaveControl::SlaveControl(const SlavePlan& plan, std::size_t place, Events& events, Clocks& clocks)
     : plan_(plan),
       place_(static_cast<std::uint16_t>(place)),
       events_(events),
-      expected_(static_cast<std::uint16_t>((plan.output_bytes > 0 ? 2 : 0) + (plan.input_bytes > 0 ? 1 : 0))) {
+      expected_(static_cast<std::uint16_t>((plan.output_bytes > 0 ? 2 : 0) + (plan.input_bytes > 0 ? 1 : 0))),
+      sync_(plan.sync, place, clocks) {
   if (!plan.mailbox_managers.empty()) {
     mailbox_.open(station_of(place), plan.mailbox);
   }
@@ -109,6 +110,11 @@ std::optional<Query> SlaveControl::query(Clock now) noexcept {
       return Query{Command::Fpwr, address_of(station, plan_.process_managers_at), plan_.process_managers, 0};
     case Step::Fmmus:
       return Query{Command::Fpwr, address_of(station, reg::kFmmu), plan_.fmmus, 0};
+    case Step::Sync: {
+      const auto asked = sync_.query(now);
+      judge_sync(sync_.outcome(now), now);
+      return step_ == Step::Sync ? asked : std::nullopt;
+    }
     case Step::Operate:
       break;
   }
@@ -143,6 +149,10 @@ void SlaveControl::answer(Bytes data, bool is_answered, Clock now) noexcept {
     check_identity(data, is_answered, now);
     return;
   }
+  if (step_ == Step::Sync && is_answered) {
+    judge_sync(sync_.answer(true), now);
+    return;
+  }
   if (!is_answered) {
     if (step_ == Step::Find || now - since_ > kAnswerLimit) {
       fail(Problem::Missing, 0, kFindAgain, now);
@@ -158,6 +168,7 @@ void SlaveControl::finish_step(Bytes data, Clock now) noexcept {
       found(load<std::uint16_t>(data, 0), now);
       return;
     case Step::Address:
+      sync_.slave_found(now);
       request(AlState::Init, now);
       return;
     case Step::Channels:
@@ -189,7 +200,12 @@ void SlaveControl::finish_step(Bytes data, Clock now) noexcept {
       }
       [[fallthrough]];
     case Step::Fmmus:
-      request(AlState::SafeOp, now);
+      if (plan_.sync.activation != 0) {
+        sync_.start(now);
+        enter(Step::Sync, now);
+      } else {
+        request(AlState::SafeOp, now);
+      }
       return;
     default:
       return;
@@ -306,6 +322,22 @@ void SlaveControl::judge_object(Clock now) noexcept {
       return;
     case SdoTransfer::State::TimedOut:
       fail(Problem::SdoTimeout, transfer_.index, kFindAgain, now);
+      return;
+  }
+}
+
+void SlaveControl::judge_sync(SyncSetup::Outcome outcome, Clock now) noexcept {
+  switch (outcome) {
+    case SyncSetup::Outcome::Running:
+      return;
+    case SyncSetup::Outcome::Done:
+      request(AlState::SafeOp, now);
+      return;
+    case SyncSetup::Outcome::NoClock:
+      fail(Problem::NoClock, 0, kRefusedPause, now);
+      return;
+    case SyncSetup::Outcome::NotInStep:
+      fail(Problem::ClockNotInStep, static_cast<std::uint32_t>(sync_.difference_ns()), kRefusedPause, now);
       return;
   }
 }

@@ -10,6 +10,7 @@
 #include "control/io/ethercat/master/events.h"
 #include "control/io/ethercat/master/plan.h"
 #include "control/io/ethercat/master/sdo_client.h"
+#include "control/io/ethercat/master/sync_setup.h"
 
 namespace indurop::io::ethercat {
 
@@ -20,7 +21,7 @@ constexpr std::uint16_t station_of(std::size_t place) noexcept {
 
 class SlaveControl {
  public:
-  SlaveControl(const SlavePlan& plan, std::size_t place, Events& events);
+  SlaveControl(const SlavePlan& plan, std::size_t place, Events& events, Clocks& clocks);
 
   std::optional<Query> query(Clock now) noexcept;
   void answer(Bytes data, bool is_answered, Clock now) noexcept;
@@ -50,6 +51,7 @@ class SlaveControl {
     Objects,
     Managers,
     Fmmus,
+    Sync,
     Operate
   };
 
@@ -64,6 +66,7 @@ class SlaveControl {
   void monitor(Bytes data, bool is_answered, Clock now) noexcept;
   void next_object(Clock now) noexcept;
   void judge_object(Clock now) noexcept;
+  void judge_sync(SyncSetup::Outcome outcome, Clock now) noexcept;
   [[nodiscard]] Query state_query() const noexcept;
 
   const SlavePlan& plan_;
@@ -84,6 +87,7 @@ class SlaveControl {
   std::uint16_t eeprom_word_ = 0;
   Identity identity_;
   SdoClient mailbox_;
+  SyncSetup sync_;
   std::size_t object_ = 0;
   SdoTransfer transfer_;
   bool asks_state_ = false;  // the query on its way in Operate

@@ -69,6 +69,9 @@ void SimulatedBus::begin(const Fault& fault) {
     case FaultKind::Emergency:
       slave.send_emergency({static_cast<std::uint16_t>(fault.value), 1, {}});
       return;
+    case FaultKind::ClockJumps:
+      slave.esc().jump_clock(Time(fault.value));
+      return;
     case FaultKind::ForeignFrame: {
       FrameBuilder builder({2, 9, 9, 9, 9, 9});
       builder.add(Command::Brd, 0, address_of(0, 0xFFFF), 1);

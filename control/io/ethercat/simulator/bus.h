@@ -28,9 +28,10 @@ enum class FaultKind : std::uint8_t {
   SdoSilence,     // the slave does not answer the next request, after it was restarted
   OtherIdentity,  // the slave's EEPROM has another product code, for the duration, after it was restarted
   EepromBusy,     // for the duration, after the slave was restarted
-  Emergency       // the slave sends one with `value` as its code
+  Emergency,      // the slave sends one with `value` as its code
+  ClockJumps      // the slave's, forward by `value` ns
 };
-inline constexpr std::uint8_t kFaultKinds = 14;
+inline constexpr std::uint8_t kFaultKinds = 15;
 
 struct Fault {
   FaultKind kind = FaultKind::FramesLost;

@@ -61,6 +61,8 @@ Esc::Esc(EscConfig config) : config_(std::move(config)) {
 void Esc::reset() {
   memory_.assign(kAddressSpace, 0);
   events_ = {};
+  clock_adjusted_ = Time(0);
+  has_pulses_ = false;
   set<std::uint8_t>(reg::kType, config_.type);
   set<std::uint8_t>(reg::kFmmuCount, config_.fmmus);
   set<std::uint8_t>(reg::kSyncManagerCount, config_.sync_managers);
@@ -210,6 +212,9 @@ void Esc::after_write(std::uint16_t offset, std::size_t size, Time now) {
   if (overlaps(offset, size, reg::kEepromControl + 1, 1)) {
     run_eeprom_command(now);
   }
+  if (overlaps(offset, size, reg::kSyncActivation + 1, 1)) {
+    start_pulses(now);
+  }
   const std::size_t answer = sync_manager_at(1);
   if (overlaps(offset, size, answer + kSmActivate, 1) &&
       ((at(answer + kSmActivate) ^ at(answer + kSmPdi)) & kSmRepeat) != 0) {
@@ -332,15 +337,29 @@ void Esc::latch_receive_times(Time in, Time back) noexcept {
   set<std::int64_t>(reg::kReceiveTimeUnit, local_time(in).count());
 }
 
+// A clock is made faster or slower for a while, by a thousandth at most, so what it shows never jumps.
 void Esc::follow_reference(Time received, Time now) noexcept {
   constexpr std::uint32_t kSlower = 0x80000000U;
+  constexpr std::int64_t kShare = 1000;
   const auto delay = value<std::uint32_t>(reg::kSystemTimeDelay);
   const auto own = static_cast<std::uint32_t>(system_time(now).count());
   const auto reference = static_cast<std::uint32_t>(received.count()) + delay;
   const auto error = static_cast<std::int32_t>(own - reference);
   const auto size = static_cast<std::uint32_t>(error < 0 ? -std::int64_t{error} : error);
   set<std::uint32_t>(reg::kSystemTimeDifference, error < 0 ? size | kSlower : size);
-  clock_adjusted_ -= Time(error / 4);
+  const std::int64_t most = (now - std::exchange(followed_at_, now)).count() / kShare;
+  clock_adjusted_ -= Time(std::clamp<std::int64_t>(error / 4, -most, most));
+}
+
+void Esc::start_pulses(Time now) noexcept {
+  const Time first(value<std::int64_t>(reg::kSyncStart));
+  has_pulses_ = wants_pulses() && value<std::uint32_t>(reg::kSync0Cycle) > 0 && first > system_time(now);
+}
+
+std::optional<Time> Esc::since_pulse(Time now) const noexcept {
+  const Time since = system_time(now) - Time(value<std::int64_t>(reg::kSyncStart));
+  return has_pulses_ && since.count() >= 0 ? std::optional(since % Time(value<std::uint32_t>(reg::kSync0Cycle)))
+                                           : std::nullopt;
 }
 
 }  // namespace indurop::io::ethercat

@@ -70,11 +70,18 @@ class Esc {
   [[nodiscard]] Time local_time(Time now) const noexcept;
   [[nodiscard]] Time system_time(Time now) const noexcept;
   void jump_clock(Time by) noexcept { clock_adjusted_ += by; }
+  // How long ago the last pulse of SYNC0 was; nothing if there was none, because none was asked for or its begin was
+  // past when it was switched on.
+  [[nodiscard]] std::optional<Time> since_pulse(Time now) const noexcept;
+  [[nodiscard]] bool wants_pulses() const noexcept { return (at(reg::kSyncActivation + 1U) & kSyncActive) != 0; }
+  [[nodiscard]] bool has_pulses() const noexcept { return has_pulses_; }
 
   void hold_eeprom_busy(Time until) noexcept { eeprom_busy_until_ = until; }
   [[nodiscard]] std::vector<std::uint8_t>& eeprom() noexcept { return config_.eeprom; }
 
  private:
+  static constexpr unsigned kSyncActive = 0x03;  // cyclic operation, SYNC0
+
   [[nodiscard]] bool is_there(std::uint16_t offset, std::size_t size) const noexcept;
   [[nodiscard]] bool may_access(std::uint16_t offset, std::size_t size, bool write) const noexcept;
   void after_access(std::uint16_t offset, std::size_t size, bool write) noexcept;
@@ -83,6 +90,7 @@ class Esc {
   void after_write(std::uint16_t offset, std::size_t size, Time now);
   void run_eeprom_command(Time now);
   void follow_reference(Time received, Time now) noexcept;
+  void start_pulses(Time now) noexcept;
 
   struct Mapping {  // one FMMU
     std::uint64_t first_bit = 0;
@@ -108,6 +116,8 @@ class Esc {
   EscEvents events_;
   Time eeprom_busy_until_{0};
   Time clock_adjusted_{0};
+  Time followed_at_{0};  // the reference
+  bool has_pulses_ = false;
 };
 
 }  // namespace indurop::io::ethercat

@@ -252,7 +252,7 @@ std::uint16_t Slave::check_change(AlState from, AlState to) const {
     }
     return process_data_fits(SyncManagerUse::Inputs, kInputs) ? kAlNoError : kAlInvalidInputs;
   }
-  return kAlNoError;
+  return esc_.wants_pulses() && !esc_.has_pulses() ? kAlNoSync : kAlNoError;
 }
 
 Slave::Area Slave::area_of(unsigned sync_manager) const noexcept {

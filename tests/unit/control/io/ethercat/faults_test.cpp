@@ -11,10 +11,19 @@ namespace {
 
 constexpr std::int32_t kLimit = 1000;
 
+// Drives with pulses of their clocks.
+std::vector<SlavePlan> synchronous_plans(std::size_t count) {
+  auto plans = drive_plans(count);
+  for (SlavePlan& plan : plans) {
+    plan.sync = {0x0300, kTick, kTick / 2, {}};
+  }
+  return plans;
+}
+
 // A plant whose application moves targets within their limits.
 class FaultyPlant {
  public:
-  explicit FaultyPlant(std::size_t count) : plant(count) {
+  explicit FaultyPlant(std::size_t count) : plant(count, synchronous_plans(count)) {
     plant.run_until_all_operate(2000);
     plant.run(20);
     plant.events().clear();
@@ -66,6 +75,8 @@ class FaultyPlant {
         return plant.happened(fault.slave, Problem::EepromBusy);
       case FaultKind::Emergency:
         return has(fault.slave, Problem::EmergencySent, fault.value);
+      case FaultKind::ClockJumps:
+        return plant.happened(fault.slave, Problem::ClockNotInStep);
     }
     return false;
   }
@@ -121,6 +132,9 @@ Fault random_fault(std::mt19937& random, std::size_t slaves, FaultKind kind, Tim
       break;
     case FaultKind::SdoAborted:
       fault.value = kAbortState;
+      break;
+    case FaultKind::ClockJumps:
+      fault.value = static_cast<std::uint32_t>(120'000 + random() % 800'000);
       break;
     case FaultKind::Emergency:
       fault.value = static_cast<std::uint32_t>(0x2310 + random() % 16);

@@ -162,7 +162,7 @@ TEST(Master, The_exchange_allocates_nothing) {
     bus.segment().add(drive_config(), reflect);
   }
   Counted cable(bus);
-  Master sut(cable, drive_plans(kDrives));
+  Master sut(cable, drive_plans(kDrives), kTick);
   std::array<std::uint8_t, 200> room{};
   SdoTransfer transfer;
   transfer.index = 0x1008;

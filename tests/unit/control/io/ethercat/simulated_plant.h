@@ -40,12 +40,12 @@ class Plant {
         }
       });
     }
-    master_ = std::make_unique<Master>(bus_, std::move(plans));
+    master_ = std::make_unique<Master>(bus_, std::move(plans), kTick);
   }
   explicit Plant(std::size_t count) : Plant(count, drive_plans(count)) {}
 
   void tick() {
-    now_ += kTick;
+    now_ += kTick + Clock(master_->clocks().tick_correction());
     bus_.advance(now_);
     master_->cycle(now_);
     bus_.segment().compute();

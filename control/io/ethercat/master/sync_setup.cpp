@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/io/ethercat/master/sync_setup.h"
+
+#include "control/io/ethercat/master/slave_control.h"
+
+namespace indurop::io::ethercat {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr Clock kPatience = milliseconds(10'000);  // for a clock to be in step
+constexpr Clock kAhead = milliseconds(100);        // of the first pulse, so that it is not past when it is switched on
+
+}  // namespace
+
+void SyncSetup::start(Clock now) noexcept {
+  step_ = Step::Await;
+  since_ = now;
+}
+
+std::optional<Query> SyncSetup::query(Clock now) noexcept {
+  const std::uint16_t station = station_of(place_);
+  if (step_ == Step::Await && clocks_.is_in_step(place_)) {
+    step_ = Step::Off;
+  }
+  switch (step_) {
+    case Step::Await:
+      return std::nullopt;
+    case Step::Off:
+      store<std::uint16_t>(word_, 0, 0);
+      return Query{Command::Fpwr, address_of(station, reg::kSyncActivation), Bytes(word_).first(2), 0};
+    case Step::Cycles:
+      store<std::uint32_t>(word_, 0, static_cast<std::uint32_t>(plan_.cycle.count()));
+      store<std::uint32_t>(word_, 4, static_cast<std::uint32_t>(plan_.sync1.count()));
+      return Query{Command::Fpwr, address_of(station, reg::kSync0Cycle), word_, 0};
+    case Step::Start:
+      store<std::int64_t>(word_, 0, clocks_.next_pulse(plan_.cycle, plan_.shift, kAhead, now));
+      return Query{Command::Fpwr, address_of(station, reg::kSyncStart), word_, 0};
+    case Step::On:
+      break;
+  }
+  store<std::uint16_t>(word_, 0, plan_.activation);
+  return Query{Command::Fpwr, address_of(station, reg::kSyncActivation), Bytes(word_).first(2), 0};
+}
+
+SyncSetup::Outcome SyncSetup::answer(bool is_answered) noexcept {
+  if (!is_answered) {
+    return Outcome::Running;
+  }
+  switch (step_) {
+    case Step::Off:
+      step_ = Step::Cycles;
+      return Outcome::Running;
+    case Step::Cycles:
+      step_ = Step::Start;
+      return Outcome::Running;
+    case Step::Start:
+      step_ = Step::On;
+      return Outcome::Running;
+    default:
+      return step_ == Step::On ? Outcome::Done : Outcome::Running;
+  }
+}
+
+SyncSetup::Outcome SyncSetup::outcome(Clock now) const noexcept {
+  if (step_ != Step::Await) {
+    return Outcome::Running;
+  }
+  if (clocks_.is_measured() && !clocks_.has_clock(place_)) {
+    return Outcome::NoClock;
+  }
+  return now - since_ > kPatience ? Outcome::NotInStep : Outcome::Running;
+}
+
+}  // namespace indurop::io::ethercat
