@@ -14,10 +14,7 @@ import common
 MOST = {"files": 3, "data members": 25, "functions": 40}
 # What is larger than that, with its numbers and the reason. A number may only shrink: one that is too large here is a
 # finding, too, and so is an entry that is no longer needed.
-ALLOWED = {
-    "control/robot/plan/planner.h Planner": (
-        {"files": 8, "data members": 37, "functions": 50}, "looking ahead, timing and rehearsal are classes to be"),
-}
+ALLOWED = {}
 
 CLASS = re.compile(r"\b(class|struct)\s+(?:\[\[[^\]]*\]\]\s*)?(?:alignas\([^)]*\)\s*)?((?:\w+::)*\w+)\s*(?:final\s*)?"
                    r"(?::(?!:)[^;{}()]*(?:\([^;{}()]*\)[^;{}()]*)?)?\{")

@@ -252,9 +252,7 @@ Fault Riding::carry(Joints& q) noexcept {
   const Inverse::Result result =
       robot_.tool.inverse().nearest(pose, robot_.tool.inverse().held_as(q, robot_.commanded()));
   if (result.reach != Reach::Ok) {
-    return {result.reach == Reach::JointLimit   ? ErrorCode::JointLimit
-            : result.reach == Reach::OutOfReach ? ErrorCode::Unreachable
-                                                : ErrorCode::Singular};
+    return {code_of(result.reach)};
   }
   q = result.solution.q;
   if ((robot_.tip(q).position - pose.position).norm() > kExact) {

@@ -9,6 +9,18 @@
 
 namespace indurop::robot {
 
+ErrorCode code_of(Reach reach) noexcept {
+  switch (reach) {
+    case Reach::Ok:
+      return ErrorCode::Ok;
+    case Reach::OutOfReach:
+      return ErrorCode::Unreachable;
+    case Reach::JointLimit:
+      return ErrorCode::JointLimit;
+  }
+  return ErrorCode::Unreachable;
+}
+
 void Solutions::add(const Arm& arm, const Joints& q, std::uint8_t posture, const Joints& near) noexcept {
   Solution one{q, posture};
   for (int i = 0; i < arm.count(); ++i) {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "control/robot/kinematics/arm.h"
+#include "control/robot/kinematics/errors.h"
 
 namespace indurop::robot {
 
@@ -22,6 +23,8 @@ struct Solution {
 };
 
 enum class Reach { Ok, OutOfReach, JointLimit };
+// The error of a motion that cannot be reached for this reason. Real-time safe.
+[[nodiscard]] ErrorCode code_of(Reach reach) noexcept;
 
 struct Solutions {
   std::array<Solution, 16> list;

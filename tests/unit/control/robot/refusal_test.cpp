@@ -149,7 +149,7 @@ TEST_P(Refusal, Takes_no_more_than_its_work) {
       ASSERT_LE(used(), 1.001);
     } else {
       most = std::max(most, planner->work());
-      ASSERT_LE(planner->work(), Planner::kMostWork) << to_string(fault->code);
+      ASSERT_LE(planner->work(), PlanningWork::kMaxRefusalWork) << to_string(fault->code);
     }
   }
   fmt::print("{}: {} planned, refused after {} places at most, planned after {}\n", GetParam(), seen[ErrorCode::Ok],
@@ -209,7 +209,8 @@ TEST_P(RefusalOfHeavyLinks, Takes_no_more_than_its_work) {
     places.weigh(&heavy.dynamics);
     const Fault fault = *plan_random(seed);
     places.weigh(nullptr);
-    EXPECT_TRUE(fault.ok() || planner->work() <= Planner::kMostWork) << to_string(fault.code) << planner->work();
+    EXPECT_TRUE(fault.ok() || planner->work() <= PlanningWork::kMaxRefusalWork)
+        << to_string(fault.code) << planner->work();
     refused += fault.ok() ? 0 : 1;
   }
   EXPECT_GE(refused, 1);

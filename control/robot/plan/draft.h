@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// A motion while it is being planned: what one step of planning hands on to the next.
+
+#pragma once
+
+#include "control/robot/path/segment.h"
+#include "control/robot/plan/planning_work.h"
+
+namespace indurop::robot {
+
+struct Draft {
+  Segment segment;
+  JointLimits joints;  // that this motion keeps: those of the arm, or gentler ones
+  ToolLimits tool;
+  PlanningWork work;
+
+  // Sets the number of the command that a chain follows at a place, for a fault that is found there.
+  void blame(double place) noexcept {
+    if (segment.chain != nullptr) {
+      segment.source = segment.chain->source_at(place);
+    }
+  }
+};
+
+}  // namespace indurop::robot

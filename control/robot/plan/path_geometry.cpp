@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/robot/plan/path_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kSlowestMotion = 1e-9;  // m/s, and parts of full speed: below it counts as no motion
+
+bool finite(const Target& target) noexcept {
+  return target.joints.allFinite() && target.pose.position.allFinite() && target.pose.orientation.coeffs().allFinite();
+}
+
+bool in_range(const MoveCommand& command) noexcept {
+  return command.speed >= kSlowestMotion && command.speed <= 1 &&
+         (command.tool_speed == 0 || command.tool_speed >= kSlowestMotion) && command.zone >= 0 &&
+         command.acceleration >= kSlowestMotion && command.acceleration <= 1;
+}
+
+// Searches for an arm without a closed form if no solutions are known: next to a point, or for a pose given by a
+// command. An axis that the pose leaves undetermined stays where it is, if possible.
+Inverse::Result search(const Places& places, const Target& target, const Joints& near, PlanningWork& work) noexcept {
+  const Inverse& inverse = places.inverse();
+  Search how{32, 96};
+  how.held = target.held != 0 ? target.held : redundant_axes(places.arm());
+  const Joints& from = target.held != 0 ? target.joints : near;
+  Solutions found = inverse.search(target.pose, from, how);
+  work.add(how.most);
+  if (found.count == 0 && target.held == 0 && how.held != 0) {
+    how.held = 0;
+    found = inverse.search(target.pose, from, how);
+    work.add(how.most);
+  }
+  if (found.count == 0) {
+    return {found.reach, {}};
+  }
+  return inverse.nearest(found, near, target.posture);
+}
+
+// Determines the joint angles and the pose at the end.
+Fault resolve(const Places& places, const MoveCommand& command, Draft& draft) noexcept {
+  Segment& s = draft.segment;
+  const Target& target = command.target;
+  if (!finite(target)) {
+    return {ErrorCode::Value};
+  }
+  if (!target.is_pose) {
+    s.to = target.joints;
+    s.end = places.arm().forward(s.to);
+    const int beyond = places.arm().beyond_limits(s.to);
+    return {beyond < 0 ? ErrorCode::Ok : ErrorCode::JointLimit, beyond + 1};
+  }
+  s.end = target.pose;
+  const Inverse& inverse = places.inverse();
+  if (command.move != Move::Joint && !inverse.closed_form()) {
+    return {};  // a path that is followed from place to place reaches its end anyway
+  }
+  const auto found = target.known != nullptr ? inverse.nearest(*target.known, s.from, target.posture)
+                     : inverse.closed_form() ? inverse.nearest(s.end, s.from, target.posture)
+                                             : search(places, target, s.from, draft.work);
+  s.to = found.solution.q;
+  return {code_of(found.reach)};
+}
+
+Fault make_circle(const Vec3& mid, Segment& s) noexcept {
+  const Vec3 a = mid - s.start.position;
+  const Vec3 b = s.end.position - s.start.position;
+  const Vec3 normal = a.cross(b);
+  const double area = normal.squaredNorm();
+  if (area < 1e-6 * a.squaredNorm() * b.squaredNorm() || area <= 0) {
+    return {ErrorCode::Circle};
+  }
+  s.center = s.start.position + (a.squaredNorm() * b.cross(normal) - b.squaredNorm() * a.cross(normal)) / (2 * area);
+  s.radius_x = s.start.position - s.center;
+  // The normal is such that the path from start through mid to end turns left about it.
+  s.radius_y = normal.normalized().cross(s.radius_x);
+  const Vec3 last = s.end.position - s.center;
+  s.angle = std::atan2(s.radius_y.dot(last), s.radius_x.dot(last));
+  if (s.angle <= 0) {
+    s.angle += 2 * kPi;
+  }
+  s.way = s.angle * s.radius_x.norm();
+  return {};
+}
+
+void measure_joint_motion(const Arm& arm, double speed, Draft& draft) noexcept {
+  Segment& s = draft.segment;
+  const Joints change = s.to - s.from;
+  s.length = change.cwiseAbs().cwiseQuotient(draft.joints.velocity).maxCoeff();
+  if (s.length <= 0) {
+    return;
+  }
+  s.speed = speed;
+  s.limits = {speed, HUGE_VAL, HUGE_VAL};
+  for (int i = 0; i < kAxes; ++i) {
+    const double rate = std::abs(change[i]) / s.length;
+    s.limits.acceleration = std::min(s.limits.acceleration, shared(draft.joints.acceleration[i], rate));
+    s.limits.jerk = std::min(s.limits.jerk, shared(draft.joints.jerk[i], rate));
+  }
+  constexpr int kPlaces = 64;
+  TipSpeed tip(arm);
+  tip.begin(s.from);
+  for (int i = 1; i <= kPlaces; ++i) {
+    tip.note(s.joints_at(s.length * i / kPlaces));
+  }
+  s.tip_speed = tip.farthest() * kPlaces / s.length;
+}
+
+void measure_tool_motion(const MoveCommand& command, Draft& draft) noexcept {
+  Segment& s = draft.segment;
+  const ToolLimits& tool = draft.tool;
+  s.turn = rotation_between(s.start.orientation, s.end.orientation);
+  const double angle = s.turn.norm();
+  s.length = std::max(s.way / tool.velocity, angle / tool.turn_velocity);
+  if (s.length <= 1e-9) {
+    s.length = 0;
+    s.to = s.from;  // the joint angles of the target may be another posture
+    return;
+  }
+  const double pace = s.way / s.length;
+  const double turning = angle / s.length;
+  s.limits.velocity = command.speed;
+  if (command.tool_speed > 0) {
+    s.limits.velocity = std::min(1.0, shared(command.tool_speed, pace));
+  }
+  double acceleration = tool.acceleration;
+  if (s.move == Move::Circle) {
+    // Half of the acceleration holds the tool on the circle.
+    const double bend = pace * pace / s.radius_x.norm();
+    s.limits.velocity = std::min(s.limits.velocity, std::sqrt(shared(acceleration / 2, bend)));
+    acceleration /= 2;
+  }
+  s.limits.acceleration = std::min(shared(acceleration, pace), shared(tool.turn_acceleration, turning));
+  s.limits.jerk = std::min(shared(tool.jerk, pace), shared(tool.turn_jerk, turning));
+  s.most = s.limits;
+}
+
+}  // namespace
+
+Fault make_path(const Places& places, const MoveCommand& command, Draft& draft) noexcept {
+  Segment& s = draft.segment;
+  s.move = command.move;
+  s.zone = command.zone;
+  s.source = command.source;
+  if (!in_range(command) || !s.from.allFinite()) {
+    return {ErrorCode::Value};
+  }
+  if (const Fault fault = resolve(places, command, draft); !fault.ok()) {
+    return fault;
+  }
+  if (command.move == Move::Joint) {
+    measure_joint_motion(places.arm(), command.speed, draft);
+    s.together = s.length > 0 && command.zone <= 0 && !command.straight;
+    return {};
+  }
+  if (command.move == Move::Circle) {
+    if (!finite(command.mid)) {
+      return {ErrorCode::Value};
+    }
+    const Pose mid = command.mid.is_pose ? command.mid.pose : places.arm().forward(command.mid.joints);
+    if (const Fault fault = make_circle(mid.position, s); !fault.ok()) {
+      return fault;
+    }
+  } else {
+    s.way = (s.end.position - s.start.position).norm();
+  }
+  measure_tool_motion(command, draft);
+  return {};
+}
+
+Fault make_path(const ToolPath& chain, Draft& draft) noexcept {
+  Segment& s = draft.segment;
+  s.move = Move::Line;
+  s.chain = &chain;
+  s.end = chain.end();
+  s.way = chain.way();
+  s.length = chain.length();
+  s.source = chain.source_at(0);
+  if (!s.from.allFinite() || !std::isfinite(s.length) || s.length <= 0) {
+    return {ErrorCode::Value};
+  }
+  s.limits = chain.limits_at(0);
+  return {};
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The geometry of a commanded motion: its target, the circle through three points, its length, and the limits set by
+// the tool and the command.
+
+#pragma once
+
+#include "control/robot/kinematics/errors.h"
+#include "control/robot/plan/draft.h"
+
+namespace indurop::robot {
+
+// Makes the path of a command that starts where the draft's segment does, at rest. A path without length is 0 long.
+// Real-time safe, like all functions of this file. Errors: Value, Unreachable, JointLimit, Circle.
+Fault make_path(const Places& places, const MoveCommand& command, Draft& draft) noexcept;
+// Makes the path of a chain, which is not changed until the motion has ended. Errors: Value.
+Fault make_path(const ToolPath& chain, Draft& draft) noexcept;
+
+}  // namespace indurop::robot
