@@ -62,7 +62,7 @@ install-deps: ## install the Debian packages of .ci/packages.txt that are missin
 
 sanitize: asan-ubsan tsan ## tests under ASan + UBSan, then under TSan
 
-# Reports go to files: else those of processes that a test starts, and does not look at, would be lost.
+# Reports go to files: otherwise those of processes whose output a test does not check would be lost.
 asan-ubsan tsan: reports = build-$(@:-ubsan=)/reports
 asan-ubsan tsan:
 	@.ci/install-deps build test

@@ -28,7 +28,7 @@ function(indurop_glb_closure result)
 endfunction()
 
 # indurop_add_glb(<target> FILES a.glb [b.glb ...] [TYPES])
-# Runs glb2idl; whoever links <target> can include <indurop/generated.h> with the variables of all the files.
+# Runs glb2idl; targets that link <target> can include <indurop/generated.h> with the variables of all the files.
 # TYPES also builds lib<target>_types.so with the DDS types of the variables (target <target>_types).
 function(indurop_add_glb target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "TYPES" "" "FILES")
@@ -76,7 +76,7 @@ endfunction()
 
 # indurop_add_module(<name> [PROCESS] SOURCES a.cpp ... [GLB <target>] [LIBRARIES ...])
 # A thread module <name>.so, or with PROCESS a process module <name>.exe, in the project's top build directory, where
-# module.xml finds it as ./<name>.so. Symbols nobody defines are found here, not when the node loads the module.
+# module.xml finds it as ./<name>.so. Undefined symbols are found here, not when the node loads the module.
 function(indurop_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "PROCESS" "GLB" "SOURCES;LIBRARIES")
   if(arg_UNPARSED_ARGUMENTS)

@@ -13,7 +13,7 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1 -DNDEBUG")
 
 find_program(INDUROP_CCACHE ccache)
 if(INDUROP_CCACHE)
-  # What ccache has to be told before it caches files compiled with precompiled headers.
+  # The setting that ccache needs to cache files compiled with precompiled headers.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${INDUROP_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${INDUROP_CCACHE})
 endif()
@@ -37,7 +37,7 @@ if(INDUROP_SANITIZE)
   endif()
 endif()
 
-# Headers of others that most files include, read once for all rooms that call indurop_precompile(<target>), and once more
+# Third-party headers that most files include, read once for all rooms that call indurop_precompile(<target>), and again
 # with GoogleTest for all tests: a third of all compile time. Such a room links fmt::fmt and hides its symbols. Every file
 # still includes what it uses (tests/lint/check_headers.py).
 set(INDUROP_PRECOMPILED_STANDARD <algorithm> <array> <charconv> <chrono> <cstdint> <functional> <map> <memory>

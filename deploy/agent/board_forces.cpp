@@ -75,7 +75,7 @@ Done BoardForces::carry_out(const Command& command) {
     return done(operate::set(board_, *store, *all, by));
   }
   auto held = operate::hold(board_, *store, *all, order->for_ns,
-                            order->lease ? operate::Ends::UnlessRenewed : operate::Ends::ByItself, by);
+                            order->lease ? operate::Ends::UnlessRenewed : operate::Ends::AtTime, by);
   if (!held) {
     return Problem{held.error().text()};
   }

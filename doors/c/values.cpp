@@ -304,7 +304,7 @@ irp_code irp_force(irp_node* node, uint32_t id, const void* from, size_t size, i
     if (!made) {
       return std::move(made).error();
     }
-    auto held = operate::hold(node->name(), node->store(), {std::move(made).value()}, for_ns, operate::Ends::ByItself,
+    auto held = operate::hold(node->name(), node->store(), {std::move(made).value()}, for_ns, operate::Ends::AtTime,
                               who(reason));
     return held ? Result<void, Failure>() : failure_of(held.error());
   });

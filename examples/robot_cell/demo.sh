@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# The robot cell (chapter, section 4) at work for twenty seconds, on one board and then on two, with nobody's hand on it.
+# The robot cell (chapter, section 4) at work for twenty seconds, on one board and then on two, with no person at it.
 # `demo.sh page`: only its page, until Ctrl-C. Needs the programs in PATH; `make demo` and `indurop demo` see to it.
 set -e
 here=$(cd "$(dirname "$0")" && pwd)
@@ -83,7 +83,7 @@ finish() {
   runner=
 }
 
-# page NODE: the cell at work until Ctrl-C, to be looked at in a browser
+# page NODE: the cell at work until Ctrl-C, for a browser
 page() {
   indurop run module.xml --node "$1" -q &
   runner=$!
@@ -101,7 +101,7 @@ page() {
 
 if [ "$1" = page ]; then
   page=demo$$
-  say "The robot cell works: look at its ladder, its robot, its alarms in a browser; Ctrl-C ends it"
+  say "The robot cell works: a browser shows its ladder, its robot, its alarms; Ctrl-C ends it"
   page $page
   exit 0
 fi
@@ -140,5 +140,5 @@ say "Pictures: $folder/cell.svg, cell_two_boards.svg, main.svg (ladder), schedul
 
 # Where a user watches, the cell continues.
 [ -t 1 ] || exit 0
-say "The cell goes on: look at its ladder, its robot, its alarms in a browser; Ctrl-C ends it"
+say "The cell goes on: a browser shows its ladder, its robot, its alarms; Ctrl-C ends it"
 page cell

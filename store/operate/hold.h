@@ -25,7 +25,7 @@ struct Lease {
   std::vector<std::string> names;  // names of the values, as noted
   rt::MonoTime until;
 };
-enum class Ends { ByItself, UnlessRenewed };
+enum class Ends { AtTime, UnlessRenewed };
 
 // Holds all of them for `for_ns`, 0: until they are released; a struct, an array or a text number by number. On error
 // none is held.

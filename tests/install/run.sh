@@ -50,12 +50,12 @@ fi
 sed -i '/nowhere/d' "$work/project/event1.cpp"
 cmake --build . >/dev/null
 
-# And it runs, with the programs found beside the library.
+# And it runs, with the programs found next to the library.
 node=install-test-$$
 export INDUROP_STATE_DIR="$work/state"
 trap '"$programs/indurop" clean --node "$node" >/dev/null 2>&1 || true' EXIT
 "$programs/indurop" check module.xml
-# The I/O module is beside the library and finds what it links.
+# The I/O module is next to the library and finds what it links.
 io=$(find "$(dirname "$programs")" -path '*/lib*/libiodispat.so' -type f -print -quit)
 if [ -z "$io" ] || ldd "$io" | grep 'not found'; then
   echo "libiodispat.so is missing, or something it needs: '$io'" >&2

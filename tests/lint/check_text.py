@@ -141,14 +141,15 @@ PLAIN_ROOMS = ("include/indurop/", "core/", "glb2idl/", "scheduler/", "config/",
 OPEN_PAGES = ("docs/words.md", "docs/options.md", "tests/data/")
 # Names in files or messages that other releases read, and what they are called by in the code that writes them.
 FIXED_NAMES = re.compile(r"\bindurop/told\b|indurop::Told|struct Told|external/wish|`Wish`|\bindurop_wire_Wish\w*|\bbool(ean)? anew\b|\b(run|old)(\.|->)anew\b|"
-                         r"\bfile_beside_config\b|alarms-beside-the-loop|\"nobody\",|\"owner\"\], \"nobody\"|\bNobody\b|\bByItself\b|"
+                         r"\bfile_beside_config\b|alarms-beside-the-loop|\"nobody\",|\"owner\"\], \"nobody\"|\bNobody\b|"
                          r"nobody@example\.com\">nobody<")
 
 
 # Files in which all comments, names and messages use the terms, and the beginning of a comment in them and in C++.
-SCRIPTS = (".py", ".js", ".mjs", ".ts", ".tsx", ".html", ".css")
-COMMENT = re.compile(r"(?<!:)(?://|/\*|<!--) ")
-COMMENT_OF_PYTHON = re.compile(r'(?<!["\'])# |"""')
+HASH_SCRIPTS = (".py", ".sh", ".cmake", "CMakeLists.txt", "Makefile")
+SCRIPTS = HASH_SCRIPTS + (".js", ".mjs", ".ts", ".tsx", ".html", ".css", ".glb", ".st")
+COMMENT = re.compile(r"(?<!:)(?://|/\*|\(\*|<!--) ")
+COMMENT_OF_HASH = re.compile(r'(?<!["\'])# |"""')
 # They quote the retired words.
 WORD_LISTS = ("tests/lint/check_text.py", "tests/lint/selftest.py")
 
@@ -168,7 +169,7 @@ def words(root):
         if not is_code and not is_page or is_code and (common.is_data(name) or name.startswith(VERBATIM)):
             continue
         is_plain = is_script or name.startswith(PLAIN_ROOMS)
-        begin_of_comment = COMMENT_OF_PYTHON if name.endswith(".py") else COMMENT
+        begin_of_comment = COMMENT_OF_HASH if name.endswith(HASH_SCRIPTS) else COMMENT
         for number, line in enumerate(common.read(root, name).split("\n"), 1):
             text = line = line if is_script else FIXED_NAMES.sub("", line)
             if is_code:

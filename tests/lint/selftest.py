@@ -286,7 +286,11 @@ class Functions(Sample):
         cases = {"a.tsx": ('const wish = 1;  // `anew`\n/* Nobody reads. */\nconst b = <p>Nobody reads</p>;\n', [1, 2, 3]),
                  "b.html": ("<!-- beside it -->\n", [1]), "c.py": ('"""What nobody reads."""\nlet_go = 1  # "nobody"\n', [1, 2]),
                  "core/rt/a.cpp": (HEAD + 'int a;  // what nobody reads\nint b;  // `nobody`, "anew", again\n', [4]),
-                 "docs/a.md": ("What nobody reads.\n", [1]), "docs/words.md": ("What nobody reads.\n", [])}  # lists them
+                 "d/CMakeLists.txt": ("# beside it\nset(let_go 1)  # `anew`\n", [1, 2]),
+                 "docs/a.md": ("What nobody reads.\n", [1]), "docs/words.md": ("What nobody reads.\n", []),  # lists them
+                 "e.sh": ('let_go=1  # "nobody"\necho "nobody reads"\n', [1, 2]),
+                 "f.glb": ("int told // `anew`\nint a /* what nobody reads */\n", [1, 2]),
+                 "g.st": ("(* beside it *)\nnobody : INT;  (* 'again' *)\n", [1, 2])}
         for name, (text, _) in cases.items():
             self.put(name, text)
         expected = [f"{name}:{line}" for name, (_, lines) in cases.items() for line in lines]

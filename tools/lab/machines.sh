@@ -13,7 +13,7 @@ is_machine() { [ -d "$machines/$1" ]; }
 is_on() { [ -f "$machines/$1/pid" ] && tr '\0' '\n' <"/proc/$(cat "$machines/$1/pid")/cmdline" 2>/dev/null | grep -qx "$switch.$1"; }
 fact() { cat "$machines/$1/$2"; }
 
-# Hardware that can run virtual machines by itself; a device file alone is not proof.
+# Hardware that can run virtual machines on its own; a device file alone is not proof.
 has_kvm() { [ -w /dev/kvm ] && grep -q -m1 -E '^flags.* (vmx|svm)( |$)' /proc/cpuinfo; }
 
 need() {
@@ -29,10 +29,10 @@ need() {
   done
 }
 
-# Where the host's programs are: beside this one, or in the path.
+# Where the host's programs are: next to this one, or in the path.
 programs() {
   found=$here/indurop-agent
-  [ -x "$found" ] || found=$(command -v indurop-agent) || die "there is no indurop-agent beside indurop-lab or in PATH"
+  [ -x "$found" ] || found=$(command -v indurop-agent) || die "there is no indurop-agent next to indurop-lab or in PATH"
   dirname "$(dirname "$(readlink -f "$found")")"
 }
 
@@ -100,7 +100,7 @@ prepare() {
     mkdir -p "$1/etc/systemd/system/multi-user.target.wants"
     ln -s "/etc/systemd/system/$unit.service" "$1/etc/systemd/system/multi-user.target.wants/"
   done
-  # Nothing of a lab's board listens by itself, or waits for what a lab has not.
+  # No program of a lab's board listens on its own, or waits for what a lab has not.
   for unit in ssh.service ssh.socket systemd-timesyncd.service apt-daily.timer apt-daily-upgrade.timer e2scrub_reap.service; do
     ln -sf /dev/null "$1/etc/systemd/system/$unit"
   done

@@ -1,5 +1,5 @@
 #!/bin/sh
-# run.sh FOLDER_OF_PROGRAMS: makes a project, builds it as it is, checks it, runs it, looks at it from outside.
+# run.sh FOLDER_OF_PROGRAMS: makes a project, builds it as it is, checks it, runs it, reads it from outside.
 set -eu
 programs=$1
 folder=$(mktemp -d)
@@ -58,12 +58,12 @@ grep -q logic.st README.md && grep -q plant.xml README.md || fail "the README do
 indurop run plant.xml --sim --until 2s || fail "the fresh plant in virtual time"
 [ "$(grep -c '<board' plant.xml)" = 3 ] || fail "not three boards"
 
-# Whoever gets the sources elsewhere builds the same modules, byte by byte.
+# The same sources in another folder give the same modules, byte by byte.
 digests() { (cd "$1" && sha256sum ./*.so ./*.exe | sort); }
 [ "$(digests build | wc -l)" -ge 4 ] || fail "not all modules are there: $(digests build)"
-mkdir -p "$folder/pulled/by somebody"
-cp -r . "$folder/pulled/by somebody/line"
-cd "$folder/pulled/by somebody/line"
+mkdir -p "$folder/pulled/by another user"
+cp -r . "$folder/pulled/by another user/line"
+cd "$folder/pulled/by another user/line"
 rm -rf build
 make
 [ "$(digests build)" = "$(digests "$folder/line/build")" ] ||

@@ -62,9 +62,8 @@ int keep_holding(Context& context, vars::Store& store, operate::Lease& lease) {
 
 int hold(Context& context, vars::Store& store, const ForceOptions& options,
          const std::vector<Assignment>& assignments) {
-  auto held =
-      operate::hold(context.node, store, assignments, options.lease ? kLeaseNs : options.for_ns,
-                    options.lease ? operate::Ends::UnlessRenewed : operate::Ends::ByItself, who_orders(context));
+  auto held = operate::hold(context.node, store, assignments, options.lease ? kLeaseNs : options.for_ns,
+                            options.lease ? operate::Ends::UnlessRenewed : operate::Ends::AtTime, who_orders(context));
   if (!held) {
     return report(context, held.error());
   }

@@ -137,7 +137,7 @@ Board::Done LocalBoard::force(const WriteRequest& request, ChangeNote& note, Lea
     return std::move(*unnoted);
   }
   auto held = operate::hold(name(), *store, *values, request.lease ? LeaseDesk::kLeaseNs : request.for_ns,
-                            request.lease ? operate::Ends::UnlessRenewed : operate::Ends::ByItself, note.who());
+                            request.lease ? operate::Ends::UnlessRenewed : operate::Ends::AtTime, note.who());
   if (!held) {
     return refused(held.error());
   }

@@ -95,7 +95,7 @@ class Operate : public ::testing::Test {
     return set(node_, *store_, parsed(lines), ana_);
   }
   Result<Lease, Refusal> force(const std::vector<std::string>& lines, std::int64_t for_ns = 0,
-                               Ends ends = Ends::ByItself) {
+                               Ends ends = Ends::AtTime) {
     return hold(node_, *store_, parsed(lines), for_ns, ends, ana_);
   }
   double value(const std::string& name) {
