@@ -15,6 +15,7 @@
 #include <string>
 
 #include "core/base/descriptor.h"
+#include "core/rt/clock.h"
 
 namespace indurop::base {
 namespace {
@@ -43,10 +44,13 @@ fs::path folder_of(const fs::path& path) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
-// Returns a new name at each call. Short, however long the name of the file to be replaced is.
+// Returns a new name at each call. Short, however long the name of the file to be replaced is. Early after a boot the
+// kernel may have no random numbers yet.
 fs::path fresh_name(const fs::path& folder) {
   std::uint64_t number = 0;
-  (void)::getrandom(&number, sizeof number, GRND_NONBLOCK);
+  if (::getrandom(&number, sizeof number, GRND_NONBLOCK) != sizeof number) {
+    number = static_cast<std::uint64_t>(rt::to_ns(rt::MonoClock::now()));
+  }
   return folder / (".indurop-" + std::to_string(number) + ".tmp");
 }
 
@@ -110,7 +114,7 @@ class Fresh {
       return;
     }
     if (mine.st_uid != old->st_uid || mine.st_gid != old->st_gid) {
-      (void)::fchown(file_.get(), old->st_uid, old->st_gid);
+      [[maybe_unused]] const int forbidden = ::fchown(file_.get(), old->st_uid, old->st_gid);
     }
     constexpr mode_t kRights = 07777;
     if (::fchmod(file_.get(), old->st_mode & kRights) != 0) {
