@@ -50,7 +50,8 @@ struct RunOptions {
   std::filesystem::path report;         // empty: none
   bool require_rt = false;
   bool adjust = false;
-  bool quiet = false;  // no summary; of the node's messages only warnings and errors
+  bool quiet = false;    // no summary; of the node's messages only warnings and errors
+  bool journal = false;  // messages go to systemd's journal
   std::optional<int> core;
   std::optional<SpinSetting> spin;
   std::uint64_t tape_megabytes = kTapeMegabytes;

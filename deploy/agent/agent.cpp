@@ -348,7 +348,8 @@ class Agent {
 
 int run_agent(const AgentOptions& options) {
   base::StopSignal signals;
-  const base::Log log("indurop-agent", options.board, options.quiet);
+  const base::Log log("indurop-agent", options.board, options.quiet,
+                      options.journal ? std::make_shared<const base::Journal>() : nullptr);
   auto state = AgentState::open(options.board, [&log](const std::string& line) { log.error("{}", line); });
   if (!state) {
     log.error("{}", state.error().text);

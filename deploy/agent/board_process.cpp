@@ -53,7 +53,8 @@ BoardProcess::BoardProcess(std::string board, std::vector<std::string> arguments
       black_box_(std::move(black_box)),
       verify_(std::move(verify)),
       log_(log),
-      program_(open_node_program()) {}
+      program_(open_node_program()),
+      output_(log.has_journal() ? fmt::format("indurop-node[{}]: ", board_) : "") {}
 
 BoardProcess::~BoardProcess() {
   leave();

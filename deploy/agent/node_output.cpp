@@ -22,6 +22,7 @@ void NodeOutput::close() noexcept {
   }
   pipe_ = -1;
   line_.clear();
+  (void)others_.rest();
 }
 
 void NodeOutput::add(char c, bool replace) {
@@ -45,13 +46,15 @@ void NodeOutput::copy(bool replace) {
   ssize_t got = 0;
   while ((got = ::read(pipe_, block.data(), block.size())) > 0) {
     const std::string_view text(block.data(), static_cast<std::size_t>(got));
-    std::fwrite(text.data(), 1, text.size(), stderr);
+    const std::string others = others_.pass(text);
+    std::fwrite(others.data(), 1, others.size(), stderr);
     for (const char c : text) {
       add(c, replace);
     }
   }
   if (got == 0) {
     add('\n', replace);  // nothing ends the line of a node that died in it
+    std::fputs(others_.rest().c_str(), stderr);
     close();
   }
 }

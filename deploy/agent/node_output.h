@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The output of a board's node: copies it to the agent's own output and remembers its last error message, which is the
-// reason if the node dies.
+// reason if the node dies. Messages that the node has put into the journal itself are not copied.
 
 #pragma once
 
 #include <string>
+#include <utility>
+
+#include "deploy/agent/line_filter.h"
 
 namespace indurop::deploy {
 
 class NodeOutput {
  public:
-  NodeOutput() = default;
+  // `own`: how the lines begin that are in the journal already; empty: none are.
+  explicit NodeOutput(std::string own = {}) : others_(std::move(own)) {}
   NodeOutput(const NodeOutput&) = delete;
   NodeOutput& operator=(const NodeOutput&) = delete;
   ~NodeOutput() { close(); }
@@ -27,6 +31,7 @@ class NodeOutput {
  private:
   void add(char c, bool replace);
 
+  LineFilter others_;
   int pipe_ = -1;
   std::string line_;  // the line that has not ended yet
   std::string last_error_;

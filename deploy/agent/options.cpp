@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/exit_code.h"
+#include "core/base/journal.h"
 #include "core/base/options.h"
 #include "store/vars/shm_file.h"
 
@@ -32,6 +33,9 @@ std::vector<std::string> node_arguments(const AgentOptions& options) {
   if (options.quiet) {
     words.emplace_back("--quiet");
   }
+  if (options.journal) {
+    words.emplace_back("--journal");
+  }
   return words;
 }
 
@@ -56,6 +60,7 @@ Result<AgentOptions, int> parse_options(int argc, char** argv) {
   if (const auto code = line.parse_program(argc, argv)) {
     return *code;
   }
+  options.journal = base::stderr_is_journal();
   return options;
 }
 

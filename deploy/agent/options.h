@@ -19,7 +19,8 @@ struct AgentOptions {
   LinkSettings link;
   std::optional<int> core;  // for all modules without one of their own
   bool require_rt = false;
-  bool quiet = false;  // only warnings and errors
+  bool quiet = false;    // only warnings and errors
+  bool journal = false;  // messages go to systemd's journal, those of the node too
 };
 
 // Returns the arguments for every node that the agent starts.

@@ -24,15 +24,16 @@ bool ModuleCommands::is_process(std::uint32_t module) const noexcept {
 
 bool ModuleCommands::answer(const Work& work, CommandResult result) {
   const char* done = work.command == ModuleCommand::Stop ? "stopped" : "started";
+  const base::Log log = parts_.console.about(record(work.module).name);
   if (result == CommandResult::Done) {
-    parts_.console.info("module {}: {} by command", record(work.module).name, done);
+    log.info("module {}: {} by command", record(work.module).name, done);
   } else if (result == CommandResult::OldCode) {
-    parts_.console.warning(
+    log.warning(
         "module {}: started by command, with the code that was loaded when the node started; its file is another one "
         "now, stop and run the node to load it",
         record(work.module).name);
   } else if (result == CommandResult::Failed) {
-    parts_.console.error("module {}: could not be {} as commanded", record(work.module).name, done);
+    log.error("module {}: could not be {} as commanded", record(work.module).name, done);
   }
   scheduler::answer_command(record(work.module), result);
   return true;

@@ -63,8 +63,9 @@ bool Processes::enrolled(Child& child) {
   }
   if (!child.warned && rt::MonoClock::now() - child.launched > kStartPatience) {
     child.warned = true;
-    console_.warning("module {} neither catches nor blocks {} ({}): it is not started until it does",
-                     record(child).name, child.module->signal, ::strsignal(child.module->signal));
+    console_.about(record(child).name)
+        .warning("module {} neither catches nor blocks {} ({}): it is not started until it does", record(child).name,
+                 child.module->signal, ::strsignal(child.module->signal));
   }
   return false;
 }
@@ -90,9 +91,9 @@ bool Processes::is_sound(Child& child) {
   if (!digest.empty() && digest == child.digest) {
     return true;
   }
-  console_.error(
-      "module {}: it is not started again, because {} is not what was deployed: its SHA-256 is {}, it was {}",
-      child.module->name, child.module->file.string(), digest.empty() ? "unknown" : digest, child.digest);
+  console_.about(child.module->name)
+      .error("module {}: it is not started again, because {} is not what was deployed: its SHA-256 is {}, it was {}",
+             child.module->name, child.module->file.string(), digest.empty() ? "unknown" : digest, child.digest);
   return false;
 }
 
@@ -111,7 +112,8 @@ bool Processes::launch(Child& child) {
   const auto started = node::launch(
       {child.module->file.string(), child.module->arguments, node_, std::to_string(child.index), module.core});
   if (!started) {
-    console_.error("module {}: cannot be started: {}", module.name, std::strerror(started.error().sys_errno));
+    console_.about(module.name)
+        .error("module {}: cannot be started: {}", module.name, std::strerror(started.error().sys_errno));
     return false;
   }
   child.pid = started.value();
@@ -220,8 +222,9 @@ void Processes::plan_restart(Child& child, rt::MonoTime schedule) {
       reason_ = fmt::format("process module {} died {} times within {} s (escalate stop-node)", module.name,
                             child.restarts.size() + 1, rule.window.count() / rt::kNanosPerSecond);
     } else {
-      console_.error("module {}: stays stopped, it was restarted {} times within {} s", module.name,
-                     child.restarts.size(), rule.window.count() / rt::kNanosPerSecond);
+      console_.about(module.name)
+          .error("module {}: stays stopped, it was restarted {} times within {} s", module.name, child.restarts.size(),
+                 rule.window.count() / rt::kNanosPerSecond);
     }
     return;
   }
@@ -287,7 +290,7 @@ void Processes::stop(std::uint32_t module, rt::MonoTime now) {
 void Processes::kill_if_late(Child& child, rt::MonoTime now) {
   const std::chrono::nanoseconds since = now - child.asked;
   if (since > kProcessGrace) {
-    console_.warning("module {} did not end within 2 s and was killed", record(child).name);
+    console_.about(record(child).name).warning("module {} did not end within 2 s and was killed", record(child).name);
     ::kill(child.pid, SIGKILL);
     child.asked = now;
   } else if (since > kAsked) {
@@ -324,7 +327,8 @@ void Processes::end_all() {
     while (child.pid > 0 && ::waitpid(child.pid, &status, WNOHANG) != child.pid) {
       const rt::MonoTime now = rt::MonoClock::now();
       if (now > deadline) {
-        console_.warning("module {} did not end within 2 s and was killed", record(child).name);
+        console_.about(record(child).name)
+            .warning("module {} did not end within 2 s and was killed", record(child).name);
         ::kill(child.pid, SIGKILL);
         ::waitpid(child.pid, &status, 0);
         break;

@@ -58,8 +58,9 @@ void KeyframePart::begin_period() {
     if (subject.due && record.state.load() == scheduler::ModuleState::Running) {
       writer_.note_missed(i);
       if (++subject.missed == kMissedInARow) {
-        console_.warning("module {}: no keyframe for {} s, because its runs leave too little time between them",
-                         record.name, (kKeyframePeriod * kMissedInARow).count() / 1000);
+        console_.about(record.name)
+            .warning("module {}: no keyframe for {} s, because its runs leave too little time between them",
+                     record.name, (kKeyframePeriod * kMissedInARow).count() / 1000);
       }
     }
     subject.due = true;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/base/printable.h"
+
 namespace indurop::node {
 namespace {
 
@@ -40,6 +42,12 @@ std::string describe_overrun(const scheduler::RunBlock& run, const scheduler::Ov
   return text;
 }
 
+// What is said of a module in a summary.
+struct SummaryLine {
+  std::string_view module;
+  std::string text;
+};
+
 }  // namespace
 
 void Console::watch(scheduler::RunBlock& run) {
@@ -64,12 +72,24 @@ void Console::print_messages(rt::MonoTime now) {
   runtime::Message message;
   bool any = false;
   while (reader_->next(message, now)) {
-    std::fwrite(message.text.data(), 1, message.text.size(), stdout);
+    print_message(message);
     any = true;
   }
   if (any) {
     std::fflush(stdout);
   }
+}
+
+// A line feed at the end ends a line of text; entries of the journal have none.
+void Console::print_message(const runtime::Message& message) const {
+  if (!has_journal()) {
+    std::fwrite(message.text.data(), 1, message.text.size(), stdout);
+    return;
+  }
+  const std::string_view text = message.text.substr(0, message.text.find_last_not_of('\n') + 1);
+  const bool of_module = message.module < run_->module_count;
+  about(of_module ? run_->modules()[message.module].name : "")
+      .enter(base::Journal::Priority::Info, base::printable(text, "\t\n"));
 }
 
 void Console::report_faults() {
@@ -78,33 +98,34 @@ void Console::report_faults() {
     const std::uint64_t faults = module.faults.load(std::memory_order_acquire);
     if (faults != seen_[i].faults) {
       seen_[i].faults = faults;
-      error("module {} faulted at tick {}: {}", module.name, module.fault_tick.load(std::memory_order_relaxed),
-            module.last_fault);
+      about(module.name)
+          .error("module {} faulted at tick {}: {}", module.name, module.fault_tick.load(std::memory_order_relaxed),
+                 module.last_fault);
     }
   }
 }
 
 void Console::report_overruns(rt::MonoTime now, bool last) {
   next_summary_ = now + kSummary;
-  std::vector<std::string> lines;
+  std::vector<SummaryLine> lines;
   for (std::uint32_t i = 0; i < run_->module_count; ++i) {
     const scheduler::ModuleRecord& module = run_->modules()[i];
     const std::uint64_t overruns = module.overruns.load(std::memory_order_relaxed);
     if (const std::uint64_t fresh = overruns - seen_[i].overruns; fresh > 0) {
       const scheduler::OverrunEntry* entry = newest_overrun(*run_, i);
-      lines.push_back(fmt::format("module {}: {} overrun{}{}", module.name, fresh, fresh == 1 ? "" : "s",
-                                  entry == nullptr ? "" : ", " + describe_overrun(*run_, *entry)));
+      lines.push_back({module.name, fmt::format("{} overrun{}{}", fresh, fresh == 1 ? "" : "s",
+                                                entry == nullptr ? "" : ", " + describe_overrun(*run_, *entry))});
       seen_[i].overruns = overruns;
     }
     const std::uint64_t misses = module.deadline_misses.load(std::memory_order_relaxed);
     if (const std::uint64_t fresh = misses - seen_[i].misses; fresh > 0) {
-      lines.push_back(fmt::format("module {}: {} deadline{} of {:.1f} us missed", module.name, fresh,
-                                  fresh == 1 ? "" : "s", in_microseconds(module.deadline_ns)));
+      lines.push_back({module.name, fmt::format("{} deadline{} of {:.1f} us missed", fresh, fresh == 1 ? "" : "s",
+                                                in_microseconds(module.deadline_ns))});
       seen_[i].misses = misses;
     }
   }
   for (std::size_t i = 0; i < std::min(lines.size(), kMaxLines); ++i) {
-    warning("{}", lines[i]);
+    about(lines[i].module).warning("module {}: {}", lines[i].module, lines[i].text);
   }
   if (lines.size() > kMaxLines) {
     warning("... and {} more of this kind in 1 s: `indurop overruns` and `indurop status` show all",
@@ -120,8 +141,9 @@ void Console::report_losses() {
     const scheduler::ModuleRecord& module = run_->modules()[i];
     const std::uint64_t lost = module.lost_messages.load(std::memory_order_relaxed);
     if (lost > seen_[i].lost_messages) {
-      warning("module {}: {} lines of irp::printf dropped, its ring was full", module.name,
-              lost - seen_[i].lost_messages);
+      about(module.name)
+          .warning("module {}: {} lines of irp::printf dropped, its ring was full", module.name,
+                   lost - seen_[i].lost_messages);
       seen_[i].lost_messages = lost;
     }
   }

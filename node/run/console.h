@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Output of the node to its user while it runs: text of the modules to stdout, faults, overruns and losses to stderr,
-// summarized so that a permanent overrun cannot flood the terminal.
+// or all of it to the journal; summarized so that a permanent overrun cannot flood the terminal.
 
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/log.h"
@@ -18,7 +20,8 @@ namespace indurop::node {
 
 class Console : public base::Log {
  public:
-  Console(std::string_view node, bool quiet) : base::Log("indurop-node", node, quiet) {}
+  Console(std::string_view node, bool quiet, std::shared_ptr<const base::Journal> journal = {})
+      : base::Log("indurop-node", node, quiet, std::move(journal)) {}
 
   void watch(scheduler::RunBlock& run);
   // Prints the events since the last call. `last`: also those held back to be summarized.
@@ -29,6 +32,7 @@ class Console : public base::Log {
   void report_losses();
 
  private:
+  void print_message(const runtime::Message& message) const;
   void report_faults();
   void report_overruns(rt::MonoTime now, bool last);
 

@@ -32,8 +32,9 @@ bool load_libraries(const config::Config& config, std::vector<ModuleLibrary>& li
     runtime::set_current_module(runtime::kNoModule);
     if (module.operation == Operation::Sporadic && libraries[i].functions().run != nullptr &&
         !libraries[i].functions().condition) {
-      console.error("module {}: a sporadic thread module needs condition(): define `extern \"C\" int condition()`",
-                    module.name);
+      console.about(module.name)
+          .error("module {}: a sporadic thread module needs condition(): define `extern \"C\" int condition()`",
+                 module.name);
       ok = false;
     }
   }

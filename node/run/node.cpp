@@ -101,7 +101,8 @@ int conclude(const Options& options, Console& console, scheduler::RunBlock& run,
 }  // namespace
 
 int run_node(const Options& options) {
-  Console console(options.node, options.quiet);
+  const bool journal = options.journal || base::stderr_is_journal();
+  Console console(options.node, options.quiet, journal ? std::make_shared<const base::Journal>() : nullptr);
   base::StopSignal signals;
   rt::install_guard_handlers();
   rt::catch_faults_also_by(&runtime::catch_fault);

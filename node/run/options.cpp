@@ -58,6 +58,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   line.version(INDUROP_VERSION);
   config::declare_run_options(line, options);
   line.flag("-q,--quiet", options.quiet, "Only warnings and errors");
+  line.flag("--journal", options.journal, "Messages go to systemd's journal; errors to standard error as well");
   line.details(
       "indurop-agent --board NAME makes this host a board that indurop deploy can reach.\n"
       "indurop run PLANT --local runs all boards of a plant on this host.\n");

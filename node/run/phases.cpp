@@ -71,8 +71,9 @@ Phases::CallPointer Phases::begin(std::uint32_t index, const char* phase, void (
     one.done.store(true, std::memory_order_release);
   });
   if (!thread) {
-    console_.error("module {}: {}() could not be called: no thread ({})", config_.modules[index].name, phase,
-                   std::strerror(thread.error().sys_errno));
+    console_.about(config_.modules[index].name)
+        .error("module {}: {}() could not be called: no thread ({})", config_.modules[index].name, phase,
+               std::strerror(thread.error().sys_errno));
     return {nullptr, [](Call* /*none*/) {}};
   }
   call->thread = std::move(thread).value();
@@ -86,8 +87,9 @@ bool Phases::ended(Call& call, rt::MonoTime now, std::chrono::nanoseconds limit)
   if (limit.count() != 0 && now - call.began > limit) {
     call.runner.enforce_budget(now, true, 1);
   } else if (!call.reported && now - call.began > kGrace) {
-    console_.warning("module {}: {}() has not returned for {} s", config_.modules[call.index].name, call.phase,
-                     kGrace.count());
+    console_.about(config_.modules[call.index].name)
+        .warning("module {}: {}() has not returned for {} s", config_.modules[call.index].name, call.phase,
+                 kGrace.count());
     call.reported = true;
   }
   return false;

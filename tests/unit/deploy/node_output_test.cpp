@@ -122,6 +122,40 @@ TEST_F(NodeOutputTest, What_was_not_read_before_it_is_closed_does_not_reach_the_
   EXPECT_EQ(sut_.last_error(), " error: whole");
 }
 
+// A text and all ways to cut it in two, against the rule applied to whole lines.
+TEST(LineFilter, Leaves_out_the_lines_that_begin_so_wherever_they_are_cut) {
+  const std::string text = "node[a]: error: x\nraw\nnode[a\n\nnode[b]: y\n node[a]: z\nnode[a]: \nnode[a]: w";
+  const std::string left = "raw\nnode[a\n\nnode[b]: y\n node[a]: z\n";
+  for (std::size_t cut = 0; cut <= text.size(); ++cut) {
+    LineFilter sut("node[a]: ");
+    std::string out = sut.pass(text.substr(0, cut));
+    out += sut.pass(text.substr(cut));
+    EXPECT_EQ(out + sut.rest(), left) << "cut at " << cut;
+  }
+}
+
+TEST(LineFilter, What_has_begun_like_one_of_them_and_does_not_end_stays) {
+  LineFilter sut("node[a]: ");
+  EXPECT_EQ(sut.pass("whole\nnode["), "whole\n");
+  EXPECT_EQ(sut.rest(), "node[");
+  EXPECT_EQ(sut.pass("a]: not at the begin of a line before\n"), "a]: not at the begin of a line before\n");
+  EXPECT_EQ(LineFilter("").pass("all\nof it"), "all\nof it");
+}
+
+TEST(NodeOutput, An_error_that_the_journal_has_is_remembered_and_not_copied) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
+  const std::string_view text = "indurop-node[a]: error: gone\nterminate called\n";
+  ASSERT_EQ(::write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  NodeOutput sut("indurop-node[a]: ");
+  sut.open(ends[0]);
+  ::testing::internal::CaptureStderr();
+  sut.copy(true);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "terminate called\n");
+  EXPECT_EQ(sut.last_error(), "indurop-node[a]: error: gone");
+  ::close(ends[1]);
+}
+
 TEST(NodeOutput, Closes_its_pipe_at_its_end) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
