@@ -208,7 +208,10 @@ std::optional<std::int64_t> Parts::waiting_ns() const noexcept {
 }
 
 Result<void, Problem> Parts::flush() {
-  return with_room([this] { return writer_->flush(); });
+  if (auto flushed = with_room([this] { return writer_->flush(); }); !flushed) {
+    return flushed;
+  }
+  return writer_->begin_sync();
 }
 
 Result<void, Problem> Parts::attach(std::size_t node, std::string_view name, std::string_view text) {

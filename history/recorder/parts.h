@@ -49,6 +49,7 @@ class Parts {
   // Takes what is available. If the disk is full, the oldest parts are deleted, if parts may be deleted at all. Errors:
   // those of the disk.
   Result<void, base::Problem> take();
+  // Writes what was taken to the file, and begins to bring it to the disk, where it survives a loss of power.
   Result<void, base::Problem> flush();
   // Attaches a text to the node of this number, in the part that is being written. Errors: those of the disk.
   Result<void, base::Problem> attach(std::size_t node, std::string_view name, std::string_view text);

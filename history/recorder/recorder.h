@@ -69,6 +69,8 @@ class Recorder {
   [[nodiscard]] std::optional<std::int64_t> waiting_ns() const noexcept;
   // Writes what is in memory to the file.
   Result<void, base::Problem> flush() { return writer_->flush(); }
+  // Begins to bring to the disk what is in the file, where it survives a loss of power.
+  Result<void, base::Problem> begin_sync() { return writer_->begin_sync(); }
   // Attaches a text to the recording. To be called before conclude().
   Result<void, base::Problem> attach(std::string_view name, std::string_view text);
   // Writes the counts to the file. Afterwards nothing may be taken before go_on_in().

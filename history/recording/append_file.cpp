@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <utility>
 
 #include "core/base/file_problem.h"
@@ -52,7 +53,19 @@ Result<void, base::Problem> AppendFile::append(View bytes) {
   return {};
 }
 
+Result<void, base::Problem> AppendFile::begin_sync() {
+  if (syncing_.valid() && syncing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return {};
+  }
+  const int error = syncing_.valid() ? syncing_.get() : 0;
+  syncing_ = std::async(std::launch::async, [file = file_.get()] {
+    return ::fdatasync(file) == 0 || errno == EINVAL ? 0 : errno;  // EINVAL: it cannot be synced
+  });
+  return error == 0 ? Result<void, base::Problem>() : failed(path_, error);
+}
+
 Result<void, base::Problem> AppendFile::close() {
+  syncing_ = {};
   const int error = ::fsync(file_.get()) != 0 ? errno : 0;
   if (file_.close() != 0 || error != 0) {
     return failed(path_, error != 0 ? error : errno);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <future>
 
 #include "core/base/descriptor.h"
 #include "core/base/problem.h"
@@ -21,6 +22,9 @@ class AppendFile {
 
   // After an error (usually a full disk) the file is as before and the call may be repeated.
   Result<void, base::Problem> append(View bytes);
+  // Begins to bring the bytes to the disk, where they survive a loss of power; does nothing while the last time goes
+  // on. Errors of the last time.
+  Result<void, base::Problem> begin_sync();
   // Returns when the bytes are on the disk. Errors as above; the file is closed then too.
   Result<void, base::Problem> close();
 
@@ -34,6 +38,7 @@ class AppendFile {
 
   std::filesystem::path path_;
   base::Descriptor file_;
+  std::future<int> syncing_;  // an errno, or 0; ends before the file is closed
   std::uint64_t size_ = 0;
   std::uint32_t crc_ = 0;
 };

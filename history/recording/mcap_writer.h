@@ -53,6 +53,8 @@ class McapWriter {
   // Closes the chunk now, for a caller that will have no messages for a while. It is in the file then, but not yet on
   // the disk.
   Result<void, base::Problem> flush();
+  // Begins to bring to the disk what is in the file.
+  Result<void, base::Problem> begin_sync() { return file_.begin_sync(); }
   // Writes the summary; returns when all is on the disk. Afterwards nothing may be called, except close() again if it
   // failed.
   Result<void, base::Problem> close();

@@ -99,7 +99,9 @@ void RecordPart::loop() {
   while (!stop_.load()) {
     take();
     if (const rt::MonoTime now = rt::MonoClock::now(); now - flushed > kFlush) {
-      (void)recorder_.flush();  // tried again with the next chunk
+      if (recorder_.flush()) {  // else tried again with the next chunk
+        (void)recorder_.begin_sync();
+      }
       flushed = now;
     }
     std::this_thread::sleep_for(kRecordPause);

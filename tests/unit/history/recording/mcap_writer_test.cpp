@@ -55,6 +55,20 @@ TEST(Crc32, Is_that_of_zip) {
   EXPECT_EQ(crc32({}), 0U);
 }
 
+TEST_F(Writer, Syncing_changes_nothing_and_may_still_go_on_at_the_end) {
+  McapWriter sut = writer({});
+  declare(sut);
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    put(sut, {1, i, i, i, "one"});
+    ASSERT_TRUE(sut.flush().ok());
+    ASSERT_TRUE(sut.begin_sync().ok());
+  }
+  ASSERT_TRUE(sut.close().ok());
+  auto reader = McapReader::open(path);
+  ASSERT_TRUE(reader.ok());
+  EXPECT_EQ(all(*reader).messages.size(), 50U);
+}
+
 TEST_F(Writer, A_closed_file_says_what_it_holds) {
   McapWriter sut = writer({});
   declare(sut);
