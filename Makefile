@@ -9,7 +9,7 @@ PREFIX ?= /usr/local
 # those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(TEST_JOBS) $(if $(CI),--repeat until-pass:2)
 
-.PHONY: all with-tests demo test quick soak rt-proof deb-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs deb apt install uninstall clean help
+.PHONY: all with-tests demo test quick soak rt-proof target-proof deb-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs deb apt install uninstall clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -32,7 +32,7 @@ demo: ## install what is missing, build what it shows, run the chapter's example
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/robot_cell/demo.sh
 
 test: with-tests ## install what is missing, build, run all tests and lints
-	@$(CTEST) -LE 'tidy|soak|proof_long|million' -O $(CURDIR)/build/ctest.log --output-junit $(CURDIR)/build/ctest.xml; code=$$?; \
+	@$(CTEST) -LE 'tidy|soak|proof_long|million|target' -O $(CURDIR)/build/ctest.log --output-junit $(CURDIR)/build/ctest.xml; code=$$?; \
 	  python3 tests/lint/check_run.py build/ctest.xml build/ctest.log || code=1; exit $$code
 
 quick: with-tests ## unit and golden tests only
@@ -47,6 +47,12 @@ rt-proof: with-tests ## nothing lost, and the maximum: schedules for T seconds o
 	@.ci/install-deps proof
 	@tests/proof/guest.py fetch
 	@INDUROP_PROOF_SECONDS=$(T) $(CTEST) -V -L proof_long
+
+target-proof: CUTS = 10
+target-proof: with-tests ## the packages in a Debian with systemd, and CUTS losses of power (CUTS=1000 at night), in QEMU; as root
+	@.ci/install-deps proof
+	@tests/proof/guest.py fetch
+	@INDUROP_CUTS=$(CUTS) $(CTEST) -V -j 1 -L target
 
 fuzz: T = 10m
 fuzz: with-tests ## all fuzz targets for T each (T=90s, 10m, 2h); findings stay in build/tests/fuzz

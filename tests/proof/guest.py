@@ -4,6 +4,7 @@
 host, its stalls too, does not exist in it. It is one processor, a RAM disk and a shell script; what the script puts
 into /out comes back."""
 
+import lzma
 import os
 import pathlib
 import re
@@ -15,6 +16,8 @@ import tempfile
 
 KERNEL_PACKAGE = "linux-image-6.12-rt-amd64"  # names the newest one
 TOOLS = ("qemu-system-x86_64", "busybox", "cpio", "cyclictest")
+# Drivers of a disk with ext4, in the order in which they are loaded.
+DRIVERS = ("crc32c_generic", "libcrc32c", "crc16", "mbcache", "jbd2", "ext4", "virtio_blk")
 BEGIN, END = "===== out", "===== end"
 
 INIT = """#!/bin/busybox sh
@@ -48,17 +51,21 @@ def kernel():
     return found[-1] if found else None
 
 
+def is_fetched():
+    return kernel() is not None and all((cache() / "drivers" / f"{name}.ko").exists() for name in DRIVERS)
+
+
 def missing():
     """Why there can be no guest here; empty: there can."""
     tools = [tool for tool in TOOLS if not shutil.which(tool)]
     if tools:
         return f"{', '.join(tools)} not found; make rt-proof installs what is missing"
-    return "" if kernel() else f"no kernel in {cache()}/boot; make rt-proof fetches it"
+    return "" if is_fetched() else f"no kernel in {cache()}; make rt-proof fetches it"
 
 
 def fetch_kernel():
     """Debian's package of the kernel into our own folder: it is not installed, for this machine boots another one."""
-    if kernel():
+    if is_fetched():
         return
     listed = subprocess.run(["apt-cache", "depends", KERNEL_PACKAGE], capture_output=True, text=True, check=True).stdout
     name = re.search(r"Depends: (linux-image-\S+)", listed).group(1)
@@ -66,7 +73,11 @@ def fetch_kernel():
         subprocess.run(["apt-get", "-qq", "download", name], cwd=folder, check=True)
         package = next(pathlib.Path(folder).glob("*.deb"))
         subprocess.run(["dpkg-deb", "-x", package, folder + "/x"], check=True)
-        (cache() / "boot").mkdir(parents=True, exist_ok=True)
+        for name in ("boot", "drivers"):
+            (cache() / name).mkdir(parents=True, exist_ok=True)
+        for name in DRIVERS:
+            packed = next(pathlib.Path(folder, "x/lib/modules").rglob(f"{name}.ko.xz"))
+            (cache() / "drivers" / f"{name}.ko").write_bytes(lzma.decompress(packed.read_bytes()))
         for file in pathlib.Path(folder, "x", "boot").glob("vmlinuz-*"):
             shutil.copy(file, cache() / "boot" / (file.name + ".part"))
             (cache() / "boot" / (file.name + ".part")).rename(cache() / "boot" / file.name)
@@ -84,7 +95,7 @@ def libraries(files):
 class Guest:
     """What is in the RAM disk. Programs lie in /bin, files of a test in /test."""
 
-    def __init__(self, programs):
+    def __init__(self, programs, init=INIT):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="indurop-guest-"))
         self.root = self.folder / "root"
         for name in ("bin", "lib64", "lib", "proc", "sys", "dev", "tmp", "out", "test", "run"):
@@ -93,7 +104,7 @@ class Guest:
         for program in programs:
             self.stripped(program, f"bin/{os.path.basename(program)}")
         self.load(programs)
-        (self.root / "init").write_text(INIT)
+        (self.root / "init").write_text(init)
         (self.root / "init").chmod(0o755)
 
     def __enter__(self):
@@ -120,12 +131,20 @@ class Guest:
         self.stripped(file, f"test/{name or os.path.basename(file)}")
         self.load([file])
 
-    def run(self, script, seconds):
-        """What the script left in /out, by name, and the serial console's text. `seconds` of wall time are a hang."""
+    def add_drivers(self):
+        shutil.copytree(cache() / "drivers", self.root / "drivers")
+
+    def pack(self, script):
+        """The RAM disk as a file, which ends with this guest."""
         (self.root / "test" / "test.sh").write_text(script)
         disk = self.folder / "disk.cpio"
         with open(disk, "wb") as out:
             subprocess.run("find . | cpio --quiet -o -H newc", shell=True, cwd=self.root, stdout=out, check=True)
+        return disk
+
+    def run(self, script, seconds):
+        """What the script left in /out, by name, and the serial console's text. `seconds` of wall time are a hang."""
+        disk = self.pack(script)
         console = subprocess.run(
             ["qemu-system-x86_64", "-M", "q35,accel=tcg", "-cpu", "max", "-smp", "1", "-m", "1024", "-nographic",
              "-no-reboot", "-nic", "none", "-rtc", "base=2026-01-01,clock=vm", "-icount", "shift=0,sleep=off",

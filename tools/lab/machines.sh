@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# shellcheck shell=sh disable=SC2154 # lab, here, parts, switch, cores and counted are indurop-lab's
+# shellcheck shell=sh disable=SC2154 # lab, here, parts, switch, cores, counted and bare are indurop-lab's
 # Boards as virtual machines: read by indurop-lab. Debian with its PREEMPT_RT kernel and systemd, made once by mmdebstrap and
-# kept; a board has a disk of its own on top of it, a card on the lab's switch and a second one that only exec uses.
+# kept; a board has a disk of its own on top of it, a hardware watchdog, a card on the lab's switch and a second one that only
+# exec uses.
 
 kernel_package=linux-image-6.12-rt-amd64
 packages="systemd-sysv udev dbus iproute2 iptables kmod procps openssh-server initramfs-tools busybox $kernel_package"
@@ -52,7 +53,7 @@ image() {
   wanted="$packages $(libraries "$from" | tr '\n' ' ')"
   installed=
   # Programs that a package brought into /usr cannot be lent to a machine that has its own /usr: they are copied.
-  if [ "$from" = /usr ]; then installed=$(dpkg-query -W -f '${Version}' indurop 2>/dev/null) || die "which package brought $from/bin/indurop-agent? Install InduRoP's, or use another prefix"; fi
+  if [ "$from" = /usr ] && [ "$bare" = no ]; then installed=$(dpkg-query -W -f '${Version}' indurop 2>/dev/null) || die "which package brought $from/bin/indurop-agent? Install InduRoP's, or use another prefix"; fi
   name=$({ echo "$wanted $installed"; cat "$parts"/guest/*; } | sha256sum | cut -c1-12)
   folder=$images/$name
   if [ ! -d "$folder" ]; then make_image "$folder"; fi
@@ -118,7 +119,7 @@ add_machine() {
   cp --sparse=always --reflink=auto "$folder/disk" "$machines/$1/disk"
   echo "$2" >"$machines/$1/number"
   echo "$folder" >"$machines/$1/image"
-  echo "$from" >"$machines/$1/programs"
+  if [ "$bare" = yes ] || [ "$from" = /usr ]; then : >"$machines/$1/programs"; else echo "$from" >"$machines/$1/programs"; fi
   echo "$cores $counted" >"$machines/$1/processor"
 }
 
@@ -140,9 +141,8 @@ power_on() {
   number=$(fact "$1" number)
   folder=$(fact "$1" image)
   lent=$(fact "$1" programs)
-  [ "$lent" != /usr ] || lent=
   # shellcheck disable=SC2046 # lists of words
-  ip netns exec "$switch" qemu-system-x86_64 -name "$switch.$1" -M q35 $(processor "$1") -m 640 -display none -no-reboot \
+  ip netns exec "$switch" qemu-system-x86_64 -name "$switch.$1" -M q35 $(processor "$1") -m 640 -display none -device i6300esb \
     -daemonize -pidfile "$machines/$1/pid" \
     -chardev "socket,id=console,path=$machines/$1/console,server=on,wait=off,logfile=$machines/$1/log" -serial chardev:console \
     -drive "if=virtio,format=raw,file=$machines/$1/disk" \
