@@ -11,7 +11,6 @@ using base::Problem;
 
 constexpr std::uint64_t kCommittedFormat = 2;
 constexpr std::uint64_t kWithoutDigest = 1;
-constexpr std::size_t kDeploymentsKept = 5;
 
 Json json_of(const Committed& committed, std::uint64_t format) {
   return {{"indurop_state", format},
@@ -87,10 +86,9 @@ Result<Committed, Problem> read_committed(std::string_view text) {
   return out;
 }
 
-std::set<std::string> kept_deployments(const Committed& committed) {
+std::set<std::string> kept_deployments(const Committed& committed, std::size_t most) {
   std::set<std::string> ids{committed.current, committed.previous};
-  for (auto entry = committed.history.rbegin(); entry != committed.history.rend() && ids.size() < kDeploymentsKept;
-       ++entry) {
+  for (auto entry = committed.history.rbegin(); entry != committed.history.rend() && ids.size() < most; ++entry) {
     if (entry->outcome == "committed") {
       ids.insert(entry->deployment);
     }

@@ -6,7 +6,9 @@
 
 #include <indurop/result.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <string_view>
@@ -41,8 +43,16 @@ std::string committed_text(const Committed& committed);
 // accepted without one.
 Result<Committed, base::Problem> read_committed(std::string_view text);
 
-// Returns the ids of the deployments whose files are kept on the board: the current and the previous one, and the
-// newest that were committed earlier.
-std::set<std::string> kept_deployments(const Committed& committed);
+// A board keeps the files of so many deployments, and of so many releases of the platform.
+inline constexpr std::size_t kDeploymentsKept = 5;
+inline constexpr std::size_t kReleasesKept = 2;
+// Returns the ids of the deployments whose files are kept on the board: the current and the previous one, and up to
+// `most` in all the newest that were committed earlier.
+std::set<std::string> kept_deployments(const Committed& committed, std::size_t most = kDeploymentsKept);
+
+// Returns the folder of a board's releases of the platform, in its state folder.
+inline std::filesystem::path platform_folder(const std::filesystem::path& state) {
+  return state / "platform";
+}
 
 }  // namespace indurop::deploy

@@ -30,6 +30,26 @@ Do BoardTransaction::begin(const Order& order, std::uint64_t source, bool joinin
   return Do::Fetch;
 }
 
+void BoardTransaction::resume(const Order& order, bool joining, const std::string& problem, rt::MonoTime now) {
+  (void)begin(order, order.deployer, joining && problem.empty());
+  silence_ = Silence(now);
+  longest_silence_ = problem.empty() ? kReturn : kSilence;
+  trial_end_ = now + std::chrono::nanoseconds(order.health_ns);
+  phase_ = problem.empty() ? Phase::Trial : joining ? Phase::Steady : Phase::Failed;
+  stage_ = problem.empty() ? Phase::Steady : Phase::Trial;
+  message_ = problem;
+  failed_join_ = joining && !problem.empty() ? order.generation : 0;
+}
+
+Do BoardTransaction::committed_elsewhere(const BoardReport& from) {
+  if (phase_ != Phase::Healthy || from.current != order_.deployment || from.generation != order_.generation) {
+    return Do::Nothing;
+  }
+  phase_ = Phase::Steady;
+  finished_ = order_.deployer;
+  return Do::Commit;
+}
+
 Do BoardTransaction::fail(const std::string& problem) {
   const bool running = phase_ == Phase::Trial || phase_ == Phase::Healthy;
   stage_ = phase_;
@@ -83,6 +103,7 @@ Do BoardTransaction::receive(const Order& order, rt::MonoTime now, rt::WallTime 
     return Do::Nothing;
   }
   silence_ = Silence(now);
+  longest_silence_ = kSilence;
   order_.health_ns = std::clamp<std::int64_t>(order.health_ns, 0, kLongestHealth.count());
   switch (order.step) {
     case Step::Prepare:
@@ -174,8 +195,8 @@ Do BoardTransaction::time(rt::MonoTime now) {
   if (phase_ == Phase::Steady) {
     return Do::Nothing;
   }
-  if (!joining_ && silence_.update(now) > kSilence) {
-    return end(fmt::format("there was no message from the deployer for {} s", kSilence.count()));
+  if (!joining_ && silence_.update(now) > longest_silence_) {
+    return end(fmt::format("there was no message from the deployer for {} s", longest_silence_.count()));
   }
   if (phase_ == Phase::Prepared && switch_ && now >= *switch_) {
     phase_ = Phase::Trial;

@@ -34,7 +34,16 @@ class BoardTransaction {
   static constexpr std::chrono::seconds kSlowStart{5};  // added to the health window, for nodes that start slowly
   static constexpr std::chrono::seconds kJoinHealth{3};
 
+  // Time that the deployer has to find a board again whose agent became another program in the trial.
+  static constexpr std::chrono::seconds kReturn{20};
+
   explicit BoardTransaction(std::string board) : board_(std::move(board)) {}
+
+  // The agent that switched was another program: this one continues in the trial, or, with a `problem`, reports that
+  // the trial has failed and was undone.
+  void resume(const Order& order, bool joining, const std::string& problem, rt::MonoTime now);
+  // Another board of the plant has committed what this one has in its trial: the decision, should the deployer be gone.
+  Do committed_elsewhere(const BoardReport& from);
 
   // An order of a deployer arrived. One deployment at a time: orders of other deployers are ignored meanwhile.
   Do receive(const Order& order, rt::MonoTime now, rt::WallTime wall);
@@ -76,6 +85,7 @@ class BoardTransaction {
   std::uint64_t failed_join_ = 0;  // generation that this board failed to take over
   rt::MonoTime retry_;
   Silence silence_;  // of the deployer
+  std::chrono::seconds longest_silence_ = kSilence;
   std::optional<rt::MonoTime> switch_;
   rt::MonoTime trial_end_;
   std::chrono::nanoseconds clock_offset_{};

@@ -16,6 +16,7 @@
 #include "core/base/read_file.h"
 #include "core/base/text.h"
 #include "core/keys/digest.h"
+#include "deploy/words/release_version.h"
 
 namespace indurop::deploy {
 namespace {
@@ -149,6 +150,11 @@ std::string problem_of(const Package& package) {
       }
     }
   }
+  if (!package.release.empty()) {
+    return package.plant.empty() && package.boards.empty() && is_release_version(package.release)
+               ? ""
+               : "it is neither a release of the platform nor a plant";
+  }
   if (!paths.contains(package.manifest)) {
     return "the manifest is not among its files";
   }
@@ -182,11 +188,13 @@ std::string to_text(const Package& package) {
     files.push_back(
         {{"path", file.path}, {"sha256", file.digest}, {"size", file.size}, {"executable", file.executable}});
   }
-  Json whole = {{"indurop_package", kFormat},
-                {"plant", package.plant},
-                {"manifest", package.manifest},
-                {"boards", package.boards},
-                {"files", files}};
+  Json whole = package.release.empty()
+                   ? Json{{"indurop_package", kFormat},
+                          {"plant", package.plant},
+                          {"manifest", package.manifest},
+                          {"boards", package.boards},
+                          {"files", files}}
+                   : Json{{"indurop_package", kFormat}, {"release", package.release}, {"files", files}};
   if (!package.comment.empty()) {
     whole["comment"] = package.comment;
   }
@@ -207,8 +215,9 @@ Result<Package, base::Problem> read_package(std::string_view text) {
   Package package;
   const Json& files = whole["files"];
   (void)read(whole, "comment", package.comment);
-  if (!read(whole, "plant", package.plant) || !read(whole, "manifest", package.manifest) ||
-      !read(whole, "boards", package.boards) || package.boards.size() > kMaxBoards || !files.is_array() ||
+  const bool is_plant = read(whole, "plant", package.plant) && read(whole, "manifest", package.manifest) &&
+                        read(whole, "boards", package.boards);
+  if (is_plant == read(whole, "release", package.release) || package.boards.size() > kMaxBoards || !files.is_array() ||
       files.values().size() > kMaxFiles || package.comment.size() > kLongestComment) {
     return damaged;
   }

@@ -31,6 +31,9 @@ struct Package {
   std::vector<std::string> boards;  // boards of the plant, in file order
   std::vector<PackageFile> files;   // by path
   std::string comment;              // comment of the user who deploys it
+  // Version of the platform of which these files are the programs and libraries, for boards of any plant: plant,
+  // manifest and boards are empty then. Empty: a plant.
+  std::string release;
 };
 
 std::string to_text(const Package& package);

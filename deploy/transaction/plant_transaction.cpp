@@ -17,8 +17,9 @@ bool same_progress(const BoardReport& a, const BoardReport& b) {
 
 }  // namespace
 
-PlantTransaction::PlantTransaction(Order order, std::chrono::nanoseconds patience, rt::MonoTime now)
-    : order_(std::move(order)), patience_(patience), moved_(now) {
+PlantTransaction::PlantTransaction(Order order, std::chrono::nanoseconds patience, rt::MonoTime now,
+                                   std::chrono::nanoseconds lost)
+    : order_(std::move(order)), patience_(patience), lost_patience_(lost), moved_(now) {
   order_.step = Step::Prepare;
 }
 
@@ -81,7 +82,7 @@ void PlantTransaction::board_lost(const std::string& board, std::uint64_t agent,
 
 void PlantTransaction::miss_lost(rt::MonoTime now) {
   for (auto& [board, silence] : lost_) {
-    if (silence.update(now) > kLost) {
+    if (silence.update(now) > lost_patience_) {
       abort(Verdict::Refused, board, "it no longer reports", now);
     }
   }

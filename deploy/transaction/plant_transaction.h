@@ -31,11 +31,12 @@ class PlantTransaction {
   static constexpr std::chrono::milliseconds kSwitchAhead{300};
   static constexpr std::chrono::seconds kBusy{3};  // time another deployer has to give way
   static constexpr std::chrono::seconds kWindUp{10};
-  static constexpr std::chrono::seconds kLost{3};  // time a board that the network has lost has to come back
+  static constexpr std::chrono::seconds kLost{3};
 
   // `order` without step and times: deployer, host, deployment, size, generation, boards, health. `patience`: maximum
-  // time without any event while boards prepare.
-  PlantTransaction(Order order, std::chrono::nanoseconds patience, rt::MonoTime now);
+  // time without any event while boards prepare. `lost`: time a board that the network has lost has to come back.
+  PlantTransaction(Order order, std::chrono::nanoseconds patience, rt::MonoTime now,
+                   std::chrono::nanoseconds lost = kLost);
 
   void receive(const BoardReport& report, rt::MonoTime now);
   // The network has lost a board. It is waited for a while: on a busy machine it comes back.
@@ -67,6 +68,7 @@ class PlantTransaction {
 
   Order order_;
   std::chrono::nanoseconds patience_;
+  std::chrono::nanoseconds lost_patience_;
   rt::MonoTime moved_;   // time of the last event
   rt::MonoTime ending_;  // when Commit or Abort was published
   bool switched_ = false;

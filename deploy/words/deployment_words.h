@@ -147,6 +147,8 @@ inline constexpr std::size_t kShownDigits = 12;
 inline std::string shown_id(const std::string& id) {
   return id.substr(0, kShownDigits);
 }
+// Id of the release of the platform that is installed on a board, in place of that of one that was deployed to it.
+inline constexpr const char* kInstalledRelease = "installed";
 // Blob name in place of a digest: the list of a board's earlier deployments, as JSON.
 inline constexpr const char* kHistoryBlob = "history";
 // Blob name: the variables that the board's node currently reads from other boards, and their age.

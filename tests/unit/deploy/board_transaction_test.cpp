@@ -217,5 +217,65 @@ TEST_F(Board, A_deployer_comes_before_taking_over) {
   EXPECT_EQ(sut_.source(), 7U);
 }
 
+// The agent that switched ended, as a release of the platform does; this one continues.
+class Successor : public Board {
+ protected:
+  void resume(const std::string& problem = {}, bool joining = false) {
+    sut_.resume(order(Step::Prepare), joining, problem, now_);
+  }
+  BoardReport committed(std::uint64_t generation) const {
+    BoardReport report;
+    report.current = "d1";
+    report.generation = generation;
+    return report;
+  }
+};
+
+TEST_F(Successor, Commits_what_its_predecessor_began) {
+  resume();
+  EXPECT_EQ(sut_.phase(), Phase::Trial);
+  now_ += kSecond;
+  EXPECT_EQ(sut_.node("", "", now_), Do::Nothing);
+  EXPECT_EQ(sut_.phase(), Phase::Healthy);
+  EXPECT_EQ(hear(Step::Commit), Do::Commit);
+}
+
+TEST_F(Successor, Waits_longer_until_it_has_heard_the_deployer_once) {
+  resume();
+  EXPECT_EQ(listen_for(BoardTransaction::kReturn), Do::Nothing);
+  EXPECT_EQ(listen_for(kSecond), Do::GoBack);
+}
+
+TEST_F(Successor, Waits_as_usual_once_it_has_heard_the_deployer) {
+  resume();
+  EXPECT_EQ(hear(Step::Switch), Do::Nothing);
+  EXPECT_EQ(listen_for(BoardTransaction::kSilence), Do::Nothing);
+  EXPECT_EQ(listen_for(kSecond), Do::GoBack);
+}
+
+TEST_F(Successor, Commits_what_another_board_has_committed_once_it_is_healthy) {
+  resume();
+  EXPECT_EQ(sut_.committed_elsewhere(committed(3)), Do::Nothing) << "it is not healthy yet";
+  now_ += kSecond;
+  EXPECT_EQ(sut_.node("", "", now_), Do::Nothing);
+  EXPECT_EQ(sut_.committed_elsewhere(committed(2)), Do::Nothing) << "that was another time";
+  EXPECT_EQ(sut_.committed_elsewhere(committed(3)), Do::Commit);
+  EXPECT_EQ(sut_.phase(), Phase::Steady);
+}
+
+TEST_F(Successor, Reports_that_the_trial_failed_until_the_deployer_knows) {
+  resume("it crashed");
+  EXPECT_EQ(sut_.phase(), Phase::Failed);
+  EXPECT_EQ(sut_.message(), "it crashed");
+  EXPECT_EQ(hear(Step::Abort), Do::Nothing);
+  EXPECT_EQ(sut_.phase(), Phase::Steady);
+}
+
+TEST_F(Successor, Of_a_board_that_joined_does_not_wait_for_a_deployer) {
+  resume("it crashed", true);
+  EXPECT_EQ(sut_.phase(), Phase::Steady);
+  EXPECT_EQ(sut_.message(), "it crashed");
+}
+
 }  // namespace
 }  // namespace indurop::deploy
