@@ -42,6 +42,12 @@ inline std::string board_topics(std::string_view plant, std::string_view board) 
 inline std::string deploy_topics() {
   return topic_root() + "deploy/";
 }
+// The update of the platform itself. Its topics keep the number of the first release that had them: boards and desk are
+// of different releases then, perhaps of different protocols. They lie where every board's keys let it publish and
+// every participant listen; orders count by their signature.
+inline std::string platform_topics() {
+  return "indurop/6/deploy/blob/platform/";
+}
 // Topics of the external plane for InduRoP's own tools: the variables a board offers, and those a tool requests.
 inline std::string directory_topic() {
   return topic_root() + "external/directory";

@@ -17,6 +17,7 @@
 #include "deploy/agent/fetcher.h"
 #include "deploy/agent/offer.h"
 #include "deploy/agent/other_boards.h"
+#include "deploy/agent/platform_update.h"
 #include "deploy/agent/report_schedule.h"
 #include "deploy/agent/service_manager.h"
 #include "deploy/link/blob_server.h"
@@ -37,11 +38,12 @@ std::string text_of(const Result<void, base::Problem>& result) {
 
 class Agent {
  public:
-  Agent(const AgentOptions& options, const base::Log& log, AgentState& state)
+  Agent(const AgentOptions& options, const base::Log& log, AgentState& state, AgentState& platform,
+        const RunningRelease& running)
       : options_(options),
         log_(log),
         state_(state),
-        self_(new_session()),
+        self_(continued_session(platform) != 0 ? continued_session(platform) : new_session()),
         keys_(options.board),
         deployment_(state, options.board, options.link.network.one_host),
         transaction_(options.board),
@@ -57,7 +59,8 @@ class Agent {
         server_(self_,
                 [this](const std::string& name) { return offer(name, options_.board, state_, values_, verify_); }),
         net_(link_settings(options, self_), keys_, log),
-        others_(options.board, log) {
+        others_(options.board, log),
+        platform_(options.board, self_, running, platform, keys_, process_, log) {
     host_ = host_name();
   }
 
@@ -78,6 +81,11 @@ class Agent {
         send_report(now);
       }
       follow(now);
+      platform_.step(net_.platform(), state_.committed(), transaction_.phase() == Phase::Steady, now);
+      if (platform_.leaves()) {
+        net_.leave();
+        platform_.leave();
+      }
       pause(signals);
     }
     log_.info("stopping: signal {}", signals.received());
@@ -121,7 +129,7 @@ class Agent {
   }
 
   void connect(rt::MonoTime now) {
-    const bool idle = transaction_.phase() == Phase::Steady && !fetcher_.active() && !busy_;
+    const bool idle = transaction_.phase() == Phase::Steady && !fetcher_.active() && !busy_ && !platform_.under_way();
     if (net_.keep(now, state_.committed().plant, idle)) {
       others_.clear();
       report_schedule_.request();
@@ -138,7 +146,7 @@ class Agent {
       keep_box(why);
     }
     for (const auto& [key, other] : others_.all()) {
-      if (deployment_.lacks(other, damaged_) &&
+      if (deployment_.lacks(other, damaged_) && !platform_.under_way() &&
           keys_.refusal(other.plant, grant_text(other.plant, other.current, other.generation), other.grant).empty()) {
         perform(transaction_.catch_up(other, now), now);
       }
@@ -169,6 +177,9 @@ class Agent {
         order.deployer != transaction_.order().deployer) {
       why = "this board has a newer deployment than that; deploy again";
     }
+    if (why.empty() && begins && platform_.under_way()) {
+      why = "the platform of this board is being updated";
+    }
     if (!why.empty() && order.step == Step::Prepare && refusal_.deployer != order.deployer) {
       log_.warning("an order from {} was rejected: {}", order.host, why);
       refusal_ = {order.deployer, why};
@@ -179,7 +190,10 @@ class Agent {
 
   void work(rt::MonoTime now) {
     if (board_commands_.step(*net_.commands(), state_.committed().plant,
-                             transaction_.phase() == Phase::Steady ? "" : "a deployment is under way", now)) {
+                             platform_.under_way()                   ? "its platform is being updated"
+                             : transaction_.phase() == Phase::Steady ? ""
+                                                                     : "a deployment is under way",
+                             now)) {
       values_.forget();  // the user who has set something sees it at once
     }
     if (fetcher_.active()) {
@@ -274,7 +288,7 @@ class Agent {
     out.board = options_.board;
     out.agent = self_;
     out.host = host_;
-    out.release = INDUROP_VERSION;
+    out.release = platform_.version();
     out.deployer = order.deployer;
     out.deployer_host = order.host;
     out.proposed = order.deployment;
@@ -338,6 +352,7 @@ class Agent {
   ServiceManager service_manager_;
   BoardLink net_;
   OtherBoards others_;
+  PlatformUpdate platform_;
   Refusal refusal_;
   bool damaged_ = false;  // the committed deployment is damaged, and this board cannot restore it on its own
   bool busy_ = false;
@@ -346,16 +361,22 @@ class Agent {
 
 }  // namespace
 
-int run_agent(const AgentOptions& options) {
-  base::StopSignal signals;
+int run_agent(const AgentOptions& options, char** arguments) {
   const base::Log log("indurop-agent", options.board, options.quiet,
                       options.journal ? std::make_shared<const base::Journal>() : nullptr);
+  const RunningRelease running = become_release(options.board, arguments, log);
+  base::StopSignal signals;
   auto state = AgentState::open(options.board, [&log](const std::string& line) { log.error("{}", line); });
   if (!state) {
     log.error("{}", state.error().text);
     return kFailed;
   }
-  return Agent(options, log, *state).run(signals);
+  auto platform = AgentState::open_platform(options.board, [&log](const std::string& line) { log.error("{}", line); });
+  if (!platform) {
+    log.error("{}", platform.error().text);
+    return kFailed;
+  }
+  return Agent(options, log, *state, *platform, running).run(signals);
 }
 
 }  // namespace indurop::deploy

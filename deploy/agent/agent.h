@@ -8,7 +8,8 @@
 
 namespace indurop::deploy {
 
-// Runs until a stop signal; returns the program's exit code.
-int run_agent(const AgentOptions& options);
+// Runs until a stop signal; returns the program's exit code. Becomes the agent of the board's release of the platform
+// first, with the same `arguments`, those of main().
+int run_agent(const AgentOptions& options, char** arguments);
 
 }  // namespace indurop::deploy

@@ -81,7 +81,15 @@ void remove_others(const fs::path& folder, const std::set<std::string>& wanted, 
 }  // namespace
 
 Result<AgentState, Problem> AgentState::open(const std::string& board, Log log) {
-  const fs::path folder = vars::state_directory(board);
+  return open_in(vars::state_directory(board), board, kDeploymentsKept, std::move(log));
+}
+
+Result<AgentState, Problem> AgentState::open_platform(const std::string& board, Log log) {
+  return open_in(platform_folder(vars::state_directory(board)), board, kReleasesKept, std::move(log));
+}
+
+Result<AgentState, Problem> AgentState::open_in(const fs::path& folder, const std::string& board, std::size_t kept,
+                                                Log log) {
   std::error_code error;
   for (const fs::path& needed : {folder / "files", folder / "parts", folder / "deployments"}) {
     fs::create_directories(needed, error);
@@ -99,7 +107,7 @@ Result<AgentState, Problem> AgentState::open(const std::string& board, Log log) 
   if (lock < 0) {
     return failed("cannot open", lock_file, errno);
   }
-  AgentState state(folder, lock, std::move(log));
+  AgentState state(folder, lock, kept, std::move(log));
   if (!rt::lock_file(lock, rt::FileLock::Exclusive)) {
     return Problem{fmt::format("another agent of board {} runs on this host", board)};
   }
@@ -112,6 +120,7 @@ Result<AgentState, Problem> AgentState::open(const std::string& board, Log log) 
 AgentState::AgentState(AgentState&& other) noexcept
     : files_(std::move(other.files_)),
       lock_(std::exchange(other.lock_, -1)),
+      kept_(other.kept_),
       log_(std::move(other.log_)),
       committed_(std::move(other.committed_)) {}
 
@@ -300,14 +309,14 @@ AgentState::Needed AgentState::needed_by(const std::set<std::string>& ids) const
 
 // If the package of a deployment is damaged, it is not known which files it needs.
 void AgentState::remove_files_but(const std::set<std::string>& needed, bool old_only) const {
-  const auto is_known = [this](const std::string& id) { return id.empty() || package(id); };
+  const auto is_known = [this](const std::string& id) { return id.empty() || id == kInstalledRelease || package(id); };
   if (is_known(committed_.current) && is_known(committed_.previous)) {
     remove_others(folder() / "files", needed, old_only ? kPiecesKept : std::chrono::hours{});
   }
 }
 
 void AgentState::collect_garbage(const std::string& tried) {
-  std::set<std::string> ids = kept_deployments(committed_);
+  std::set<std::string> ids = kept_deployments(committed_, kept_);
   std::set<std::string> pieces;
   if (!tried.empty()) {
     ids.insert(tried);
@@ -320,7 +329,7 @@ void AgentState::collect_garbage(const std::string& tried) {
 }
 
 void AgentState::collect_old_garbage() {
-  const Needed needed = needed_by(kept_deployments(committed_));
+  const Needed needed = needed_by(kept_deployments(committed_, kept_));
   remove_others(folder() / "deployments", needed.folders, kPiecesKept);
   remove_files_but(needed.files, true);
   remove_others(folder() / "parts", {}, kPiecesKept);

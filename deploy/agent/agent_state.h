@@ -30,6 +30,8 @@ class AgentState {
   // problem: no rights, or another agent holds the folder.
   using Log = std::function<void(const std::string& line)>;
   static Result<AgentState, base::Problem> open(const std::string& board, Log log = {});
+  // As open(), for the releases of the platform, which are kept as deployments are: the running and the former one.
+  static Result<AgentState, base::Problem> open_platform(const std::string& board, Log log = {});
   AgentState(AgentState&& other) noexcept;
   AgentState& operator=(AgentState&&) = delete;
   AgentState(const AgentState&) = delete;
@@ -72,8 +74,10 @@ class AgentState {
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return files_.folder(); }
 
  private:
-  AgentState(std::filesystem::path folder, int lock, Log log)
-      : files_(std::move(folder)), lock_(lock), log_(std::move(log)) {}
+  AgentState(std::filesystem::path folder, int lock, std::size_t kept, Log log)
+      : files_(std::move(folder)), lock_(lock), kept_(kept), log_(std::move(log)) {}
+  static Result<AgentState, base::Problem> open_in(const std::filesystem::path& folder, const std::string& board,
+                                                   std::size_t kept, Log log);
   Result<void, base::Problem> load();
   void log(const std::string& line) const;
   Result<void, base::Problem> lay_out(const Package& package, const std::filesystem::path& fresh);
@@ -87,6 +91,7 @@ class AgentState {
 
   DeploymentFiles files_;
   int lock_ = -1;
+  std::size_t kept_;  // number of deployments
   Log log_;
   Committed committed_;
 };

@@ -68,7 +68,12 @@ std::string BoardLink::join() {
   if (!commands) {
     return commands.error().text;
   }
+  auto platform = opened->link->open_platform();
+  if (!platform) {
+    return platform.error().text;
+  }
   link_ = std::move(opened->link);
+  platform_ = std::move(platform).value();
   commands_ = std::move(commands).value();
   if (own_.folder.empty()) {
     log_.info("open: this board has no keys, so any program on this network can command its agent");
@@ -80,6 +85,7 @@ std::string BoardLink::join() {
 
 void BoardLink::leave() noexcept {
   commands_.reset();
+  platform_.reset();
   link_.reset();
 }
 

@@ -24,8 +24,10 @@ class BoardLink {
   // committed. Returns true if it has joined just now.
   bool keep(rt::MonoTime now, const std::string& plant, bool idle);
   void leave() noexcept;
-  // Null while not connected; link() and commands() are either both null or both valid.
+  // Null while not connected; link(), platform() and commands() are either all null or all valid.
   [[nodiscard]] DeployLink* link() const noexcept { return link_.get(); }
+  // The same boards, about the platform.
+  [[nodiscard]] DeployLink* platform() const noexcept { return platform_.get(); }
   [[nodiscard]] CommandLink* commands() const noexcept { return commands_.get(); }
 
  private:
@@ -37,6 +39,7 @@ class BoardLink {
   const DeployKeys& keys_;
   const base::Log& log_;
   std::unique_ptr<DeployLink> link_;
+  std::unique_ptr<DeployLink> platform_;   // in the participant of link_
   std::unique_ptr<CommandLink> commands_;  // destroyed first
   OwnKeys own_;
   rt::MonoTime join_at_;

@@ -17,6 +17,7 @@
 #include "core/rt/clock.h"
 #include "deploy/agent/node_program.h"
 #include "deploy/agent/options.h"
+#include "deploy/agent/release_programs.h"
 #include "network/mirror/frames/mirror_block.h"
 #include "scheduler/run_block.h"
 #include "store/vars/node_lock.h"
@@ -24,6 +25,8 @@
 
 namespace indurop::deploy {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kNodeGrace{10};  // a node gives its own modules and processes a few seconds
 constexpr std::chrono::milliseconds kNodePoll{10};
@@ -102,9 +105,12 @@ bool BoardProcess::adopt() {
   if (pid <= 0) {
     return false;
   }
+  std::error_code error;
   auto file = vars::RunFile::open(board_, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
   const auto* block = file ? block_of(file.value()) : nullptr;
-  running_ = block != nullptr && block->node_pid.load() == pid
+  const bool same_release = release_folder_in(fs::read_symlink(fmt::format("/proc/{}/exe", pid), error)) ==
+                            release_folder_in(node_program_path(program_));
+  running_ = same_release && block != nullptr && block->node_pid.load() == pid
                  ? std::string(block->deployment, ::strnlen(block->deployment, sizeof block->deployment))
                  : std::string{};
   pid_ = pid;

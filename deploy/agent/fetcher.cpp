@@ -91,7 +91,8 @@ Fetcher::Attempt Fetcher::plan_files() {
   wanted_.clear();
   at_ = 0;
   std::set<std::string> seen;
-  const bool needed = std::find(package->boards.begin(), package->boards.end(), board_) != package->boards.end();
+  const bool needed = !package->release.empty() ||
+                      std::find(package->boards.begin(), package->boards.end(), board_) != package->boards.end();
   for (const PackageFile& file : package->files) {
     if (needed && seen.insert(file.digest).second && !state_.restore(id_, file)) {
       wanted_.push_back({file.digest, file.size, file.path});

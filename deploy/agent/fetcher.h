@@ -24,7 +24,7 @@ namespace indurop::deploy {
 
 class Fetcher {
  public:
-  // If a deployment does not include `board`, only its package is fetched.
+  // If a deployment of a plant does not include `board`, only its package is fetched.
   Fetcher(AgentState& state, std::uint64_t self, std::string board)
       : state_(state), self_(self), board_(std::move(board)) {}
   Fetcher(const Fetcher&) = delete;

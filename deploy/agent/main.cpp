@@ -6,5 +6,5 @@
 
 int main(int argc, char** argv) {
   const auto options = indurop::deploy::parse_options(argc, argv);
-  return options ? indurop::deploy::run_agent(*options) : options.error();
+  return options ? indurop::deploy::run_agent(*options, argv) : options.error();
 }

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
+#include <optional>
 #include <random>
+#include <utility>
 
 #include "core/rt/clock.h"
 #include "core/rt/machine.h"
@@ -33,14 +36,6 @@ constexpr std::int32_t kReports = 8;  // of one name: several threads of DDS may
 constexpr std::int64_t kLettingInNs = 2'000'000'000;
 constexpr std::size_t kMaxRoom = 2U << 20U;
 
-std::string topic_name(const std::string& what) {
-  return schema::deploy_topics() + what;
-}
-
-std::string blob_topic(std::uint64_t requester) {
-  return topic_name(fmt::format("blob/{:016x}", requester));
-}
-
 dds::Qos link_qos(bool state, bool writer) {
   return dds::make_qos({.block_ns = kChunkBlockNs,
                         .for_late_ones = state,
@@ -54,17 +49,28 @@ dds::Qos link_qos(bool state, bool writer) {
 }  // namespace
 
 struct DeployLink::Impl {
-  explicit Impl(const std::string& certificate) : senders(certificate) {}
+  Impl(Subject about, std::uint64_t session, std::string own_certificate)
+      : subject(about), self(session), certificate(std::move(own_certificate)), senders(certificate) {
+    wake.init(false);
+  }
   Result<void, base::Problem> make();
+  [[nodiscard]] std::string topic_name(const std::string& what) const {
+    return (subject == Subject::Plant ? schema::deploy_topics() : schema::platform_topics()) + what;
+  }
+  [[nodiscard]] std::string blob_topic(std::uint64_t requester) const {
+    return topic_name(fmt::format("blob/{:016x}", requester));
+  }
   dds::Endpoint reader(const dds::TypeDescriptor& type, const std::string& topic, bool state,
                        const dds::Listener& listener);
   dds::Endpoint writer(const dds::TypeDescriptor& type, const std::string& topic, bool state);
 
-  std::uint64_t self = 0;
+  Subject subject;
+  std::uint64_t self;
+  std::string certificate;
   rt::SignalWord wake{};  // used by listeners until the readers are gone
   ReportInbox reports{wake};
-  dds::Participant participant;
-  dds::OtherReleases others;
+  std::shared_ptr<dds::Participant> participant;
+  std::optional<dds::OtherReleases> others;
   Speakers senders;
   dds::Endpoint boards_out;
   dds::Endpoint orders_out;
@@ -78,11 +84,11 @@ struct DeployLink::Impl {
 
 dds::Endpoint DeployLink::Impl::reader(const dds::TypeDescriptor& type, const std::string& topic, bool state,
                                        const dds::Listener& listener) {
-  return dds::make_reader(participant.get(), type, topic, link_qos(state, false), listener);
+  return dds::make_reader(participant->get(), type, topic, link_qos(state, false), listener);
 }
 
 dds::Endpoint DeployLink::Impl::writer(const dds::TypeDescriptor& type, const std::string& topic, bool state) {
-  return dds::make_writer(participant.get(), type, topic, link_qos(state, true));
+  return dds::make_writer(participant->get(), type, topic, link_qos(state, true));
 }
 
 Result<void, base::Problem> DeployLink::Impl::make() {
@@ -101,7 +107,7 @@ Result<void, base::Problem> DeployLink::Impl::make() {
       return base::Problem{"deployment topics cannot be made: " + end->why()};
     }
   }
-  return others.open(participant.get());
+  return {};
 }
 
 void add_agent_options(base::Options& line, LinkSettings& settings) {
@@ -134,19 +140,29 @@ Result<DeployLink::Opened, base::Problem> DeployLink::open(const LinkSettings& s
   dds::NetworkSettings network = settings.network;
   network.known_ports = true;
   network.lease_ns = kLeaseNs;
-  auto impl = std::make_unique<Impl>(network.security.certificate);
-  impl->self = settings.self;
-  impl->wake.init(false);
+  auto impl = std::make_unique<Impl>(settings.subject, settings.self, network.security.certificate);
   auto joined = dds::join_network(network);
   if (!joined) {
     return std::move(joined).error();
   }
-  impl->participant = std::move(joined->participant);
+  impl->participant = std::make_shared<dds::Participant>(std::move(joined->participant));
   if (auto made = impl->make(); !made) {
     return std::move(made).error();
   }
+  if (auto opened = impl->others.emplace().open(impl->participant->get()); !opened) {
+    return std::move(opened).error();
+  }
   return Opened{std::unique_ptr<DeployLink>(new DeployLink(std::move(impl), network.security.on())),
                 std::move(joined->note)};
+}
+
+Result<std::unique_ptr<DeployLink>, base::Problem> DeployLink::open_platform() const {
+  auto impl = std::make_unique<Impl>(Subject::Platform, impl_->self, impl_->certificate);
+  impl->participant = impl_->participant;
+  if (auto made = impl->make(); !made) {
+    return std::move(made).error();
+  }
+  return std::unique_ptr<DeployLink>(new DeployLink(std::move(impl), letting_in_ns_ > 0));
 }
 
 DeployLink::DeployLink(std::unique_ptr<Impl> impl, bool secured)
@@ -173,7 +189,7 @@ void DeployLink::request(const BlobRequest& request) {
 DeployLink::Sent DeployLink::send(std::uint64_t requester, const BlobChunk& chunk) {
   dds::Endpoint& writer = impl_->blobs_out[requester];
   if (!writer.ok()) {
-    writer = impl_->writer(indurop_deploy_Chunk_desc, blob_topic(requester), false);
+    writer = impl_->writer(indurop_deploy_Chunk_desc, impl_->blob_topic(requester), false);
   }
   const auto readers = writer.ok() ? dds::readers_of(writer.get()) : std::nullopt;
   if (!readers) {
@@ -249,9 +265,12 @@ std::vector<deploy::BlobChunk> DeployLink::take_chunks() {
 
 std::vector<deploy::OtherAgent> DeployLink::other_agents() {
   constexpr const char* kTool = "indurop";  // it has the same topics, and leaves again
-  (void)impl_->others.poll();
   std::vector<deploy::OtherAgent> agents;
-  for (dds::OtherReleases::Sender& speaker : impl_->others.senders()) {
+  if (!impl_->others) {
+    return agents;
+  }
+  (void)impl_->others->poll();
+  for (dds::OtherReleases::Sender& speaker : impl_->others->senders()) {
     if (speaker.topic.plant == "deploy" && speaker.program != kTool) {
       agents.push_back({speaker.topic.protocol, std::move(speaker.name), std::move(speaker.host)});
     }
@@ -268,7 +287,7 @@ bool DeployLink::speaks_for(int reader, std::uint64_t publication, const std::st
 }
 
 int DeployLink::participant() const noexcept {
-  return impl_->participant.get();
+  return impl_->participant->get();
 }
 
 rt::SignalWord& DeployLink::wake_word() noexcept {

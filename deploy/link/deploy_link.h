@@ -24,6 +24,9 @@ class SignalWord;
 
 namespace indurop::deploy {
 
+// What a link is about: the plants of the boards, or the platform that runs them.
+enum class Subject : std::uint8_t { Plant, Platform };
+
 struct LinkSettings {
   // Differs from the domain of plants: boards without any deployment are found in it, and values of plants are not sent
   // in it.
@@ -32,6 +35,7 @@ struct LinkSettings {
   dds::NetworkSettings network;
   std::filesystem::path keys;  // folder of network.security; empty: none
   std::uint64_t self = 0;      // session of this agent or deployer
+  Subject subject = Subject::Plant;
 };
 
 // Adds --domain, --interface and --one-host, for agents and their clients.
@@ -54,6 +58,8 @@ class DeployLink {
   };
   // Returns a problem if the network is not available now: try again later.
   static Result<Opened, base::Problem> open(const LinkSettings& settings);
+  // Opens a link about the platform in the participant of this one, which must not end before it.
+  Result<std::unique_ptr<DeployLink>, base::Problem> open_platform() const;
   DeployLink(const DeployLink&) = delete;
   DeployLink& operator=(const DeployLink&) = delete;
   ~DeployLink();
@@ -87,7 +93,8 @@ class DeployLink {
   // Returns how much longer discovery takes than on an open network: participants authenticate each other first.
   [[nodiscard]] std::int64_t letting_in_ns() const noexcept { return letting_in_ns_; }
 
-  // Returns the agents in the network with another protocol, as far as they are known by now.
+  // Returns the agents in the network with another protocol, as far as they are known by now; a link in the participant
+  // of another one knows none.
   std::vector<deploy::OtherAgent> other_agents();
 
   // In a plant with keys: participants that report under another name, as far as they were received.

@@ -50,6 +50,9 @@ Result<PlantSource, Failure> read_bundle(Context& context, const std::string& fi
   if (!opened) {
     return Failure{kFailed, std::move(opened).error().text};
   }
+  if (!opened->packed.package.release.empty()) {
+    return Failure{kUsage, fmt::format("{} is a release of the platform; indurop platform deploy takes it", file)};
+  }
   CheckedPlant checked = load_plant(opened->manifest.string(), {});
   if (!print_check(context, checked)) {
     return Failure{kCheckFailed, {}};

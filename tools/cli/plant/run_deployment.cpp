@@ -53,7 +53,8 @@ class Run {
         roster_(roster),
         deployment_(std::move(deployment)),
         server_(deployment_.order.deployer, deployment_.files),
-        transaction_(deployment_.order, std::chrono::nanoseconds(deployment_.patience_ns), rt::MonoClock::now()) {}
+        transaction_(deployment_.order, std::chrono::nanoseconds(deployment_.patience_ns), rt::MonoClock::now(),
+                     deployment_.lost) {}
 
   int run() {
     for (const std::string& board : deployment_.order.boards) {

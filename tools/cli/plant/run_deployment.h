@@ -5,6 +5,7 @@
 
 #include <indurop/result.h>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -12,6 +13,7 @@
 #include "core/base/problem.h"
 #include "deploy/link/blob_server.h"
 #include "deploy/link/deploy_link.h"
+#include "deploy/transaction/plant_transaction.h"
 #include "deploy/words/deployment_words.h"
 #include "tools/cli/command/verb.h"
 #include "tools/client/board/board_roster.h"
@@ -23,9 +25,10 @@ struct Deployment {
   deploy::Order order;  // who, what, for whom
   std::string key;      // private key that signs the commands; empty: unsigned
   deploy::BlobServer::Find files;
-  std::int64_t patience_ns = 0;  // maximum time without any progress
-  JsonValue head;                // of the result as JSON
-  std::string title;             // "plant cell, deployment 0123456789ab"
+  std::int64_t patience_ns = 0;                                     // maximum time without any progress
+  std::chrono::nanoseconds lost = deploy::PlantTransaction::kLost;  // time that a lost board has to come back
+  JsonValue head;                                                   // of the result as JSON
+  std::string title;                                                // "plant cell, deployment 0123456789ab"
 };
 
 // Prints progress and the result; returns the exit code.

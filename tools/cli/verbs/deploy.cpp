@@ -10,6 +10,7 @@
 #include "deploy/transaction/package.h"
 #include "tools/cli/plant/older_bundle.h"
 #include "tools/cli/plant/plant_source.h"
+#include "tools/cli/plant/release_bundle.h"
 #include "tools/cli/plant/run_deployment.h"
 #include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
@@ -104,15 +105,6 @@ std::string older_refusal(deploy::DeployLink& link, const BoardRoster& roster, c
     }
   }
   return {};
-}
-
-// Returns what a board requests by name: the package itself, or a file in it.
-std::optional<deploy::BlobServer::Blob> blob_of(const deploy::PackedPlant& packed, const std::string& name) {
-  if (name == packed.id) {
-    return deploy::BlobServer::Blob{{}, packed.text};
-  }
-  const auto found = packed.sources.find(name);
-  return found != packed.sources.end() ? std::optional(deploy::BlobServer::Blob{found->second, {}}) : std::nullopt;
 }
 
 void print_size(Context& context, const Deployment& deployment, const deploy::Package& package) {

@@ -15,7 +15,7 @@ std::span<const Verb> all_verbs() {
       kLockVerb,    kRecipeVerb, kRobotVerb,    kWatchVerb,     kScopeVerb,  kStreamVerb,  kChartVerb,
       kHzVerb,      kTypeofVerb, kRecordVerb,   kRecordingVerb, kReplayVerb, kJitterVerb,  kOverrunsVerb,
       kExplainVerb, kAgeVerb,    kBlackboxVerb, kLogVerb,       kPackVerb,   kPackageVerb, kDeployVerb,
-      kPullVerb,    kDiffVerb,   kRollbackVerb, kHistoryVerb,   kVerifyVerb, kBoardsVerb};
+      kPullVerb,    kDiffVerb,   kRollbackVerb, kHistoryVerb,   kVerifyVerb, kBoardsVerb,  kPlatformVerb};
   return kVerbs;
 }
 

@@ -36,6 +36,7 @@ extern const Verb kOverrunsVerb;
 extern const Verb kPackVerb;
 extern const Verb kPackageVerb;
 extern const Verb kPlanVerb;
+extern const Verb kPlatformVerb;
 extern const Verb kPlcVerb;
 extern const Verb kPullVerb;
 extern const Verb kRecipeVerb;

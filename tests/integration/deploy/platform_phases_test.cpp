@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Agents, nodes and desks killed in each phase of an update of the platform: in the end all boards run the same
+// release, the old one or the new one, and no user has to help.
+
+#include <random>
+
+#include "platform_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using testing::AnyOf;
+
+class PlatformPhases : public PlatformTest {
+ protected:
+  PlatformPhases() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    ::setenv("LD_PRELOAD", HELD_OPEN, 1);
+#endif
+    ::setenv("IRP_TEST_HELD", ("/" + board("b") + "/platform/deployments/").c_str(), 1);
+    ::setenv("IRP_TEST_HELD_WHILE", path("hold").c_str(), 1);
+  }
+  ~PlatformPhases() override {
+    for (const char* name : {"LD_PRELOAD", "IRP_TEST_HELD", "IRP_TEST_HELD_WHILE"}) {
+      ::unsetenv(name);
+    }
+    let_b_check();
+  }
+  // Board b waits when it lays out the release, as if its disk hung.
+  void hold_the_check() const {
+    std::ofstream(path("hold")) << "hold\n";
+  }
+  void let_b_check() const {
+    std::filesystem::remove(path("hold"));
+  }
+  // Updates until board a has some pieces of the release, and stops the desk there.
+  Program& update_until_fetching() {
+    const std::string prefix = installation("large");
+    std::ofstream(prefix + "/bin/indurop-node", std::ios::app) << std::string(60U << 20U, 'x');
+    Program& desk = start_update(packed("9.1", prefix));
+    EXPECT_TRUE(wait_until([&] { return has_pieces(); }));
+    desk.signal(SIGSTOP);
+    return desk;
+  }
+  [[nodiscard]] bool has_pieces() const {
+    std::error_code error;
+    const std::filesystem::directory_iterator parts(platform_folder("a") / "parts", error);
+    return !error && parts != std::filesystem::directory_iterator();
+  }
+  Program& update_until(const std::string& phase, const std::string& health) {
+    Program& desk = start_update(packed("9.1"), {"--health", health});
+    EXPECT_TRUE(in_phase("a", phase)) << agent("a").err();
+    return desk;
+  }
+  void kill_desk(Program& desk) {
+    desk.signal(SIGKILL);
+    (void)desk.finish();
+  }
+};
+
+TEST_F(PlatformPhases, A_board_killed_while_it_fetches) {
+  Program& desk = update_until_fetching();
+  restart("a");
+  desk.signal(SIGCONT);
+  EXPECT_EQ(desk.finish().code, 1);
+  EXPECT_EQ(common_release(), kInstalled);
+}
+
+TEST_F(PlatformPhases, A_desk_killed_while_boards_fetch) {
+  kill_desk(update_until_fetching());
+  EXPECT_EQ(common_release(), kInstalled);
+  EXPECT_EQ(update(path("9.1.release")).code, 0) << "the next one finds the boards free";
+}
+
+TEST_F(PlatformPhases, A_board_killed_while_it_checks_and_one_that_is_prepared) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
+#endif
+  hold_the_check();
+  Program& desk = update_until("prepared", "500ms");
+  stop_agent("b", SIGKILL);
+  let_b_check();
+  start_agent("b");
+  EXPECT_EQ(desk.finish().code, 1);
+  EXPECT_EQ(common_release(), kInstalled);
+
+  hold_the_check();
+  Program& again = start_update(path("9.1.release"));
+  ASSERT_TRUE(in_phase("a", "prepared"));
+  restart("a", true);
+  let_b_check();
+  EXPECT_EQ(again.finish().code, 1);
+  EXPECT_EQ(common_release(), kInstalled);
+}
+
+TEST_F(PlatformPhases, A_desk_killed_while_boards_check) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
+#endif
+  hold_the_check();
+  kill_desk(update_until("prepared", "500ms"));
+  let_b_check();
+  EXPECT_EQ(common_release(), kInstalled);
+}
+
+// The agent that comes back finds in the board's folder that the trial goes on.
+TEST_F(PlatformPhases, An_agent_killed_in_the_trial_goes_on) {
+  Program& desk = update_until("trial", "10s");
+  restart("a");
+  EXPECT_EQ(desk.finish().code, 0);
+  EXPECT_EQ(common_release(), "9.1");
+}
+
+TEST_F(PlatformPhases, A_board_that_loses_its_power_in_the_trial_goes_on) {
+  Program& desk = update_until("trial", "10s");
+  restart("a", true);
+  EXPECT_EQ(desk.finish().code, 0);
+  EXPECT_EQ(common_release(), "9.1");
+}
+
+TEST_F(PlatformPhases, A_node_killed_in_the_trial_takes_all_back) {
+  Program& desk = update_until("trial", "15s");
+  ASSERT_TRUE(wait_until([&] {
+    const Json b = platform()[board("b")];
+    return b.is_object() && b["phase"] == "trial" && b["state"] == "running";
+  }));
+  kill_node(board("b"));
+  EXPECT_EQ(desk.finish().code, 5);
+  EXPECT_EQ(common_release(), kInstalled);
+}
+
+TEST_F(PlatformPhases, A_board_that_stays_away_in_the_trial_takes_all_back) {
+  Program& desk = update_until("trial", "60s");
+  stop_agent("b", SIGKILL);
+  kill_node(board("b"));
+  EXPECT_EQ(desk.wait(kLong + kLong), 5);
+  start_agent("b");
+  EXPECT_EQ(common_release(), kInstalled);
+}
+
+TEST_F(PlatformPhases, A_desk_killed_in_the_trial) {
+  kill_desk(update_until("trial", "60s"));
+  EXPECT_EQ(common_release(), kInstalled);
+}
+
+// One board has committed and the other cannot have heard of it.
+TEST_F(PlatformPhases, A_desk_killed_at_the_commit) {
+  Program& desk = start_update(packed("9.1"));
+  const auto committed = platform_folder("a") / "committed.json";
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(committed); }));
+  desk.signal(SIGKILL);
+  stop_agent("b", SIGKILL);
+  (void)desk.finish();
+  start_agent("b");
+  EXPECT_EQ(common_release(), "9.1");
+}
+
+// Whatever is killed, at whatever moment.
+TEST_F(PlatformPhases, At_any_moment) {
+  const std::string file = packed("9.1");
+  std::mt19937 random(static_cast<unsigned>(::getpid()));
+  for (int round = 0; round < 4; ++round) {
+    Program& desk = start_update(file, {"--older"});
+    const auto moment = std::chrono::milliseconds(random() % 4000);
+    const auto victim = random() % 3;
+    SCOPED_TRACE(testing::Message() << "round " << round << ": " << victim << " after " << moment.count() << " ms");
+    (void)wait_until([] { return false; }, moment);
+    if (victim == 2) {
+      desk.signal(SIGKILL);
+    } else {
+      restart(victim == 0 ? "a" : "b", random() % 2 == 0);
+    }
+    (void)desk.finish();
+    const std::string common = common_release();
+    EXPECT_THAT(common, AnyOf(kInstalled, "9.1"));
+    if (common == "9.1") {
+      ASSERT_EQ(indurop({"platform", "back", "--health", "500ms"}).code, 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace indurop::test
