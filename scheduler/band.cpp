@@ -30,7 +30,7 @@ Band::Band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<Task
 
 bool Band::any_enabled() const noexcept {
   for (const TaskState* state : tasks_) {
-    if (state->enabled.load(kRelaxed)) {
+    if (!state->is_closed()) {
       return true;
     }
   }
@@ -63,7 +63,7 @@ std::uint64_t Band::activity() const noexcept {
 
 void Band::skip(std::uint64_t releases) noexcept {
   for (TaskState* state : tasks_) {
-    if (state->task.operation == Operation::Periodic && state->enabled.load(kRelaxed)) {
+    if (state->task.operation == Operation::Periodic && !state->is_closed()) {
       count(state->record->skipped, releases);
     }
   }

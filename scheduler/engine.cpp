@@ -90,7 +90,7 @@ Engine::~Engine() {
 
 void Engine::halt() noexcept {
   for (const auto& state : states_) {
-    state->enabled.store(false, std::memory_order_seq_cst);
+    state->gate.store(Gate::Closed, std::memory_order_seq_cst);
   }
   request_stop();
 }

@@ -61,6 +61,15 @@ class Engine {
   [[nodiscard]] bool at_rest(std::uint32_t module) noexcept;
   void enable(std::uint32_t module) noexcept;
 
+  // Lets `exchange` (borrowed) decide which version of a thread module is entered, until unwatch(). Both return false
+  // if the module is not entered at all. Once has_passed() returns true after them, no run that began before is in
+  // progress. The same thread as for disable().
+  bool watch(std::uint32_t module, Exchange& exchange) noexcept;
+  bool unwatch(std::uint32_t module) noexcept;
+  [[nodiscard]] bool has_passed(std::uint32_t module) const noexcept;
+  // Replaces the code of a module that is not entered and is at_rest().
+  void replace_closed(std::uint32_t module, const Exchange::Code& code) noexcept;
+
   // For a thread module of the schedule: a number that has changed when its code was entered since; nullopt while it is
   // being executed. Any thread.
   [[nodiscard]] std::optional<std::uint64_t> entries_if_outside(std::uint32_t module) const noexcept;

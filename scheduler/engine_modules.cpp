@@ -31,9 +31,47 @@ bool Engine::disable(std::uint32_t module) noexcept {
   if (band == nullptr) {
     return false;
   }
-  state->enabled.store(false, std::memory_order_seq_cst);
+  state->gate.store(Gate::Closed, std::memory_order_seq_cst);
   state->last_release = band->released();
   return true;
+}
+
+bool Engine::watch(std::uint32_t module, Exchange& exchange) noexcept {
+  TaskState* state = thread_module(module);
+  const Band* band = state == nullptr ? nullptr : find_band(module);
+  if (band == nullptr || state->is_closed()) {
+    return false;
+  }
+  state->exchange = &exchange;
+  Gate open = Gate::Open;
+  const bool watched = state->gate.compare_exchange_strong(open, Gate::Watched, std::memory_order_seq_cst);
+  state->last_release = band->released();
+  return watched;
+}
+
+bool Engine::unwatch(std::uint32_t module) noexcept {
+  TaskState* state = thread_module(module);
+  const Band* band = state == nullptr ? nullptr : find_band(module);
+  if (band == nullptr) {
+    return false;
+  }
+  Gate watched = Gate::Watched;
+  const bool open = state->gate.compare_exchange_strong(watched, Gate::Open, std::memory_order_seq_cst);
+  state->last_release = band->released();
+  return open;
+}
+
+bool Engine::has_passed(std::uint32_t module) const noexcept {
+  const TaskState* state = thread_module(module);
+  const Band* band = state == nullptr ? nullptr : find_band(module);
+  return band == nullptr || band->has_done(state->last_release);
+}
+
+void Engine::replace_closed(std::uint32_t module, const Exchange::Code& code) noexcept {
+  if (TaskState* state = thread_module(module); state != nullptr && state->is_closed()) {
+    state->task.run = code.run;
+    state->task.condition = code.condition;
+  }
 }
 
 bool Engine::at_rest(std::uint32_t module) noexcept {
@@ -69,7 +107,7 @@ void Engine::end_runs_in_progress() noexcept {
 
 void Engine::enable(std::uint32_t module) noexcept {
   if (TaskState* state = thread_module(module); state != nullptr) {
-    state->enabled.store(true, std::memory_order_release);
+    state->gate.store(Gate::Open, std::memory_order_release);
   }
 }
 

@@ -69,6 +69,11 @@ void Band::find_inline_overrun(std::uint64_t tick, std::int64_t release_ns) noex
 }
 
 void Band::apply_policy(TaskState& culprit, std::uint64_t tick, std::int64_t own_ns) noexcept {
+  const bool harmless = culprit.task.overrun != OverrunPolicy::StopModule;
+  if (harmless && culprit.gate.load(std::memory_order_acquire) == Gate::Watched &&
+      culprit.exchange->go_back(Exchange::Reason::Overrun)) {
+    return;
+  }
   if (culprit.task.overrun == OverrunPolicy::StopModule) {
     char text[kTextLength];
     std::snprintf(text, sizeof text, "overrun after %lld us (policy stop-module)",

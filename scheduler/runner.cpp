@@ -28,13 +28,18 @@ void record_fault(ModuleRecord& record, FaultKind kind, std::uint64_t tick, std:
 
 void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char* text, const Hooks& hooks) noexcept {
   ModuleRecord& record = *state.record;
-  state.enabled.store(false, std::memory_order_release);
+  const bool continues = state.gate.load(std::memory_order_acquire) == Gate::Watched && state.exchange->fail();
+  if (!continues) {
+    state.gate.store(Gate::Closed, std::memory_order_release);
+  }
   record_fault(record, kind, tick, text);
-  record.state.store(ModuleState::Faulted, std::memory_order_release);
+  if (!continues) {
+    record.state.store(ModuleState::Faulted, std::memory_order_release);
+  }
   if (hooks.faulted != nullptr) {
     hooks.faulted(hooks.context, state.task.index);
   }
-  if (state.task.overrun == OverrunPolicy::StopNode && hooks.stop_node != nullptr) {
+  if (!continues && state.task.overrun == OverrunPolicy::StopNode && hooks.stop_node != nullptr) {
     hooks.stop_node(hooks.context, state.task.index, "a module with overrun policy stop-node faulted");
   }
 }
@@ -77,12 +82,11 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::Mono
       hooks_.soon(hooks_.context, tasks_[position_ + kSoon]->task.index);
     }
     // Ordered with the band's release number, so that Engine::disable() knows which runs may still enter it.
-    if (tasks_[position_]->enabled.load(std::memory_order_seq_cst)) [[likely]] {
-      if (virtual_time_) {
-        call_current<true>();
-      } else {
-        call_current<false>();
-      }
+    const Gate gate = tasks_[position_]->gate.load(std::memory_order_seq_cst);
+    if (gate == Gate::Open) [[likely]] {
+      call_current();
+    } else if (gate == Gate::Watched) {
+      call_watched();
     } else {
       times_[position_] = {};
     }
@@ -91,9 +95,27 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::Mono
   account();
 }
 
+inline void Runner::call_current() noexcept {
+  if (virtual_time_) {
+    call<true>();
+  } else {
+    call<false>();
+  }
+}
+
+// A fault of the run jumps over what follows it here.
+[[gnu::noinline]] void Runner::call_watched() noexcept {
+  TaskState& state = *tasks_[position_];
+  if (state.exchange->before_run(state.task, tick_, kernel_) && hooks_.exchanged != nullptr) {
+    hooks_.exchanged(hooks_.context, state.task.index);
+  }
+  call_current();
+  state.exchange->after_run(times_[position_]);
+}
+
 // Two functions from one text: the simulation's part costs a real run nothing.
 template <bool kVirtualTime>
-void Runner::call_current() noexcept {
+void Runner::call() noexcept {
   TaskState& state = *tasks_[position_];
   previous_.store(trace_.module.load(std::memory_order_relaxed), std::memory_order_relaxed);
   previous_exec_.store(trace_.exec_ns.load(std::memory_order_relaxed), std::memory_order_relaxed);

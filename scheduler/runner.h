@@ -12,11 +12,19 @@
 
 #include "core/rt/guard.h"
 #include "core/rt/thread.h"
+#include "scheduler/exchange.h"
 #include "scheduler/kernel.h"
 #include "scheduler/statistics.h"
 #include "scheduler/task.h"
 
 namespace indurop::scheduler {
+
+// Whether the thread that runs a module enters it.
+enum class Gate : std::uint8_t {
+  Closed,  // stopped or faulted
+  Open,
+  Watched,  // its Exchange decides before each run which version is entered
+};
 
 // A task and its state while it runs. The address stays fixed for the life of the engine.
 struct TaskState {
@@ -24,10 +32,13 @@ struct TaskState {
   ModuleRecord* record = nullptr;
   ProcessSlot* slot = nullptr;  // process modules
   JitterReference jitter;
-  std::atomic<bool> enabled{true};  // false: stopped or faulted, not entered
-  std::uint64_t last_release = 0;   // last release of its band that may have entered it before disable()
-  std::uint64_t accounted = 0;      // process modules: last release whose run was counted
-  bool logged = true;               // false: its runs are not part of the schedule and stay out of the slot log
+  std::atomic<Gate> gate{Gate::Open};
+  Exchange* exchange = nullptr;    // while Watched; borrowed
+  std::uint64_t last_release = 0;  // last release of its band that may have entered it before its gate was changed
+  std::uint64_t accounted = 0;     // process modules: last release whose run was counted
+  bool logged = true;              // false: its runs are not part of the schedule and stay out of the slot log
+
+  [[nodiscard]] bool is_closed() const noexcept { return gate.load(std::memory_order_relaxed) == Gate::Closed; }
 };
 
 // Callbacks into the embedding program, called on real-time threads: no allocation, no lock, no system call.
@@ -43,6 +54,8 @@ struct Hooks {
   // The run is over. Returns true as above; that time is not counted for the run that follows.
   bool (*ended)(void* context, std::uint32_t module, std::uint64_t tick, const RunTimes& times,
                 bool faulted) noexcept = nullptr;
+  // From the run that is entered next, another version of the module runs.
+  void (*exchanged)(void* context, std::uint32_t module) noexcept = nullptr;
   // A basic period has begun; nothing of it has run.
   void (*ticks)(void* context, std::uint64_t tick, std::int64_t release_ns) noexcept = nullptr;
   void (*faulted)(void* context, std::uint32_t module) noexcept = nullptr;  // after the record was filled in
@@ -59,7 +72,8 @@ struct CoreTrace {
 
 // Writes a fault into the module's record. Real-time safe.
 void record_fault(ModuleRecord& record, FaultKind kind, std::uint64_t tick, std::string_view text) noexcept;
-// Marks the module as faulted, quarantines it and calls the hooks. Real-time safe.
+// Records the fault and calls the hooks. The module is quarantined, unless it is being exchanged and its previous
+// version can continue. Real-time safe.
 void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char* text, const Hooks& hooks) noexcept;
 
 class Runner {
@@ -87,8 +101,10 @@ class Runner {
   void enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_ns) noexcept;
 
  private:
-  template <bool kVirtualTime>
   void call_current() noexcept;
+  void call_watched() noexcept;
+  template <bool kVirtualTime>
+  void call() noexcept;
   void spend_time(const Task& task);
   void contain_jump() noexcept;
   void contain(FaultKind kind, const char* text) noexcept;

@@ -108,9 +108,9 @@ void NormalThreads::loop(Normal& normal) noexcept {
     while (normal.period_ns > 0 && kernel.now() < next && !leaving()) {
       kernel.sleep_until(std::min(next, kernel.now() + kThreadPoll));
     }
-  } while (normal.period_ns > 0 && !leaving() && normal.state.enabled.load());
+  } while (normal.period_ns > 0 && !leaving() && !normal.state.is_closed());
   normal.runner.detach_thread();
-  if (normal.state.enabled.load()) {
+  if (!normal.state.is_closed()) {
     record.state.store(scheduler::ModuleState::Exited);
   }
   normal.done.store(true);

@@ -82,7 +82,7 @@ bool Repeater::restart(ReplayedModule& module) {
     (void)call(module.index, "stop", functions.stop);  // a failure is reported
     good = call(module.index, "start", functions.start);
     module.state.record->state.store(scheduler::ModuleState::Running);
-    module.state.enabled.store(true);
+    module.state.gate.store(scheduler::Gate::Open);
   }
   if (!good) {
     console_.error("module {} was restarted in the recording and could not be restarted now",

@@ -97,7 +97,7 @@ bool Phases::ended(Call& call, rt::MonoTime now, std::chrono::nanoseconds limit)
 
 bool Phases::conclude(CallPointer call) {
   call->thread.join();
-  if (call->state.enabled.load()) {
+  if (!call->state.is_closed()) {
     return true;
   }
   scheduler::ModuleRecord& record = run_.modules()[call->index];
