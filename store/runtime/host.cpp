@@ -101,6 +101,14 @@ std::vector<std::string> take_binding_errors() {
   return Process::get().take_errors();
 }
 
+void bind_apart(const void* inside) {
+  Process::get().bind_apart(inside);
+}
+
+void bind_back(const void* inside) {
+  Process::get().bind_back(inside);
+}
+
 Status start_function_servers(int fifo_priority, int core) {
   return Process::get().servers().start(fifo_priority, core);
 }

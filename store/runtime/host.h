@@ -94,6 +94,12 @@ void detach_process();
 // Not real-time safe.
 std::vector<std::string> take_binding_errors();
 
+// For a version of a module that is loaded while another one runs: binds the variables of the loaded file that holds
+// the address to copies of their present values, so that its start() and stop() change nothing of the plant; and back
+// to the store. No code of the file may be running. Not real-time safe.
+void bind_apart(const void* inside);
+void bind_back(const void* inside);
+
 // Starts one thread per loaded module that implements shared functions; `fifo_priority` 0: normal scheduling, `core`
 // -1: not pinned. Calls of functions that are not served yet fail with NotFound. May be called again after more modules
 // were loaded. Not real-time safe. Errors: NoSpace, System (a thread could not be created).

@@ -103,6 +103,20 @@ void Process::unregister_refs(const abi::Ref* refs) {
   tables_.remove(refs);
 }
 
+void Process::bind_apart(const void* inside) {
+  const std::lock_guard lock(mutex_);
+  if (const Attachment* attachment = hot.attachment.load(std::memory_order_relaxed); attachment != nullptr) {
+    tables_.bind_apart(inside, *attachment);
+  }
+}
+
+void Process::bind_back(const void* inside) {
+  const std::lock_guard lock(mutex_);
+  if (const Attachment* attachment = hot.attachment.load(std::memory_order_relaxed); attachment != nullptr) {
+    tables_.bind_back(inside, *attachment);
+  }
+}
+
 Status Process::attach(const std::string& node, std::size_t& unbound) {
   const std::lock_guard lock(mutex_);
   return attach_locked(node, unbound);

@@ -46,6 +46,10 @@ class Process {
   void register_refs(abi::Ref* refs, std::uint32_t count);
   void unregister_refs(const abi::Ref* refs);
 
+  // See host.h.
+  void bind_apart(const void* inside);
+  void bind_back(const void* inside);
+
   // Binds to `node` unless already bound to its current block. `unbound`: number of variables used by the program that
   // could not be bound; each is reported once on stderr. Errors: those of Store::attach.
   Status attach(const std::string& node, std::size_t& unbound);

@@ -2,6 +2,7 @@
 
 #include "store/runtime/ref_tables.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +12,14 @@ namespace indurop::runtime {
 
 namespace {
 
-std::atomic<std::uint32_t> bindings_done{0};  // NOLINT(*avoid-non-const-global*): one number for the process
+// Begins with 1: code that has cached no address yet has seen 0.
+std::atomic<std::uint32_t> bindings_done{1};  // NOLINT(*avoid-non-const-global*): one number for the process
+
+// Identifies the loaded file that holds an address.
+const void* image_of(const void* address) {
+  Dl_info info{};
+  return ::dladdr(address, &info) != 0 ? info.dli_fbase : nullptr;
+}
 
 std::string type_text(const schema::Type& type) {
   return fmt::format("{} ({} bytes)", display_name(type), type.size());
@@ -27,7 +35,7 @@ std::vector<BindingProblem> RefTables::add(abi::Ref* refs, std::uint32_t count, 
       return problems;
     }
   }
-  tables_.push_back({refs, count, 1, {}});
+  tables_.push_back({refs, count, 1, {}, nullptr});
   bind_table(tables_.back(), to, problems);
   return problems;
 }
@@ -41,6 +49,7 @@ std::vector<BindingProblem> RefTables::bind(const Attachment* to) {
   for (Table& table : tables_) {
     bind_table(table, to, problems);
   }
+  bindings_done.fetch_add(1, std::memory_order_release);
   return problems;
 }
 
@@ -58,7 +67,40 @@ void RefTables::bind_table(Table& table, const Attachment* to, std::vector<Bindi
     // Other threads may be using the old entry, which stays mapped.
     __atomic_store_n(&ref.entry, entry != nullptr ? entry : private_.entry_of(ref), __ATOMIC_RELEASE);
   }
-  bindings_done.fetch_add(1, std::memory_order_release);
+}
+
+void RefTables::bind_table_apart(Table& table, const Attachment& values) {
+  table.apart = std::make_unique<PrivateMemory>();
+  std::vector<std::uint8_t> bytes;
+  for (abi::Ref& ref : std::span(table.refs, table.count)) {
+    const vars::DirectoryEntry* found = values.store().find(ref.name_hash);
+    abi::Ref copy = ref;
+    bytes.resize(ref.value_size);
+    if (found != nullptr && found->value_size == ref.value_size && values.store().read(*found, 0, bytes).ok()) {
+      copy.initial = bytes.data();
+    }
+    __atomic_store_n(&ref.entry, table.apart->entry_of(copy), __ATOMIC_RELEASE);
+  }
+}
+
+void RefTables::bind_apart(const void* inside, const Attachment& values) {
+  const void* const image = image_of(inside);
+  for (Table& table : tables_) {
+    if (image_of(table.refs) == image) {
+      bind_table_apart(table, values);
+    }
+  }
+}
+
+void RefTables::bind_back(const void* inside, const Attachment& to) {
+  const void* const image = image_of(inside);
+  // Scans cache addresses, and the file has had none between the two: the others need not look theirs up again.
+  std::vector<BindingProblem> known;  // since the file was loaded
+  for (Table& table : tables_) {
+    if (image_of(table.refs) == image) {
+      bind_table(table, &to, known);
+    }
+  }
 }
 
 std::uint32_t RefTables::bindings() noexcept {

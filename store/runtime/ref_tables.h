@@ -6,6 +6,7 @@
 #include <indurop/detail/abi.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,19 +28,25 @@ class RefTables {
   // Registers the rows and binds them, to private memory if `to` is null. Returns the problems.
   std::vector<BindingProblem> add(abi::Ref* refs, std::uint32_t count, const Attachment* to);
   void remove(const abi::Ref* refs);
+  // Binds the rows of the loaded file that holds `inside` to copies of the present values, which only that file sees,
+  // or back to the store.
+  void bind_apart(const void* inside, const Attachment& values);
+  void bind_back(const void* inside, const Attachment& to);
   // Binds all rows again.
   std::vector<BindingProblem> bind(const Attachment* to);
   [[nodiscard]] bool empty() const noexcept { return tables_.empty(); }
-  // Number of times that rows of any table were bound. Any thread; real-time safe.
+  // A number, not 0, that changes when rows that were bound get other addresses. Any thread; real-time safe.
   [[nodiscard]] static std::uint32_t bindings() noexcept;
 
  private:
   struct Table {
     abi::Ref* refs = nullptr;
     std::uint32_t count = 0;
-    std::uint32_t times = 0;           // one for each source file of the module that includes the header
-    std::optional<ModuleFacts> facts;  // read when first needed
+    std::uint32_t times = 0;               // one for each source file of the module that includes the header
+    std::optional<ModuleFacts> facts;      // read when first needed
+    std::unique_ptr<PrivateMemory> apart;  // copies of values; the file may keep addresses of them until it is unloaded
   };
+  static void bind_table_apart(Table& table, const Attachment& values);
   void bind_table(Table& table, const Attachment* to, std::vector<BindingProblem>& problems);
   static BindingProblem describe(Table& table, const abi::Ref& ref, const Attachment& to);
 
