@@ -42,6 +42,10 @@ Rights rights_of(const Holder& holder) {
               {{}, {"*"}}};
     case Role::Deployer:
       return {{{deploy + "*"}, {plant + "*", deploy + "*"}}, {}};
+    case Role::User:
+      return {{{deploy + "command", deploy + "request", request_name},
+               {plant + "*", deploy + "board", deploy + "reply", deploy + "blob/*", directory}},
+              {{}, {"*"}}};
     case Role::Tool: {
       Topics variables{variable_topics(holder.variables.write), variable_topics(holder.variables.read)};
       variables.subscribe.insert(variables.subscribe.end(), variables.publish.begin(), variables.publish.end());

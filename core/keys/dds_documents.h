@@ -17,6 +17,7 @@ enum class Role {
   Viewer,    // reads all, publishes no value
   Deployer,  // commands agents of boards
   Tool,      // reads and sets the variables of its lists on the external plane, nothing else
+  User,      // reads all, and commands agents as far as the plant's list of users lets it
 };
 
 struct Holder {

@@ -43,7 +43,8 @@ Done PlantKeys::make(const std::string& plant, const std::vector<std::string>& b
 }
 
 Done PlantKeys::add(const Holder& holder, Instant until) const {
-  const bool first = holder.role != Role::Tool && holder.name == unit_of(holder.role);  // of those that init makes
+  const bool first = (holder.role == Role::Viewer || holder.role == Role::Deployer) &&
+                     holder.name == unit_of(holder.role);  // of those that init makes
   if (reserved_name(holder.name) && !first) {
     return not_for(holder.role, holder.name);
   }
@@ -77,6 +78,10 @@ Done PlantKeys::add_viewer(const std::string& name, Instant until) const {
 Done PlantKeys::add_deployer(const std::string& name, Instant until) const {
   Done done = add({Role::Deployer, plant(), name}, until);
   return done ? share(kDeployPublic, read_text(deployer(name) / kDeployPublic)) : done;
+}
+
+Done PlantKeys::add_user(const std::string& name, Instant until) const {
+  return add({Role::User, plant(), name}, until);
 }
 
 Done PlantKeys::rotate(const KeyListing& deployer) const {
@@ -204,8 +209,11 @@ std::vector<KeyListing> PlantKeys::list(Instant now) const {
     std::vector<KeyListing> further = listings_in(role, folder.string() + "s", folder_, now);
     std::move(further.begin(), further.end(), std::back_inserter(all));
   }
-  std::vector<KeyListing> tools = listings_in(Role::Tool, folder_ / "tools", folder_, now);
-  std::move(tools.begin(), tools.end(), std::back_inserter(all));
+  for (const auto& [role, folder] :
+       {std::pair(Role::Tool, folder_ / "tools"), std::pair(Role::User, folder_ / "users")}) {
+    std::vector<KeyListing> further = listings_in(role, folder, folder_, now);
+    std::move(further.begin(), further.end(), std::back_inserter(all));
+  }
   return all;
 }
 

@@ -51,6 +51,8 @@ class PlantKeys {
   // Adds a viewer or deployer. Boards accept deployments of a new deployer after they got the new deploy.pub.
   Result<void, base::Problem> add_viewer(const std::string& name, Instant until) const;
   Result<void, base::Problem> add_deployer(const std::string& name, Instant until) const;
+  // Adds a person who commands boards as the plant's list of users allows.
+  Result<void, base::Problem> add_user(const std::string& name, Instant until) const;
   // Adds a tool, a program that reads and sets variables of the external plane. Its lists are stored in its keys
   // folder, in variables.txt.
   Result<void, base::Problem> add_tool(const std::string& name, const VariableRights& rights, Instant until) const;
@@ -71,6 +73,7 @@ class PlantKeys {
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
   [[nodiscard]] std::filesystem::path board(const std::string& name) const { return folder_ / "boards" / name; }
   [[nodiscard]] std::filesystem::path tool(const std::string& name) const { return folder_ / "tools" / name; }
+  [[nodiscard]] std::filesystem::path user(const std::string& name) const { return folder_ / "users" / name; }
   [[nodiscard]] std::filesystem::path viewer(const std::string& name = "viewer") const;
   [[nodiscard]] std::filesystem::path deployer(const std::string& name = "deployer") const;
   [[nodiscard]] std::filesystem::path authority_key() const;

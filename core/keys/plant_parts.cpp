@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // Words that name a role or a folder of the keys.
-constexpr std::array kRoleWords{"board",     "boards", "viewer", "viewers",  "deployer",
-                                "deployers", "tool",   "tools",  "authority"};
+constexpr std::array kRoleWords{"board", "boards", "viewer", "viewers", "deployer", "deployers",
+                                "tool",  "tools",  "user",   "users",   "authority"};
 
 // The participant with the smaller GUID starts the handshake, and Cyclone DDS, so a board, does not understand how Fast
 // DDS 2.9 starts it. So tools get a unit that makes their GUID greater than that of nearly every board, always the
@@ -84,6 +84,8 @@ const char* unit_of(Role role) {
       return "deployer";
     case Role::Tool:
       return "tool";
+    case Role::User:
+      return "user";
   }
   return "";
 }
@@ -285,7 +287,7 @@ bool is_plant_certificate(const CertificateFacts& facts) {
 
 std::optional<Role> plant_role(const CertificateFacts& facts) {
   const std::string kind = facts.unit.substr(0, facts.unit.find(' '));  // for tools a number follows
-  for (const Role role : {Role::Board, Role::Viewer, Role::Deployer, Role::Tool}) {
+  for (const Role role : {Role::Board, Role::Viewer, Role::Deployer, Role::Tool, Role::User}) {
     if (is_plant_certificate(facts) && kind == unit_of(role)) {
       return role;
     }

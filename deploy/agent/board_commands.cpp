@@ -9,6 +9,7 @@
 
 #include "core/rt/clock.h"
 #include "deploy/agent/board_alarms.h"
+#include "deploy/agent/board_audit.h"
 #include "store/operate/journal.h"
 #include "store/vars/box_request.h"
 
@@ -26,40 +27,6 @@ ModuleCommand module_command_of(Action action) {
   return action == Action::StopModule    ? ModuleCommand::Stop
          : action == Action::StartModule ? ModuleCommand::Start
                                          : ModuleCommand::Restart;
-}
-
-const char* word_of(Action action) {
-  switch (action) {
-    case Action::StopModule:
-    case Action::StopNode:
-      return "stop";
-    case Action::StartModule:
-    case Action::StartNode:
-      return "start";
-    case Action::Force:
-      return "force";
-    case Action::Unforce:
-      return "unforce";
-    case Action::Set:
-      return "set";
-    case Action::SetLock:
-      return "lock";
-    case Action::KeepBox:
-      return "keep the black box:";
-    case Action::AckAlarms:
-      return "acknowledge alarms";
-    case Action::ShelveAlarms:
-      return "shelve alarms";
-    case Action::UnshelveAlarms:
-      return "unshelve alarms";
-    case Action::RestartModule:
-    case Action::RestartNode:
-    case Action::Record:
-    case Action::EndRecord:
-    case Action::DropRecord:
-      break;
-  }
-  return "restart";
 }
 
 bool is_write(Action action) noexcept {
@@ -83,6 +50,11 @@ std::string one_line(std::string text) {
   return text;
 }
 
+// As the audit log has it.
+std::string outcome_of(const CommandReply& done) {
+  return done.outcome == Outcome::Done ? "done" : done.outcome == Outcome::Unchanged ? "unchanged" : done.text;
+}
+
 std::uint64_t new_nonce() {
   std::random_device random;
   const std::uint64_t high = random();
@@ -104,7 +76,7 @@ BoardCommands::BoardCommands(std::string board, std::uint64_t self, const Deploy
     : board_(std::move(board)),
       forces_(board_),
       self_(self),
-      keys_(keys),
+      users_(board_, keys),
       process_(process),
       recorder_(recorder),
       log_(log) {}
@@ -128,6 +100,7 @@ bool BoardCommands::step(CommandLink& link, const std::string& plant, const std:
     if (!is_recording(command_->action)) {  // the recorder reports its own actions
       send_reply(*done);
     }
+    note_command(*command_, user_, outcome_of(*done));
     known_[command_->commander].last = done;
     link.send(*done);
     command_.reset();
@@ -182,9 +155,17 @@ void BoardCommands::receive(CommandLink& link, const Command& command, const std
   link.send(*known.last);
 }
 
-CommandReply BoardCommands::begin(const Command& command, const std::string& plant, const std::string& busy,
+// A name in the command counts only if no certificate has another one.
+CommandReply BoardCommands::begin(Command command, const std::string& plant, const std::string& busy,
                                   rt::MonoTime now) {
-  std::string why = keys_.refusal(plant, command_text(command), command.signature);
+  const BoardUsers::Verdict verdict = users_.judge(command, plant);
+  const CommandReply answer = carry_out(signed_by(std::move(command), verdict.user), plant, verdict, busy, now);
+  return answer;
+}
+
+CommandReply BoardCommands::carry_out(const Command& command, const std::string& plant,
+                                      const BoardUsers::Verdict& verdict, const std::string& busy, rt::MonoTime now) {
+  std::string why = verdict.refusal;
   if (why.empty() && (plant.empty() || command.plant != plant)) {
     why = plant.empty() ? "nothing is deployed to it" : fmt::format("it runs plant {} now", plant);
   }
@@ -198,6 +179,7 @@ CommandReply BoardCommands::begin(const Command& command, const std::string& pla
   }
   if (!why.empty()) {
     log_.warning("a command from {} was refused: {}", command.host, why);
+    note_command(command, verdict.user, why);
     return reply(command, Outcome::Refused, why);
   }
   deadline_ = now + kPatience;
@@ -206,8 +188,10 @@ CommandReply BoardCommands::begin(const Command& command, const std::string& pla
   if (answer.outcome == Outcome::UnderWay) {
     command_ = command;
     words_ = std::move(words);
+    user_ = verdict.user;
   } else {
     run_.reset();
+    note_command(command, verdict.user, outcome_of(answer));
   }
   return answer;
 }
@@ -218,6 +202,10 @@ CommandReply BoardCommands::perform(const Command& command, const WriteOrder& wo
   }
   if (command.action == Action::KeepBox) {
     return keep_box(command);
+  }
+  if (command.action == Action::SetUsers) {
+    const auto replaced = users_.replace(command.plant, command.target);
+    return replaced ? reply(command, Outcome::Done) : reply(command, Outcome::Refused, replaced.error().text);
   }
   if (is_about_alarms(command.action)) {
     return about_alarms(command);

@@ -13,6 +13,7 @@
 #include "deploy/agent/board_forces.h"
 #include "deploy/agent/board_process.h"
 #include "deploy/agent/board_recorder.h"
+#include "deploy/agent/board_users.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/link/command_link.h"
 #include "deploy/transaction/write_words.h"
@@ -38,7 +39,9 @@ class BoardCommands {
   };
   void receive(CommandLink& link, const Command& command, const std::string& plant, const std::string& busy,
                rt::MonoTime now);
-  CommandReply begin(const Command& command, const std::string& plant, const std::string& busy, rt::MonoTime now);
+  CommandReply begin(Command command, const std::string& plant, const std::string& busy, rt::MonoTime now);
+  CommandReply carry_out(const Command& command, const std::string& plant, const BoardUsers::Verdict& verdict,
+                         const std::string& busy, rt::MonoTime now);
   CommandReply begin_module(const Command& command, const WriteOrder& words);
   CommandReply begin_node(const Command& command, const WriteOrder& words);
   void send_reply(const CommandReply& done) const;
@@ -59,13 +62,14 @@ class BoardCommands {
   std::string board_;
   BoardForces forces_;
   std::uint64_t self_;
-  const DeployKeys& keys_;
+  BoardUsers users_;
   BoardProcess& process_;
   BoardRecorder& recorder_;
   const base::Log& log_;
   std::map<std::uint64_t, Known> known_;    // by commander
   std::optional<deploy::Command> command_;  // under way
   WriteOrder words_;                        // its user, reason and module
+  std::string user_;                        // verified; empty: a deployer
   rt::MonoTime deadline_;
   std::optional<vars::RunFile> run_;
   scheduler::ModuleRecord* module_ = nullptr;

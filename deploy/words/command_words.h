@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace indurop::deploy {
 
@@ -34,6 +36,7 @@ enum class Action : std::uint8_t {
   AckAlarms,
   ShelveAlarms,  // for the given duration
   UnshelveAlarms,
+  SetUsers,  // target: the plant's list of users as XML (config/users_reader.h), without passwords
 };
 
 struct Command {
@@ -45,8 +48,19 @@ struct Command {
   Action action = Action::StopModule;
   std::string target;       // see Action
   std::uint64_t nonce = 0;  // issued by the agent; 0: requests one
-  std::string signature;    // of command_text(); empty: unsigned
+  // Of command_text(); empty: unsigned. With a deployer's key the signature alone, with that of another user
+  // user_signature_text().
+  std::string signature;
 };
+
+// A signature with the certificate (PEM) to whose key it belongs.
+struct UserSignature {
+  std::string signature;
+  std::string certificate;
+};
+std::string user_signature_text(const UserSignature& signature);
+// Returns nothing if the text is the signature of a deployer, or empty.
+std::optional<UserSignature> read_user_signature(std::string_view text);
 
 enum class Outcome : std::uint8_t {
   Nonce,      // repeat the command with this number

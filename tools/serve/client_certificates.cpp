@@ -54,7 +54,8 @@ std::string ClientCertificates::read_list(std::string& list) const {
 bool ClientCertificates::is_person(const std::string& certificate) {
   const auto facts = keys::read_certificate(certificate);
   const auto role = facts ? keys::plant_role(*facts) : std::nullopt;
-  return facts && (!keys::is_plant_certificate(*facts) || role == keys::Role::Deployer || role == keys::Role::Viewer);
+  return facts && (!keys::is_plant_certificate(*facts) || role == keys::Role::Deployer || role == keys::Role::Viewer ||
+                   role == keys::Role::User);
 }
 
 Client ClientCertificates::identify(const std::string& certificate) const {

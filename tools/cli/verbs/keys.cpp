@@ -25,6 +25,8 @@ const char* to_text(keys::Role role) {
       return "deployer";
     case keys::Role::Tool:
       return "tool";
+    case keys::Role::User:
+      return "user";
   }
   return "";
 }
@@ -200,11 +202,12 @@ Action declare(base::Options& app, Context& context) {
       verb("init", "Make an authority, keys for the boards of a plant, a viewer and a deployer", &init_keys);
   made->add("plant", "PLANT", request->plant, "Manifest of the plant (default: plant.xml)");
   add_days(*made, *request);
-  made = verb("add", "Make the keys of a further board, viewer, deployer or tool", &add_keys);
+  made = verb("add", "Make the keys of a further board, viewer, user, deployer or tool", &add_keys);
   made->add("boards", "BOARD", request->boards, "Names of the boards");
   made->add("--tool", "NAME", request->tool,
             "A program that takes part in <external secure=\"on\">, instead of boards");
   made->add("--viewer", "NAME", request->viewer, "A user who may read, instead of boards");
+  made->add("--user", "NAME", request->user, "A user of the plant's list (indurop users), instead of boards");
   made->add("--deployer", "NAME", request->deployer, "A user who may deploy, instead of boards");
   add_pattern_option(*made, "--read", request->read,
                      "Variables it may read: names and patterns, with commas between them");

@@ -148,6 +148,22 @@ int add_viewer(Context& context, const KeysRequest& request, const keys::PlantKe
   return kOk;
 }
 
+int add_user(Context& context, const KeysRequest& request, const keys::PlantKeys& keys) {
+  if (!is_name(context, "user", request.user)) {
+    return kUsage;
+  }
+  if (const auto done = keys.add_user(request.user, until(request)); !done) {
+    context.out.error(done.error().text);
+    return kFailed;
+  }
+  context.out.line(fmt::format("made {}", keys.user(request.user).string()));
+  context.out.note(fmt::format(
+      "copy it to the machine of {0}, for {0} alone. What {0} may do is in the list of users: indurop users add {0} "
+      "--role ROLE --no-password, then indurop users send",
+      request.user));
+  return kOk;
+}
+
 int add_deployer(Context& context, const KeysRequest& request, const keys::PlantKeys& keys) {
   if (!is_name(context, "deployer", request.deployer)) {
     return kUsage;
@@ -166,19 +182,23 @@ int add_deployer(Context& context, const KeysRequest& request, const keys::Plant
 
 // Participants other than boards are named by an option, one at a time.
 std::optional<int> add_other(Context& context, const KeysRequest& request, const keys::PlantKeys& keys) {
-  const int kinds =
-      (request.tool.empty() ? 0 : 1) + (request.viewer.empty() ? 0 : 1) + (request.deployer.empty() ? 0 : 1);
+  const int kinds = (request.tool.empty() ? 0 : 1) + (request.viewer.empty() ? 0 : 1) + (request.user.empty() ? 0 : 1) +
+                    (request.deployer.empty() ? 0 : 1);
   if (kinds == 0) {
     return std::nullopt;
   }
   if (kinds > 1 ||
       (request.tool.empty() && (!request.boards.empty() || !request.read.empty() || !request.write.empty()))) {
-    context.out.error("name one viewer, deployer or tool, and nothing else; --read and --write are for tools");
+    context.out.error("name one viewer, user, deployer or tool, and nothing else; --read and --write are for tools");
     return kUsage;
   }
-  return !request.tool.empty()     ? add_tool(context, request, keys)
-         : !request.viewer.empty() ? add_viewer(context, request, keys)
-                                   : add_deployer(context, request, keys);
+  if (!request.tool.empty()) {
+    return add_tool(context, request, keys);
+  }
+  if (!request.viewer.empty()) {
+    return add_viewer(context, request, keys);
+  }
+  return !request.user.empty() ? add_user(context, request, keys) : add_deployer(context, request, keys);
 }
 
 }  // namespace
@@ -192,9 +212,10 @@ int add_keys(Context& context, const KeysRequest& request) {
     return *done;
   }
   if (request.boards.empty() || !request.read.empty() || !request.write.empty()) {
-    context.out.error(request.boards.empty()
-                          ? "name a board: indurop keys add BOARD, or a --viewer NAME, --deployer NAME or --tool NAME"
-                          : "--read and --write are for tools: --tool NAME");
+    context.out.error(
+        request.boards.empty()
+            ? "name a board: indurop keys add BOARD, or a --viewer NAME, --user NAME, --deployer NAME or --tool NAME"
+            : "--read and --write are for tools: --tool NAME");
     return kUsage;
   }
   for (const std::string& board : request.boards) {

@@ -22,6 +22,7 @@ struct KeysRequest {
   std::vector<std::string> boards;  // for add, renew, revoke
   std::string tool;                 // for add
   std::string viewer;               // for add
+  std::string user;                 // for add
   std::string deployer;             // for add
   std::vector<std::string> read;    // patterns of variables
   std::vector<std::string> write;

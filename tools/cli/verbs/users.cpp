@@ -14,8 +14,12 @@
 #include "tools/cli/command/password_prompt.h"
 #include "tools/cli/command/pattern_option.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/board/board_commander.h"
+#include "tools/client/board/board_roster.h"
+#include "tools/client/board/board_table.h"
 #include "tools/client/process/random_word.h"
 #include "tools/client/text/suggest.h"
+#include "tools/client/text/units.h"
 #include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
@@ -30,7 +34,11 @@ struct UsersRequest {
   std::vector<std::string> boards;
   std::vector<std::string> variables;
   bool no_password = false;
+  std::string plant;
+  deploy::LinkSettings link;
 };
+
+constexpr std::int64_t kSendNs = 5'000'000'000;  // to discover boards, and for the answer of each
 
 std::vector<std::string> role_words() {
   return {config::kUserRoleNames.begin(), config::kUserRoleNames.end()};
@@ -214,6 +222,55 @@ int remove(Context& context, const UsersRequest& request) {
   });
 }
 
+// Sends the list to the boards of a plant. They need no hashes: who signs in is decided by indurop serve.
+int send(Context& context, const UsersRequest& given) {
+  UsersRequest request = given;
+  int code = kOk;
+  auto users = open_users(context, request, code);
+  if (!users) {
+    return code;
+  }
+  for (config::PlantUser& user : *users) {
+    user.password.clear();
+    user.token.clear();
+  }
+  auto commander = BoardCommander::make(context.out, request.link.keys);
+  if (!commander) {
+    return report(context.out, commander.error());
+  }
+  auto link = open_link(context.out, request.link);
+  if (link == nullptr) {
+    return kUnreachable;
+  }
+  BoardRoster roster;
+  roster.gather(*link, kSendNs, [&] { return roster.complete(); });
+  const auto plant = choose_plant(roster, request.plant);
+  if (!plant) {
+    return report(context.out, with_keys_hint(plant.error(), request.link));
+  }
+  const std::string text = config::users_text(*users);
+  for (const auto& [key, entry] : roster.all()) {
+    if (entry.report.plant != *plant) {
+      continue;
+    }
+    const auto answered =
+        commander->send(*link, request.link.self, entry.report, deploy::Action::SetUsers, text, kSendNs);
+    const bool done = answered && answered->reply.outcome == deploy::Outcome::Done;
+    if (!done) {
+      context.out.error(fmt::format("{} was not changed: {}", key.first,
+                                    printable(answered ? answered->reply.text : answered.error().text)));
+      code = answered ? kFailed : answered.error().code;
+    } else {
+      context.out.line(fmt::format("{} has {} now", key.first, counted(users->size(), "user")));
+    }
+  }
+  for (const std::string& board : missing_boards(roster)) {
+    context.out.error(fmt::format("{} was not heard and keeps the list it has; send it again when it is there", board));
+    code = kUnreachable;
+  }
+  return code;
+}
+
 Action declare(base::Options& app, Context& context) {
   auto request = std::make_shared<UsersRequest>();
   auto chosen = std::make_shared<Action>();
@@ -247,6 +304,9 @@ Action declare(base::Options& app, Context& context) {
   verb("password", "Change the password of a user", &set_password, true);
   verb("token", "Make a token for a user, a program for example, and show it once", &make_token, true);
   verb("remove", "Remove a user", &remove, true);
+  base::Options& sending = verb("send", "Send the list to the boards of a plant, for commands from afar", &send, false);
+  sending.add("--plant", "NAME", request->plant, "Name of the plant (default: the only one)");
+  deploy::add_link_options(sending, request->link);
   return [chosen](Context& c) { return (*chosen)(c); };
 }
 
@@ -257,12 +317,14 @@ const Verb kUsersVerb{
     "indurop serve --users FILE lets the users of this file sign in. Each role includes those before it:\n"
     "look: read. operate: set, load recipes, acknowledge alarms, jog. tune: force, save recipes, shelve\n"
     "alarms. program: start and stop modules, lock, roll back. administer: end sessions of others.\n"
+    "Boards with keys hold users with a certificate (indurop keys add --user) to the list of indurop users send.\n"
     "The file holds hashes of passwords and tokens. A change counts from the next request on.\n"
     "Examples:\n"
     "  indurop users add anna --role administer\n"
     "  indurop users add ben --role operate --boards 'press*' --variables 'press::*'\n"
     "  indurop users add logger --role look --no-password\n"
-    "  indurop users token logger\n",
+    "  indurop users token logger\n"
+    "  indurop users send --keys keys\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -15,9 +15,9 @@ namespace indurop::tools {
 
 Result<BoardCommander, Failure> BoardCommander::make(Messages& messages, const std::filesystem::path& keys) {
   if (keys.empty()) {
-    return BoardCommander("");
+    return BoardCommander({});
   }
-  auto key = read_deploy_key(messages, keys);
+  auto key = read_command_key(messages, keys);
   if (!key) {
     return Failure{kFailed, key.error().text};
   }

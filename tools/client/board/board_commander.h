@@ -12,6 +12,7 @@
 #include "deploy/link/command_link.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/words/command_words.h"
+#include "tools/client/board/deploy_key.h"
 #include "tools/client/failure.h"
 #include "tools/client/messages.h"
 
@@ -32,9 +33,9 @@ class BoardCommander {
                                  deploy::Action action, const std::string& target, std::int64_t timeout_ns);
 
  private:
-  explicit BoardCommander(std::string key) : key_(std::move(key)) {}
+  explicit BoardCommander(CommandKey key) : key_(std::move(key)) {}
 
-  std::string key_;
+  CommandKey key_;
   std::unique_ptr<deploy::CommandLink> commands_;
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/client/board/command_exchange.h"
 
-#include "core/keys/credentials.h"
-
 namespace indurop::tools {
 
 void CommandExchange::sent(std::int64_t now_ns) noexcept {
@@ -18,7 +16,7 @@ bool CommandExchange::take(const deploy::CommandReply& reply) {
   if (reply.outcome == Outcome::Nonce) {
     if (!under_way_) {
       command_.nonce = reply.nonce;
-      command_.signature = key_.empty() ? "" : keys::signature_of(deploy::command_text(command_), key_);
+      command_.signature = command_signature(key_, deploy::command_text(command_));
       due_ns_ = 0;
     }
     return false;

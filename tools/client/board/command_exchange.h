@@ -9,13 +9,14 @@
 #include <utility>
 
 #include "deploy/words/command_words.h"
+#include "tools/client/board/deploy_key.h"
 
 namespace indurop::tools {
 
 class CommandExchange {
  public:
   // `key`: signs the command; empty: it is not signed.
-  CommandExchange(deploy::Command command, std::string key) : command_(std::move(command)), key_(std::move(key)) {}
+  CommandExchange(deploy::Command command, CommandKey key) : command_(std::move(command)), key_(std::move(key)) {}
 
   [[nodiscard]] const deploy::Command& command() const noexcept { return command_; }
   // The time when command() is to be sent, for the first time or again (CLOCK_MONOTONIC). To be called then: sent().
@@ -28,7 +29,7 @@ class CommandExchange {
 
  private:
   deploy::Command command_;
-  std::string key_;
+  CommandKey key_;
   std::int64_t due_ns_ = 0;
   bool under_way_ = false;
 };

@@ -41,10 +41,10 @@ std::string renewal_target(bool ends) {
 }  // namespace
 
 Result<std::unique_ptr<LeaseKeeper>, Failure> LeaseKeeper::open(deploy::LinkSettings settings) {
-  std::string key;
+  CommandKey key;
   if (!settings.keys.empty()) {
     KeptMessages ignored;
-    auto read = read_deploy_key(ignored, settings.keys);
+    auto read = read_command_key(ignored, settings.keys);
     if (!read) {
       return Failure{kFailed, read.error().text};
     }

@@ -60,7 +60,7 @@ class LeaseKeeper {
     std::int64_t begun_ns = 0;  // when the last command was begun
     std::int64_t until_ns = 0;  // when the board ends the lease, if it has not done so
   };
-  LeaseKeeper(std::unique_ptr<deploy::DeployLink> link, std::unique_ptr<deploy::CommandLink> commands, std::string key)
+  LeaseKeeper(std::unique_ptr<deploy::DeployLink> link, std::unique_ptr<deploy::CommandLink> commands, CommandKey key)
       : link_(std::move(link)), commands_(std::move(commands)), key_(std::move(key)) {}
 
   void begin(Lease& lease, std::string target, std::int64_t now_ns) const;
@@ -70,7 +70,7 @@ class LeaseKeeper {
 
   std::unique_ptr<deploy::DeployLink> link_;  // used by run(), except for its wake word
   std::unique_ptr<deploy::CommandLink> commands_;
-  std::string key_;
+  CommandKey key_;
   std::atomic<bool> stopped_{false};
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable answered_;

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/board_audit.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/stat.h>
+
+#include <cstdint>
+#include <utility>
+
+#include "core/base/json.h"
+#include "core/base/line_journal.h"
+#include "core/rt/clock.h"
+#include "deploy/transaction/write_words.h"
+#include "store/vars/retain.h"
+
+namespace indurop::deploy {
+namespace {
+
+constexpr std::uintmax_t kMaxAuditBytes = 8U << 20U;
+constexpr std::size_t kMaxWhat = 400;
+
+// The form of these targets is their own.
+bool has_words(Action action) noexcept {
+  return action != Action::KeepBox && action != Action::Record && action != Action::EndRecord &&
+         action != Action::DropRecord && action != Action::SetUsers;
+}
+
+}  // namespace
+
+const char* word_of(Action action) noexcept {
+  switch (action) {
+    case Action::StopModule:
+    case Action::StopNode:
+      return "stop";
+    case Action::StartModule:
+    case Action::StartNode:
+      return "start";
+    case Action::Force:
+      return "force";
+    case Action::Unforce:
+      return "unforce";
+    case Action::Set:
+      return "set";
+    case Action::SetLock:
+      return "lock";
+    case Action::KeepBox:
+      return "keep the black box:";
+    case Action::AckAlarms:
+      return "acknowledge alarms";
+    case Action::ShelveAlarms:
+      return "shelve alarms";
+    case Action::UnshelveAlarms:
+      return "unshelve alarms";
+    case Action::Record:
+    case Action::EndRecord:
+    case Action::DropRecord:
+      return "record";
+    case Action::SetUsers:
+      return "set users";
+    case Action::RestartModule:
+    case Action::RestartNode:
+      break;
+  }
+  return "restart";
+}
+
+Command signed_by(Command command, const std::string& user) {
+  if (!user.empty() && has_words(command.action)) {
+    WriteOrder order = parse_module_target(command.target);
+    order.who = user;
+    command.target = text_of(order);
+  }
+  return command;
+}
+
+void note_command(const Command& command, const std::string& user, const std::string& outcome) {
+  const WriteOrder order = has_words(command.action) ? parse_module_target(command.target) : WriteOrder{};
+  const bool recording = command.action == Action::Record || command.action == Action::EndRecord ||
+                         command.action == Action::DropRecord;  // repeated to keep it running
+  if (order.renew || (recording && outcome == "done")) {
+    return;
+  }
+  const std::string claimed = order.who.empty() ? "a deployer" : order.who + " (deployer)";
+  const base::Json entry{{"wall_ns", rt::wall_ns()},
+                         {"who", user.empty() ? claimed : user},
+                         {"from", command.host},
+                         {"board", command.board},
+                         {"action", word_of(command.action)},
+                         {"what", fmt::format("{}", fmt::join(order.lines, " ")).substr(0, kMaxWhat)},
+                         {"outcome", outcome},
+                         {"reason", order.reason}};
+  const auto file = vars::state_directory("serve") / "audit.jsonl";
+  (void)base::append_line({file, kMaxAuditBytes, S_IRUSR | S_IWUSR, base::Durable::Yes}, entry.dump());
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The agent's part of the host's audit log (tools/client/audit.h): each remote command, done or refused, with the name
+// of the user and the reason. Not real-time safe.
+
+#pragma once
+
+#include <string>
+
+#include "deploy/words/command_words.h"
+
+namespace indurop::deploy {
+
+// Returns the command as logs name it.
+const char* word_of(Action action) noexcept;
+// Returns the command with this verified name in place of the one that it claims; empty: as it is.
+Command signed_by(Command command, const std::string& user);
+// Notes a command. `user`: the verified name; empty: the name in the command is that of a deployer's client, which says
+// so. `outcome`: "done", else why not. Nothing is noted of renewals and repetitions.
+void note_command(const Command& command, const std::string& user, const std::string& outcome);
+
+}  // namespace indurop::deploy

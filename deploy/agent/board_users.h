@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which user may give which command to this board. Deployers may give all. Others sign with the key of a certificate
+// that the plant's authority issued to them; their name in it, not the name in the command, is found in the list of
+// users that a deployer or an administrator sent to the board, with role and limits. Not real-time safe.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "config/model/users.h"
+#include "core/base/problem.h"
+#include "core/keys/credentials.h"
+#include "deploy/agent/deploy_keys.h"
+#include "deploy/words/command_words.h"
+
+namespace indurop::deploy {
+
+// Returns the role that a command needs.
+config::UserRole needed_role(Action action) noexcept;
+
+// The keys by which the certificates of users are verified, as texts.
+struct Authority {
+  std::string plant;
+  std::string certificate;
+  std::string revoked;
+};
+// Returns the user who signed the command, or why the signature does not count.
+Result<std::string, base::Problem> signer_of(const Command& command, const UserSignature& signature,
+                                             const Authority& authority, keys::Instant now);
+
+// Returns why the user may not give the command to the board; empty: he may, as far as the variables of writes are
+// concerned as they are named in `variables` (full names). `users`: the list.
+std::string beyond_role(const config::PlantUsers& users, const std::string& user, Action action,
+                        const std::string& board);
+// Returns why the user may not change the variable or a part of it; empty: he may.
+std::string beyond_variables(const config::PlantUser& user, const std::string& name);
+
+class BoardUsers {
+ public:
+  BoardUsers(std::string board, const DeployKeys& keys);
+
+  struct Verdict {
+    std::string user;     // verified name; empty: the command is that of a deployer, or the board has no keys
+    std::string refusal;  // empty: allowed
+  };
+  // Judges a command to this board, which runs `plant`.
+  [[nodiscard]] Verdict judge(const Command& command, const std::string& plant) const;
+  // Replaces the list of users of the plant, durably. A problem: it is no list.
+  Result<void, base::Problem> replace(const std::string& plant, const std::string& list) const;
+
+ private:
+  [[nodiscard]] std::filesystem::path file_of(const std::string& plant) const;
+  [[nodiscard]] std::string beyond_limits(const config::PlantUser& user, const Command& command) const;
+
+  std::string board_;
+  const DeployKeys& keys_;
+};
+
+}  // namespace indurop::deploy

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Users command boards from afar with keys of their own: role and limits of the plant's list decide, whatever name a
+// command claims, and the audit log of the board names who did what and who was refused.
+
+#include <fstream>
+
+#include "agents_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using testing::HasSubstr;
+
+class RemoteUsers : public AgentsTest {
+ protected:
+  void SetUp() override {
+    std::filesystem::copy_file(TWO_BOARDS "/table.so", folder() / "table.so");
+    const std::string file = manifest("v1.xml", {{"a", "table"}, {"b", "steady"}});
+    bring_keys(file, {"a", "b"});
+    for (const char* name : {"anna", "ben", "carl"}) {
+      ASSERT_EQ(indurop_here({"keys", "add", "--user", name, "--dir", path("keys")}).code, 0);
+    }
+    start_agent("a");
+    start_agent("b");
+    speak_with_keys(path("keys"));
+    const Outcome done = deploy(file);
+    ASSERT_EQ(done.code, 0) << done.err;
+  }
+  void list(const std::vector<std::vector<std::string>>& users) {
+    std::filesystem::remove(path("users.xml"));
+    for (std::vector<std::string> words : users) {
+      words.insert(words.begin(), {"users", "add"});
+      words.insert(words.end(), {"--no-password", "--file", path("users.xml")});
+      ASSERT_EQ(indurop_here(words).code, 0);
+    }
+  }
+  Outcome send(const std::string& keys) {
+    return indurop({"users", "send", "--file", path("users.xml"), "--keys", keys});
+  }
+  // A command about board a with the keys of this user.
+  Outcome as(const std::string& user, std::vector<std::string> words) {
+    words.insert(words.end(), {"--board", board("a"), "--keys", path("keys/users/" + user)});
+    return indurop(words);
+  }
+  Json audit() {
+    return indurop_here({"audit", "-o", "json", "--file", path("state/serve/audit.jsonl")}).json()["audit"];
+  }
+};
+
+TEST_F(RemoteUsers, Do_what_their_role_allows) {
+  const Outcome unknown = as("anna", {"set", "torque=1"});
+  EXPECT_EQ(unknown.code, 1) << unknown.out;
+  EXPECT_THAT(unknown.err, HasSubstr("anna is not in this board's list of users"));
+  list({{"anna", "--role", "operate"},
+        {"ben", "--role", "program", "--boards", board("b")},
+        {"carl", "--role", "tune", "--variables", "cell::torque"}});
+  const Outcome sent = send(path("keys"));
+  ASSERT_EQ(sent.code, 0) << sent.err;
+
+  EXPECT_EQ(as("anna", {"set", "torque=1", "--reason", "a trial"}).code, 0);
+  const Outcome force = as("anna", {"force", "torque=1"});
+  EXPECT_EQ(force.code, 1);
+  EXPECT_THAT(force.err, HasSubstr("anna has the role operate, and this needs tune"));
+  EXPECT_THAT(as("ben", {"set", "torque=1"}).err, HasSubstr("ben may change boards " + board("b") + " only"));
+  EXPECT_EQ(as("carl", {"force", "torque=2", "--for", "60s"}).code, 0);
+  EXPECT_THAT(as("carl", {"set", "echo=1"}).err, HasSubstr("carl may change cell::torque only, not cell::echo"));
+  EXPECT_THAT(as("carl", {"unforce", "--all"}).err, HasSubstr("carl may change cell::torque only")) << "all is more";
+  EXPECT_EQ(as("carl", {"unforce", "torque"}).code, 0);
+  EXPECT_THAT(send(path("keys/users/anna")).err, HasSubstr("this needs administer")) << "no user raises himself";
+
+  // Taken back: the next command is refused.
+  list({{"ben", "--role", "program"}});
+  ASSERT_EQ(send(path("keys")).code, 0);
+  EXPECT_THAT(as("anna", {"set", "torque=1"}).err, HasSubstr("anna is not in this board's list of users"));
+}
+
+TEST_F(RemoteUsers, Are_named_in_the_audit_log_by_their_certificate) {
+  list({{"anna", "--role", "operate"}});
+  ASSERT_EQ(send(path("keys")).code, 0);
+  ::setenv("LOGNAME", "the-boss", 1);
+  ::setenv("USER", "the-boss", 1);
+  ASSERT_EQ(as("anna", {"set", "torque=1", "--reason", "a trial"}).code, 0);
+  EXPECT_EQ(as("anna", {"lock", "all"}).code, 1);
+  ::unsetenv("LOGNAME");
+  ::unsetenv("USER");
+  const Json log = audit();
+  ASSERT_GE(log.size(), 2U) << log;
+  const Json& refused = log[log.size() - 1];
+  const Json& done = log[log.size() - 2];
+  EXPECT_EQ(done["who"], "anna");
+  EXPECT_EQ(done["action"], "set");
+  EXPECT_THAT(done["what"].get<std::string>(), HasSubstr("torque=1"));
+  EXPECT_EQ(done["outcome"], "done");
+  EXPECT_EQ(done["reason"], "a trial");
+  EXPECT_EQ(refused["who"], "anna");
+  EXPECT_EQ(refused["action"], "lock");
+  EXPECT_THAT(refused["outcome"].get<std::string>(), HasSubstr("this needs program"));
+}
+
+TEST_F(RemoteUsers, Keep_their_rights_when_the_agent_starts_again_and_lose_them_with_their_keys) {
+  list({{"anna", "--role", "operate"}});
+  ASSERT_EQ(send(path("keys")).code, 0);
+  stop_agent("a", SIGKILL);
+  start_agent("a");
+  ASSERT_TRUE(wait_until([&] { return as("anna", {"set", "torque=1"}).code == 0; }));
+  ASSERT_EQ(indurop_here({"keys", "revoke", "anna", "--dir", path("keys")}).code, 0);
+  const auto plant = folder() / "etc" / ("p" + std::to_string(::getpid()));
+  std::filesystem::copy_file(path("keys/revoked.pem"), plant / board("a") / "revoked.pem",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_TRUE(wait_until([&] { return as("anna", {"set", "torque=1"}).code != 0; }));
+  ASSERT_TRUE(wait_until([&] {
+    return indurop({"set", "torque=2", "--board", board("a")}).code == 0;
+  })) << "a deployer still may";
+  EXPECT_NE(as("anna", {"set", "torque=1"}).code, 0);
+}
+
+}  // namespace
+}  // namespace indurop::test
