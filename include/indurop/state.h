@@ -25,6 +25,18 @@ struct StateItem {
   std::uint64_t size = 0;  // 0: it cannot be copied as bytes
 };
 
+// An item whose type begins with kStateAddress leads to another item. It begins with a StateAddress, or with its first
+// member only, and is put back so that it leads to the same item of the other process.
+inline constexpr std::string_view kStateAddress = "address: ";
+struct StateAddress {
+  const void* to = nullptr;  // the item, or a place inside of it
+  std::uint32_t size = 0;    // of the item; 0: not known
+  std::uint32_t ended = 0;   // not 0: what it led to has ended, and it is not used any more
+};
+// An item whose type begins with kStatePlace has no bytes of its own in a keyframe: addresses may lead to it. Its type
+// says all that decides about what lies where inside of it.
+inline constexpr std::string_view kStatePlace = "place: ";
+
 // Filled in by the module for the node. New fields go at the end only: `size` states how much of it the module knew.
 struct StateDescriptor {
   std::uint32_t size = sizeof(StateDescriptor);

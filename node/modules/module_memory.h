@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "node/modules/relocation.h"
+
 namespace indurop::node {
 
 class ModuleMemory {
@@ -27,31 +29,47 @@ class ModuleMemory {
   // What the module itself says cannot be taken; empty: nothing.
   [[nodiscard]] const std::string& missing() const noexcept { return missing_; }
   [[nodiscard]] std::uint64_t most() const noexcept { return most_; }
-  // A line for each item, "name, tab, type, tab, bytes": what the bytes of a keyframe are.
+  // A line for each item, "name, tab, type, tab, bytes": what the bytes of a keyframe are. If any is an address, the
+  // place of each item follows.
   [[nodiscard]] const std::string& form() const noexcept { return form_; }
 
   // Copies the state; a run of the module may change it meanwhile. Returns the bytes written, 0: it cannot be taken
   // now.
   std::size_t save(std::span<std::byte> to) const;
 
+  // Names of items that lead to what is not kept, for people: while there are any, save() returns 0. A run of the
+  // module may change them meanwhile.
+  [[nodiscard]] std::string astray() const;
+
   // Puts bytes of this form back. Returns the names of items that differ: kept in the bytes and unknown here, of
   // another type, or new here. Items of the same name and type are put back whatever the others are.
   [[nodiscard]] std::vector<std::string> restore(std::string_view form, std::span<const std::uint8_t> bytes) const;
 
  private:
+  enum class Kind { Value, Address, Place };
   struct Item {
     std::string name;
     std::string type;
     void* address = nullptr;
     std::size_t size = 0;
+    Kind kind = Kind::Value;
+    [[nodiscard]] std::size_t bytes() const noexcept { return kind == Kind::Place ? 0 : size; }
   };
+  struct Old;  // an item in the bytes of a keyframe
   [[nodiscard]] bool uses_functions() const noexcept {
     return functions_.save != nullptr && functions_.restore != nullptr;
   }
+  void add(const StateItem& item);
+  [[nodiscard]] const Item* find(const Old& old) const noexcept;
+  [[nodiscard]] std::vector<std::string> restore(std::span<const Old> all, std::span<const std::uint8_t> places) const;
+  static bool lead(const Item& item, const Relocation& moved);
+  [[nodiscard]] bool is_astray(const Item& item, const std::byte* bytes) const noexcept;
   [[nodiscard]] std::size_t save_by_function(std::span<std::byte> to) const;
 
   bool declared_ = false;
   std::vector<Item> items_;
+  bool has_addresses_ = false;
+  Relocation here_;  // all items where they are
   StateDescriptor functions_;
   std::uint64_t most_ = 0;
   std::string form_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/parts/keyframe_part.h"
 
+#include <string>
 #include <utility>
 
 namespace indurop::node {
@@ -58,9 +59,12 @@ void KeyframePart::begin_period() {
     if (subject.due && record.state.load() == scheduler::ModuleState::Running) {
       writer_.note_missed(i);
       if (++subject.missed == kMissedInARow) {
+        const std::string astray = subject.memory->astray();
         console_.about(record.name)
-            .warning("module {}: no keyframe for {} s, because its runs leave too little time between them",
-                     record.name, (kKeyframePeriod * kMissedInARow).count() / 1000);
+            .warning("module {}: no keyframe for {} s, because {}", record.name,
+                     (kKeyframePeriod * kMissedInARow).count() / 1000,
+                     astray.empty() ? "its runs leave too little time between them, or it cannot be taken now"
+                                    : astray + " leads to what is not kept");
       }
     }
     subject.due = true;

@@ -3,10 +3,14 @@
 
 #pragma once
 
+#include <indurop/plc/lifetime.h>
+#include <indurop/plc/object.h>
+#include <indurop/plc/pointer.h>
 #include <indurop/state.h>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <type_traits>
 
@@ -17,6 +21,19 @@ template <class T>
 constexpr StateItem kept(std::string_view name, std::string_view type, T& variable) noexcept {
   return {name.data(), static_cast<std::uint32_t>(name.size()), static_cast<std::uint32_t>(type.size()),
           type.data(), static_cast<void*>(&variable),           std::is_trivially_copyable_v<T> ? sizeof(T) : 0};
+}
+
+// A pointer begins as an address of a kept variable does. One to a variable of a call has ended between two scans.
+static_assert(offsetof(Pointer<int>, base) == offsetof(StateAddress, to));
+static_assert(offsetof(Pointer<int>, size) == offsetof(StateAddress, size));
+static_assert(offsetof(Pointer<int>, call) == offsetof(StateAddress, ended));
+
+// A variable that pointers may lead to, and that is not kept itself or in several parts.
+template <class T>
+constexpr StateItem kept_place(std::string_view name, std::string_view type, T& variable) noexcept {
+  StateItem item = kept(name, type, variable);
+  item.size = sizeof(T);
+  return item;
 }
 
 // `missing`: what else it keeps; null: nothing.

@@ -33,6 +33,9 @@ class Lifetime {
     return false;
   }
 
+  // The number given last; a keyframe keeps it, so that no number of an ended call is given again.
+  [[nodiscard]] static constexpr std::uint32_t& last_number() noexcept { return last; }
+
  private:
   // Each module has its own, which ends when the module is unloaded.
   [[gnu::visibility("hidden")]] inline static const Lifetime* innermost = nullptr;

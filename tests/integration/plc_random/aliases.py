@@ -4,7 +4,7 @@
 import dataclasses
 
 from kinds import Type
-from tree import Expr, Stmt
+from tree import Expr, Stmt, indent
 from units import Parameter
 
 KINDS = ("REF_TO", "POINTER TO", "REFERENCE TO")
@@ -14,7 +14,8 @@ SCALARS = ("bool", "bits", "int", "real", "time", "date", "enum")
 
 @dataclasses.dataclass
 class Pointer:
-    """Its value is the slot of what it leads to; each body sets it before everything else."""
+    """Its value is the slot of what it leads to. A body sets it before everything else; one that keeps it from one
+    scan to the next only if it leads nowhere."""
     name: str
     kind: str
     type: object  # of what it leads to
@@ -32,6 +33,12 @@ class Pointer:
 
         return Expr(name if self.kind == "REFERENCE TO" else f"{name}^", self.type, run, slot=lambda f: f.values[name])
 
+    def bound_once(self, target):
+        bound = self.bound(target)
+        nowhere = f"NOT __ISVALIDREF({self.name})" if self.kind == "REFERENCE TO" else f"{self.name} = NULL"
+        return Stmt([f"IF {nowhere} THEN", *indent(bound.lines), "END_IF;"],
+                    lambda f: None if f.values[self.name] else bound.run(f))
+
     def bound(self, target):
         self.targets.add(target.text)
         word = {"REF_TO": f":= REF({target.text})", "POINTER TO": f":= ADR({target.text})"}.get(self.kind, f"REF= {target.text}")
@@ -41,7 +48,8 @@ class Pointer:
 def targets(scope, type_=None):
     """Whole variables only: an element would be another one when its array is assigned to."""
     return [scope.read(one) for one in scope.places(True)
-            if not one.edge and one.type.kind in SCALARS and type_ in (None, one.type)]
+            if not one.edge and one.type.kind in SCALARS and type_ in (None, one.type)
+            and (one.lasting or not scope.keeps_pointers)]
 
 
 def make_pointers(rng, scope, kinds):
@@ -49,11 +57,13 @@ def make_pointers(rng, scope, kinds):
     found = targets(scope)
     if not found or rng.random() < 0.4:
         return []
+    scope.keeps_pointers = scope.keeps_pointers and all(one.name.upper() != "NULL" for one in scope.variables)
     numbers = [one for one in found if one.type.kind == "int"]
     for i in range(rng.randint(1, 3)):
         target = rng.choice(numbers if numbers and rng.random() < 0.8 else found)
         scope.pointers.append(Pointer(f"pt{i}", rng.choice(kinds), target.type))
-    return [one.bound(rng.choice(targets(scope, one.type))) for one in scope.pointers]
+    return [(one.bound_once if scope.keeps_pointers else one.bound)(rng.choice(targets(scope, one.type)))
+            for one in scope.pointers]
 
 
 def rebind(rng, scope):

@@ -20,7 +20,11 @@ HEAD = """#include "{module}.cpp"
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <span>
 #include <string>
+#include <vector>
+
+#include "node/modules/module_memory.h"
 
 static std::int64_t time_of_test = 0;
 std::int64_t irp::release_ns() noexcept {{ return time_of_test; }}
@@ -69,15 +73,31 @@ template <class Program, class Show> void run_scans(const char* name, Program& p
   }}
 }}
 void put(const std::string& value) {{ std::printf("\\t%s", value.c_str()); }}
-// What the module keeps: to a file and back, in another process. So are globals, which a node keeps in its store.
+// What the module keeps: to a file and back, in another process, as a node takes it and a replay puts it back. So are
+// globals, which a node keeps in its store.
 void keep(const char* path, bool back) {{
   indurop::StateDescriptor kept;
   indurop_module_state(&kept);
-  if (kept.missing != nullptr) std::printf("missing\\t%s\\n", kept.missing);
+  const indurop::node::ModuleMemory memory(kept);
+  if (!memory.missing().empty()) std::printf("missing\\t%s\\n", memory.missing().c_str());
   std::FILE* const file = std::fopen(path, back ? "r" : "w");
-  for (std::uint32_t i = 0; i < kept.item_count; ++i) {{
-    const auto& [name, name_length, type_length, type, address, size] = kept.items[i];
-    if ((back ? std::fread(address, 1, size, file) : std::fwrite(address, 1, size, file)) != size || size == 0) std::abort();
+  std::uint64_t sizes[2] = {{memory.form().size(), memory.most()}};
+  const auto move = [&](void* what, std::size_t size) {{
+    if (size > 0 && (back ? std::fread(what, size, 1, file) : std::fwrite(what, size, 1, file)) != 1) std::abort();
+  }};
+  std::string form = memory.form();
+  std::vector<std::uint8_t> bytes(memory.most());
+  if (!back) {{
+    const std::size_t saved = memory.save(std::as_writable_bytes(std::span(bytes)));
+    if (saved != bytes.size()) std::printf("astray\\t%s\\n", memory.astray().c_str());
+  }}
+  move(sizes, sizeof sizes);
+  form.resize(sizes[0]);
+  bytes.resize(sizes[1]);
+  move(form.data(), form.size());
+  move(bytes.data(), bytes.size());
+  if (back) {{
+    for (const std::string& name : memory.restore(form, bytes)) std::printf("astray\\t%s\\n", name.c_str());
   }}
 {image}  std::fclose(file);
 }}
@@ -93,7 +113,8 @@ int main(int argc, char** argv) {{
 """
 
 
-IMAGE = "  if ((back ? std::fread(&shared, 1, sizeof shared, file) : std::fwrite(&shared, 1, sizeof shared, file)) != sizeof shared) std::abort();\n"
+IMAGE = "  move(&shared, sizeof shared);\n"
+ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "../../.."))
 
 
 def shown(type_, value):
@@ -185,8 +206,10 @@ def compile_batch(build, folder, programs, optimize, coverage=False):
             text = code.read()
         file.write(driver_text("batch", programs, "void start() {" in text, "Image shared;" in text))
     compiler = os.environ.get("CXX") or "g++"
-    checked_call([compiler, *FLAGS, optimize, f"-isystem{build}/include", "-isystem.", "driver.cpp", "-o", "driver",
-                  f"-L{build}/lib", "-lindurop", f"-Wl,-rpath,{build}/lib"], folder)
+    memory = [f"{ROOT}/node/modules/{name}.cpp" for name in ("module_memory", "relocation")]
+    checked_call([compiler, *FLAGS, optimize, f"-I{ROOT}", f"-isystem{build}/include", "-isystem.", "driver.cpp", *memory,
+                  "-o", "driver", f"-L{build}/lib", "-lindurop", "-lindurop_rt", "-lindurop_rt_posix", "-lfmt",
+                  f"-Wl,-rpath,{build}/lib"], folder)
     return os.path.join(folder, "driver")
 
 
@@ -204,14 +227,16 @@ def results(path, folder, *arguments):
 
 
 def resumed(path, folder, scan):
-    """As results(), but what the programs keep goes to another process before this scan. Without those that say that
-    not all of it can be taken: they hold pointers."""
+    """As results(), but what the programs keep goes to another process before this scan."""
     out = results(path, folder, str(scan), "kept")
-    missing = set(re.findall(r"(P\d+)\.", out.pop("missing", [("", [])])[0][0]))
-    for name, scans in results(path, folder, "kept", str(scan)).items():
+    after = results(path, folder, "kept", str(scan))
+    for word in ("missing", "astray"):
+        if word in out or word in after:
+            raise Failed(f"{word}: {out.get(word)} {after.get(word)}")
+    for name, scans in after.items():
         if name in out and out[name][-1][0] == "":
             out[name] += scans
-    return {name: scans for name, scans in out.items() if name not in missing}
+    return out
 
 
 def counted_lines(build, folder):

@@ -205,13 +205,14 @@ class Program:
         parameters += self.parameters("VAR", "v", 3, 1) + self.parameters("VAR_TEMP", "t", 1)
         blocks = self.instances(rng.randint(0, 2))
         block = UserBlock(f"{self.prefix}_B{i}", parameters + blocks)
-        variables = [parts.Variable(one.name, one.type, edge=bool(one.edge), writable=not one.edge)
-                     for one in parameters]
+        variables = [parts.Variable(one.name, one.type, edge=bool(one.edge), writable=not one.edge,
+                                    lasting=one.section not in ("VAR_IN_OUT", "VAR_TEMP")) for one in parameters]
         variables += [parts.Variable(one.name, None, instance=one.type) for one in blocks]
         if rng.random() < 0.4:
             block.globals = self.globals
             variables += self.global_variables()
         scope = self.scope_of(variables, bool(block.globals))
+        scope.keeps_pointers = rng.random() < 0.7
         body = Writer(rng, scope, pointers=self.pointer_kinds).outermost(rng.randint(2, 7))
         block.parameters += [one.parameter() for one in scope.pointers]
         block.run_body = sequence(body)
@@ -305,6 +306,7 @@ class Program:
             self.body, self.lines = self.chart.run, self.chart.text()
             return
         scope = self.scope_of(variables, True)
+        scope.keeps_pointers = rng.random() < 0.7
         body = seen + Writer(rng, scope, pointers=self.pointer_kinds).outermost(rng.randint(6, 18))
         self.pointers = [one.parameter() for one in scope.pointers]
         self.body = sequence(body)

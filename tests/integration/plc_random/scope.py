@@ -14,6 +14,7 @@ class Variable:
     edge: bool = False  # an input of which only the edge counts
     instance: object = None  # Block
     store: dict = None  # a global: where the values of all globals are
+    lasting: bool = True  # no VAR_TEMP, no VAR_IN_OUT
 
 
 class Scope:
@@ -22,6 +23,7 @@ class Scope:
         self.functions = list(functions)
         self.changing = []  # order.Changer
         self.pointers = []  # aliases.Pointer
+        self.keeps_pointers = False  # from one scan to the next
         self.locked = set()  # variables of the FORs around
         self.ranges = {}  # variable of a FOR: its values
 
