@@ -200,6 +200,11 @@ def compile_batch(build, folder, programs, optimize, coverage=False):
     checked_call([os.path.join(build, "bin/indurop"), "plc", "build", "batch.st", "--only-sources", "--quiet", *counting], folder)
     if not coverage and not any(program.starts for program in programs):
         check_export(build, folder)
+    return compile_driver(build, folder, programs, optimize)
+
+
+def compile_driver(build, folder, programs, optimize):
+    """The path of a program that runs those of batch.cpp."""
     checked_call([os.path.join(build, "bin/glb2idl"), "--out-dir", ".", "batch.glb"], folder)
     with open(os.path.join(folder, "driver.cpp"), "w", encoding="utf-8") as file:
         with open(os.path.join(folder, "batch.cpp"), encoding="utf-8") as code:
