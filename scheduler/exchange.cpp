@@ -29,6 +29,11 @@ bool Exchange::leave_new(Step to, Reason reason) noexcept {
   return false;
 }
 
+Exchange::Step Exchange::settle() noexcept {
+  Step done = Step::Done;
+  return step_.compare_exchange_strong(done, Step::Settled, std::memory_order_acq_rel) ? Step::Settled : done;
+}
+
 void Exchange::copy_back() const noexcept {
   for (const Pair& pair : settings_.pairs) {
     std::memcpy(pair.old_place, pair.new_place, pair.bytes);

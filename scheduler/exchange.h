@@ -34,7 +34,8 @@ class Exchange {
   };
   enum class Step : std::uint32_t {
     Waiting,    // the old version runs until the exchange is due
-    Done,       // the new version runs
+    Done,       // the new version runs, and the old one is ready to
+    Settled,    // the new version runs
     GoingBack,  // the old version is to run again, with what the new one keeps now
     Failing,    // the same after a fault, with what the new one kept before the run that failed
     Back,       // the old version runs again
@@ -54,12 +55,16 @@ class Exchange {
   [[nodiscard]] std::optional<std::uint64_t> gap() const noexcept;
   // Everything was copied in this gap: the next run is one of the new version, if it is the one that ends the gap.
   void offer(std::uint64_t gap) noexcept { offered_gap_.store(gap + 1, std::memory_order_release); }
+  [[nodiscard]] bool is_offered(std::uint64_t gap) const noexcept { return offered_gap_.load() == gap + 1; }
 
   // Any thread; real-time safe. Lets the old version run again, from the next run on. Returns false if the new version
   // does not run, or the old one cannot continue without a normal thread.
   bool go_back(Reason reason) noexcept { return leave_new(Step::GoingBack, reason); }
   // The same after a fault in its code.
   bool fail() noexcept { return leave_new(Step::Failing, Reason::Fault); }
+
+  // Ends the time in which the old version is ready, if the new one runs. Returns the step after that.
+  Step settle() noexcept;
 
   [[nodiscard]] Step step() const noexcept { return step_.load(std::memory_order_acquire); }
   [[nodiscard]] Reason reason() const noexcept { return reason_.load(std::memory_order_acquire); }

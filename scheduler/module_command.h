@@ -11,7 +11,14 @@
 
 namespace indurop::scheduler {
 
-enum class ModuleCommand : std::uint8_t { None, Stop, Start, Restart };
+enum class ModuleCommand : std::uint8_t {
+  None,
+  Stop,
+  Start,
+  Restart,
+  Reload,  // exchange its code; a request in the node's folder says with what (store/operate/reload.h)
+  Back,    // exchange its code with the previous version
+};
 enum class CommandResult : std::uint8_t {
   None,       // not answered yet
   Done,       // the module is in the commanded state
@@ -19,6 +26,7 @@ enum class CommandResult : std::uint8_t {
   Failed,     // it is not; ModuleRecord::last_fault or the node's log says why
   Ending,     // the node itself stops
   OldCode,    // done, but the module's file is no longer the one that was loaded and runs
+  Refused,    // nothing was changed; the report of a reload says why
 };
 
 // Identifies one command; the next command gets another ticket.

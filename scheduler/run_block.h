@@ -31,6 +31,12 @@ enum class ModuleState : std::uint32_t {
 };
 enum class FaultKind : std::uint32_t { None, Exception, Signal, Budget, Overrun, Exit, StartFailed };
 
+enum class VersionState : std::uint32_t {
+  Settled,   // no exchange is in progress
+  Watched,   // it was exchanged; the previous version runs again if this one fails
+  Returned,  // the previous version runs again
+};
+
 // One Distribution = one quantity in ns. Single writer (the thread that runs the module); readers may see a sample
 // counted in one field and not yet in the next.
 struct Distribution {
@@ -74,7 +80,13 @@ struct ModuleRecord {
   // Commands from other processes, see module_command.h.
   std::atomic<std::uint64_t> command;
   std::atomic<std::uint64_t> answer;
-  std::int64_t last_start_ns;  // CLOCK_MONOTONIC, of the run in progress or the last one
+  // The version of its code (thread modules). Written by a normal thread of the node, the number last.
+  std::atomic<std::uint64_t> version;       // 1: the one that the node started with; each exchange adds 1
+  std::atomic<std::uint64_t> version_tick;  // of its first run; 0 for version 1
+  std::atomic<VersionState> version_state;
+  std::atomic<std::uint32_t> kept_loaded;  // earlier versions that could not be unloaded
+  char digests[2][72];                     // SHA-256 of its file, at digests[version % 2]
+  std::int64_t last_start_ns;              // CLOCK_MONOTONIC, of the run in progress or the last one
   std::atomic<std::int64_t> last_exec_ns;
   // Distributions.
   Distribution jitter;    // |J_n|, Eq. (1), ns

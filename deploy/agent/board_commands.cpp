@@ -318,11 +318,10 @@ CommandReply BoardCommands::begin_module(const Command& command, const WriteOrde
 }
 
 CommandReply BoardCommands::begin_node(const Command& command, const WriteOrder& words) {
-  const bool runs = process_.condition() == NodeCondition::Running;
   if (command.action == Action::StopNode && !process_.held().empty() && !process_.has_node()) {
     return reply(command, Outcome::Unchanged);
   }
-  if (command.action == Action::StartNode && runs) {
+  if (command.action == Action::StartNode && process_.condition() == NodeCondition::Running) {
     return reply(command, Outcome::Unchanged);
   }
   ended_ = command.action == Action::StartNode;
@@ -352,6 +351,7 @@ std::optional<CommandReply> BoardCommands::poll_module() {
       return reply(*command_, Outcome::Done, "its file was replaced, the code that was loaded before is running");
     case CommandResult::Unchanged:
       return reply(*command_, Outcome::Unchanged);
+    case CommandResult::Refused:
     case CommandResult::Failed:
       return reply(*command_, Outcome::Failed,
                    module_->last_fault[0] != '\0' ? module_->last_fault : "it could not be started");

@@ -243,7 +243,9 @@ Result<void, Problem> Recorder::write_part(const tape::Run& run, std::size_t par
     to_cdr(AnswerRecord{run.answers[part].code, run.answers[part].bytes}, cdr_);
     return write(answer_channel_, to_sequence({module, tape::EntryKind::Answer}));
   }
-  to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0, (run.flags & tape::kRestarted) != 0}, cdr_);
+  to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0, (run.flags & tape::kRestarted) != 0,
+                  (run.flags & tape::kExchanged) != 0},
+         cdr_);
   auto written = write(runs_channel_, static_cast<std::uint32_t>(run.tail.number));
   counts_.runs += written.ok() ? 1U : 0U;
   return written;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<std::uint8_t, 4> kLittleEndian{0, 1, 0, 0};
 constexpr std::size_t kTailBytes = sizeof(tape::RunTail);
 constexpr std::size_t kOldBytes = kLittleEndian.size() + kTailBytes + sizeof(std::uint32_t) + 1;
-constexpr std::size_t kMessageBytes = kOldBytes + 1;
+constexpr std::size_t kMessageBytes = kOldBytes + 2;
 constexpr std::uint32_t kKindBits = 3;
 
 void begin(std::vector<std::uint8_t>& cdr) {
@@ -71,6 +71,7 @@ const std::string_view kRunIdl =
     "    unsigned long module_index;\n"
     "    boolean faulted;\n"
     "    boolean anew;\n"
+    "    boolean exchanged;\n"
     "  };\n"
     "};\n";
 
@@ -146,15 +147,16 @@ void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr) {
   append(run.module, cdr);
   cdr.push_back(run.faulted ? 1 : 0);
   cdr.push_back(run.anew ? 1 : 0);
+  cdr.push_back(run.exchanged ? 1 : 0);
 }
 
 Result<RunWords> run_from_cdr(std::span<const std::uint8_t> cdr) {
-  if ((cdr.size() != kMessageBytes && cdr.size() != kOldBytes) || !is_little_endian(cdr)) {
+  if (cdr.size() < kOldBytes || cdr.size() > kMessageBytes || !is_little_endian(cdr)) {
     return Error{Errc::Corrupt, 0, "a run of a recording"};
   }
   return RunWords{read_at<tape::RunTail>(cdr, kLittleEndian.size()),
                   read_at<std::uint32_t>(cdr, kLittleEndian.size() + kTailBytes), cdr[kOldBytes - 1] != 0,
-                  cdr.size() == kMessageBytes && cdr.back() != 0};
+                  cdr.size() > kOldBytes && cdr[kOldBytes] != 0, cdr.size() == kMessageBytes && cdr.back() != 0};
 }
 
 std::uint32_t to_sequence(ValueWords words) noexcept {

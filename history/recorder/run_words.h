@@ -28,7 +28,8 @@ struct RunWords {
   tape::RunTail tail;
   std::uint32_t module = 0;
   bool faulted = false;
-  bool anew = false;  // its module was started again since its previous run; always false in older recordings
+  bool anew = false;       // its module was started again since its previous run; always false in older recordings
+  bool exchanged = false;  // another version of its code runs since its previous run; likewise
 };
 // The results of irp::now_ns() in runs: messages of the channel indurop/clock, in the order of a run's calls.
 inline constexpr std::string_view kClockTopic = "indurop/clock";

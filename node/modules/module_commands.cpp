@@ -40,10 +40,12 @@ bool ModuleCommands::answer(const Work& work, CommandResult result) {
 }
 
 void ModuleCommands::poll(rt::MonoTime now) {
+  exchanges_.poll(now);
   for (std::uint32_t i = 0; i < parts_.run.module_count; ++i) {
     const ModuleCommand command = scheduler::waiting_command(record(i));
     const bool taken = std::any_of(works_.begin(), works_.end(), [i](const Work& work) { return work.module == i; });
-    if (command != ModuleCommand::None && !taken) {
+    const bool exchanges = command == ModuleCommand::Reload || command == ModuleCommand::Back;
+    if (command != ModuleCommand::None && !exchanges && !taken) {
       take(i, command, now);
     }
   }
@@ -177,6 +179,7 @@ void ModuleCommands::end() {
     scheduler::answer_command(record(work.module), CommandResult::Ending);
   }
   works_.clear();
+  exchanges_.end();
 }
 
 }  // namespace indurop::node

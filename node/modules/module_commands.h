@@ -6,8 +6,10 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "node/exchange/exchanges.h"
 #include "node/modules/failsafe.h"
 #include "node/modules/normal_threads.h"
 #include "node/modules/processes.h"
@@ -33,12 +35,15 @@ class ModuleCommands {
     Console& console;
     tape::Tape* tape;  // null: none
   };
-  explicit ModuleCommands(const Parts& parts) : parts_(parts) {}
+  // `check`: as the node starts. `apart`: for versions that do not run.
+  ModuleCommands(const Parts& parts, const Exchanges::Parts& exchanges, const config::CheckResult& check, Phases apart)
+      : parts_(parts), exchanges_(exchanges, check, std::move(apart)) {}
 
   // Accepts new commands and continues those in progress.
   void poll(rt::MonoTime now);
   // Called when the schedule has ended: waits for calls in progress and answers the remaining commands.
   void end();
+  [[nodiscard]] const Exchanges& exchanges() const noexcept { return exchanges_; }
 
  private:
   // Progress of a command.
@@ -69,6 +74,7 @@ class ModuleCommands {
 
   Parts parts_;
   std::vector<Work> works_;
+  Exchanges exchanges_;
 };
 
 }  // namespace indurop::node

@@ -4,14 +4,19 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <link.h>
 #include <sys/mman.h>
 #include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <utility>
+
+#include "core/keys/digest.h"
 
 namespace indurop::node {
 namespace {
@@ -34,6 +39,30 @@ int copy_to_memory(const std::filesystem::path& file) {
     ::close(to);
   }
   return ok ? to : -1;
+}
+
+// What the linker has made read-only after it wrote addresses is not written.
+bool is_read_only_now(const dl_phdr_info& info, std::uintptr_t page, std::uintptr_t page_bytes) {
+  return std::any_of(info.dlpi_phdr, info.dlpi_phdr + info.dlpi_phnum, [&](const ElfW(Phdr) & part) {
+    const std::uintptr_t begin = info.dlpi_addr + part.p_vaddr;
+    return part.p_type == PT_GNU_RELRO && page + page_bytes > begin && page < begin + part.p_memsz;
+  });
+}
+
+void touch(const dl_phdr_info& info) {
+  const auto page_bytes = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  for (const ElfW(Phdr) & part : std::span(info.dlpi_phdr, info.dlpi_phnum)) {
+    const std::uintptr_t begin = info.dlpi_addr + part.p_vaddr;
+    for (std::uintptr_t page = begin - begin % page_bytes; part.p_type == PT_LOAD && page < begin + part.p_memsz;
+         page += page_bytes) {
+      auto* const byte = reinterpret_cast<unsigned char*>(std::max(page, begin));
+      if ((part.p_flags & PF_W) != 0 && !is_read_only_now(info, page, page_bytes)) {
+        (void)__atomic_fetch_or(byte, 0, __ATOMIC_RELAXED);
+      } else if ((part.p_flags & PF_R) != 0) {
+        (void)*static_cast<const volatile unsigned char*>(byte);
+      }
+    }
+  }
 }
 
 template <class Function>
@@ -61,6 +90,9 @@ Result<void, base::Problem> ModuleLibrary::load(const std::filesystem::path& fil
     return base::Problem{fmt::format(
         "cannot load the module: {}; if a symbol is undefined, link the library that defines it into the module",
         reason != nullptr ? reason : "unknown reason")};
+  }
+  if (const auto digest = keys::digest_of_file(path)) {
+    digest_ = digest->digest;
   }
   find_functions();
   if (functions_.run == nullptr) {
@@ -99,12 +131,46 @@ ModuleLibrary::Mark ModuleLibrary::mark_of(const std::filesystem::path& file) {
              : Mark{info.st_dev, info.st_ino, info.st_size, info.st_mtim.tv_sec * kSecondNs + info.st_mtim.tv_nsec};
 }
 
+const void* ModuleLibrary::inside() const noexcept {
+  link_map* map = nullptr;
+  return handle_ != nullptr && ::dlinfo(handle_, RTLD_DI_LINKMAP, &map) == 0 ? map->l_ld : nullptr;
+}
+
+void ModuleLibrary::prefault() const {
+  link_map* map = nullptr;
+  if (handle_ != nullptr && ::dlinfo(handle_, RTLD_DI_LINKMAP, &map) == 0) {
+    ::dl_iterate_phdr(
+        [](dl_phdr_info* info, std::size_t /*size*/, void* wanted) {
+          if (info->dlpi_addr == static_cast<const link_map*>(wanted)->l_addr) {
+            touch(*info);
+          }
+          return 0;
+        },
+        map);
+  }
+}
+
+bool ModuleLibrary::unload() {
+  const void* const address = inside();
+  Dl_info before{};
+  (void)::dladdr(address, &before);
+  *this = ModuleLibrary();
+  Dl_info after{};
+  return address == nullptr || ::dladdr(address, &after) == 0 || after.dli_fbase != before.dli_fbase;
+}
+
+void ModuleLibrary::abandon() noexcept {
+  handle_ = nullptr;
+  copy_ = -1;
+}
+
 bool ModuleLibrary::is_outdated() const {
   return handle_ != nullptr && mark_of(file_) != mark_;
 }
 
 ModuleLibrary::ModuleLibrary(ModuleLibrary&& other) noexcept
     : file_(std::move(other.file_)),
+      digest_(std::move(other.digest_)),
       mark_(other.mark_),
       handle_(std::exchange(other.handle_, nullptr)),
       copy_(std::exchange(other.copy_, -1)),
@@ -113,6 +179,7 @@ ModuleLibrary::ModuleLibrary(ModuleLibrary&& other) noexcept
 
 ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
   std::swap(file_, other.file_);
+  std::swap(digest_, other.digest_);
   std::swap(mark_, other.mark_);
   std::swap(handle_, other.handle_);
   std::swap(copy_, other.copy_);

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "core/base/problem.h"
 #include "node/modules/module_memory.h"
@@ -29,6 +30,18 @@ class ModuleLibrary {
   // Returns whether the file was replaced or removed since it was loaded: the older version is still running.
   [[nodiscard]] bool is_outdated() const;
 
+  // SHA-256 of the file that was loaded.
+  [[nodiscard]] const std::string& digest() const noexcept { return digest_; }
+  [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
+  // An address inside the loaded file.
+  [[nodiscard]] const void* inside() const noexcept;
+  // Makes its pages present now, those that it may write as copies of its own.
+  void prefault() const;
+  // Unloads it. Returns false if the dynamic linker keeps it in memory (unique symbols, thread_local objects).
+  bool unload();
+  // Leaves it loaded for as long as the process lives: a run of it ended in the middle.
+  void abandon() noexcept;
+
   [[nodiscard]] const ModuleDescriptor& functions() const noexcept { return functions_; }
   [[nodiscard]] const ModuleMemory& memory() const noexcept { return memory_; }
 
@@ -44,6 +57,7 @@ class ModuleLibrary {
   static Mark mark_of(const std::filesystem::path& file);
   void find_functions();
   std::filesystem::path file_;
+  std::string digest_;
   Mark mark_;
   void* handle_ = nullptr;
   int copy_ = -1;  // stays open: the dynamic linker would mistake a second file with the same inode number for this one

@@ -33,6 +33,26 @@ class ModuleMemory {
   // place of each item follows.
   [[nodiscard]] const std::string& form() const noexcept { return form_; }
 
+  // Address: points into what is kept. Place: names an item that others point into, and has no bytes of its own.
+  enum class Kind { Value, Address, Place };
+  // One variable that is kept.
+  struct Item {
+    std::string name;
+    std::string type;
+    void* address = nullptr;
+    std::size_t size = 0;
+    Kind kind = Kind::Value;
+    [[nodiscard]] std::size_t bytes() const noexcept { return kind == Kind::Place ? 0 : size; }
+  };
+  [[nodiscard]] const std::vector<Item>& items() const noexcept { return items_; }
+  // Returns true if functions of the module copy what it keeps, or a part of it.
+  [[nodiscard]] bool uses_functions() const noexcept {
+    return functions_.save != nullptr && functions_.restore != nullptr;
+  }
+
+  // Returns true if some of it are addresses, which restore() leads to where the items are now.
+  [[nodiscard]] bool has_addresses() const noexcept { return has_addresses_; }
+
   // Copies the state; a run of the module may change it meanwhile. Returns the bytes written, 0: it cannot be taken
   // now.
   std::size_t save(std::span<std::byte> to) const;
@@ -46,19 +66,7 @@ class ModuleMemory {
   [[nodiscard]] std::vector<std::string> restore(std::string_view form, std::span<const std::uint8_t> bytes) const;
 
  private:
-  enum class Kind { Value, Address, Place };
-  struct Item {
-    std::string name;
-    std::string type;
-    void* address = nullptr;
-    std::size_t size = 0;
-    Kind kind = Kind::Value;
-    [[nodiscard]] std::size_t bytes() const noexcept { return kind == Kind::Place ? 0 : size; }
-  };
   struct Old;  // an item in the bytes of a keyframe
-  [[nodiscard]] bool uses_functions() const noexcept {
-    return functions_.save != nullptr && functions_.restore != nullptr;
-  }
   void add(const StateItem& item);
   [[nodiscard]] const Item* find(const Old& old) const noexcept;
   [[nodiscard]] std::vector<std::string> restore(std::span<const Old> all, std::span<const std::uint8_t> places) const;

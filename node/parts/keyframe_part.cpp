@@ -27,7 +27,7 @@ std::unique_ptr<KeyframePart> KeyframePart::begin(const Options& options, const 
   for (std::uint32_t i = 0; kStoresKeepOrder && prepared.tape && i < loaded.libraries.size(); ++i) {
     const ModuleMemory& memory = loaded.libraries[i].memory();
     if (memory.is_whole() && prepared.tape->of(i) != nullptr && engine.band_of(i) != nullptr) {
-      subjects.push_back({i, &memory});
+      subjects.push_back({i, &memory, memory.form()});
       plans.push_back({i, memory.most(), memory.form()});
     }
   }
@@ -71,7 +71,7 @@ void KeyframePart::begin_period() {
   }
 }
 
-void KeyframePart::take(scheduler::Kernel& kernel) {
+void KeyframePart::take(scheduler::Kernel& kernel, const Exchanges& exchanges) {
   if (const rt::MonoTime now = kernel.now(); now >= next_) {
     if (next_ != rt::MonoTime{}) {
       begin_period();
@@ -79,7 +79,10 @@ void KeyframePart::take(scheduler::Kernel& kernel) {
     next_ = now + kKeyframePeriod;
   }
   for (std::size_t i = 0; i < subjects_.size(); ++i) {
-    if (subjects_[i].due && take_one(i, kernel)) {
+    if (subjects_[i].memory->form() != subjects_[i].form) {
+      subjects_[i].due = false;
+    }
+    if (subjects_[i].due && !exchanges.is_open(subjects_[i].module) && take_one(i, kernel)) {
       subjects_[i].due = false;
       subjects_[i].missed = 0;
     }

@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/rt/clock.h"
+#include "node/exchange/exchanges.h"
 #include "node/run/checked.h"
 #include "node/run/console.h"
 #include "node/run/loaded.h"
@@ -25,13 +27,15 @@ class KeyframePart {
   static std::unique_ptr<KeyframePart> begin(const Options& options, const Prepared& prepared, const Loaded& loaded,
                                              const scheduler::Engine& engine, const Console& console);
 
-  // Called repeatedly, on one normal thread. `kernel`: the schedule's clock.
-  void take(scheduler::Kernel& kernel);
+  // Called repeatedly, on one normal thread. `kernel`: the schedule's clock. A module that is being exchanged is left
+  // out, and so is, from then on, one whose new version keeps something else.
+  void take(scheduler::Kernel& kernel, const Exchanges& exchanges);
 
  private:
   struct Subject {
     std::uint32_t module = 0;
     const ModuleMemory* memory = nullptr;
+    std::string form = {};  // when the node started
     bool due = false;
     std::uint32_t missed = 0;  // in a row
   };

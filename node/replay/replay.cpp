@@ -64,6 +64,19 @@ bool Replay::can_repeat(ReplayedModule& module, const recorder::RunWords& run) {
   return next != ReplayedMemory::Next::Wait;
 }
 
+// A replay has one file of each module: what another version did comes from the recording, from this run on.
+void Replay::end_at_exchange(ReplayedModule& module, const recorder::RunWords& run) {
+  console_.warning(
+      "module {} was exchanged while it ran: from tick {} on its runs are another version's, which are not repeated; "
+      "with the file of that version, --from {} repeats them from the next keyframe on",
+      module.name, run.tail.tick, run.tail.tick);
+  for (const RecordedOutput& output : module.outputs) {
+    (void)store_.write(store_.directory()[module.known[output.place].variable], 0, output.bytes);
+  }
+  module.take_outputs();
+  module.runs = false;
+}
+
 // Returns false if the replay cannot continue.
 bool Replay::replay_run(const recorder::RunWords& run) {
   if (run.tail.tick > options_.replay.to_tick) {
@@ -81,6 +94,10 @@ bool Replay::replay_run(const recorder::RunWords& run) {
   }
   if (!module.runs) {
     module.left_out += module.unknown_inputs.empty() ? 0U : 1U;
+    return true;
+  }
+  if (run.exchanged && module.repeated > 0) {
+    end_at_exchange(module, run);
     return true;
   }
   module.restart_due = module.restart_due || run.anew;

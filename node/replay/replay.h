@@ -26,6 +26,7 @@ class Replay {
   void take(const RecordedClock& clock);
   void take(const RecordedAnswer& answer);
   void take(const RecordedKeyframe& keyframe);
+  void end_at_exchange(ReplayedModule& module, const recorder::RunWords& run);
   bool replay_run(const recorder::RunWords& run);
   bool can_repeat(ReplayedModule& module, const recorder::RunWords& run);
   void warn_of_doubt(ReplayedModule& module, std::uint64_t tick) const;

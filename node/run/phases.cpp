@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/rt/clock.h"
+#include "core/rt/copy_text.h"
 #include "scheduler/execution_order.h"
 
 namespace indurop::node {
@@ -95,15 +96,19 @@ bool Phases::ended(Call& call, rt::MonoTime now, std::chrono::nanoseconds limit)
   return false;
 }
 
-bool Phases::conclude(CallPointer call) {
+std::optional<std::string> Phases::failure_of(CallPointer call) {
   call->thread.join();
-  if (!call->state.is_closed()) {
+  return call->state.is_closed() ? std::optional(fmt::format("{}() failed: {}", call->phase, call->scratch.last_fault))
+                                 : std::nullopt;
+}
+
+bool Phases::conclude(CallPointer call) {
+  scheduler::ModuleRecord& record = run_.modules()[call->index];
+  const auto failure = failure_of(std::move(call));
+  if (!failure) {
     return true;
   }
-  scheduler::ModuleRecord& record = run_.modules()[call->index];
-  const auto end = fmt::format_to_n(record.last_fault, sizeof record.last_fault - 1, "{}() failed: {}", call->phase,
-                                    call->scratch.last_fault);
-  *end.out = '\0';
+  rt::copy_text(record.last_fault, *failure);
   record.fault_kind.store(static_cast<std::uint32_t>(scheduler::FaultKind::StartFailed));
   record.state.store(scheduler::ModuleState::Faulted);
   record.faults.fetch_add(1, std::memory_order_release);

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "config/model/config.h"
@@ -34,6 +36,8 @@ class Phases {
   bool ended(Call& call, rt::MonoTime now, std::chrono::nanoseconds limit);
   // Called after that: returns false if the call failed; the module is then marked as faulted, with the reason.
   bool conclude(CallPointer call);
+  // The same for a version that does not run: returns the reason; nullopt: the call succeeded.
+  static std::optional<std::string> failure_of(CallPointer call);
   static constexpr std::chrono::seconds kGrace{3};  // for stop()
 
  private:

@@ -55,6 +55,7 @@ class Running {
   scheduler::Hooks hooks();
   void change_batch(std::uint64_t tick) noexcept;  // values requested to change in one tick
   scheduler::Hooks plain_hooks();
+  scheduler::Hooks apart_hooks();
   static void set_tape(scheduler::Hooks& hooks, const tape::Tape& tape);
   [[nodiscard]] scheduler::EngineSettings engine_settings() const;
 
@@ -64,7 +65,7 @@ class Running {
   Checked& checked_;
   Prepared& prepared_;
   scheduler::RunBlock& run_;
-  const Loaded& loaded_;
+  Loaded& loaded_;
   bool started_ = false;                      // start() of the modules was called, so stop() will be
   std::atomic<std::uint32_t> stop_order_{0};  // 1 + index of the module whose policy stops the node
   scheduler::SystemKernel system_;

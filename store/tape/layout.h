@@ -37,6 +37,7 @@ static_assert(sizeof(EntryHead) == sizeof(std::uint64_t) && std::is_trivially_co
 enum RunFlags : std::uint32_t {
   kFaulted = 1,    // it ended by a fault
   kRestarted = 2,  // its module was restarted since its previous run
+  kExchanged = 4,  // another version of its module's code runs since its previous run
 };
 
 // Maximum clock readings recorded per run: a run with more of them waits for something, or measures.

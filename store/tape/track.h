@@ -26,6 +26,8 @@ class alignas(kLine) Track {
 
   // The module restarts before its next run; call while it does not run, on any thread.
   void note_restart() noexcept { restarted_.store(kRestarted, std::memory_order_release); }
+  // Another version of the module's code runs from the run on that begins next. On the thread that runs it.
+  void note_exchange() noexcept { restarted_.store(kExchanged, std::memory_order_release); }
   // Records the values at the start of a run. Returns true if that was much: it took longer than a clock reading.
   // Real-time safe: no lock, no allocation, no system call.
   bool begin() noexcept;
@@ -75,7 +77,7 @@ class alignas(kLine) Track {
   std::uint64_t answer_words_left_ = 0;
   std::uint16_t clock_left_ = 0;          // readings of this run that may still be recorded
   std::uint16_t answers_left_ = 0;        // answers of this run that may still be recorded
-  std::atomic<std::uint32_t> restarted_;  // kRestarted or 0
+  std::atomic<std::uint32_t> restarted_;  // kRestarted, kExchanged or 0
   TapeTrack& shared_;
   std::uint64_t* words_;
   std::uint64_t mask_;

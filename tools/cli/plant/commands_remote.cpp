@@ -33,6 +33,8 @@ Action action_of(ModuleCommand what, bool module) {
       return module ? Action::StartModule : Action::StartNode;
     case ModuleCommand::None:
     case ModuleCommand::Restart:
+    case ModuleCommand::Reload:
+    case ModuleCommand::Back:  // of this machine only
       break;
   }
   return module ? Action::RestartModule : Action::RestartNode;

@@ -14,6 +14,7 @@
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/external_view.h"
 #include "tools/client/node/mirror_view.h"
+#include "tools/client/node/module_reload.h"
 #include "tools/client/node/module_table.h"
 #include "tools/client/node/node_trouble.h"
 #include "tools/client/node/run_report.h"
@@ -54,12 +55,23 @@ struct StatusHead {
   std::vector<ForceView> forces;
   vars::LockNote lock;
   std::vector<std::string> trouble;
+  std::vector<std::string> exchanged;  // modules whose code was exchanged, with their version
 };
+
+std::vector<std::string> exchanged_modules(const RunView& run) {
+  std::vector<std::string> lines;
+  for (std::uint32_t i = 0; i < run.module_count(); ++i) {
+    if (const std::string version = version_text(run.module(i)); !version.empty()) {
+      lines.push_back(fmt::format("{}: {}", printable(fixed_text(run.module(i).name)), version));
+    }
+  }
+  return lines;
+}
 
 StatusHead read_head(const BoardRun& chosen) {
   const std::string& node = chosen.node;
   const RunView& run = chosen.run;
-  StatusHead head{report_of(node, run), {}, {}, {}, {}, {}, {}, {}};
+  StatusHead head{report_of(node, run), {}, {}, {}, {}, {}, {}, {}, exchanged_modules(run)};
   if (run.here()) {
     head.mirror = view_mirror(node);
     head.external = view_external(node);
@@ -96,6 +108,9 @@ void print_head(Context& context, const StatusHead& head) {
   }
   for (const std::string& one : head.retained) {
     warn("retained  " + one);
+  }
+  for (const std::string& one : head.exchanged) {
+    context.out.line("  exchanged " + one);
   }
   if (head.mirror) {
     for (const std::string& line : mirror_lines(*head.mirror, context.out)) {

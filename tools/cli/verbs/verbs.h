@@ -43,6 +43,7 @@ extern const Verb kRecipeVerb;
 extern const Verb kRobotVerb;
 extern const Verb kRecordVerb;
 extern const Verb kRecordingVerb;
+extern const Verb kReloadVerb;
 extern const Verb kReplayVerb;
 extern const Verb kResetVerb;
 extern const Verb kRestartVerb;

@@ -56,20 +56,13 @@ Result<Commanded, Failure> conclude(ModuleCommand command, const scheduler::Modu
       return Failure{kUnreachable,
                      fmt::format("module '{}' was not {}: the node itself ends", module, past_of(command))};
     case CommandResult::Failed:
+    case CommandResult::Refused:
     case CommandResult::None:
       break;
   }
   const std::string why = printable(fixed_text(record.last_fault));
   return Failure{kFailed,
                  fmt::format("module '{}' could not be {}{}", module, past_of(command), why.empty() ? "" : ": " + why)};
-}
-
-void note(const std::string& node, const RunView& run, ModuleCommand command, const std::string& module,
-          const operate::Who& who) {
-  const std::int64_t simulated = run.block().virtual_ns.load();
-  operate::note(
-      node,
-      {simulated != 0 ? simulated : rt::now_ns(), 0, who.name, who.from, verb_of(command), module, {}, 0, who.reason});
 }
 
 Result<RunView, Failure> open_running(const std::string& node, ModuleCommand command) {
@@ -89,15 +82,40 @@ Result<RunView, Failure> open_running(const std::string& node, ModuleCommand com
 }  // namespace
 
 const char* verb_of(ModuleCommand command) {
-  return command == ModuleCommand::Stop ? "stop" : command == ModuleCommand::Start ? "start" : "restart";
+  switch (command) {
+    case ModuleCommand::Stop:
+      return "stop";
+    case ModuleCommand::Start:
+      return "start";
+    case ModuleCommand::Reload:
+      return "reload";
+    case ModuleCommand::Back:
+      return "reload --back";
+    case ModuleCommand::None:
+    case ModuleCommand::Restart:
+      break;
+  }
+  return "restart";
 }
 
 const char* past_of(ModuleCommand command) {
-  return command == ModuleCommand::Stop ? "stopped" : command == ModuleCommand::Start ? "started" : "restarted";
+  switch (command) {
+    case ModuleCommand::Stop:
+      return "stopped";
+    case ModuleCommand::Start:
+      return "started";
+    case ModuleCommand::Reload:
+    case ModuleCommand::Back:
+      return "exchanged";
+    case ModuleCommand::None:
+    case ModuleCommand::Restart:
+      break;
+  }
+  return "restarted";
 }
 
-Result<Commanded, Failure> command_module(const std::string& node, ModuleCommand command, const std::string& module,
-                                          std::int64_t timeout_ns, const operate::Who& who) {
+Result<CommandAnswer, Failure> await_answer(const std::string& node, ModuleCommand command, const std::string& module,
+                                            std::int64_t timeout_ns) {
   auto run = open_running(node, command);
   if (!run) {
     return std::move(run).error();
@@ -115,10 +133,7 @@ Result<Commanded, Failure> command_module(const std::string& node, ModuleCommand
     if (!ticket) {
       ticket = scheduler::place_command(**record, command);
     } else if (const auto result = scheduler::result_of(**record, *ticket); result != CommandResult::None) {
-      if (result == CommandResult::Done || result == CommandResult::OldCode) {
-        note(node, *run, command, module, who);
-      }
-      return conclude(command, **record, result, rt::now_ns() - begin);
+      return CommandAnswer{std::move(run).value(), *record, result, rt::now_ns() - begin};
     }
     wait_until(rt::now_ns() + kPollNs);
   }
@@ -130,6 +145,25 @@ Result<Commanded, Failure> command_module(const std::string& node, ModuleCommand
                      ? fmt::format("module '{}' was not {} within {}; the node is still working on it (indurop status)",
                                    printable(module), past_of(command), human_age(timeout_ns))
                      : fmt::format("node '{}' has ended meanwhile", node)};
+}
+
+void note_command(const std::string& node, const RunView& run, ModuleCommand command, const std::string& module,
+                  const std::string& value, const operate::Who& who) {
+  const std::int64_t simulated = run.block().virtual_ns.load();
+  operate::note(node, {simulated != 0 ? simulated : rt::now_ns(), 0, who.name, who.from, verb_of(command), module,
+                       value, 0, who.reason});
+}
+
+Result<Commanded, Failure> command_module(const std::string& node, ModuleCommand command, const std::string& module,
+                                          std::int64_t timeout_ns, const operate::Who& who) {
+  const auto answer = await_answer(node, command, module, timeout_ns);
+  if (!answer) {
+    return answer.error();
+  }
+  if (answer->result == CommandResult::Done || answer->result == CommandResult::OldCode) {
+    note_command(node, answer->run, command, module, "", who);
+  }
+  return conclude(command, *answer->record, answer->result, answer->took_ns);
 }
 
 }  // namespace indurop::tools

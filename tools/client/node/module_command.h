@@ -9,6 +9,7 @@
 #include "scheduler/module_command.h"
 #include "store/operate/who.h"
 #include "tools/client/failure.h"
+#include "tools/client/node/run_view.h"
 
 namespace indurop::tools {
 
@@ -17,6 +18,20 @@ struct Commanded {
   std::int64_t took_ns = 0;
   std::string text;  // "module 'x' stopped after 3 ms"
 };
+
+// What a node answered to a command.
+struct CommandAnswer {
+  RunView run;
+  const scheduler::ModuleRecord* record = nullptr;  // in `run`
+  scheduler::CommandResult result = scheduler::CommandResult::None;
+  std::int64_t took_ns = 0;
+};
+// Waits until the node has answered, at most `timeout_ns`.
+Result<CommandAnswer, Failure> await_answer(const std::string& node, scheduler::ModuleCommand command,
+                                            const std::string& module, std::int64_t timeout_ns);
+// Notes a command in the node's journal.
+void note_command(const std::string& node, const RunView& run, scheduler::ModuleCommand command,
+                  const std::string& module, const std::string& value, const operate::Who& who);
 
 // Waits until the node has answered, at most `timeout_ns`, and notes user and reason in the node's journal.
 Result<Commanded, Failure> command_module(const std::string& node, scheduler::ModuleCommand command,

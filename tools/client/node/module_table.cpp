@@ -39,6 +39,7 @@ std::vector<Cell> module_row(const scheduler::ModuleRecord& module, bool alive) 
   const auto exec = scheduler::summarize(module.exec);
   const auto jitter = scheduler::summarize(module.jitter);
   const bool ran = exec.count > 0;
+  const std::uint64_t version = module.version.load(std::memory_order_acquire);
   const bool real = module.operation != scheduler::Operation::NonReal;
   const std::string period =
       module.period_ns > 0 ? base::format_duration(base::Nanos(module.period_ns)) : to_text(module.operation);
@@ -62,6 +63,9 @@ std::vector<Cell> module_row(const scheduler::ModuleRecord& module, bool alive) 
           duration(jitter.max, jitter.count > 0),
           counter(module.restarts.load(kRelaxed), Style::Warn),
           counter(module.lost_messages.load(kRelaxed), Style::Warn),
+          {"", version},
+          {"", fixed_text(module.digests[version % 2])},
+          {"", module.version_tick.load(kRelaxed)},
           {fault_text(module), fault_text(module), Style::Bad}};
 }
 
@@ -96,6 +100,9 @@ Table module_table(const RunView& run, bool alive) {
                {"MAX", "jitter_max_ns", kRight, 1},
                {"RESTARTS", "restarts", kRight, 5},
                {"", "lost_messages"},
+               {"", "version"},
+               {"", "version_digest"},
+               {"", "version_tick"},
                {"LAST FAULT", "last_fault"}});
   for (std::uint32_t i = 0; i < run.module_count(); ++i) {
     table.add(module_row(run.module(i), alive));

@@ -11,7 +11,7 @@ namespace {
 
 TEST(RunWords, Come_back_as_they_were) {
   std::vector<std::uint8_t> cdr;
-  to_cdr(RunWords{{1, 2, 3, -4, 5, 6}, 77, true, true}, cdr);
+  to_cdr(RunWords{{1, 2, 3, -4, 5, 6}, 77, true, true, true}, cdr);
   const auto run = run_from_cdr(cdr);
   ASSERT_TRUE(run.ok());
   EXPECT_EQ(run->tail.number, 1U);
@@ -20,9 +20,15 @@ TEST(RunWords, Come_back_as_they_were) {
   EXPECT_EQ(run->module, 77U);
   EXPECT_TRUE(run->faulted);
   EXPECT_TRUE(run->anew);
+  EXPECT_TRUE(run->exchanged);
+  cdr.pop_back();
+  const auto older = run_from_cdr(cdr);
+  ASSERT_TRUE(older.ok()) << "of a recording that did not tell that";
+  EXPECT_TRUE(older->anew);
+  EXPECT_FALSE(older->exchanged);
   cdr.pop_back();
   const auto old = run_from_cdr(cdr);
-  ASSERT_TRUE(old.ok()) << "of a recording that did not tell that";
+  ASSERT_TRUE(old.ok()) << "of a recording that did not tell that either";
   EXPECT_TRUE(old->faulted);
   EXPECT_FALSE(old->anew);
   to_cdr(std::int64_t{-12}, cdr);

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/exchange/candidate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "config/check/check_parts.h"
+#include "core/keys/digest.h"
+#include "store/runtime/host.h"
+
+namespace indurop::node {
+namespace {
+
+class CandidateCheck {
+ public:
+  CandidateCheck(const CandidateTask& task, std::vector<std::string>& errors) : task_(task), errors_(errors) {}
+
+  void run() {
+    config::Config one = task_.config;
+    one.modules = {task_.config.modules[task_.module]};
+    config::Module& module = one.modules.front();
+    if (task_.file != module.file) {
+      module.file_as_written = task_.file.string();
+    }
+    module.file = task_.file;
+    config::CheckResult result;
+    config::SchemaTexts texts;
+    config::CheckContext context{one, {}, result, base::Diagnostics(one.file.string(), result.diagnostics), texts};
+    config::check_files(context);
+    for (const base::Diagnostic& diagnostic : result.diagnostics) {
+      if (diagnostic.severity == base::Diagnostic::Severity::Error) {
+        errors_.push_back(base::to_string(diagnostic));
+      }
+    }
+    if (errors_.empty()) {
+      check_variables(result.facts.front());
+      check_imports(result.facts.front().file.imports);
+    }
+  }
+
+ private:
+  void error(const std::string& text) {
+    const config::Module& module = task_.config.modules[task_.module];
+    errors_.push_back(base::to_string({base::Diagnostic::Severity::Error, task_.config.file.string(),
+                                       module.places.file, fmt::format("{}: {}", task_.file.string(), text)}));
+  }
+
+  void check_variables(const config::ModuleFacts& facts) {
+    for (const auto& [hash, access] : facts.file.access) {
+      const auto variable = std::find_if(facts.schema->variables.begin(), facts.schema->variables.end(),
+                                         [hash = hash](const auto& one) { return one.name_hash() == hash; });
+      if (variable != facts.schema->variables.end() && (access.reads || access.writes)) {
+        check_variable(*variable, access);
+      }
+    }
+  }
+
+  void check_variable(const schema::Variable& variable, const schema::Access& access) {
+    const vars::DirectoryEntry* entry = task_.store.find(variable.name_hash());
+    if (entry == nullptr) {
+      return error(
+          fmt::format("variable {} is not one of this node; restart the node with the new version", variable.name));
+    }
+    const schema::Variable& known = task_.store.schema().variables[entry->schema_index];
+    if (known.type_hash != variable.type_hash || known.kind != variable.kind) {
+      return error(
+          fmt::format("variable {} has another layout in this node: {}; build against the same .glb, or restart "
+                      "the node with the new version",
+                      variable.name, schema::first_difference(variable.type, known.type)));
+    }
+    const auto allowed = task_.allowed.find(variable.name_hash());
+    const schema::Access then = allowed != task_.allowed.end() ? allowed->second : schema::Access{};
+    if ((access.reads && !then.reads) || (access.writes && !then.writes)) {
+      error(
+          fmt::format("it {} variable {}, which the version the node started with did not: order, tape and messages "
+                      "do not expect that; restart the node with the new version",
+                      access.writes && !then.writes ? "writes" : "reads", variable.name));
+    }
+  }
+
+  void check_imports(const std::vector<std::string>& imports) {
+    const auto has = [&imports](std::string_view beginning) {
+      return std::any_of(imports.begin(), imports.end(),
+                         [beginning](const std::string& name) { return name.starts_with(beginning); });
+    };
+    if (has("indurop_offer_function")) {
+      error("it implements shared functions, which are served by the version that was loaded first; restart the node");
+    }
+    if (has("pthread_create") || has("_ZNSt6thread15_M_start_thread") || has("thrd_create")) {
+      error("it starts threads of its own, and those of both versions would run at once; restart the node");
+    }
+  }
+
+  const CandidateTask& task_;
+  std::vector<std::string>& errors_;
+};
+
+}  // namespace
+
+Candidate make_candidate(const CandidateTask& task) {
+  Candidate candidate;
+  const auto before = keys::digest_of_file(task.file);
+  CandidateCheck(task, candidate.errors).run();
+  if (!candidate.errors.empty()) {
+    return candidate;
+  }
+  runtime::set_current_module(task.module);
+  const auto loaded = candidate.library.load(task.file, true);
+  runtime::set_current_module(runtime::kNoModule);
+  if (!loaded) {
+    candidate.errors.push_back(fmt::format("{}: error: {}", task.file.string(), loaded.error().text));
+  } else if (!before || before->digest != candidate.library.digest()) {
+    candidate.errors.push_back(
+        fmt::format("{}: error: it was written while it was read; repeat the command", task.file.string()));
+  } else if (task.config.modules[task.module].operation == scheduler::Operation::Sporadic &&
+             !candidate.library.functions().condition) {
+    candidate.errors.push_back(
+        fmt::format("{}: error: it has no condition(); a sporadic module needs one", task.file.string()));
+  }
+  for (const std::string& text : runtime::take_binding_errors()) {
+    candidate.errors.push_back(fmt::format("{}: error: {}", task.file.string(), text));
+  }
+  if (candidate.errors.empty()) {
+    candidate.library.prefault();
+    candidate.carry = plan_carry(task.running.memory(), candidate.library.memory());
+  }
+  return candidate;
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/exchange/carry.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <string_view>
+
+namespace indurop::node {
+namespace {
+
+using Item = ModuleMemory::Item;
+using scheduler::Exchange;
+
+// "double [4]": the element's type and the number of elements.
+struct ArrayType {
+  std::string_view element;
+  std::size_t count = 0;
+};
+
+std::optional<ArrayType> array_type(std::string_view type) {
+  const std::size_t open = type.rfind('[');
+  if (open == std::string_view::npos || type.find('[') != open || !type.ends_with(']')) {
+    return std::nullopt;
+  }
+  ArrayType array{type.substr(0, open), 0};
+  const char* const end = type.data() + type.size() - 1;
+  const auto read = std::from_chars(type.data() + open + 1, end, array.count);
+  return read.ec == std::errc() && read.ptr == end ? std::optional(array) : std::nullopt;
+}
+
+bool has_grown(const Item& from, const Item& to) {
+  const auto before = array_type(from.type);
+  const auto now = array_type(to.type);
+  return before && now && before->element == now->element && before->count < now->count && from.size < to.size;
+}
+
+void add_pair(const Item& from, const Item& to, std::vector<Exchange::Pair>& pairs) {
+  const Exchange::Pair pair{static_cast<std::byte*>(from.address), static_cast<std::byte*>(to.address), from.size};
+  if (!pairs.empty() && pairs.back().old_place + pairs.back().bytes == pair.old_place &&
+      pairs.back().new_place + pairs.back().bytes == pair.new_place) {
+    pairs.back().bytes += pair.bytes;
+  } else {
+    pairs.push_back(pair);
+  }
+}
+
+void compare_items(const ModuleMemory& from, const ModuleMemory& to, Carry& carry) {
+  std::map<std::string_view, const Item*> before;
+  for (const Item& item : from.items()) {
+    before.emplace(item.name, &item);
+  }
+  for (const Item& item : to.items()) {
+    const auto found = before.find(item.name);
+    if (found == before.end()) {
+      carry.plan.added.push_back(item.name);
+      continue;
+    }
+    const Item& old = *found->second;
+    before.erase(found);
+    const bool same = old.type == item.type && old.size == item.size && item.size > 0;
+    if (!same && !has_grown(old, item)) {
+      carry.plan.changed.push_back(item.name);
+      continue;
+    }
+    (same ? carry.plan.kept : carry.plan.grown).push_back(item.name);
+    carry.plan.bytes += old.bytes();
+    add_pair(old, item, carry.pairs);
+  }
+  for (const Item& item : from.items()) {
+    if (before.contains(item.name)) {
+      carry.plan.removed.push_back(item.name);
+    }
+  }
+}
+
+std::string why_fresh(const ModuleMemory& from, const ModuleMemory& to) {
+  if (from.is_empty()) {
+    return "";
+  }
+  if (!from.is_whole()) {
+    return from.missing().empty() ? "the running version does not declare what it keeps (INDUROP_STATE)"
+                                  : "the running version keeps what cannot be carried: " + from.missing();
+  }
+  if (!to.is_whole() && !to.is_empty()) {
+    return to.missing().empty() ? "the new version does not declare what it keeps (INDUROP_STATE)"
+                                : "the new version keeps what cannot be carried: " + to.missing();
+  }
+  return from.uses_functions() != to.uses_functions()
+             ? "one version declares its variables, the other one copies them by functions (INDUROP_STATE_BY)"
+             : "";
+}
+
+}  // namespace
+
+Carry plan_carry(const ModuleMemory& from, const ModuleMemory& to) {
+  Carry carry;
+  carry.plan.why_not = why_fresh(from, to);
+  if (carry.plan.why_not.empty() && !from.is_empty()) {
+    compare_items(from, to, carry);
+    carry.plan.with_state = true;
+    carry.between_runs = from.uses_functions() || from.has_addresses() || carry.plan.bytes > kMostInTick;
+  }
+  if (from.uses_functions() || from.has_addresses()) {
+    carry.plan.bytes = from.most();
+  }
+  if (carry.between_runs) {
+    carry.pairs.clear();
+  }
+  carry.loses = !carry.plan.why_not.empty() || !carry.plan.changed.empty();
+  return carry;
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes from one version of a module to the next: variables of the same name and type, as they declare them
+// (<indurop/state.h>).
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "node/modules/module_memory.h"
+#include "scheduler/exchange.h"
+#include "store/operate/reload.h"
+
+namespace indurop::node {
+
+// Maximum number of bytes that are copied in a tick. More is copied between two runs, on a normal thread.
+inline constexpr std::size_t kMostInTick = std::size_t{64} * 1024;
+
+struct Carry {
+  operate::ReloadPlan plan;
+  std::vector<scheduler::Exchange::Pair> pairs;  // adjacent variables are one pair
+  bool between_runs = false;                     // a normal thread copies, by ModuleMemory
+  bool loses = false;                            // values are lost that the new version needs
+};
+
+// Compares what both keep. The pairs have the addresses of both.
+Carry plan_carry(const ModuleMemory& from, const ModuleMemory& to);
+
+}  // namespace indurop::node

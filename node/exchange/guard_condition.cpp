@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/exchange/guard_condition.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <vector>
+
+#include "core/base/text.h"
+#include "core/schema/leaf.h"
+
+namespace indurop::node {
+namespace {
+
+using schema::Comparison;
+
+// Longer symbols first.
+constexpr std::array kComparisons{Comparison::Equal,        Comparison::NotEqual, Comparison::LessEqual,
+                                  Comparison::GreaterEqual, Comparison::Less,     Comparison::Greater};
+
+base::Problem wrong(std::string_view text, const std::string& why) {
+  return {fmt::format("--guard \"{}\": {}; write a number, a comparison (== != < <= > >=) and a value: \"O0 == 0\"",
+                      text, why)};
+}
+
+}  // namespace
+
+Result<GuardCondition, base::Problem> GuardCondition::parse(std::string_view text, const vars::Store& store) {
+  for (const Comparison comparison : kComparisons) {
+    const std::string_view symbol = schema::symbol_of(comparison);
+    const std::size_t at = text.find(symbol);
+    if (at == std::string_view::npos) {
+      continue;
+    }
+    std::string message;
+    const auto place = schema::find_place(store.schema(), base::trimmed(text.substr(0, at)), message);
+    if (!place) {
+      return wrong(text, message);
+    }
+    GuardCondition guard;
+    guard.text_ = text;
+    guard.type_ = place->type;
+    guard.offset_ = place->offset;
+    guard.entry_ = store.find(place->variable->name_hash());
+    guard.condition_.comparison = comparison;
+    std::vector<std::uint8_t> limit(guard.type_.size());
+    if (!schema::parse_value(guard.type_, base::trimmed(text.substr(at + symbol.size())), limit, message)) {
+      return wrong(text, message);
+    }
+    const auto number = schema::as_number<double>(guard.type_.base, limit.data());
+    if (!number || !guard.type_.dims.empty() || guard.entry_ == nullptr) {
+      return wrong(text, "this is no single number");
+    }
+    guard.condition_.limit = *number;
+    return guard;
+  }
+  return wrong(text, "there is no comparison");
+}
+
+bool GuardCondition::holds(const vars::Store& store) const {
+  std::vector<std::uint8_t> now(type_.size());
+  if (!store.read(*entry_, offset_, now).ok()) {
+    return false;
+  }
+  const auto number = schema::as_number<double>(type_.base, now.data());
+  return number && schema::is_met(condition_, *number, false);
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "store/operate/reload.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "core/base/read_file.h"
+#include "core/base/replace_file.h"
+#include "core/rt/file_lock.h"
+#include "store/vars/retain.h"
+
+namespace indurop::operate {
+namespace {
+
+using base::Json;
+
+std::filesystem::path file_of_reload(const std::string& node, const char* name) {
+  return vars::state_directory(node) / name;
+}
+
+Status write_json(const std::filesystem::path& file, const Json& json) {
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  const auto written = base::replace_file(file, json.dump(), base::Durable::No);
+  return written ? Status() : Status(Error{Errc::System, EIO, "folder of the node"});
+}
+
+std::optional<Json> read_json(const std::filesystem::path& file) {
+  const auto text = base::read_file(file);
+  return text ? Json::parse(*text) : std::nullopt;
+}
+
+Json json_of_plan(const ReloadPlan& plan) {
+  return {
+      {"with_state", plan.with_state}, {"why_not", plan.why_not}, {"bytes", plan.bytes},     {"kept", plan.kept},
+      {"grown", plan.grown},           {"added", plan.added},     {"removed", plan.removed}, {"changed", plan.changed}};
+}
+
+ReloadPlan plan_of(const Json& json) {
+  ReloadPlan plan;
+  base::read(json, "with_state", plan.with_state);
+  base::read(json, "why_not", plan.why_not);
+  base::read(json, "bytes", plan.bytes);
+  base::read(json, "kept", plan.kept);
+  base::read(json, "grown", plan.grown);
+  base::read(json, "added", plan.added);
+  base::read(json, "removed", plan.removed);
+  base::read(json, "changed", plan.changed);
+  return plan;
+}
+
+}  // namespace
+
+Status write_request(const std::string& node, const ReloadRequest& request) {
+  return write_json(file_of_reload(node, "reload.request"), {{"file", request.file},
+                                                             {"lossy", request.lossy},
+                                                             {"dry_run", request.dry_run},
+                                                             {"health_ns", request.health_ns},
+                                                             {"guard", request.guard}});
+}
+
+std::optional<ReloadRequest> take_reload_request(const std::string& node) {
+  const std::filesystem::path file = file_of_reload(node, "reload.request");
+  const auto json = read_json(file);
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  if (!json) {
+    return std::nullopt;
+  }
+  ReloadRequest request;
+  base::read(*json, "file", request.file);
+  base::read(*json, "lossy", request.lossy);
+  base::read(*json, "dry_run", request.dry_run);
+  base::read(*json, "health_ns", request.health_ns);
+  base::read(*json, "guard", request.guard);
+  return request;
+}
+
+Status write_report(const std::string& node, const ReloadReport& report) {
+  return write_json(file_of_reload(node, "reload.report"), json_of(report));
+}
+
+std::optional<ReloadReport> read_report(const std::string& node) {
+  const auto json = read_json(file_of_reload(node, "reload.report"));
+  if (!json) {
+    return std::nullopt;
+  }
+  ReloadReport report;
+  base::read(*json, "module", report.module);
+  base::read(*json, "text", report.text);
+  base::read(*json, "errors", report.errors);
+  report.plan = plan_of((*json)["plan"]);
+  base::read(*json, "from", report.from);
+  base::read(*json, "to", report.to);
+  base::read(*json, "version", report.version);
+  base::read(*json, "tick", report.tick);
+  base::read(*json, "left_out", report.left_out);
+  base::read(*json, "copying_ns", report.copying_ns);
+  base::read(*json, "response_ns", report.response_ns);
+  return report;
+}
+
+Json json_of(const ReloadReport& report) {
+  return {{"module", report.module},
+          {"text", report.text},
+          {"errors", report.errors},
+          {"plan", json_of_plan(report.plan)},
+          {"from", report.from},
+          {"to", report.to},
+          {"version", report.version},
+          {"tick", report.tick},
+          {"left_out", report.left_out},
+          {"copying_ns", report.copying_ns},
+          {"response_ns", report.response_ns}};
+}
+
+Result<ReloadLock> ReloadLock::acquire(const std::string& node) {
+  const std::filesystem::path path = file_of_reload(node, "reload.lock");
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);
+  constexpr mode_t kMode = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP;
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kMode);
+  if (file < 0) {
+    return Error{Errc::System, errno, "folder of the node"};
+  }
+  ReloadLock lock(file);
+  if (const Status locked = rt::lock_file(file, rt::FileLock::Exclusive); !locked) {
+    return locked.error();
+  }
+  return lock;
+}
+
+ReloadLock::ReloadLock(ReloadLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+
+ReloadLock::~ReloadLock() {
+  if (file_ >= 0) {
+    ::close(file_);
+  }
+}
+
+}  // namespace indurop::operate

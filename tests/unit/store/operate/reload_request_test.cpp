@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Request and report of an exchange, as files of the node.
+
+#include "store/operate/reload.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "store/vars/retain.h"
+
+namespace indurop::operate {
+namespace {
+
+using testing::ElementsAre;
+
+class ReloadFiles : public testing::Test {
+ protected:
+  ReloadFiles() {
+    std::filesystem::create_directories(folder_);
+    ::setenv("INDUROP_STATE_DIR", folder_.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): one thread
+  }
+  ~ReloadFiles() override {
+    ::unsetenv("INDUROP_STATE_DIR");  // NOLINT(concurrency-mt-unsafe): one thread
+    std::filesystem::remove_all(folder_);
+  }
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("indurop-reload-" + std::to_string(::getpid()));
+};
+
+TEST_F(ReloadFiles, A_request_comes_as_it_was_written_and_once) {
+  EXPECT_FALSE(take_reload_request("n"));
+  ASSERT_TRUE(write_request("n", {"/a b/\"c\".so", true, true, 5, "x > 1"}).ok());
+  const auto request = take_reload_request("n");
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->file, "/a b/\"c\".so");
+  EXPECT_TRUE(request->lossy);
+  EXPECT_TRUE(request->dry_run);
+  EXPECT_EQ(request->health_ns, 5);
+  EXPECT_EQ(request->guard, "x > 1");
+  EXPECT_FALSE(take_reload_request("n"));
+}
+
+TEST_F(ReloadFiles, A_damaged_request_is_none_and_is_removed) {
+  ASSERT_TRUE(write_request("n", {}).ok());
+  std::ofstream(vars::state_directory("n") / "reload.request") << "{\"file\": ";
+  EXPECT_FALSE(take_reload_request("n"));
+  EXPECT_FALSE(std::filesystem::exists(vars::state_directory("n") / "reload.request"));
+}
+
+TEST_F(ReloadFiles, A_report_comes_as_it_was_written) {
+  EXPECT_FALSE(read_report("n"));
+  ReloadReport report;
+  report.module = "m";
+  report.text = "exchanged";
+  report.errors = {"a", "b"};
+  report.plan.with_state = true;
+  report.plan.kept = {"k"};
+  report.plan.changed = {"c"};
+  report.plan.bytes = 72;
+  report.from = "0a";
+  report.to = "0b";
+  report.version = 3;
+  report.tick = 4711;
+  report.left_out = 1;
+  report.copying_ns = 300;
+  report.response_ns = 2000;
+  ASSERT_TRUE(write_report("n", report).ok());
+  const auto read = read_report("n");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(json_of(*read).dump(), json_of(report).dump());
+  EXPECT_THAT(read->errors, ElementsAre("a", "b"));
+  EXPECT_EQ(read->tick, 4711U);
+}
+
+TEST_F(ReloadFiles, One_process_commands_an_exchange_at_a_time) {
+  {
+    const auto first = ReloadLock::acquire("n");
+    ASSERT_TRUE(first.ok());
+    EXPECT_EQ(ReloadLock::acquire("n").error().code, Errc::Busy);
+  }
+  EXPECT_TRUE(ReloadLock::acquire("n").ok());
+}
+
+}  // namespace
+}  // namespace indurop::operate
