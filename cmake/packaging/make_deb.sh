@@ -1,15 +1,17 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # make_deb.sh [FOLDER]: builds the Debian packages of the committed tree, in build/deb or FOLDER; symbols go to dbgsym/.
-# The page of indurop serve is taken from build/: a build of a package has no network. JOBS: compilers side by side.
+# The page of indurop serve and indurop-opcua are taken from build/: a build of a package has no network. JOBS: compilers side by side.
 set -eu
 top=$(cd "$(dirname "$0")/../.." && pwd)
 cd "$top"
 out=${1:-build/deb}
 page=build/share/indurop/web
+opcua=build/share/indurop/opcua
 version=$(sed -n 's/^project(InduRoP VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 jobs=${JOBS:-$(nproc)}
 
+[ -e $opcua/package.json ] || { echo "make deb: there is no indurop-opcua in $opcua; it needs nodejs and npm: make builds it" >&2; exit 1; }
 [ -e $page/index.html ] || { echo "make deb: there is no page in $page; it needs nodejs and npm: make demo builds it" >&2; exit 1; }
 if [ -n "$(git status --porcelain --untracked-files=no)" ]; then
   echo "make deb: changes that are not committed are left out" >&2
@@ -24,6 +26,7 @@ rm -rf "$fresh" "$tree/debian" && mkdir -p "$fresh" "$tree"
 git archive HEAD | tar -x -C "$fresh"
 cp -r "$fresh/cmake/packaging/debian" "$fresh/debian"
 cp -r $page "$fresh/debian/page"
+cp -r $opcua "$fresh/debian/opcua"
 {
   echo "indurop ($version) bookworm; urgency=medium"
   echo

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop-opcua: the boards of an `indurop serve` over OPC UA. Begin reading here: options, the server, the boards, clients.
+
+import type { Namespace } from "node-opcua";
+
+import { log, message_of, take_messages } from "./log";
+import { read_options, UsageError, type Options } from "./options";
+import { read_token, ServeClient } from "./serve/http";
+import type { ServerStatus } from "./serve/types";
+import { Alarms } from "./server/alarms";
+import { watch_items } from "./server/items";
+import { make_server, set_permissions, warn_about } from "./server/server";
+import { Users } from "./server/users";
+import { make_write } from "./server/write";
+import { Boards } from "./space/boards";
+import type { Space } from "./space/tree";
+import { Types } from "./space/types";
+import type { PartNode } from "./space/variable";
+
+const EXIT_USAGE = 2;
+
+async function run(options: Options): Promise<void> {
+  const client = new ServeClient(options.serve, options.serve_ca, options.token_file ? read_token(options.token_file) : "");
+  const about = await client.get<ServerStatus>("status");
+  warn_about(options);
+  const users = new Users(client, about.users);
+  const server = await make_server(options, users);
+  const address_space = server.engine.addressSpace!;
+  const namespace = address_space.getNamespace(set_permissions(server)) as Namespace;
+  const boards = new Boards(client, options.rate_hz);
+  const by_node = new Map<string, PartNode>();
+  const space: Space = {
+    address_space, namespace, by_node,
+    types: new Types(address_space, namespace),
+    follow: boards.follow,
+    rate_hz: options.rate_hz,
+    writable: about.write,
+    write: make_write(client, users, by_node),
+  };
+  boards.space = space;
+  const alarms = new Alarms(client, users, boards, space);
+  await boards.begin();
+  if (options.check) {
+    process.stdout.write(`${boards.trees.size} boards, ${by_node.size} variables and parts\n`);
+    boards.stop();
+    await server.shutdown(0);
+    return;
+  }
+  watch_items(server, by_node, boards.follow, options.rate_hz);
+  users.begin(server);
+  alarms.begin();
+  await server.start();
+  process.stdout.write(`${server.getEndpointUrl()}\n`);
+
+  let ending = false;
+  const end = async (): Promise<void> => {
+    if (ending) return;
+    ending = true;
+    alarms.stop();
+    boards.stop();
+    await users.stop();
+    await server.shutdown(0);
+    process.exit(0);
+  };
+  process.on("SIGTERM", () => void end());
+  process.on("SIGINT", () => void end());
+}
+
+async function main(): Promise<void> {
+  let options: Options | string;
+  try {
+    options = read_options(process.argv.slice(2));
+  } catch (error) {
+    if (!(error instanceof UsageError)) throw error;
+    process.stderr.write(`indurop-opcua: ${error.message}; --help lists all options\n`);
+    process.exit(EXIT_USAGE);
+  }
+  if (typeof options === "string") {
+    process.stdout.write(options);
+    return;
+  }
+  // One client's message must not end the program for all: node-opcua throws at some that are malformed.
+  process.on("uncaughtException", (error) => log(`a message was not understood: ${error.message}`));
+  process.on("unhandledRejection", (error) => log(`a message was not understood: ${message_of(error)}`));
+  take_messages();
+  await run(options);
+}
+
+main().catch((error) => {
+  process.stderr.write(`indurop-opcua: ${message_of(error)}\n`);
+  process.exit(1);
+});

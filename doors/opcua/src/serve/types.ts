@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers of `indurop serve`, as tools/serve/openapi.json and docs/serve.md describe them, without fields that are not used.
+
+export interface Range {
+  min: number | null;
+  max: number | null;
+}
+
+export interface Field {
+  name: string;
+  offset: number;
+  type: Form;
+  unit?: string;
+  description?: string;
+  range?: Range | null;
+}
+
+export interface Form {
+  kind: "bool" | "char" | "i8" | "u8" | "i16" | "u16" | "i32" | "u32" | "i64" | "u64" | "f32" | "f64" | "text" | "enum" | "struct";
+  name?: string;
+  size: number;  // bytes of one element
+  dims?: number[];
+  fields?: Field[];
+  enumerators?: Record<string, number>;
+}
+
+export interface VariableDescription {
+  name: string;
+  type: string;
+  form: Form;
+  unit: string;
+  range: Range | null;
+  description: string;
+}
+
+export interface VariableList {
+  board: string;
+  layout: string;
+  variables: VariableDescription[];
+}
+
+export interface StreamBoard {
+  board: string;
+  alive: boolean;
+  layout: string;
+}
+
+export interface Subscribed {
+  id: number;
+  stream: number;
+  board: string;
+  layout: string;
+  record_size: number;
+  quality_offset: number;
+  variables: { name: string; offset: number }[];
+}
+
+export interface ServerStatus {
+  version: string;
+  write: boolean;
+  users: boolean;
+}
+
+export interface Client {
+  user: string;
+  role: "unknown" | "look" | "operate" | "tune" | "program" | "administer";
+}
+
+export interface Alarm {
+  alarm: string;
+  name: string;
+  text: string;
+  priority: "critical" | "high" | "medium" | "low";
+  condition: string;
+  state: "normal" | "unacknowledged" | "acknowledged" | "returned" | "shelved";
+  since_wall_ns?: number;
+  value?: string;
+  who?: string;
+  reason?: string;
+}

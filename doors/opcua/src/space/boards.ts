@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// All boards: what the stream says about them becomes nodes and values.
+
+import { log, message_of } from "../log";
+import { board_path, type ServeClient } from "../serve/http";
+import { Stream } from "../serve/stream";
+import type { StreamBoard, VariableList } from "../serve/types";
+import { Follow } from "./follow";
+import { BoardTree, notes_of, type Space } from "./tree";
+
+const RETRY_MS = 2000;
+const SWEEP_MS = 2000;
+
+export class Boards {
+  readonly trees = new Map<string, BoardTree>();
+  readonly follow: Follow;
+  on_update: (tree: BoardTree) => Promise<void> = async () => {};  // alarms belong to the new variables
+  on_alarms: (board: string) => void = () => {};
+  private readonly stream: Stream;
+  private readonly updates = new Map<string, Promise<void>>();  // one at a time of each board
+  private readonly noted = new Set<string>();
+  private sweeping: NodeJS.Timeout | undefined;
+  space!: Space;
+
+  constructor(private readonly client: ServeClient, rate_hz: number) {
+    this.stream = new Stream(client, {
+      opened: () => this.follow.opened(),
+      lost: (why) => this.lost(why),
+      boards: (boards) => this.heard(boards),
+      alarms: (board) => this.on_alarms(board),
+      subscribed: (answer) => this.subscribed(answer.board, answer.layout, () => this.follow.subscribed(answer)),
+      frame: (frame) => this.follow.received(frame),
+      ended: (ids) => this.follow.ended(ids),
+      rejected: (id, message) => this.follow.rejected(id, message),
+    });
+    this.follow = new Follow(this.stream, rate_hz);
+  }
+
+  // Boards that are there now. Throws Refused.
+  async begin(): Promise<void> {
+    const { boards } = await this.client.get<{ boards: StreamBoard[] }>("boards");
+    await Promise.all(boards.map(({ board, layout }) => this.update(board, layout)));
+    this.stream.open();
+    this.sweeping = setInterval(() => { for (const tree of this.trees.values()) tree.sweep(); }, SWEEP_MS);
+  }
+
+  stop(): void {
+    clearInterval(this.sweeping);
+    this.follow.stop();
+    this.stream.close();
+  }
+
+  private lost(why: string): void {
+    if (this.follow.connected) log(`${this.client.base.origin} is lost: ${why}; values are bad until it is back`);
+    this.follow.lost();
+  }
+
+  private heard(boards: StreamBoard[]): void {
+    for (const { board, layout } of boards) void this.update(board, layout);
+  }
+
+  private subscribed(board: string, layout: string, known: () => void): void {
+    if (this.trees.get(board)?.layout === layout) known();
+    else void this.update(board, layout);
+  }
+
+  private update(board: string, layout: string): Promise<void> {
+    if (layout === "" || this.trees.get(board)?.layout === layout) return Promise.resolve();
+    let running = this.updates.get(board);
+    if (!running) {
+      running = this.read_variables(board).finally(() => this.updates.delete(board));
+      this.updates.set(board, running);
+    }
+    return running;
+  }
+
+  private async read_variables(board: string): Promise<void> {
+    try {
+      const list = await this.client.get<VariableList>(board_path(board, "/variables?values=false"));
+      let tree = this.trees.get(board);
+      if (!tree) {
+        tree = new BoardTree(board, this.space);
+        this.trees.set(board, tree);
+      }
+      this.follow.forget_board(board);
+      await tree.update(list.variables, list.layout);
+      this.note([...notes_of(list.variables), ...this.space.types.notes].map((note) => `${board}: ${note}`));
+      this.follow.renew_board(board);
+      await this.on_update(tree);
+    } catch (error) {
+      log(`${board}: its variables cannot be read: ${message_of(error)}`);
+      setTimeout(() => void this.update(board, "unknown"), RETRY_MS);
+    }
+  }
+
+  private note(notes: string[]): void {
+    for (const note of notes) {
+      if (this.noted.has(note)) continue;
+      this.noted.add(note);
+      log(note);
+    }
+  }
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// A variable of a board: its newest bytes, and the nodes of the variable and its parts.
+
+import { DataValue, StatusCodes, Variant, type BaseNode, type StatusCode } from "node-opcua";
+
+import { bytes_of, type Part } from "../model/part";
+import { variant_at, type Construct } from "../model/values";
+import { put_value, type InnerVariable } from "./internals";
+
+export interface PartNode {
+  part: Part;
+  node: InnerVariable;
+  variable: Variable;
+  items: number;  // monitored items
+  parent: BaseNode;
+  shown: boolean;  // it has a place in the tree
+}
+
+// Where a group of variables is received.
+export interface Source {
+  bytes: Buffer | null;  // of the newest frame
+  alive: boolean;
+  wall_ms: number;
+}
+
+const QUALITY = 3;  // bits of a frame's quality byte
+const FORCED = 4;
+const BY_QUALITY: StatusCode[] = [
+  StatusCodes.Good,
+  StatusCodes.UncertainLastUsableValue,  // stale
+  StatusCodes.UncertainNoCommunicationLastUsableValue,  // silent
+  StatusCodes.BadDataUnavailable,  // unread
+];
+const SERVER_ONLY = new DataValue({ statusCode: StatusCodes.BadNodeIdUnknown });
+
+function code_of(alive: boolean, quality: number): StatusCode {
+  if (!alive) return StatusCodes.BadOutOfService;
+  return (quality & FORCED) !== 0 ? StatusCodes.GoodLocalOverride : BY_QUALITY[quality & QUALITY];
+}
+
+export class Variable {
+  readonly parts = new Map<string, PartNode>();
+  readonly monitored = new Set<PartNode>();
+  gone = false;  // its board has no such variable any more
+  wanted_until_ms = 0;
+  waiting: (() => void)[] = [];  // reads that wait for the first frame
+  private bytes: Buffer | null = null;  // of the frame
+  private offset = 0;
+  private code: StatusCode = StatusCodes.BadWaitingForInitialData;
+  private changed = new Date();
+
+  constructor(readonly board: string, public part: Part, private readonly construct: Construct) {}
+
+  get known(): boolean { return this.bytes !== null || this.gone; }
+
+  // A frame has arrived; `offset` is the variable's place in it.
+  receive(source: Source, offset: number, quality: number): void {
+    const code = code_of(source.alive, quality);
+    const before = this.bytes;
+    const moved = before === null || !same_bytes(before, this.offset, source.bytes!, offset, bytes_of(this.part.form));
+    const [old_offset, old_code] = [this.offset, this.code];
+    this.bytes = source.bytes;
+    this.offset = offset;
+    if (!moved && code === old_code) return;
+    this.code = code;
+    this.changed = new Date(source.wall_ms);
+    for (const one of this.monitored) {
+      const { part } = one;
+      if (before === null || code !== old_code
+        || !same_bytes(before, old_offset + part.offset, this.bytes!, offset + part.offset, bytes_of(part.form))) {
+        this.tell(one);
+      }
+    }
+    this.wake();
+  }
+
+  // There are no values: what was received belongs to another layout, or another board, or was lost.
+  lose(code: StatusCode): void {
+    this.bytes = null;
+    if (code === this.code) return;
+    this.code = code;
+    if (code === StatusCodes.BadWaitingForInitialData) return;  // clients keep what they have: values come soon
+    this.changed = new Date();
+    for (const one of this.monitored) this.tell(one);
+    this.wake();
+  }
+
+  value_of(part: Part): DataValue {
+    const bad = this.bytes === null || this.code.isBad();
+    return new DataValue({
+      value: bad ? new Variant() : variant_at(this.bytes!, this.offset + part.offset, part.form, this.construct),
+      statusCode: this.code,
+      sourceTimestamp: this.changed,
+      serverTimestamp: new Date(),
+    });
+  }
+
+  wake(): void {
+    const waiting = this.waiting;
+    this.waiting = [];
+    for (const done of waiting) done();
+  }
+
+  private tell(one: PartNode): void {
+    put_value(one.node, this.value_of(one.part));
+  }
+}
+
+export function unknown_node(): DataValue {
+  return SERVER_ONLY.clone();
+}
+
+function same_bytes(a: Buffer, at_a: number, b: Buffer, at_b: number, length: number): boolean {
+  if (length > 16) return a.compare(b, at_b, at_b + length, at_a, at_a + length) === 0;
+  for (let i = 0; i < length; i++) {
+    if (a[at_a + i] !== b[at_b + i]) return false;
+  }
+  return true;
+}

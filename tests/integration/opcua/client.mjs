@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// A client of OPC UA that a test drives: node client.mjs PACKAGES FOLDER. Each line of standard input is a request
+// {"do": NAME, ...}, each line of standard output its answer. Standard output has nothing else.
+import { createRequire } from "node:module";
+import { createInterface } from "node:readline";
+import { pathToFileURL } from "node:url";
+
+const [packages, folder] = process.argv.slice(2);
+console.log = console.warn = console.error;
+const ua = await import(pathToFileURL(createRequire(`${packages}/package.json`).resolve("node-opcua")));
+const { AttributeIds, ClientSubscription, DataType, MessageSecurityMode, OPCUAClient, SecurityPolicy, TimestampsToReturn, UserTokenType, Variant, VariantArrayType } = ua;
+
+let client, session, subscription;
+const items = new Map();
+const changes = {};  // newest values by node id
+const events = [];
+
+const plain = (value) => {
+  if (value === null || value === undefined) return null;
+  if (typeof value === "number") return Number.isFinite(value) ? value : `${value}`;
+  if (typeof value === "bigint") return `${value}`;
+  if (Buffer.isBuffer(value)) return value.toString("hex");
+  if (ArrayBuffer.isView(value)) return Array.from(value, plain);
+  if (Array.isArray(value)) return value.map(plain);
+  if (value instanceof Date) return value.toISOString();
+  if (value instanceof ua.NodeId) return value.toString();
+  if (value instanceof ua.LocalizedText) return value.text;
+  if (typeof value !== "object") return value;
+  const names = value.schema ? allFields(value.schema) : Object.keys(value);
+  return Object.fromEntries(names.filter((name) => typeof value[name] !== "function").map((name) => [name, plain(value[name])]));
+};
+const allFields = (schema) => [...(schema._baseSchema && schema._baseSchema !== schema ? allFields(schema._baseSchema) : []), ...schema.fields.map((field) => field.name)];
+const shown = (value) => ({
+  code: value.statusCode.name, value: plain(value.value?.value), type: DataType[value.value?.dataType], dims: plain(value.value?.dimensions),
+  source: value.sourceTimestamp?.getTime() ?? null, server: value.serverTimestamp?.getTime() ?? null,
+});
+
+const actions = {
+  async endpoints({ url }) {
+    const one = OPCUAClient.create({ endpointMustExist: false, connectionStrategy: { maxRetry: 0 } });
+    await one.connect(url);
+    const found = await one.getEndpoints();
+    await one.disconnect();
+    return found.map((end) => ({
+      mode: MessageSecurityMode[end.securityMode], policy: end.securityPolicyUri.split("#")[1],
+      users: end.userIdentityTokens.map(({ tokenType }) => UserTokenType[tokenType]),
+    }));
+  },
+  async connect({ url, mode, policy, user, password }) {
+    client = OPCUAClient.create({
+      endpointMustExist: false, securityMode: MessageSecurityMode[mode ?? "None"], securityPolicy: SecurityPolicy[policy ?? "None"],
+      connectionStrategy: { maxRetry: 0 }, requestedSessionTimeout: 60_000, clientCertificateManager: manager,
+    });
+    try {
+      await client.connect(url);
+      session = await client.createSession(user ? { type: UserTokenType.UserName, userName: user, password } : undefined);
+    } catch (error) {
+      await client.disconnect();
+      throw error;
+    }
+    return session.sessionId.toString();
+  },
+  async close() {
+    await session?.close();
+    await client?.disconnect();
+    session = subscription = undefined;
+    items.clear();
+  },
+  async browse({ node }) {
+    const answer = await session.browse({ nodeId: node, referenceTypeId: "HierarchicalReferences", includeSubtypes: true, resultMask: 63 });
+    return (answer.references ?? []).map((one) => ({ node: one.nodeId.toString(), name: one.browseName.name, type: one.typeDefinition.toString() }));
+  },
+  async read({ nodes, attribute, range }) {
+    const wanted = nodes.map((nodeId) => ({ nodeId, attributeId: AttributeIds[attribute ?? "Value"], indexRange: range ? new ua.NumericRange(range) : undefined }));
+    return (await session.read(wanted)).map(shown);
+  },
+  async write({ node, type, value, dims, range, array }) {
+    const dataType = DataType[type];
+    const arrayType = dims ? VariantArrayType.Matrix : array ? VariantArrayType.Array : VariantArrayType.Scalar;
+    const variant = new Variant({ dataType, arrayType, dimensions: dims ?? null, value });
+    const code = await session.write({ nodeId: node, attributeId: AttributeIds.Value, indexRange: range ? new ua.NumericRange(range) : undefined, value: { value: variant } });
+    return code.name;
+  },
+  // Reads a structure, changes fields and writes it as a whole.
+  async change({ node, fields }) {
+    const { value } = await session.read({ nodeId: node, attributeId: AttributeIds.Value });
+    for (const [name, one] of Object.entries(fields)) value.value[name] = one;
+    return (await session.write({ nodeId: node, attributeId: AttributeIds.Value, value: { value } })).name;
+  },
+  async monitor({ nodes, interval }) {
+    subscription ??= await session.createSubscription2({
+      requestedPublishingInterval: 50, requestedLifetimeCount: 6000, requestedMaxKeepAliveCount: 100, maxNotificationsPerPublish: 10_000, publishingEnabled: true, priority: 1,
+    });
+    const answers = [];
+    for (const nodeId of nodes) {
+      const item = await subscription.monitor({ nodeId, attributeId: AttributeIds.Value }, { samplingInterval: interval ?? 100, queueSize: 1, discardOldest: true }, TimestampsToReturn.Both);
+      item.on("changed", (value) => { changes[nodeId] = { ...shown(value), count: (changes[nodeId]?.count ?? 0) + 1 }; });
+      items.set(nodeId, item);
+      answers.push(item.statusCode?.name ?? "Good");
+    }
+    return answers;
+  },
+  async unmonitor({ nodes }) {
+    for (const node of nodes) {
+      await items.get(node).terminate();
+      items.delete(node);
+      delete changes[node];
+    }
+  },
+  async changes() { return changes; },
+  async listen({ node }) {
+    subscription ??= await session.createSubscription2({ requestedPublishingInterval: 50, requestedLifetimeCount: 6000, requestedMaxKeepAliveCount: 100, publishingEnabled: true, priority: 1 });
+    const fields = ["EventId", "SourceName", "Message", "Severity", "ConditionName", "Retain", "ActiveState.Id", "AckedState.Id", "ClientUserId", "Comment"];
+    const filter = ua.constructEventFilter([...fields, "ConditionId"]);
+    filter.selectClauses.at(-1).typeDefinitionId = ua.resolveNodeId("ConditionType");
+    filter.selectClauses.at(-1).browsePath = [];
+    filter.selectClauses.at(-1).attributeId = AttributeIds.NodeId;
+    const item = await subscription.monitor({ nodeId: node, attributeId: AttributeIds.EventNotifier }, { samplingInterval: 0, queueSize: 100, discardOldest: true, filter }, TimestampsToReturn.Both);
+    item.on("changed", (values) => events.push(Object.fromEntries([...fields, "ConditionId"].map((name, i) => [name, plain(values[i].value)]))));
+  },
+  async events() { return events; },
+  async refresh() {
+    return (await session.call({ objectId: "i=2782", methodId: "i=3875", inputArguments: [{ dataType: "UInt32", value: subscription.subscriptionId }] })).statusCode.name;
+  },
+  async call({ object, method, event, text }) {
+    const answer = await session.call({
+      objectId: object, methodId: method,
+      inputArguments: event === undefined ? [] : [{ dataType: "ByteString", value: Buffer.from(event, "hex") }, { dataType: "LocalizedText", value: { text } }],
+    });
+    return answer.statusCode.name;
+  },
+};
+
+const manager = new ua.OPCUACertificateManager({ rootFolder: `${folder}/client`, automaticallyAcceptUnknownCertificate: true });
+await manager.initialize();
+for await (const line of createInterface({ input: process.stdin })) {
+  const request = JSON.parse(line);
+  let answer;
+  try {
+    answer = { done: (await actions[request.do](request)) ?? null };
+  } catch (error) {
+    answer = { error: error.message };
+  }
+  process.stdout.write(`${JSON.stringify(answer)}\n`);
+}
+process.exit(0);

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A node, `indurop serve` before it, indurop-opcua before that, and node-opcua's client, which tests drive."""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).parent
+sys.path.insert(0, str(HERE.parent / "serve"))
+sys.path.insert(0, str(HERE.parents[1] / "support"))
+import harness  # noqa: E402
+from harness import DEADLINE_S, wait_for  # noqa: E402, F401
+from npm_packages import skip  # noqa: E402
+
+API = "/api/v1"
+MODULE = """<root><module><filename>{file}</filename><moduletype>thread</moduletype>
+<operationtype>periodic</operationtype><period>1ms</period><priority>1</priority></module></root>
+"""
+
+
+class Failed(Exception):
+    """What the client says of a request that failed."""
+
+
+class Client:
+    def __init__(self, setting, endpoint):
+        self.endpoint = endpoint
+        self.child = setting.start("node", HERE / "client.mjs", os.environ["OPCUA_PACKAGES"], setting.folder,
+                                   stdin=subprocess.PIPE)
+
+    def do(self, what, **words):
+        self.child.stdin.write(json.dumps({"do": what, **words}) + "\n")
+        self.child.stdin.flush()
+        line = self.child.stdout.readline()
+        assert line, f"the client ended at '{what}'"
+        answer = json.loads(line)
+        if "error" in answer:
+            raise Failed(answer["error"])
+        return answer["done"]
+
+    def connect(self, **words):
+        return self.do("connect", url=self.endpoint, **words)
+
+    def read(self, node, **words):
+        return self.do("read", nodes=[node], **words)[0]
+
+    def walk(self, node, depth=12):
+        """All nodes below, by id."""
+        found = {}
+        for one in self.do("browse", node=node) if depth else []:
+            if one["node"].startswith("ns=2;") and one["node"] not in found:
+                found[one["node"]] = one
+                found.update(self.walk(one["node"], depth - 1))
+        return found
+
+    def becomes(self, node, condition, what):
+        """The newest notification of a monitored item, once it is as wanted."""
+        return wait_for(lambda: (one := self.do("changes").get(node)) and condition(one) and one, what)
+
+
+class Setting(harness.Setting):
+    def __init__(self, programs, fake_node):
+        super().__init__(pathlib.Path(programs).absolute(), fake_node)
+        self.log = self.folder / "opcua.log"
+
+    def start_real_node(self):
+        """A node that runs the module with a variable of each kind."""
+        module = pathlib.Path(os.environ["OPCUA_MODULE"])
+        shutil.copy(module, self.folder)
+        (self.folder / "module.xml").write_text(MODULE.format(file=module.name))
+        child = self.start(self.programs / "indurop", "run", "module.xml", "--node", self.node, "-q", cwd=self.folder,
+                           stderr=subprocess.DEVNULL)
+        wait_for(lambda: self.get_count() > 10, "the node to count")
+        return child
+
+    def get_count(self):
+        done = subprocess.run([self.programs / "indurop", "get", "--node", self.node, "-o", "json", "every::count"],
+                              capture_output=True, text=True, check=False, env=self.environment)
+        return json.loads(done.stdout)["values"][0]["value"] if done.returncode == 0 else 0
+
+    def start_opcua(self, server, *options):
+        """Starts indurop-opcua; returns the endpoint's address."""
+        with self.log.open("a") as log:
+            child = self.start("node", self.programs / "indurop-opcua", "--serve", f"http://127.0.0.1:{server.port}", "--port", 0,
+                               "--state", self.folder / "opcua", *options, stderr=log)
+        line = child.stdout.readline()
+        found = re.match(r"opc\.tcp://[^/]*:(\d+)", line)
+        assert found, f"no address in '{line}': {self.log.read_text()}"
+        self.opcua = child
+        return f"opc.tcp://127.0.0.1:{found.group(1)}"
+
+    def client(self, endpoint, **words):
+        client = Client(self, endpoint)
+        client.connect(**words)
+        return client
+
+    def clean(self):
+        if self.log.exists():
+            print("".join(f"    {line}\n" for line in self.log.read_text().splitlines()), end="")
+        super().clean()
+
+    def id(self, name):
+        return f"ns=2;s={self.node}/{name}"
+
+
+def main(tests):
+    if not shutil.which("node"):
+        skip("there is no Node.js here")
+    if not (pathlib.Path(sys.argv[1]) / "indurop-opcua").exists():
+        skip("indurop-opcua was not built: the registry of npm could not be reached")
+    harness.Setting = Setting
+    harness.main(tests)

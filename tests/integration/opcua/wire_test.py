@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What indurop-opcua sends, as tshark's dissector of OPC UA reads it: no message is malformed, and the values are those that
+the client has. In a network namespace of its own. wire_test.py PROGRAMS FAKE_NODE [TEST...]"""
+
+import ctypes
+import json
+import shutil
+import subprocess
+
+from opcua_harness import main, skip, wait_for
+
+CLONE_NEWNET = 0x40000000
+
+
+def enter_namespace():
+    """A loopback without other traffic."""
+    if ctypes.CDLL(None, use_errno=True).unshare(CLONE_NEWNET) != 0:
+        skip("no right to network namespaces")
+    subprocess.run(["ip", "link", "set", "lo", "up"], check=True)
+
+
+def test_every_message_is_well_formed(setting):
+    setting.start_real_node()
+    server = setting.start_server()
+    endpoint = setting.start_opcua(server, "--anonymous")
+    port = endpoint.rsplit(":", 1)[1]
+    file = setting.folder / "traffic.pcapng"
+    capture = setting.start("tshark", "-q", "-i", "lo", "-f", f"tcp port {port}", "-w", file, stderr=subprocess.DEVNULL)
+    wait_for(lambda: file.exists() and file.stat().st_size > 0, "the capture to begin")
+    client = setting.client(endpoint)
+    precise, point, text = (setting.id(f"every::{name}") for name in ("precise", "point", "text"))
+    values = {node: client.read(node) for node in (precise, point, text)}
+    client.walk(f"ns=2;s={setting.node}")
+    part = setting.id("every::points[1].y")
+    client.do("monitor", nodes=[part])
+    client.becomes(part, lambda one: one["count"] > 3, "changes")
+    client.do("close")
+    setting.end(capture, how=2)
+    as_opcua = f"tcp.port=={port},opcua"
+    read = subprocess.run(["tshark", "-r", file, "-d", as_opcua, "-Y", "opcua", "-T", "json", "-e", "opcua.transport.type",
+                           "-e", "opcua.servicenodeid.numeric", "-e", "opcua.Double", "-e", "opcua.String", "-e", "_ws.malformed",
+                           "-e", "_ws.expert.message"], capture_output=True, text=True, check=True)
+    packets = [one["_source"]["layers"] for one in json.loads(read.stdout)]
+    assert len(packets) > 30, len(packets)
+    assert not [one for one in packets if "_ws.malformed" in one], "tshark calls none malformed"
+    types = {kind for one in packets for kind in one.get("opcua.transport.type", [])}
+    assert {"HEL", "ACK", "OPN", "MSG"} <= types, types
+    services = {int(kind) for one in packets for kind in one.get("opcua.servicenodeid.numeric", [])}
+    assert {634, 530, 829} <= services, services  # the answers to Read, Browse and Publish
+    doubles = {float(value) for one in packets for value in one.get("opcua.Double", [])}
+    assert values[precise]["value"] in doubles, doubles
+    texts = {value for one in packets for value in one.get("opcua.String", [])}
+    assert values[text]["value"] in texts, texts
+
+
+if __name__ == "__main__":
+    if not shutil.which("tshark") or not shutil.which("ip"):
+        skip("tshark or ip is missing")
+    enter_namespace()
+    main(globals())
