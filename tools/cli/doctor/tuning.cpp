@@ -104,7 +104,7 @@ class Examination {
     }
     want("/sys/kernel/mm/transparent_hugepage/enabled", "madvise",
          "making huge pages stops processes for milliseconds");
-    want("/proc/sys/kernel/nmi_watchdog", "0", "it interrupts every core each few seconds");
+    want("/proc/sys/kernel/watchdog", "0", "it interrupts every core each few seconds");
     want("/proc/sys/vm/stat_interval", "120", "each core updates VM statistics every second");
     if (cores_.size() > 1) {
       keep_free();
