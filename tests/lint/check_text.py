@@ -140,7 +140,7 @@ PLAIN_ROOMS = ("include/indurop/", "core/", "glb2idl/", "scheduler/", "config/",
                "control/plc/", "control/robot/", "node/", "network/", "deploy/", "tools/", "examples/", "tests/")
 OPEN_PAGES = ("docs/words.md", "docs/options.md", "tests/data/")
 # Names in files or messages that other releases read, and what they are called by in the code that writes them.
-FIXED_NAMES = re.compile(r"\bindurop/told\b|indurop::Told|struct Told|external/wish|`Wish`|\bindurop_wire_Wish\w*|\bbool(ean)? anew\b|\b(run|old)(\.|->)anew\b|"
+FIXED_NAMES = re.compile(r"\bindurop/told\b|indurop::Told|struct Told|external/wish|`Wish`|\bindurop_wire_Wish\w*|\bbool(ean)? anew\b|\b(run|old|older)(\.|->)anew\b|"
                          r"\bfile_beside_config\b|alarms-beside-the-loop|\"nobody\",|\"owner\"\], \"nobody\"|\bNobody\b|"
                          r"nobody@example\.com\">nobody<")
 

@@ -40,8 +40,7 @@ class Sample(unittest.TestCase):
 
     def found(self, findings, *words):
         """Exactly one finding, which holds all words."""
-        findings = list(findings)
-        self.assertEqual(len(findings), 1, findings)
+        self.assertEqual(len(findings := list(findings)), 1, findings)
         for word in words:
             self.assertIn(word, findings[0])
 
@@ -573,29 +572,24 @@ class Tidy(Sample):
         self.found(check_tidy.tidy_one(self.root, self.root, entries[0], self.root, b""), "core/rt/a.cpp", "modernize-use-nullptr")
 
     def test_findings_are_remembered(self):
-        text = "int* f() { return 0; }\n"
-        self.assertEqual(self.tidy(text), self.tidy(text))
+        self.assertEqual(*(self.tidy("int* f() { return 0; }\n") for _ in range(2)))
 
     def test_function_name(self):
         self.found(self.tidy("int TwiceAsMuch(int a) { return a * 2; }\n"), "readability-identifier-naming")
 
     def test_private_member_name(self):
-        self.found(self.tidy("class A {\n  int a = 0;\n\n public:\n  int get() const { return a; }\n};\nint f() { return A().get(); }\n"),
-                   "readability-identifier-naming")
+        text = "class A {\n  int a = 0;\n\n public:\n  int get() const { return a; }\n};\nint f() { return A().get(); }\n"
+        self.found(self.tidy(text), "readability-identifier-naming")
 
     def test_macro_name(self):
         self.assertTrue(any("naming" in line for line in self.tidy("#define Other 1\n")))
 
-    def test_null(self):
-        self.found(self.tidy("int* f() { return 0; }\n"), "modernize-use-nullptr")
-
     def test_analyzer(self):
-        self.found(self.tidy("int f(bool a) {\n  int* p = nullptr;\n  int b = 1;\n  if (!a) {\n    p = &b;\n  }\n  return *p;\n}\n"),
-                   "clang-analyzer-core.NullDereference")
+        text = "int f(bool a) {\n  int* p = nullptr;\n  int b = 1;\n  if (!a) {\n    p = &b;\n  }\n  return *p;\n}\n"
+        self.found(self.tidy(text), "clang-analyzer-core.NullDereference")
 
     def test_misspelt_family(self):
-        text = (ROOT / ".clang-tidy").read_text()
-        self.put(".clang-tidy", text.replace("bugprone-*", "bug-prone-*"))
+        self.put(".clang-tidy", (ROOT / ".clang-tidy").read_text().replace("bugprone-*", "bug-prone-*"))
         self.put("core/rt/clock.cpp", HEAD)
         self.found(check_tidy.families(self.root), "bugprone")
 
