@@ -128,7 +128,7 @@ std::string messages_text(const std::string& board) {
           {{"who", one.module < count ? (*names)[one.module] : "node"}, {"time_ns", one.time_ns}, {"text", one.text}});
     }
   }
-  return Json{{"epoch_ns", names ? block->epoch_ns : 0},
+  return Json{{"epoch_ns", names ? block->epoch_ns.load() : 0},
               {"basic_period_ns", names ? block->basic_period_ns : 0},
               {"messages", std::move(list)}}
       .dump();

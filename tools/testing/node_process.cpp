@@ -151,7 +151,7 @@ void NodeProcess::check_returned() {
 bool NodeProcess::stands() const {
   std::int64_t epoch = boards_[0].run().epoch_ns;
   for (const Board& board : boards_) {
-    epoch = std::min(epoch, board.run().epoch_ns);
+    epoch = std::min(epoch, board.run().epoch_ns.load());
   }
   if (epoch == 0) {
     return false;

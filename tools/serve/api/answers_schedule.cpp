@@ -114,7 +114,7 @@ Reply schedule(Api& /*api*/, const Call& call) {
   body["basic_period_ns"] = block.basic_period_ns;
   body["macro_period_ns"] = block.macro_period_ns;
   body["slots"] = block.slot_count;
-  body["epoch_ns"] = block.epoch_ns;
+  body["epoch_ns"] = block.epoch_ns.load();
   body["plan"] = std::move(plan);
   body["message"] = message;
   return json_reply(body);
@@ -148,7 +148,7 @@ Reply runs(Api& /*api*/, const Call& call) {
     list.push_back(std::move(one));
   }
   base::Json body = about(*board);
-  body["epoch_ns"] = run.block().epoch_ns;
+  body["epoch_ns"] = run.block().epoch_ns.load();
   body["now_ns"] = run.now_ns();
   body["next"] = run.block().slot_log_next.load(std::memory_order_relaxed);
   body["runs"] = std::move(list);
@@ -181,7 +181,7 @@ Reply overruns(Api& /*api*/, const Call& call) {
     list.push_back(std::move(one));
   }
   base::Json body = about(*board);
-  body["epoch_ns"] = run.block().epoch_ns;
+  body["epoch_ns"] = run.block().epoch_ns.load();
   body["overruns"] = std::move(list);
   return json_reply(body);
 }

@@ -78,7 +78,7 @@ Board::Done LocalBoard::messages(std::uint64_t count) {
                     {"time_ns", sample.time_ns},
                     {"text", sample.text}});
   }
-  return base::Json{{"epoch_ns", block.epoch_ns}, {"messages", std::move(list)}};
+  return base::Json{{"epoch_ns", block.epoch_ns.load()}, {"messages", std::move(list)}};
 }
 
 std::vector<alarms::DeclaredAlarm> LocalBoard::declared_alarms() const {
