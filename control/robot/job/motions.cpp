@@ -38,9 +38,9 @@ void MotionReader::spline() {
   }
   if (points < 2) {
     line_.error(start, "a spline goes through two points or more; MOVL goes to one");
-  } else if (points > Spline::kMost) {
-    line_.error(start,
-                "a spline of " + std::to_string(points) + " points; " + std::to_string(Spline::kMost) + " is the most");
+  } else if (points > Spline::kMaxPoints) {
+    line_.error(start, "a spline of " + std::to_string(points) + " points; " + std::to_string(Spline::kMaxPoints) +
+                           " is the most");
   } else {
     draft_.last().value = 0;
   }

@@ -12,7 +12,7 @@ namespace indurop::robot {
 
 class Chain final : public ToolPath {
  public:
-  static constexpr int kMost = 1024;  // lines
+  static constexpr int kMaxLines = 1024;
 
   struct Line {
     Pose end;
@@ -24,7 +24,7 @@ class Chain final : public ToolPath {
 
   // All functions of this class are real-time safe.
   void begin(const Pose& start, const ToolLimits& tool) noexcept;
-  // The caller ensures that there is room (at most kMost lines). Returns false if the line has no length: it is left
+  // The caller ensures that there is room (kMaxLines). Returns false if the line has no length: it is left
   // out.
   bool add(const Line& line) noexcept;
   // Called after the last line.
@@ -42,7 +42,7 @@ class Chain final : public ToolPath {
   [[nodiscard]] int source_at(double place) const noexcept override;
 
  private:
-  using Corners = std::array<Vec3, kMost + 1>;
+  using Corners = std::array<Vec3, kMaxLines + 1>;
   // Lines `first` to `last` are within reach of a place on the path.
   struct Window {
     double half = 0;
@@ -59,13 +59,13 @@ class Chain final : public ToolPath {
   bool crowded_ = false;
   double way_ = 0;
   double at_speed_ = 0;
-  double half_ = 0;                     // s at full speed, half width of the mean
-  std::array<double, kMost + 1> at_{};  // where the lines begin, and the last one ends
-  std::array<Pose, kMost + 1> poses_{};
+  double half_ = 0;                         // s at full speed, half width of the mean
+  std::array<double, kMaxLines + 1> at_{};  // where the lines begin, and the last one ends
+  std::array<Pose, kMaxLines + 1> poses_{};
   // For each line: its velocity and turn rate (base frame), and its rotation (frame of its beginning).
   Corners moving_{}, turning_{}, turns_{};
-  std::array<double, kMost> speeds_{}, zones_{};
-  std::array<int, kMost> sources_{};
+  std::array<double, kMaxLines> speeds_{}, zones_{};
+  std::array<int, kMaxLines> sources_{};
 };
 
 }  // namespace indurop::robot

@@ -41,8 +41,8 @@ bool Spline::add(const Knot& knot) noexcept {
 void Spline::finish() noexcept {
   using Block = Eigen::Matrix2d;
   using Right = Eigen::Matrix<double, 2, 7>;
-  std::array<Block, kMost + 1> above{};
-  std::array<Right, kMost + 1> known{};
+  std::array<Block, kMaxPoints + 1> above{};
+  std::array<Right, kMaxPoints + 1> known{};
   for (int i = 0; i <= count_; ++i) {
     Block before = Block::Zero();
     Block here = Block::Zero();

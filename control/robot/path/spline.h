@@ -14,7 +14,7 @@ namespace indurop::robot {
 
 class Spline final : public ToolPath {
  public:
-  static constexpr int kMost = 100;  // points
+  static constexpr int kMaxPoints = 100;
 
   struct Knot {
     Pose pose;
@@ -25,7 +25,8 @@ class Spline final : public ToolPath {
 
   // Real-time safe, like all functions of this class.
   void begin(const Pose& start, const ToolLimits& tool) noexcept;
-  // Adds a point; there is room for kMost. Returns false if it is at the same place as the one before: it is left out.
+  // Adds a point; there is room for kMaxPoints. Returns false if it is at the same place as the one before: it is left
+  // out.
   bool add(const Knot& knot) noexcept;
   // Called after the last point; there must be at least one.
   void finish() noexcept;
@@ -57,10 +58,10 @@ class Spline final : public ToolPath {
   int count_ = 0;  // pieces
   double way_ = 0;
   double at_speed_ = 0;
-  std::array<double, kMost + 1> at_{};
-  std::array<Knot, kMost + 1> knots_{};
-  std::array<Values, kMost + 1> values_{};
-  std::array<Values, kMost + 1> slopes_{}, bends_{};  // first and second derivatives at the points
+  std::array<double, kMaxPoints + 1> at_{};
+  std::array<Knot, kMaxPoints + 1> knots_{};
+  std::array<Values, kMaxPoints + 1> values_{};
+  std::array<Values, kMaxPoints + 1> slopes_{}, bends_{};  // first and second derivatives at the points
 };
 
 }  // namespace indurop::robot

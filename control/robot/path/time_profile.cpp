@@ -73,9 +73,9 @@ void widen(TimeProfile::Range& range, const std::array<double, N>& p, double end
 
 // The start and the points of the table.
 struct TimeProfile::Points {
-  static constexpr std::size_t kMost = kProfilePoints + 1;
-  std::array<double, kMost> time{};
-  std::array<double, kMost> value{};
+  static constexpr std::size_t kMaxPoints = kProfilePoints + 1;
+  std::array<double, kMaxPoints> time{};
+  std::array<double, kMaxPoints> value{};
   std::size_t last = 0;
   [[nodiscard]] double width(std::size_t i) const noexcept { return time[i + 1] - time[i]; }
   [[nodiscard]] double steep(std::size_t i) const noexcept { return (value[i + 1] - value[i]) / width(i); }
@@ -123,8 +123,8 @@ ErrorCode TimeProfile::set(const ProfileTable& table, Of of, const Scale& scale,
 // only polynomial of fifth order with position, slope and second derivative of both its ends.
 void TimeProfile::through_positions(const Points& points, const LineState& start) noexcept {
   const std::size_t last = points.last;
-  std::array<double, Points::kMost> slopes{};
-  std::array<double, Points::kMost> scaled{};
+  std::array<double, Points::kMaxPoints> slopes{};
+  std::array<double, Points::kMaxPoints> scaled{};
   slopes[0] = start.velocity;
   for (std::size_t i = 1; i < last; ++i) {
     const double before = 1 / points.width(i - 1);

@@ -19,7 +19,7 @@ struct Timed {
 
 class PathTiming {
  public:
-  static constexpr int kMost = 256;  // pieces
+  static constexpr int kMaxPieces = 256;
   struct Value {
     double value = 0, first = 0, second = 0, third = 0;
   };
@@ -43,9 +43,9 @@ class PathTiming {
   [[nodiscard]] double seconds(int piece, double part) const noexcept;
 
   int count_ = 0;
-  std::array<double, kMost + 5> shape_{};
-  std::array<double, kMost + 3> squares_{};
-  std::array<double, kMost + 1> times_{};
+  std::array<double, kMaxPieces + 5> shape_{};
+  std::array<double, kMaxPieces + 3> squares_{};
+  std::array<double, kMaxPieces + 1> times_{};
 };
 
 }  // namespace indurop::robot

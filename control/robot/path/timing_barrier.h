@@ -23,7 +23,7 @@ struct TimingPlace {
 
 class TimingBarrier {
  public:
-  static constexpr int kMost = PathTiming::kMost;
+  static constexpr int kMaxPieces = PathTiming::kMaxPieces;
   // Access to the limits at the knots, or alternately at the knots and half way between them; filled in before begin().
   // Real-time safe, like all functions of this class.
   TimingPlace& place(int i) noexcept { return places_[static_cast<std::size_t>(i)]; }
@@ -42,7 +42,7 @@ class TimingBarrier {
     double w = 0, d = 0, dd = 0;  // value and its derivatives
   };
   static constexpr int kBand = 4;  // maximum number of coefficients that affect a place
-  using Coefficients = std::array<double, kMost + 3>;
+  using Coefficients = std::array<double, kMaxPieces + 3>;
 
   [[nodiscard]] int last() const noexcept { return count_ * per_knot_; }
   [[nodiscard]] Local local(const double* z, int place) const noexcept;
@@ -72,8 +72,8 @@ class TimingBarrier {
   double stiff_ = 0;
   double here_ = 0, decrement_ = 0, length_ = 0;  // of the present step
   Coefficients z_{}, gradient_{}, direction_{}, trial_{};
-  std::array<std::array<double, kBand>, kMost + 3> band_{};
-  std::array<TimingPlace, 2 * kMost + 1> places_{};
+  std::array<std::array<double, kBand>, kMaxPieces + 3> band_{};
+  std::array<TimingPlace, 2 * kMaxPieces + 1> places_{};
 };
 
 }  // namespace indurop::robot

@@ -66,7 +66,7 @@ bool TimingSearch::guess(const PathBounds& bounds) noexcept {
   if (!std::isfinite(duration)) {
     return false;
   }
-  count_ = std::clamp(static_cast<int>(duration / kPerKnot), kFewestKnots, PathTiming::kMost);
+  count_ = std::clamp(static_cast<int>(duration / kPerKnot), kFewestKnots, PathTiming::kMaxPieces);
   int part = 0;
   for (int i = 0; i <= count_; ++i) {
     // Denser at the ends, where jerk is the limit.

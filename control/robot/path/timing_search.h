@@ -56,10 +56,10 @@ class TimingSearch {
   int count_ = 0;
   int per_knot_ = 1;
   // The factors by which the limits of a piece are reduced, and by which they have to be reduced further.
-  std::array<double, PathTiming::kMost> slower_{}, noted_{};
+  std::array<double, PathTiming::kMaxPieces> slower_{}, noted_{};
   int next_ = 0;
   Joints near_ = Joints::Zero();
-  std::array<double, PathTiming::kMost + 5> shape_{};
+  std::array<double, PathTiming::kMaxPieces + 5> shape_{};
 };
 
 }  // namespace indurop::robot

@@ -14,7 +14,7 @@ constexpr std::size_t kLiving = 6;  // chains: one being built, one being planne
 }  // namespace
 
 ReadAhead::ReadAhead(const Places& places, const ToolLimits& tool)
-    : places_(places), tool_(tool), commands_(Chain::kMost), chains_(kLiving), splines_(kLiving) {}
+    : places_(places), tool_(tool), commands_(Chain::kMaxLines), chains_(kLiving), splines_(kLiving) {}
 
 void ReadAhead::clear() noexcept {
   count_ = scanned_ = single_ = 0;
@@ -43,7 +43,7 @@ bool ReadAhead::has_room() const noexcept {
   }
   const MoveCommand& last = command(count_ - 1);
   const bool goes_on = (last.move == Move::Line && last.zone > 0) || (last.move == Move::Spline && last.more);
-  return count_ < Chain::kMost && goes_on;
+  return count_ < Chain::kMaxLines && goes_on;
 }
 
 void ReadAhead::add(const MoveCommand& command) noexcept {
@@ -52,7 +52,7 @@ void ReadAhead::add(const MoveCommand& command) noexcept {
 
 const MoveCommand& ReadAhead::take() noexcept {
   const MoveCommand& taken = command(0);
-  first_ = (first_ + 1) % Chain::kMost;
+  first_ = (first_ + 1) % Chain::kMaxLines;
   --count_;
   return taken;
 }
@@ -77,7 +77,7 @@ void ReadAhead::scan() noexcept {
     }
     chain.add({pose_of(line.target), line.zone, line.speed, line.tool_speed, line.source});
     ++scanned_;
-    closed_ = line.zone <= 0 || scanned_ == Chain::kMost || !(chain.at_speed() < kLongest);
+    closed_ = line.zone <= 0 || scanned_ == Chain::kMaxLines || !(chain.at_speed() < kLongest);
   }
 }
 
@@ -97,11 +97,11 @@ ReadAhead::Next ReadAhead::next_spline(const Joints& from) noexcept {
   Spline& spline = splines_[spline_];
   const double acceleration = command(0).acceleration;
   spline.begin(places_.arm().forward(from), gentler(tool_, acceleration));
-  for (int i = 0; i < points && spline.count() < Spline::kMost; ++i) {
+  for (int i = 0; i < points && spline.count() < Spline::kMaxPoints; ++i) {
     const MoveCommand& point = command(i);
     spline.add({pose_of(point.target), point.speed, point.tool_speed, point.source});
   }
-  first_ = (first_ + points - 1) % Chain::kMost;
+  first_ = (first_ + points - 1) % Chain::kMaxLines;
   count_ -= points - 1;
   const MoveCommand& last = take();
   if (spline.count() == 0) {
@@ -132,7 +132,7 @@ ReadAhead::Next ReadAhead::next(const Joints& from, bool more) noexcept {
       chain.finish();
       chain_ = (chain_ + 1) % chains_.size();
       const double acceleration = command(0).acceleration;
-      first_ = (first_ + scanned_) % Chain::kMost;
+      first_ = (first_ + scanned_) % Chain::kMaxLines;
       count_ -= scanned_;
       scanned_ = 0;
       return {&chain, nullptr, 0, acceleration};
