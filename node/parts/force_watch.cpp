@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/rt/clock.h"
+#include "store/vars/custody.h"
 
 namespace indurop::node {
 namespace {
@@ -12,36 +13,46 @@ bool is_same(const vars::Force& a, const vars::Force& b) noexcept {
   return a.variable == b.variable && a.offset == b.offset;
 }
 
-const vars::Force* find(const std::vector<vars::Force>& in, const vars::Force& what) noexcept {
-  const auto found = std::find_if(in.begin(), in.end(), [&](const vars::Force& one) { return is_same(one, what); });
-  return found == in.end() ? nullptr : &*found;
-}
-
 schema::Part part_of(const vars::Store& store, const vars::Force& force) {
   return schema::part_at(store.schema().variables[force.variable->schema_index], force.offset);
 }
 
-std::string time_of(const vars::Force& force, rt::MonoTime now) {
+}  // namespace
+
+std::string ForceWatch::time_of(const Known& known, rt::MonoTime now) {
+  const vars::Force& force = known.force;
+  if (known.lease) {
+    return "as long as its client renews that";
+  }
   const std::chrono::duration<double> left = force.until - now;
   return force.until == vars::kForever ? "until it is released (indurop unforce)"
                                        : fmt::format("for {:.1f} s", left.count());
 }
 
-}  // namespace
+bool ForceWatch::is_lease(const vars::Force& force) const {
+  const auto custody = vars::Custody::open(node_, vars::Mode::ReadOnly);
+  const auto note = custody ? custody->note_of(*force.variable, force.offset) : std::nullopt;
+  return note && note->lease;
+}
 
 void ForceWatch::report_changes(vars::Store& store, Console& console) {
-  std::vector<vars::Force> now = store.forces();
-  for (const vars::Force& one : now) {
-    const vars::Force* before = find(known_, one);
-    if (before == nullptr || before->value != one.value || before->until != one.until) {
+  std::vector<Known> now;
+  for (const vars::Force& one : store.forces()) {
+    const auto before =
+        std::find_if(known_.begin(), known_.end(), [&](const Known& k) { return is_same(k.force, one); });
+    const bool held = before != known_.end() && before->force.value == one.value;
+    const bool unchanged = held && before->force.until == one.until;
+    now.push_back({one, unchanged ? before->lease : is_lease(one)});
+    const bool renewed = held && before->lease && now.back().lease;
+    if (!unchanged && !renewed) {
       const schema::Part part = part_of(store, one);
       console.warning("{} is forced to {} {}", part.name, schema::format_value(part.type, one.bytes()),
-                      time_of(one, store.now()));
+                      time_of(now.back(), store.now()));
     }
   }
-  for (const vars::Force& one : known_) {
-    if (find(now, one) == nullptr) {
-      console.info("{} is no longer forced", part_of(store, one).name);
+  for (const Known& one : known_) {
+    if (std::none_of(now.begin(), now.end(), [&](const Known& k) { return is_same(k.force, one.force); })) {
+      console.info("{} is no longer forced", part_of(store, one.force).name);
       store.release_overdue();
     }
   }

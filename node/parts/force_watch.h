@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "node/run/console.h"
@@ -13,10 +15,22 @@ namespace indurop::node {
 
 class ForceWatch {
  public:
+  explicit ForceWatch(std::string node) : node_(std::move(node)) {}
+
+  // A lease is reported once, not each time its client renews it.
   void report_changes(vars::Store& store, Console& console);
 
  private:
-  std::vector<vars::Force> known_;
+  struct Known {
+    vars::Force force;
+    bool lease = false;  // it ends unless its client renews it
+  };
+
+  [[nodiscard]] bool is_lease(const vars::Force& force) const;
+  static std::string time_of(const Known& known, rt::MonoTime now);
+
+  std::string node_;
+  std::vector<Known> known_;
 };
 
 }  // namespace indurop::node

@@ -45,6 +45,7 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
       run_(prepared.run()),
       loaded_(loaded),
       kernel_(make_kernel()),
+      forces_(options.node),
       mirror_(options, checked, prepared, console),
       engine_(run_, loaded.tasks, engine_settings(), hooks(), kernel_),
       memory_(options.node, prepared, engine_, console),
