@@ -66,7 +66,7 @@ std::set<std::string> files_below(const fs::path& folder) {
     const std::string name = at->path().filename();
     if (name.starts_with('.') || (at->is_directory() && name.starts_with("build"))) {
       at.disable_recursion_pending();
-    } else if (at->is_regular_file()) {
+    } else if (at->is_regular_file() && at->path().extension() != ".mcap") {
       paths.insert(at->path().lexically_relative(folder));
     }
   }

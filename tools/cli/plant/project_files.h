@@ -28,8 +28,8 @@ struct Project {
 
 // Returns nothing if the manifest says so (`<sources>off</sources>`), or names no folder and lies in one without
 // CMakeLists.txt. In a git work tree the files are those that git tracks or would add, so .gitignore counts; elsewhere
-// all files but hidden ones, programs, and folders named build*. Keys of the plant and files with a private key never
-// travel. Errors: the folder of <sources> is missing; more than 64 MB.
+// all files but hidden ones, programs, recordings (*.mcap), and folders named build*. Keys of the plant and files with
+// a private key never travel. Errors: the folder of <sources> is missing; more than 64 MB.
 Result<std::optional<Project>, base::Problem> find_project(const config::Plant& plant);
 
 }  // namespace indurop::tools

@@ -24,6 +24,7 @@
 #include "tools/client/node/known_uses.h"
 #include "tools/client/node/node_choice.h"
 #include "tools/client/process/interrupt.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {
@@ -179,7 +180,7 @@ int play(Context& context, const Options& options) {
     context.out.error(done.error().text);
     return kFailed;
   }
-  context.out.note(fmt::format("wrote {} values of {} variables", done->written, list->size()));
+  context.out.note(fmt::format("wrote {} of {}", counted(done->written, "value"), counted(list->size(), "variable")));
   if (done->refused > 0) {
     context.out.error(fmt::format(
         "{} values could not be written: another process held the write lock of their variables", done->refused));

@@ -10,6 +10,7 @@
 #include "core/base/duration.h"
 #include "deploy/words/deployment_words.h"
 #include "tools/client/text/units.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {
@@ -61,10 +62,10 @@ std::vector<std::string> header_lines(const NodeReport& report, const Output& ou
     lines.push_back("  reason    " + printable(report.stop_reason));
   }
   if (report.basic_period_ns > 0) {
-    lines.push_back(fmt::format("  schedule  basic period {}, macro period {}, tick {}, {} lost ticks",
+    lines.push_back(fmt::format("  schedule  basic period {}, macro period {}, tick {}, {}",
                                 base::format_duration(base::Nanos(report.basic_period_ns)),
                                 base::format_duration(base::Nanos(report.macro_period_ns)), report.ticks,
-                                report.lost_ticks));
+                                counted(report.lost_ticks, "lost tick")));
   }
   if (report.lateness.count > 0) {
     lines.push_back(fmt::format("  lateness  p50 {}, p99 {}, max {}", human_ns(report.lateness.p50),
@@ -88,11 +89,10 @@ std::vector<std::string> header_lines(const NodeReport& report, const Output& ou
 std::vector<std::string> mirror_lines(const MirrorView& view, const Output& output) {
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "  plant     {}, board {}, DDS domain {}, {}; sends {} variables in {} frames of up to "
-      "1300 bytes, {} frames so far",
+      "  plant     {}, board {}, DDS domain {}, {}; sends {} in {} of up to 1300 bytes, {} so far",
       printable(view.plant), printable(view.board), view.domain,
       view.up ? output.paint(Style::Good, "in the network") : output.paint(Style::Bad, "not in the network yet"),
-      view.outgoing, view.parts, view.frames));
+      counted(view.outgoing, "variable"), counted(view.parts, "frame"), counted(view.frames, "frame")));
   if (!view.problem.empty()) {
     lines.push_back("            " + output.paint(Style::Warn, printable(view.problem)));
   }
@@ -100,9 +100,9 @@ std::vector<std::string> mirror_lines(const MirrorView& view, const Output& outp
     std::string line =
         fmt::format("  board     {}  {}", printable(peer.name), output.paint(style_of(peer.state), peer.state));
     if (peer.wanted > 0) {
-      line += fmt::format("  {} variables from it, {}, {} frames, {} updates lost", peer.wanted,
+      line += fmt::format("  {} from it, {}, {}, {} lost", counted(peer.wanted, "variable"),
                           peer.heard_ns < 0 ? std::string("never heard") : "heard " + human_ns(peer.heard_ns) + " ago",
-                          peer.frames, peer.lost_updates);
+                          counted(peer.frames, "frame"), counted(peer.lost_updates, "update"));
     }
     line += lead_of(view, peer.name);
     if (peer.clock_known) {
@@ -120,10 +120,11 @@ std::vector<std::string> mirror_lines(const MirrorView& view, const Output& outp
 
 std::vector<std::string> external_lines(const ExternalView& view, const Output& output) {
   std::vector<std::string> lines;
-  std::string line =
-      fmt::format("other tools: DDS domain {}, {} topics, {} with readers", view.domain, view.topics, view.read);
+  std::string line = fmt::format("other tools: DDS domain {}, {}, {} with readers", view.domain,
+                                 counted(view.topics, "topic"), view.read);
   if (view.writable > 0) {
-    line += fmt::format(", {} can be set ({} values taken, {} refused)", view.writable, view.received, view.refused);
+    line += fmt::format(", {} can be set ({} taken, {} refused)", view.writable, counted(view.received, "value"),
+                        view.refused);
   }
   if (!view.up) {
     line += output.paint(Style::Bad, ", not in the network yet");

@@ -161,8 +161,9 @@ int report_result(Context& context, const Nodes& nodes, const recorder::Parts& p
   }
   const std::string boards = nodes.size() > 1 ? fmt::format(" of {} boards", nodes.size()) : "";
   const std::string removed = parts.removed() > 0 ? fmt::format("; {} older parts were removed", parts.removed()) : "";
-  context.out.note(fmt::format("{}: {} runs, {} values of {} variables{}, {}{}", parts.files(), runs, values, variables,
-                               boards, human_bytes(parts.bytes()), removed));
+  context.out.note(fmt::format("{}: {}, {} of {}{}, {}{}", parts.files(), counted(runs, "run"),
+                               counted(values, "value"), counted(variables, "variable"), boards,
+                               human_bytes(parts.bytes()), removed));
   return whole ? kOk : kFailed;
 }
 
