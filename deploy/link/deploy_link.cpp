@@ -72,7 +72,7 @@ struct DeployLink::Impl {
   std::shared_ptr<dds::Participant> participant;
   std::optional<dds::OtherReleases> others;
   Speakers senders;
-  dds::Endpoint boards_out;
+  dds::Endpoint boards_out;  // these two are made when they are needed: participants with keys agree on each endpoint
   dds::Endpoint orders_out;
   dds::Endpoint requests_out;
   std::map<std::uint64_t, dds::Endpoint> blobs_out;  // by requester
@@ -97,12 +97,9 @@ Result<void, base::Problem> DeployLink::Impl::make() {
   orders_in = reader(indurop_deploy_Order_desc, topic_name("order"), true, wakes);
   requests_in = reader(indurop_deploy_Request_desc, topic_name("request"), false, wakes);
   blobs_in = reader(indurop_deploy_Chunk_desc, blob_topic(self), false, wakes);
-  boards_out = writer(indurop_deploy_BoardReport_desc, topic_name("board"), true);
-  orders_out = writer(indurop_deploy_Order_desc, topic_name("order"), true);
   requests_out = writer(indurop_deploy_Request_desc, topic_name("request"), false);
-  for (const dds::Endpoint* end :
-       {&boards_in, &orders_in, &requests_in, &blobs_in, &boards_out, &orders_out, &requests_out}) {
-    // No participant's keys permit all of it: a board gives no orders, a viewer does not report.
+  for (const dds::Endpoint* end : {&boards_in, &orders_in, &requests_in, &blobs_in, &requests_out}) {
+    // No participant's keys permit all of it: a viewer receives no orders.
     if (!end->ok() && !end->forbidden()) {
       return base::Problem{"deployment topics cannot be made: " + end->why()};
     }
@@ -172,13 +169,21 @@ DeployLink::DeployLink(std::unique_ptr<Impl> impl, bool secured)
 DeployLink::~DeployLink() = default;
 
 void DeployLink::publish(const BoardReport& report) {
+  dds::Endpoint& writer = impl_->boards_out;
+  if (!writer.ok()) {
+    writer = impl_->writer(indurop_deploy_BoardReport_desc, impl_->topic_name("board"), true);
+  }
   const wire::Lent lent(report);
-  (void)dds::write(impl_->boards_out.get(), lent.sample());  // it is sent again soon
+  (void)dds::write(writer.get(), lent.sample());  // it is sent again soon
 }
 
 void DeployLink::publish(const Order& order) {
+  dds::Endpoint& writer = impl_->orders_out;
+  if (!writer.ok()) {
+    writer = impl_->writer(indurop_deploy_Order_desc, impl_->topic_name("order"), true);
+  }
   const wire::Lent lent(order);
-  (void)dds::write(impl_->orders_out.get(), lent.sample());
+  (void)dds::write(writer.get(), lent.sample());
 }
 
 void DeployLink::request(const BlobRequest& request) {
