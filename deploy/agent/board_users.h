@@ -32,11 +32,11 @@ struct Authority {
 Result<std::string, base::Problem> signer_of(const Command& command, const UserSignature& signature,
                                              const Authority& authority, keys::Instant now);
 
-// Returns why the user may not give the command to the board; empty: he may, as far as the variables of writes are
-// concerned as they are named in `variables` (full names). `users`: the list.
+// Returns why the user may not give such a command to the board; empty: the role suffices, and the board is one of the
+// user's. `users`: the list.
 std::string beyond_role(const config::PlantUsers& users, const std::string& user, Action action,
                         const std::string& board);
-// Returns why the user may not change the variable or a part of it; empty: he may.
+// Returns why the user may not change the variable or a part of it; empty: allowed.
 std::string beyond_variables(const config::PlantUser& user, const std::string& name);
 
 class BoardUsers {

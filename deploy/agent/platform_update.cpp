@@ -129,13 +129,18 @@ void PlatformUpdate::listen(DeployLink& link, bool idle, rt::MonoTime now) {
   }
 }
 
+// Returns the number of the plant's last update. That of a plant to which the board belonged before does not count
+// here: the board would bring its release along.
+std::uint64_t PlatformUpdate::generation() const {
+  return state_.committed().plant == plant_.plant ? state_.committed().generation : 0;
+}
+
 // Returns true if another board of the plant has a newer release, which this board missed. One that failed here is not
 // tried again without an order: each trial stops the plant.
 bool PlatformUpdate::lacks(const BoardReport& other) const {
   const bool member = std::find(other.members.begin(), other.members.end(), board_) != other.members.end();
   const bool failed = last_ && last_->order.generation == other.generation && !last_->ended.empty();
-  return other.board != board_ && member && !failed && other.plant == plant_.plant &&
-         other.generation > state_.committed().generation;
+  return other.board != board_ && member && !failed && other.plant == plant_.plant && other.generation > generation();
 }
 
 std::string PlatformUpdate::refusal_of(const Order& order, bool idle) const {
@@ -153,7 +158,7 @@ std::string PlatformUpdate::refusal_of(const Order& order, bool idle) const {
   if (begins && !idle) {
     return "a deployment is under way";
   }
-  return begins && transaction_.phase() == Phase::Steady && order.generation <= state_.committed().generation
+  return begins && transaction_.phase() == Phase::Steady && order.generation <= generation()
              ? "the platform of this board was updated since; try again"
              : "";
 }
@@ -357,6 +362,7 @@ BoardReport PlatformUpdate::report() const {
   BoardReport out;
   static_cast<CommittedDeployment&>(out) = static_cast<const CommittedDeployment&>(committed);
   static_cast<FetchProgress&>(out) = fetcher_.progress();
+  out.generation = generation();
   out.current = current_of(committed);
   out.comment = version_of(out.current);
   out.plant = plant_.plant;

@@ -52,6 +52,7 @@ class PlatformUpdate {
   void listen(DeployLink& link, bool idle, rt::MonoTime now);
   [[nodiscard]] std::string refusal_of(const Order& order, bool idle) const;
   bool may_order(const Order& order, bool idle);
+  [[nodiscard]] std::uint64_t generation() const;
   [[nodiscard]] bool lacks(const BoardReport& other) const;
   void work(DeployLink& link, rt::MonoTime now);
   void follow(rt::MonoTime now);

@@ -6,7 +6,6 @@
 
 #include <indurop/result.h>
 
-#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>

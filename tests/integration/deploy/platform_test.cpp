@@ -4,6 +4,7 @@
 
 #include <sys/mount.h>
 
+#include "core/base/read_file.h"
 #include "platform_fixture.h"
 
 namespace indurop::test {
@@ -135,6 +136,21 @@ TEST_F(Platform, A_board_that_was_off_catches_up) {
   ASSERT_EQ(done.code, 0) << done.err;
   start_agent("b");
   EXPECT_TRUE(both_run("9.1")) << agent("b").err();
+}
+
+TEST_F(Platform, A_board_from_another_plant_does_not_bring_its_release_along) {
+  std::string text = base::read_file(manifest("q.xml", {{"b", "other"}})).value();
+  text.replace(text.find("name=\"p"), 7, "name=\"q");
+  std::ofstream(path("q.xml")) << text;
+  ASSERT_EQ(deploy(path("q.xml")).code, 0);
+  const Outcome done = update(packed("9.1"), {"--plant", "q" + std::to_string(::getpid())});
+  ASSERT_EQ(done.code, 0) << done.err;
+  ASSERT_EQ(deploy(file_, {"--comment", "again"}).code, 0) << "b is back in the plant of a";
+  ASSERT_EQ(deploy(file_, {"--comment", "and again"}).code, 0) << "a has received several reports of b meanwhile";
+  EXPECT_TRUE(boards_are([](const Json& a, const Json& b) {
+    return runs_release(a, kInstalled) && runs_release(b, "9.1") && b["generation"] == 0;
+  })) << platform()[board("a")]
+      << platform()[board("b")];
 }
 
 TEST_F(Platform, A_full_disk_is_reported_and_changes_nothing) {
