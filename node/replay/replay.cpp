@@ -104,6 +104,9 @@ bool Replay::replay_run(const recorder::RunWords& run) {
   const bool can = can_repeat(module, run);
   const bool can_continue = !can || repeater_.repeat(module, run);
   module.take_outputs();
+  if (!can) {
+    module.write_outputs(store_);
+  }
   ++module.seen;
   if (can && can_continue && run.tail.tick >= options_.replay.from_tick) {
     ++repeated_.runs;

@@ -32,11 +32,11 @@ void ReplayedModule::forget_older_values() noexcept {
   }
 }
 
-void ReplayedModule::write_inputs(vars::Store& store) const {
+void ReplayedModule::write_known(vars::Store& store, bool KnownValue::*which) const {
   for (const KnownValue& one : known) {
     const vars::DirectoryEntry& entry = store.directory()[one.variable];
     std::vector<std::uint8_t> now(entry.value_size);
-    if (one.read && one.has_value && store.read(entry, 0, now).ok() && now != one.bytes) {
+    if (one.*which && one.has_value && store.read(entry, 0, now).ok() && now != one.bytes) {
       (void)store.write(entry, 0, one.bytes);
     }
   }

@@ -86,7 +86,10 @@ struct ReplayedModule {
   // Keeps only the values of the run that was read last: the others may have changed since.
   void forget_older_values() noexcept;
   // Writes the known inputs of the next run to the store.
-  void write_inputs(vars::Store& store) const;
+  void write_inputs(vars::Store& store) const { write_known(store, &KnownValue::read); }
+  // Writes what a run that was not repeated had written: the next run begins with it.
+  void write_outputs(vars::Store& store) const { write_known(store, &KnownValue::written); }
+  void write_known(vars::Store& store, bool KnownValue::*which) const;
   // Makes the recorded outputs of the run that was read the known values.
   void take_outputs();
 };
