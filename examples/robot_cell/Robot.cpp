@@ -316,4 +316,15 @@ void run() {
   }
 }
 
+// `in` and `out` are set in each run.
+namespace {
+std::size_t save(void* to, std::size_t most) {
+  return plcRobot->save(to, most);
+}
+bool restore(const void* from, std::size_t bytes) {
+  return plcRobot->restore(from, bytes);
+}
+}  // namespace
+
+INDUROP_STATE_BY(most = robot::Controller::kMostKept, save = &::save, restore = &::restore)
 INDUROP_MODULE(run = &::run, start = &::start, name = "Robot", description = "robot task")

@@ -35,3 +35,5 @@ extern "C" void run() {
     stop->tReaction = irp::now_ns() - irp::release_ns();
   }
 }
+
+INDUROP_STATE()

@@ -33,6 +33,14 @@ class CollisionCheck {
   // Checks the step to `to`; `moved` is the distance that the axes travel in it, back and forth. Bodies that are
   // already too near may not come nearer.
   Step next(const Joints& to, const Joints& moved) noexcept;
+  // Calls add(vector) for the memory that changes, see KeptImage.
+  template <class Add>
+  void blocks(const Add& add) {
+    add(rooms_);
+    add(next_);
+    add(here_);
+    add(there_);
+  }
   // Returns where the last step led to.
   [[nodiscard]] const Joints& at() const noexcept { return at_; }
   // Returns the pair that touches, at the start or on the last step; -1: none did.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/files/read_files.h"
 
+#include <indurop/detail/abi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -57,6 +59,14 @@ std::vector<JobFile> read_jobs(const FileNames& names, Diagnostics& errors) {
     }
   }
   return files;
+}
+
+std::uint64_t mark_of(const std::string& urdf, const std::vector<JobFile>& jobs) {
+  std::uint64_t mark = abi::fnv1a64(urdf.data(), urdf.size());
+  for (const JobFile& job : jobs) {
+    mark = mark * 31 + abi::fnv1a64(job.text.data(), job.text.size());
+  }
+  return mark;
 }
 
 // Checks points given as joint angles against the arm.
@@ -282,7 +292,9 @@ ReadFiles read_files(const FileNames& names) {
   } else {
     take_over(std::move(arm).error(), read.errors);
   }
-  ReadJobs jobs = parse_jobs(read_jobs(names, read.errors), read.model ? shape_of(read.model->arm) : ArmShape{});
+  const std::vector<JobFile> texts = read_jobs(names, read.errors);
+  read.mark = mark_of(read.urdf, texts);
+  ReadJobs jobs = parse_jobs(texts, read.model ? shape_of(read.model->arm) : ArmShape{});
   take_over(std::move(jobs.diagnostics), read.errors);
   read.book = std::move(jobs.book);
   if (read.model) {

@@ -19,7 +19,8 @@ struct ReadFiles {
   Clearance clearance;
   std::vector<base::Diagnostic> errors;  // if empty, the other members are valid
   std::vector<base::Diagnostic> notes;
-  std::string kind;  // what the arm can do
+  std::string kind;        // what the arm can do
+  std::uint64_t mark = 0;  // differs if the text of any file does
 };
 ReadFiles read_files(const FileNames& names);
 

@@ -19,6 +19,12 @@ class CollisionsAhead {
   // Checks the set points that are about to be sent. `carried`: a belt moves the arm. Errors: Collision. Real-time
   // safe, like all functions of this class.
   Fault step(bool carried) noexcept;
+  // Calls add(vector) for the memory that changes, see KeptImage.
+  template <class Add>
+  void blocks(const Add& add) {
+    clear_.blocks(add);
+    to_rest_.blocks(add);
+  }
   // The bodies have been replaced by those of the program.
   void replace(Program& program) noexcept {
     clear_.swap(program.unplanned);

@@ -25,7 +25,9 @@ Group::Group(GroupParts parts)
       overrides_(robot_, riding_),
       reloading_(robot_, *this, plans_, gate_.clear(), torques_),
       breakdown_(robot_, *this),
-      motion_report_(robot_, riding_) {}
+      motion_report_(robot_, riding_) {
+  begin_keeping();
+}
 
 void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   sense(in);

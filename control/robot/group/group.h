@@ -11,6 +11,7 @@
 #include "control/robot/group/interrupt_shelf.h"
 #include "control/robot/group/job_motions.h"
 #include "control/robot/group/jogging.h"
+#include "control/robot/group/kept_image.h"
 #include "control/robot/group/last_gate.h"
 #include "control/robot/group/mode_guard.h"
 #include "control/robot/group/motion_queue.h"
@@ -26,19 +27,25 @@
 #include "control/robot/group/services.h"
 #include "control/robot/group/stops.h"
 #include "control/robot/group/torque_watch.h"
+#include "control/robot/kinematics/zeroed.h"
 
 namespace indurop::robot {
 
-class Group final : public Controller, private GroupPort {
+// KeptImage compares what has no initial value, too, so that lies in zeroed memory.
+class Group final : public Controller, public InZeroedMemory, private GroupPort {
  public:
   explicit Group(GroupParts parts);
 
   void step(const Inputs& in, Signals& signals, Outputs& out) noexcept override;
+  [[nodiscard]] std::size_t save(void* to, std::size_t most) const noexcept override;
+  [[nodiscard]] bool restore(const void* from, std::size_t bytes) noexcept override;
   [[nodiscard]] const std::vector<std::string>& signals() const noexcept override { return robot_.parts.book.signals; }
   [[nodiscard]] std::size_t axis_count() const noexcept override { return static_cast<std::size_t>(robot_.count()); }
   [[nodiscard]] const std::string& kind() const noexcept override { return robot_.parts.kind; }
 
  private:
+  void begin_keeping();
+
   // What may end a motion from outside.
   void sense(const Inputs& in) noexcept;
   void watch(const Inputs& in) noexcept;
@@ -100,6 +107,7 @@ class Group final : public Controller, private GroupPort {
   Reloading reloading_;
   Breakdown breakdown_;
   MotionReport motion_report_;
+  KeptImage kept_;  // of all members before it
 };
 
 }  // namespace indurop::robot

@@ -26,6 +26,11 @@ class HeldTool {
   HeldTool(const HeldTool&) = delete;
   HeldTool& operator=(const HeldTool&) = delete;
 
+  // Calls add(object) for all that pointers to arms lead to, see KeptImage.
+  template <class Add>
+  void blocks(const Add& add) const {
+    tools_.blocks(add);
+  }
   [[nodiscard]] int number() const noexcept { return tool_; }
   [[nodiscard]] const Tool& tool() const noexcept { return book_.tools[at(tool_)]; }
   // Number of times that a tool was selected: then the tip is elsewhere, although the arm did not move.

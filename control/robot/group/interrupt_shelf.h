@@ -21,6 +21,12 @@ class InterruptShelf {
         resuming_(resuming),
         ahead_(robot.tool.places(), robot.parts.tool) {}
 
+  // Calls add(vector) for the memory that changes, see KeptImage.
+  template <class Add>
+  void blocks(const Add& add) {
+    ahead_.blocks(add);
+  }
+
   // Comes to rest as softly as the motion itself, and saves the job. While the motion is held it stays on its path, and
   // the interrupt waits. Returns false if it is not done yet. Real-time safe, like all functions below.
   bool step_aside() noexcept;

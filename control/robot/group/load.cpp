@@ -48,7 +48,8 @@ GroupParts parts_of(const Settings& settings, ReadFiles files) {
                    std::move(files.kind),
                    model.dynamics,
                    std::move(files.clearance),
-                   std::move(files.urdf)};
+                   std::move(files.urdf),
+                   files.mark};
   parts.dynamics.turn_rotors(of_axes(settings.rotor_inertia));
   parts.joints.velocity = model.velocity;
   parts.joints.acceleration = model.velocity / settings.time_to_speed;

@@ -5,6 +5,7 @@
 
 #include <indurop/robot/controller.h>
 
+#include <cstdint>
 #include <string>
 
 #include "control/robot/collision/clearance.h"
@@ -24,7 +25,8 @@ struct GroupParts {
   std::string kind;
   Dynamics dynamics{};
   Clearance clearance;
-  std::string urdf{};  // the text of its file
+  std::string urdf{};      // the text of its file
+  std::uint64_t mark = 0;  // as ReadFiles::mark
 };
 
 }  // namespace indurop::robot

@@ -24,6 +24,7 @@ class Plans {
   // Announces that plans will soon be requested.
   void expect_work(bool soon) noexcept { desk_.expect_work(soon); }
   [[nodiscard]] PlanningDesk& desk() noexcept { return desk_; }
+  [[nodiscard]] const PlanningDesk& desk() const noexcept { return desk_; }
   // Motions that wait to be planned.
   [[nodiscard]] ReadAhead& ahead() noexcept { return ahead_; }
   [[nodiscard]] const ReadAhead& ahead() const noexcept { return ahead_; }

@@ -15,7 +15,7 @@ void Reloading::step(bool wanted, bool resting, Signals& signals) noexcept {
     group_.finish_service(ErrorCode::State);
   } else if (wanted && !reading_ && loader_.free()) {
     loader_.ask(signals, robot_.parts.book.signals);
-    reading_ = true;
+    reading_ = used_ = true;
   }
   if (!reading_ || !loader_.made() || (wanted && possible(resting) && plans_.holds_forgotten())) {
     return;

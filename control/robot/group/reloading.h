@@ -28,6 +28,9 @@ class Reloading {
   // safe.
   void step(bool wanted, bool resting, Signals& signals) noexcept;
 
+  // Returns whether jobs were ever reloaded: then not all is as it was loaded first.
+  [[nodiscard]] bool used() const noexcept { return used_; }
+
  private:
   [[nodiscard]] bool possible(bool resting) const noexcept;
   void take_result(bool wanted, bool possible, Signals& signals) noexcept;
@@ -40,6 +43,7 @@ class Reloading {
   TorqueWatch& torques_;
   ProgramLoader loader_;
   bool reading_ = false;
+  bool used_ = false;
 };
 
 }  // namespace indurop::robot

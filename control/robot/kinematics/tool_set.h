@@ -15,6 +15,13 @@ class ToolSet {
   // `tools`: the tips, seen from the arm's end; at least one. Allocates; no other function of this class does.
   ToolSet(const Arm& arm, const std::vector<Pose>& tools);
 
+  // Calls add(object) for all that pointers to arms lead to, see KeptImage.
+  template <class Add>
+  void blocks(const Add& add) const {
+    for (const auto& one : held_) {
+      add(*one);
+    }
+  }
   [[nodiscard]] int count() const noexcept { return static_cast<int>(held_.size()); }
   [[nodiscard]] const Arm& arm(int tool) const noexcept { return held_[static_cast<std::size_t>(tool)]->arm; }
   [[nodiscard]] const Inverse& inverse(int tool) const noexcept {

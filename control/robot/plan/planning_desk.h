@@ -39,6 +39,12 @@ class PlanningDesk {
   [[nodiscard]] bool free() const noexcept { return !asked_; }
   // Returns whether the thread still uses an abandoned request: its chain must not be changed.
   [[nodiscard]] bool holds_forgotten() noexcept;
+  // Returns whether the planning thread has nothing to do: then plans and requests do not change between two periods.
+  // Called by any thread.
+  [[nodiscard]] bool at_rest() const noexcept {
+    const State state = state_.load(std::memory_order_acquire);
+    return state == State::Free || state == State::Made;
+  }
   // Requests a plan; requires free().
   void ask(const PlanRequest& request) noexcept;
   // Abandons the plan in progress; no motion will follow on it.

@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "control/robot/kinematics/zeroed.h"
 #include "control/robot/path/chain.h"
 #include "control/robot/path/segment.h"
 #include "control/robot/path/spline.h"
@@ -21,6 +22,13 @@ class ReadAhead {
   void clear() noexcept;
   // Exchanges the motions of both; chains and splines stay where they are.
   void swap(ReadAhead& other) noexcept;
+  // Calls add(vector) for the memory that changes, see KeptImage.
+  template <class Add>
+  void blocks(const Add& add) {
+    add(commands_);
+    add(chains_);
+    add(splines_);
+  }
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
   [[nodiscard]] int count() const noexcept { return count_; }
   // Returns whether there is room: for a few motions, but for many if they are lines with zones or points of a spline.
@@ -50,15 +58,15 @@ class ReadAhead {
 
   const Places& places_;
   ToolLimits tool_;
-  std::vector<MoveCommand> commands_;  // a ring
+  std::vector<MoveCommand, Zeroed<MoveCommand>> commands_;  // a ring
   int first_ = 0;
   int count_ = 0;
   int scanned_ = 0;  // motions from the first on that are in the present chain
   int single_ = 0;   // motions from the first on that form no chain
   bool closed_ = false;
-  std::vector<Chain> chains_;
+  std::vector<Chain, Zeroed<Chain>> chains_;
   std::size_t chain_ = 0;
-  std::vector<Spline> splines_;
+  std::vector<Spline, Zeroed<Spline>> splines_;
   std::size_t spline_ = 0;
 };
 

@@ -321,6 +321,15 @@ class Controller {
   // One period: reads `in`, sets all of `out`. Called once per Settings::period, also while the robot is at standstill.
   // Real-time safe if `signals` is: no allocation, no lock, no system call.
   virtual void step(const Inputs& in, Signals& signals, Outputs& out) noexcept = 0;
+  // What it keeps from one step to the next, for INDUROP_STATE_BY(most = Controller::kMostKept, ...): any motion, job
+  // and stop under way. save() writes at most `most` bytes, which a controller that was loaded from the same files puts
+  // back with restore(), also in another process. It returns 0 while a motion is being planned in the background, and
+  // for good after jobs were reloaded. A step may begin meanwhile; what was written is of no use then. restore() is
+  // called between two steps and returns false, without a change, if the bytes are of a controller of other files or of
+  // another version. Not real-time safe.
+  static constexpr std::size_t kMostKept = std::size_t{1} << 20;
+  [[nodiscard]] virtual std::size_t save(void* to, std::size_t most) const noexcept = 0;
+  [[nodiscard]] virtual bool restore(const void* from, std::size_t bytes) noexcept = 0;
   // Names of the variables that jobs set or wait for, each once; Signals are indexed in this order.
   [[nodiscard]] virtual const std::vector<std::string>& signals() const noexcept = 0;
   // Number of drives in use; the others stay without power.
