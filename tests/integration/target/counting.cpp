@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts its runs in all places of the retained variables, and prints every tenth run.
+// Counts its runs in all places of the retained variables, and prints every fiftieth run.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
@@ -16,7 +16,7 @@ void on_run() {
   next.many.fill(next.runs);
   kept::count = next;
   kept::last = next.runs;
-  if (next.runs % 10 == 0) {
+  if (next.runs % 50 == 0) {
     irp::printf("run %llu\n", static_cast<unsigned long long>(next.runs));
   }
 }

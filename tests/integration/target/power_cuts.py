@@ -3,7 +3,8 @@
 """Losses of power: a board in QEMU counts in retained variables, is deployed to as fast as it goes, and records; its power is cut
 at instants of all kinds, and its disk loses what was not flushed. After each cut it has to come back on its own: with the
 deployment that was committed or the one that was under way, with retained values that are whole and not older than what was
-to be saved, and with recordings that can be read. INDUROP_CUTS is the number of cuts, INDUROP_SEED where the dice begin."""
+to be saved, and with recordings that can be read. INDUROP_CUTS is their number (Ctrl-C ends them earlier), INDUROP_SEED where
+the dice begin."""
 
 import argparse
 import collections
@@ -65,7 +66,8 @@ class Machine:
         self.folder = folder
         self.command = [
             "qemu-system-x86_64", "-M", "q35,accel=tcg", "-cpu", "max", "-smp", "1", "-m", "512", "-display", "none", "-nic", "none",
-            "-no-reboot", "-rtc", "base=2026-01-01,clock=vm", "-icount", "shift=2,sleep=off", "-drive", f"if=virtio,format=raw,cache=writeback,file=nbd+unix:///?socket={disk_socket}",
+            "-no-reboot", "-rtc", "base=2026-01-01,clock=vm", "-icount", "shift=2,sleep=off",
+            "-drive", f"if=virtio,format=raw,cache=writeback,file=nbd+unix:///?socket={disk_socket}",
             "-kernel", str(guest.kernel()), "-initrd", str(root),
             "-append", "console=ttyS0 quiet panic=-1 mitigations=off nokaslr no_timer_check LD_LIBRARY_PATH=/lib"]
         self.process = None
@@ -252,6 +254,7 @@ def prove(folder, bin_folder, module, cuts, seed):
         disk.cut(dice)
         judge = Judge("INDUROP_CUTS_TALK" in os.environ)
         began = time.monotonic()
+        done = 0
         try:
             for number in range(cuts):
                 instant, most = dice.choice(INSTANTS if judge.committed else INSTANTS[2:])
@@ -261,6 +264,7 @@ def prove(folder, bin_folder, module, cuts, seed):
                 cached, kept = disk.cut(dice)
                 was = f"cut {number + 1}, {delay:.2f} s after '{instant or 'the start of the agent'}', {kept} of {cached} sectors kept"
                 judge.cut(was)
+                done = number + 1
                 judge.count["sectors lost"] += cached - kept
                 print(f"{was}; {(time.monotonic() - began) / (number + 1):.0f} s per cut", flush=True)
                 if judge.findings and os.environ.get("INDUROP_CUTS_KEEP"):
@@ -270,13 +274,15 @@ def prove(folder, bin_folder, module, cuts, seed):
             live(machine, judge, "running 1 modules", 0)
             machine.cut()
             disk.cut(dice)
+        except KeyboardInterrupt:
+            print("interrupted")
         finally:
             machine.cut()
         image.write_bytes(disk.safe)
         judged = subprocess.run(["e2fsck", "-fy", image], capture_output=True, text=True, check=False)
         if judged.returncode not in (0, 1):
             judge.wrong(f"e2fsck: {judged.stdout[-300:]}")
-    print(f"{cuts} cuts from seed {seed}: {dict(judge.count)}, {disk.flushes} flushes")
+    print(f"{done} cuts from seed {seed}: {dict(judge.count)}, {disk.flushes} flushes")
     print("\n".join(judge.findings) or "nothing wrong")
     return not judge.findings
 
