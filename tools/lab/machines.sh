@@ -37,9 +37,9 @@ programs() {
   dirname "$(dirname "$(readlink -f "$found")")"
 }
 
-# Debian's packages of the libraries that the programs load.
+# Debian's packages of the libraries that the programs and the module of field devices load.
 libraries() {
-  for program in "$1"/bin/indurop "$1"/bin/indurop-* "$1"/bin/glb2idl; do ldd "$program" 2>/dev/null || true; done |
+  for program in "$1"/bin/indurop "$1"/bin/indurop-* "$1"/bin/glb2idl "$1"/lib/libiodispat.so "$1"/lib/*/libiodispat.so; do ldd "$program" 2>/dev/null || true; done |
     awk '$3 ~ /^\// && !/libindurop/ {print $3}' | sort -u | while read -r file; do
     file=$(readlink -f "$file")
     # The folder /lib is a link to /usr/lib; dpkg may know a file by either.
