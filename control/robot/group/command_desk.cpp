@@ -48,11 +48,11 @@ void CommandDesk::take(int ticket, const CamTables& cams) noexcept {
       queue_.go_on(ticket);
       break;
     case Service::SetTransform:
-      table.end(ticket, riding_.set_product(command));
+      table.end(ticket, conveyor_.set_product(command));
       break;
     case Service::TrackBelt:
     case Service::TrackTable:
-      table.end(ticket, riding_.track(command, service == Service::TrackTable));
+      table.end(ticket, conveyor_.track(command, service == Service::TrackTable));
       break;
     case Service::SelectCam:
       table.end(ticket, robot_.axes.set_cam(command.option - 1, cams, command.job == 1));

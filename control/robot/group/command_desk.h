@@ -4,8 +4,8 @@
 
 #pragma once
 
+#include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/motion_queue.h"
-#include "control/robot/group/riding.h"
 #include "control/robot/group/robot.h"
 #include "control/robot/group/service_desk.h"
 #include "control/robot/group/stops.h"
@@ -14,8 +14,9 @@ namespace indurop::robot {
 
 class CommandDesk {
  public:
-  CommandDesk(Robot& robot, ServiceDesk& services, MotionQueue& queue, Riding& riding, Stops& stops) noexcept
-      : robot_(robot), services_(services), queue_(queue), riding_(riding), stops_(stops) {}
+  CommandDesk(Robot& robot, ServiceDesk& services, MotionQueue& queue, ConveyorTracking& conveyor,
+              Stops& stops) noexcept
+      : robot_(robot), services_(services), queue_(queue), conveyor_(conveyor), stops_(stops) {}
 
   // Takes all new commands. Real-time safe.
   void serve(const Inputs& in, const ModeGuard& mode) noexcept;
@@ -26,7 +27,7 @@ class CommandDesk {
   Robot& robot_;
   ServiceDesk& services_;
   MotionQueue& queue_;
-  Riding& riding_;
+  ConveyorTracking& conveyor_;
   Stops& stops_;
 };
 

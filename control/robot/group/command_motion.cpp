@@ -83,7 +83,7 @@ Pose CommandMotion::machine_pose(const std::array<double, 8>& numbers, const Com
                                  const Pose& start) const noexcept {
   const bool product = command.coords == CoordSystem::Product;
   const Pose given = pose_of(numbers);
-  const Pose frame = riding_.product_ahead();
+  const Pose frame = conveyor_.product_ahead();
   if (is_relative(group_service_of(command))) {
     const Quat turn = product ? frame.orientation : Quat::Identity();
     return {start.position + turn * given.position, turn * given.orientation * turn.conjugate() * start.orientation};
@@ -100,7 +100,7 @@ ErrorCode CommandMotion::make_target(const Command& command, const Pose& start, 
     return ErrorCode::Ok;
   }
   const Joints given = robot_.axes.from_users(command.to.data());
-  const Joints q = is_relative(service) ? Joints(riding_.planned_end() + given) : given;
+  const Joints q = is_relative(service) ? Joints(conveyor_.planned_end() + given) : given;
   if (robot_.parts.arm.beyond_limits(q) >= 0) {
     return ErrorCode::JointLimit;
   }
@@ -119,7 +119,7 @@ ErrorCode CommandMotion::make_circle(const Command& command, const Pose& from, M
   const auto mode = static_cast<CircleMode>(command.option & (kClockwise - 1));
   const Vec3& start = from.position;
   const Vec3& end = move.target.pose.position;
-  const Quat turn = command.coords == CoordSystem::Product ? riding_.product_ahead().orientation : Quat::Identity();
+  const Quat turn = command.coords == CoordSystem::Product ? conveyor_.product_ahead().orientation : Quat::Identity();
   move.mid.is_pose = true;
   move.mid.pose = machine_pose(command.aux, command, from);
   if (mode == CircleMode::Border) {
@@ -145,7 +145,7 @@ ErrorCode CommandMotion::make_circle(const Command& command, const Pose& from, M
 
 ErrorCode CommandMotion::make(const Command& command, const Pose& start, MoveCommand& move) const noexcept {
   const Service service = group_service_of(command);
-  move.acceleration = riding_.rides() ? kOnProduct : 1;
+  move.acceleration = conveyor_.is_synchronized() ? kOnProduct : 1;
   move.move = is_direct(service) ? Move::Joint : is_circle(service) ? Move::Circle : Move::Line;
   if (is_direct(service)) {
     move.speed = command.velocity == 0 ? 1 : command.velocity / 100;

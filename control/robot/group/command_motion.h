@@ -3,14 +3,14 @@
 
 #pragma once
 
-#include "control/robot/group/riding.h"
+#include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/robot.h"
 
 namespace indurop::robot {
 
 class CommandMotion {
  public:
-  CommandMotion(const Robot& robot, const Riding& riding) noexcept : robot_(robot), riding_(riding) {}
+  CommandMotion(const Robot& robot, const ConveyorTracking& conveyor) noexcept : robot_(robot), conveyor_(conveyor) {}
 
   // `start`: the tool's pose where the motion begins. Errors: JointLimit, Circle, Value. Real-time safe.
   ErrorCode make(const Command& command, const Pose& start, MoveCommand& move) const noexcept;
@@ -22,7 +22,7 @@ class CommandMotion {
   ErrorCode make_circle(const Command& command, const Pose& start, MoveCommand& move) const noexcept;
 
   const Robot& robot_;
-  const Riding& riding_;
+  const ConveyorTracking& conveyor_;
 };
 
 // The services of motions by command.

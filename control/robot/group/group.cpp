@@ -12,20 +12,20 @@ Group::Group(GroupParts parts)
       torques_(robot_, *this),
       resuming_(robot_, *this, plans_),
       shelf_(robot_, *this, plans_, resuming_),
-      riding_(robot_, *this, plans_),
-      queue_(robot_, *this, plans_, riding_),
+      conveyor_(robot_, *this, plans_),
+      queue_(robot_, *this, plans_, conveyor_),
       jogging_(robot_, *this, plans_),
-      gate_(robot_, *this, mode_, riding_),
+      gate_(robot_, *this, mode_, conveyor_),
       power_(robot_, *this, torques_),
-      stops_(robot_, *this, gate_, riding_, power_),
+      stops_(robot_, *this, gate_, conveyor_, power_),
       job_motions_(robot_, plans_, resuming_, shelf_, torques_),
-      services_(robot_, *this, {plans_, resuming_, riding_, queue_, mode_, stops_, power_, job_motions_}),
+      services_(robot_, *this, {plans_, resuming_, conveyor_, queue_, mode_, stops_, power_, job_motions_}),
       service_(robot_, *this, plans_, services_),
-      commands_(robot_, service_, queue_, riding_, stops_),
-      overrides_(robot_, riding_),
+      commands_(robot_, service_, queue_, conveyor_, stops_),
+      overrides_(robot_, conveyor_),
       reloading_(robot_, *this, plans_, gate_.clear(), torques_),
       breakdown_(robot_, *this),
-      motion_report_(robot_, riding_) {
+      motion_report_(robot_, conveyor_) {
   begin_keeping();
 }
 
@@ -64,7 +64,7 @@ void Group::sense(const Inputs& in) noexcept {
   for (AxisControl& a : robot_.axes) {
     a.set_stops(in.emergency, robot_.states.to_error());
   }
-  riding_.sense(in.belts);
+  conveyor_.sense(in.belts);
 }
 
 // Returns whether all axes are stopped for the emergency; axes that were reset one by one are stopped again.
@@ -163,7 +163,7 @@ void Group::report(Outputs& out) noexcept {
   torques_.report(out);
   out.commands = robot_.table.answers();
   breakdown_.report(out);
-  riding_.update_product();
+  conveyor_.update_product();
   motion_report_.report(commands_motion(), out);
 }
 

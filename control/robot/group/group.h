@@ -7,6 +7,7 @@
 
 #include "control/robot/group/breakdown.h"
 #include "control/robot/group/command_desk.h"
+#include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/group_port.h"
 #include "control/robot/group/interrupt_shelf.h"
 #include "control/robot/group/job_motions.h"
@@ -21,7 +22,6 @@
 #include "control/robot/group/power.h"
 #include "control/robot/group/reloading.h"
 #include "control/robot/group/resuming.h"
-#include "control/robot/group/riding.h"
 #include "control/robot/group/robot.h"
 #include "control/robot/group/service_desk.h"
 #include "control/robot/group/services.h"
@@ -93,7 +93,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   TorqueWatch torques_;
   Resuming resuming_;
   InterruptShelf shelf_;
-  Riding riding_;
+  ConveyorTracking conveyor_;
   MotionQueue queue_;
   Jogging jogging_;
   LastGate gate_;

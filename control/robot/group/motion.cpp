@@ -99,7 +99,7 @@ void Group::begin_next(bool more) noexcept {
   if (!robot_.states.moving() || shelf_.leaving() || !plans_.can_plan() || plans_.holds_forgotten()) {
     return;
   }
-  const Joints from = riding_.planned_end();
+  const Joints from = conveyor_.planned_end();
   const ReadAhead::Next next = plans_.begin_next(from, more);
   if (next.chain != nullptr) {
     resuming_.forget_steps();
@@ -152,7 +152,7 @@ void Group::follow_path() noexcept {
   AxisRow& axes = robot_.axes;
   Fault fault = follower.step(robot_.period);
   Joints q = follower.joints();
-  fault = fault.ok() ? riding_.carry(q) : fault;
+  fault = fault.ok() ? conveyor_.carry(q) : fault;
   if (!fault.ok()) {
     if (jogging_.on() && axes.gates_at_rest() && robot_.states.moving()) {
       follower.reset(robot_.commanded());  // an axis at its limit may have no first step
@@ -180,7 +180,7 @@ void Group::end_motions() noexcept {
     shelf_.end_come_back();
   } else if (resuming_.way_back() != Resuming::Return::None) {
     resuming_.end_way_back();
-  } else if (!robot_.job.running() && queue_.empty() && !riding_.on()) {
+  } else if (!robot_.job.running() && queue_.empty() && !conveyor_.on()) {
     come_to_standby();
     finish_service(robot_.states.error());
   }

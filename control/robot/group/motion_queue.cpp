@@ -23,7 +23,7 @@ void MotionQueue::take(int ticket) noexcept {
   if (code == ErrorCode::Ok && !is_sane(command)) {
     code = ErrorCode::Value;
   }
-  if (code == ErrorCode::Ok && riding_.product_lost() && command.coords == CoordSystem::Product) {
+  if (code == ErrorCode::Ok && conveyor_.product_lost() && command.coords == CoordSystem::Product) {
     code = ErrorCode::Belt;
   }
   if (code != ErrorCode::Ok) {
@@ -53,7 +53,7 @@ void MotionQueue::replace_all(int ticket) noexcept {
   const bool joints =
       is_direct(group_service_of(command)) && command.coords == CoordSystem::Axes && !follower.stopping();
   int fed = 0;
-  if (joints && !follower.idle() && !riding_.on()) {
+  if (joints && !follower.idle() && !conveyor_.on()) {
     if (const ErrorCode code = redirect(ticket); code != ErrorCode::Ok) {
       robot_.table.end(ticket, code);
       return;
@@ -90,7 +90,7 @@ double MotionQueue::zone_of(int i) const noexcept {
   }
   const Command& next = command(i + 1);
   const auto on_product = [](const Command& c) { return c.coords == CoordSystem::Product; };
-  if (riding_.product_moves() && on_product(next) != on_product(command(i))) {
+  if (conveyor_.product_moves() && on_product(next) != on_product(command(i))) {
     return 0;  // in between, the tool synchronizes with the product or leaves it
   }
   return next.buffer >= BufferMode::BlendingLow && group_service_of(next) != Service::Halt ? next.transition / 1000 : 0;
@@ -109,9 +109,9 @@ void MotionQueue::feed() noexcept {
       return;
     }
     ErrorCode code = ErrorCode::Ok;
-    const bool there = goes_on || riding_.reaches(next.coords == CoordSystem::Product, code);
+    const bool there = goes_on || conveyor_.reaches(next.coords == CoordSystem::Product, code);
     if (there && !goes_on) {
-      start_ = robot_.tip(riding_.planned_end());
+      start_ = robot_.tip(conveyor_.planned_end());
     }
     MoveCommand move;
     move.source = source_of(ticket);
@@ -139,15 +139,15 @@ void MotionQueue::halt(int ticket) noexcept {
   }
   robot_.table.active(ticket);
   robot_.follower.stop();
-  riding_.leave(false);
-  if (robot_.follower.idle() && !riding_.on()) {
+  conveyor_.leave(false);
+  if (robot_.follower.idle() && !conveyor_.on()) {
     end_first(1, ErrorCode::Ok);
   }
 }
 
 void MotionQueue::note_progress() noexcept {
   const Follower& follower = robot_.follower;
-  if (interrupt_ != CommandTable::kNone && follower.at_rest() && riding_.at_rest()) {
+  if (interrupt_ != CommandTable::kNone && follower.at_rest() && conveyor_.at_rest()) {
     answer_interrupt(ErrorCode::Ok);
   }
   if (fed_ == 0) {
@@ -169,7 +169,7 @@ void MotionQueue::note_progress() noexcept {
   if (present != 0 && done == fed_) {
     return;
   }
-  if (riding_.on() && !riding_.rides()) {
+  if (conveyor_.on() && !conveyor_.is_synchronized()) {
     done = 0;  // it has not arrived as long as the tool is not on the belt
   }
   end_first(done, ErrorCode::Ok);

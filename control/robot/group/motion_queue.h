@@ -8,17 +8,17 @@
 #include <array>
 
 #include "control/robot/group/command_motion.h"
+#include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/group_port.h"
 #include "control/robot/group/plans.h"
-#include "control/robot/group/riding.h"
 #include "control/robot/group/robot.h"
 
 namespace indurop::robot {
 
 class MotionQueue {
  public:
-  MotionQueue(Robot& robot, GroupPort& group, Plans& plans, Riding& riding) noexcept
-      : robot_(robot), group_(group), plans_(plans), riding_(riding), motion_(robot, riding) {}
+  MotionQueue(Robot& robot, GroupPort& group, Plans& plans, ConveyorTracking& conveyor) noexcept
+      : robot_(robot), group_(group), plans_(plans), conveyor_(conveyor), motion_(robot, conveyor) {}
 
   // Takes a command, or rejects it. Real-time safe, like all functions of this class.
   void take(int ticket) noexcept;
@@ -52,7 +52,7 @@ class MotionQueue {
   Robot& robot_;
   GroupPort& group_;
   Plans& plans_;
-  Riding& riding_;
+  ConveyorTracking& conveyor_;
   CommandMotion motion_;
   std::array<int, CommandTable::kMaxCommands> motions_{};  // tickets
   int count_ = 0;

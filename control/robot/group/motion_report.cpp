@@ -61,11 +61,11 @@ void MotionReport::report_tool(const Twist& moved, Outputs& out) noexcept {
     put(turn * moved.head<3>(), turn * moved.tail<3>(), report.velocity);
     put(turn * change.head<3>(), turn * change.tail<3>(), report.acceleration);
   };
-  const Pose& product = riding_.product();
+  const Pose& product = conveyor_.product();
   const Quat back = product.orientation.conjugate();
   fill(tool, Quat::Identity(), out.machine);
   fill({back * (tool.position - product.position), back * tool.orientation}, back, out.product);
-  out.product_frame = riding_.product_given();
+  out.product_frame = conveyor_.product_given();
 }
 
 }  // namespace indurop::robot

@@ -3,14 +3,14 @@
 
 #pragma once
 
-#include "control/robot/group/riding.h"
+#include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/robot.h"
 
 namespace indurop::robot {
 
 class MotionReport {
  public:
-  MotionReport(Robot& robot, const Riding& riding) noexcept : robot_(robot), riding_(riding) {}
+  MotionReport(Robot& robot, const ConveyorTracking& conveyor) noexcept : robot_(robot), conveyor_(conveyor) {}
 
   // `commanded`: the set points are those of motions; otherwise they only follow the positions that the drives report.
   // Real-time safe.
@@ -21,7 +21,7 @@ class MotionReport {
   void report_tool(const Twist& moved, Outputs& out) noexcept;
 
   Robot& robot_;
-  const Riding& riding_;
+  const ConveyorTracking& conveyor_;
   Pose last_;                         // of the tool
   Twist last_moved_ = Twist::Zero();  // its speed
   unsigned tool_changes_ = 0;

@@ -3,16 +3,16 @@
 
 #pragma once
 
+#include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/mode_guard.h"
 #include "control/robot/group/motion_queue.h"
-#include "control/robot/group/riding.h"
 #include "control/robot/group/robot.h"
 
 namespace indurop::robot {
 
 class Overrides {
  public:
-  Overrides(Robot& robot, Riding& riding) noexcept : robot_(robot), riding_(riding) {}
+  Overrides(Robot& robot, ConveyorTracking& conveyor) noexcept : robot_(robot), conveyor_(conveyor) {}
 
   // Values above full speed count as full speed; values that are not numbers hold all motions. `interrupted`: by a
   // command. Real-time safe.
@@ -24,7 +24,7 @@ class Overrides {
   [[nodiscard]] double factor(double given) noexcept;
 
   Robot& robot_;
-  Riding& riding_;
+  ConveyorTracking& conveyor_;
   bool wrong_ = false;
 };
 

@@ -23,7 +23,7 @@ bool Services::comes_to_rest() const noexcept {
 
 ErrorCode Services::begin(Service service, const ServiceRequest& request) noexcept {
   const bool ends_it = service == Service::Stop || service == Service::JobStop || service == Service::GroupDisable;
-  if (parts_.riding.on() && !ends_it && service != Service::None && service != Service::GroupReset) {
+  if (parts_.conveyor.on() && !ends_it && service != Service::None && service != Service::GroupReset) {
     return ErrorCode::State;
   }
   switch (service) {
@@ -138,7 +138,7 @@ ErrorCode Services::move(Service service, const ServiceRequest& request) noexcep
   if (const ErrorCode code = make_move(service, request, command); code != ErrorCode::Ok) {
     return code;
   }
-  parts_.plans.ask({command, nullptr, parts_.riding.planned_end(), !robot_.follower.idle()});
+  parts_.plans.ask({command, nullptr, parts_.conveyor.planned_end(), !robot_.follower.idle()});
   robot_.states.move();
   return ErrorCode::Ok;
 }

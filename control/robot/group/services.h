@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/group_port.h"
 #include "control/robot/group/job_motions.h"
 #include "control/robot/group/mode_guard.h"
@@ -10,7 +11,6 @@
 #include "control/robot/group/plans.h"
 #include "control/robot/group/power.h"
 #include "control/robot/group/resuming.h"
-#include "control/robot/group/riding.h"
 #include "control/robot/group/robot.h"
 #include "control/robot/group/stops.h"
 
@@ -22,7 +22,7 @@ class Services {
   struct Parts {
     Plans& plans;
     Resuming& resuming;
-    const Riding& riding;
+    const ConveyorTracking& conveyor;
     const MotionQueue& queue;
     const ModeGuard& mode;
     Stops& stops;

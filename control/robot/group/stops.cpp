@@ -44,7 +44,7 @@ void Stops::trip(ErrorCode code, int axis, double hardness, const char* why) noe
   for (AxisControl& a : robot_.axes) {
     a.power(a.wants_power() && !cut);
   }
-  const bool on_it = !robot_.follower.idle() && !riding_.on() && robot_.states.on_path();
+  const bool on_it = !robot_.follower.idle() && !conveyor_.on() && robot_.states.on_path();
   if (!on_it || !keeps_path(code) || cut) {
     leave_path(code);
     return;
@@ -70,7 +70,7 @@ void Stops::fall_off(ErrorCode code, int axis) noexcept {
 // before.
 void Stops::leave_path(ErrorCode code) noexcept {
   const bool alone = robot_.axes.any_busy();
-  riding_.drop(code);
+  conveyor_.drop(code);
   robot_.follower.reset(robot_.commanded());
   gate_.begin_braking(!alone && !is_foreseen(code));
   for (AxisControl& a : robot_.axes) {
@@ -103,8 +103,8 @@ void Stops::stop_for_mode(ErrorCode code) noexcept {
     states.leave_path();
   } else if (code != ErrorCode::Enabling) {
     robot_.follower.stop();
-  } else if (riding_.on()) {
-    riding_.drop(code);
+  } else if (conveyor_.on()) {
+    conveyor_.drop(code);
     robot_.follower.reset(robot_.commanded());
     gate_.set_hardness(hardness);
     gate_.begin_braking(true);
@@ -194,7 +194,7 @@ ErrorCode Stops::disable() noexcept {
 
 void Stops::step() noexcept {
   GroupStates& states = robot_.states;
-  const bool ended = states.on_path() ? robot_.follower.idle() && !riding_.on() : robot_.axes.at_rest();
+  const bool ended = states.on_path() ? robot_.follower.idle() && !conveyor_.on() : robot_.axes.at_rest();
   if (!ended) {
     return;
   }

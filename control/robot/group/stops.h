@@ -4,18 +4,18 @@
 
 #pragma once
 
+#include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/group_port.h"
 #include "control/robot/group/last_gate.h"
 #include "control/robot/group/power.h"
-#include "control/robot/group/riding.h"
 #include "control/robot/group/robot.h"
 
 namespace indurop::robot {
 
 class Stops {
  public:
-  Stops(Robot& robot, GroupPort& group, LastGate& gate, Riding& riding, Power& power) noexcept
-      : robot_(robot), group_(group), gate_(gate), riding_(riding), power_(power) {}
+  Stops(Robot& robot, GroupPort& group, LastGate& gate, ConveyorTracking& conveyor, Power& power) noexcept
+      : robot_(robot), group_(group), gate_(gate), conveyor_(conveyor), power_(power) {}
 
   // Errors; see GroupPort. Real-time safe, like all functions of this class.
   void trip(ErrorCode code, int axis, double hardness, const char* why) noexcept;
@@ -44,7 +44,7 @@ class Stops {
   Robot& robot_;
   GroupPort& group_;
   LastGate& gate_;
-  Riding& riding_;
+  ConveyorTracking& conveyor_;
   Power& power_;
   int ticket_ = CommandTable::kNone;  // of the command
 };

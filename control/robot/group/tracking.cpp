@@ -3,10 +3,10 @@
 
 namespace indurop::robot {
 
-void Tracking::set(const Carrier& carrier, const BeltWatch& watch) noexcept {
+void Tracking::set(const Carrier& carrier, const BeltEstimator& belt) noexcept {
   carrier_ = carrier;
   known_ = true;
-  zero_ = watch.now().position;
+  zero_ = belt.now().position;
   has_lag_ = false;
 }
 
@@ -24,9 +24,9 @@ Pose Tracking::carried(const Carrier& carrier, double by, const Pose& pose) noex
   return {middle + turn * (pose.position - middle), (turn * pose.orientation).normalized()};
 }
 
-void Tracking::join(const BeltWatch& watch, const LineLimits& way, const LineLimits& most) noexcept {
+void Tracking::join(const BeltEstimator& belt, const LineLimits& way, const LineLimits& most) noexcept {
   const LineState now = gate_.state();
-  const double from = phase_ == Phase::Off ? seen(watch.before()).position : now.position;
+  const double from = phase_ == Phase::Off ? seen(belt.before()).position : now.position;
   const bool fresh = phase_ == Phase::Off;
   SetPointGate gate({0, 0, true}, most, period_);
   gate.stand(from);
@@ -38,7 +38,7 @@ void Tracking::join(const BeltWatch& watch, const LineLimits& way, const LineLim
     gate.pass(from, HUGE_VAL);
   }
   gate_ = gate;
-  ridden_ = carrier_;
+  tracked_ = carrier_;
   anchor_ = fresh ? from : anchor_;
   coupling_.engage({}, way, most, gate_.state());
   if (has_lag_) {
@@ -64,7 +64,7 @@ void Tracking::drop() noexcept {
   has_lag_ = false;
 }
 
-ErrorCode Tracking::step(const BeltWatch& watch) noexcept {
+ErrorCode Tracking::step(const BeltEstimator& belt) noexcept {
   if (!on()) {
     return ErrorCode::Ok;
   }
@@ -78,13 +78,13 @@ ErrorCode Tracking::step(const BeltWatch& watch) noexcept {
     }
     return ErrorCode::Ok;
   }
-  const AxisCoupling::Master master{seen(watch.before()), seen(watch.now()).position};
+  const AxisCoupling::Master master{seen(belt.before()), seen(belt.now()).position};
   if (const ErrorCode code = coupling_.step(master, gate_, period_); code != ErrorCode::Ok) {
     return code;
   }
   gate_.pass(coupling_.state().position, 1);
   if (coupling_.synced()) {
-    phase_ = Phase::Riding;
+    phase_ = Phase::Synchronized;
     lag_ = has_lag_ ? lag_ : place() - master.now;
     has_lag_ = true;
   }

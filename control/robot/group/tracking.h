@@ -6,7 +6,7 @@
 #pragma once
 
 #include "control/robot/axis/coupling.h"
-#include "control/robot/group/belt_watch.h"
+#include "control/robot/group/belt_estimator.h"
 #include "control/robot/kinematics/geometry.h"
 
 namespace indurop::robot {
@@ -23,7 +23,7 @@ class Tracking {
 
   // The product's coordinates move from now on. It must not be tracking. Real-time safe, like all functions of this
   // class.
-  void set(const Carrier& carrier, const BeltWatch& watch) noexcept;
+  void set(const Carrier& carrier, const BeltEstimator& belt) noexcept;
   // The product's coordinates stay where they are.
   void forget() noexcept { known_ = false; }
   [[nodiscard]] bool known() const noexcept { return known_; }
@@ -31,7 +31,7 @@ class Tracking {
   // Metres or radians per mm or degree.
   [[nodiscard]] double scale() const noexcept { return carrier_.turns ? kPi / 180 : 0.001; }
   // m or rad since set(), and the same per s.
-  [[nodiscard]] LineState belt(const BeltWatch& watch) const noexcept { return seen(watch.now()); }
+  [[nodiscard]] LineState belt(const BeltEstimator& belt) const noexcept { return seen(belt.now()); }
   // Moves a pose in the base by this much of the carrier's motion.
   [[nodiscard]] static Pose carried(const Carrier& carrier, double by, const Pose& pose) noexcept;
   // The product's pose when the carrier is at `place`.
@@ -41,18 +41,18 @@ class Tracking {
 
   // Synchronizes with the belt within the limits `way`; neither the motion nor the belt may exceed `most`. If it
   // tracked the belt before, it returns to its earlier place on the belt.
-  void join(const BeltWatch& watch, const LineLimits& way, const LineLimits& most) noexcept;
+  void join(const BeltEstimator& belt, const LineLimits& way, const LineLimits& most) noexcept;
   // Leaves the belt and comes to rest. `stays`: it will continue at the present place on the belt.
   void leave(const LineLimits& way, bool stays) noexcept;
   // Ends at once, wherever it is; the caller brings the arm to rest.
   void drop() noexcept;
   // Computes the next period. Errors: Speed, Acceleration, Jerk: the belt exceeds its limits; then tracking has to end.
-  ErrorCode step(const BeltWatch& watch) noexcept;
+  ErrorCode step(const BeltEstimator& belt) noexcept;
 
   // Returns whether it moves the tool, or has to bring it to rest.
   [[nodiscard]] bool on() const noexcept { return phase_ != Phase::Off; }
   // Returns whether it is synchronized: each of its steps equals the belt's.
-  [[nodiscard]] bool rides() const noexcept { return phase_ == Phase::Riding; }
+  [[nodiscard]] bool is_synchronized() const noexcept { return phase_ == Phase::Synchronized; }
   [[nodiscard]] bool leaves() const noexcept { return phase_ == Phase::Leaving; }
   [[nodiscard]] bool at_rest() const noexcept { return !on() || (leaves() && gate_.at_rest()); }
   // The position on the belt's path to which the tool has been carried; while synchronized the product is at place() -
@@ -63,18 +63,18 @@ class Tracking {
   void anchor() noexcept { anchor_ = place(); }
   [[nodiscard]] double anchored() const noexcept { return anchor_; }
   // Moves a pose that was planned there with the carrier.
-  [[nodiscard]] Pose carried(const Pose& pose) const noexcept { return carried(ridden_, place() - anchor_, pose); }
+  [[nodiscard]] Pose carried(const Pose& pose) const noexcept { return carried(tracked_, place() - anchor_, pose); }
   // The carrier it follows, also after the product has been set elsewhere.
-  [[nodiscard]] const Carrier& ridden() const noexcept { return ridden_; }
+  [[nodiscard]] const Carrier& tracked() const noexcept { return tracked_; }
 
  private:
-  enum class Phase { Off, Joining, Riding, Leaving };
+  enum class Phase { Off, Joining, Synchronized, Leaving };
   [[nodiscard]] LineState seen(const LineState& belt) const noexcept;
   void put(double position) noexcept;
 
   double period_;
   bool known_ = false;
-  Carrier carrier_, ridden_;
+  Carrier carrier_, tracked_;
   double zero_ = 0;  // mm or degrees, position of the belt at set()
   Phase phase_ = Phase::Off;
   SetPointGate gate_;

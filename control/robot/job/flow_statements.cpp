@@ -64,7 +64,7 @@ void FlowReader::arm() {
   const JobToken start = line_.peek();
   const int formula = expressions_.read("a condition");
   const Formula& condition = draft_.book().formulas.back();
-  if (!line_.failed() && (condition.looks_in() || !condition.looks_out())) {
+  if (!line_.failed() && (condition.reads_variables() || !condition.reads_signals())) {
     line_.error(start, "an interrupt monitors shared variables, and no variables of the job");
   } else if (!line_.failed() && condition.size() > kMaxParts) {
     line_.error(start, "this condition is too long to be watched; have a PLC program compute it");

@@ -65,8 +65,8 @@ void Formula::push(const FormulaPart& part) {
   parts_.push_back(part);
   depth_ += is_operand(part.op) ? 1 : takes_one(part.op) ? 0 : -1;
   deepest_ = std::max(deepest_, depth_);
-  looks_in_ = looks_in_ || part.op == FormulaOp::Variable;
-  looks_out_ = looks_out_ || part.op == FormulaOp::Signal;
+  reads_variables_ = reads_variables_ || part.op == FormulaOp::Variable;
+  reads_signals_ = reads_signals_ || part.op == FormulaOp::Signal;
 }
 
 double Formula::value(std::span<const double> variables, Signals& signals) const noexcept {

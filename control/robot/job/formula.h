@@ -49,9 +49,9 @@ class Formula {
   [[nodiscard]] bool fits() const noexcept { return deepest_ <= kMaxOperands && parts_.size() <= kMaxParts; }
   [[nodiscard]] std::size_t size() const noexcept { return parts_.size(); }
   // Returns whether it reads variables of the job.
-  [[nodiscard]] bool looks_in() const noexcept { return looks_in_; }
+  [[nodiscard]] bool reads_variables() const noexcept { return reads_variables_; }
   // Returns whether it reads shared variables.
-  [[nodiscard]] bool looks_out() const noexcept { return looks_out_; }
+  [[nodiscard]] bool reads_signals() const noexcept { return reads_signals_; }
   // Evaluates the expression. NaN if any part of it has no finite value. Real-time safe.
   [[nodiscard]] double value(std::span<const double> variables, Signals& signals) const noexcept;
 
@@ -64,8 +64,8 @@ class Formula {
   std::vector<FormulaPart> parts_;
   int depth_ = 0;
   int deepest_ = 0;
-  bool looks_in_ = false;
-  bool looks_out_ = false;
+  bool reads_variables_ = false;
+  bool reads_signals_ = false;
 };
 
 }  // namespace indurop::robot

@@ -36,7 +36,7 @@ bool touches_world(const JobBook& book, const Step& step) noexcept {
   return step.op == Op::Set || step.op == Op::WaitUntil || step.op == Op::WaitTime || step.op == Op::Tool ||
          step.op == Op::Load || step.op == Op::Arm || step.op == Op::Disarm || step.op == Op::Try ||
          step.op == Op::EndTry || step.op == Op::Recover ||
-         std::any_of(formulas.begin(), formulas.end(), [](const Formula& each) { return each.looks_out(); });
+         std::any_of(formulas.begin(), formulas.end(), [](const Formula& each) { return each.reads_signals(); });
 }
 
 int cost_of(const JobBook& book, const Step& step) noexcept {

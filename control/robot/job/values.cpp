@@ -50,7 +50,7 @@ void ValueReader::set_on_path(Step wanted) {
     line_.error(line_.first(), "BEFORE and AFTER are about the motion in the line above; there is none");
     return;
   }
-  if (wanted.formula >= 0 && draft_.book().formulas[static_cast<std::size_t>(wanted.formula)].looks_out()) {
+  if (wanted.formula >= 0 && draft_.book().formulas[static_cast<std::size_t>(wanted.formula)].reads_signals()) {
     line_.error(line_.first(), "what is set on the way is computed before; it cannot read shared variables");
     return;
   }

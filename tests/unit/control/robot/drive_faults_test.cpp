@@ -48,7 +48,7 @@ std::string job_of(const ArmSpec& spec, Motion motion, std::mt19937& random) {
   return text;
 }
 
-// The tool rides on a product that passes it.
+// The tool tracks a product that passes it.
 bool begin_on_belt(Run& run) {
   run.belt_reported = true;
   run.belt_speed = run.in(-0.15, 0.15);

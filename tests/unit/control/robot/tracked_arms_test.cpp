@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arms of other kinds ride on belts: the tip, by the forward kinematics that arm_kinds_test compares with orocos-kdl,
+// Arms of other kinds track belts: the tip, by the forward kinematics that arm_kinds_test compares with orocos-kdl,
 // is on the path that was asked for, seen from where the product really is, and no set point breaks a limit.
 
 #include <fmt/core.h>

@@ -20,7 +20,7 @@ TEST_F(Belts, The_tool_gets_onto_the_belt_and_its_path_is_straight_on_the_produc
     return ended(first);
   }));
   ASSERT_EQ(state(first), CommandState::Done) << static_cast<int>(error(first));
-  EXPECT_EQ(cell.out.state, GroupState::Moving) << "it rides on";
+  EXPECT_EQ(cell.out.state, GroupState::Moving) << "it continues to track";
   const Given second = product(20, 10, 20);
   const Given third = product(20, 10, 60, 400, BufferMode::Buffered);
   ASSERT_TRUE(until([&] {
@@ -161,7 +161,7 @@ TEST_F(Belts, Who_rides_out_of_reach_stops_within_all_limits) {
   ASSERT_TRUE(run(product(0, 0, 120)));
   ASSERT_TRUE(until([&] { return cell.out.state == GroupState::ErrorStop; }));
   EXPECT_TRUE(stands());
-  EXPECT_NE(message().find("fell off belt 1"), std::string::npos) << message();
+  EXPECT_NE(message().find("no longer follows belt 1"), std::string::npos) << message();
 }
 
 TEST_F(Belts, An_emergency_stop_brakes_each_axis) {

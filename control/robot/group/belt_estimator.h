@@ -11,9 +11,9 @@
 
 namespace indurop::robot {
 
-class BeltWatch {
+class BeltEstimator {
  public:
-  explicit BeltWatch(double period = 0.01) noexcept;
+  explicit BeltEstimator(double period = 0.01) noexcept;
 
   // Takes the value of its reader once a period. All functions of this class are real-time safe.
   void sense(const BeltIn& in) noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/robot/group/belt_watch.h"
+#include "control/robot/group/belt_estimator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +19,16 @@ LineState moved_on(const LineState& from, double jerk, double t) noexcept {
 
 }  // namespace
 
-BeltWatch::BeltWatch(double period) noexcept : period_(period), pull_(std::min(kQuick, kMostOfPeriod / period)) {}
+BeltEstimator::BeltEstimator(double period) noexcept
+    : period_(period), pull_(std::min(kQuick, kMostOfPeriod / period)) {}
 
-void BeltWatch::restart() noexcept {
+void BeltEstimator::restart() noexcept {
   received_ = 0;
   known_for_ = 0;
 }
 
 // A filter with fading memory: three equal poles, so that it does not oscillate.
-void BeltWatch::take(double place, double seconds) noexcept {
+void BeltEstimator::take(double place, double seconds) noexcept {
   if (received_ == 0) {
     measured_ = {place, 0, 0};
   } else if (received_ == 1) {
@@ -51,7 +52,7 @@ void BeltWatch::take(double place, double seconds) noexcept {
   received_ = std::min(received_ + 1, 2);
 }
 
-void BeltWatch::sense(const BeltIn& in) noexcept {
+void BeltEstimator::sense(const BeltIn& in) noexcept {
   const bool fresh = !first_ && in.beat != beat_;
   first_ = false;
   beat_ = in.beat;

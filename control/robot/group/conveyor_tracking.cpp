@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/robot/group/riding.h"
+#include "control/robot/group/conveyor_tracking.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ constexpr double kFull = 0.95;      // of a joint's speed, for tracking and path
 constexpr double kExact = 1e-6;     // m
 
 // Returns whether an error may result from moving a set point along with the belt.
-bool is_by_ride(ErrorCode code) noexcept {
+bool is_of_tracking(ErrorCode code) noexcept {
   switch (code) {
     case ErrorCode::Unreachable:
     case ErrorCode::JointLimit:
@@ -39,23 +39,23 @@ bool is_by_ride(ErrorCode code) noexcept {
 
 }  // namespace
 
-Riding::Riding(Robot& robot, GroupPort& group, Plans& plans) noexcept
+ConveyorTracking::ConveyorTracking(Robot& robot, GroupPort& group, Plans& plans) noexcept
     : robot_(robot), group_(group), plans_(plans), tracking_(robot.period) {
-  belts_.fill(BeltWatch(robot.period));
+  belts_.fill(BeltEstimator(robot.period));
 }
 
-Joints Riding::planned_end() const noexcept {
+Joints ConveyorTracking::planned_end() const noexcept {
   return robot_.follower.idle() && !on() ? robot_.commanded() : robot_.follower.end();
 }
 
-LineLimits Riding::most_of(const Tracking::Carrier& carrier) const noexcept {
+LineLimits ConveyorTracking::most_of(const Tracking::Carrier& carrier) const noexcept {
   const ToolLimits& tool = robot_.parts.tool;
   return carrier.turns ? LineLimits{tool.turn_velocity, tool.turn_acceleration, tool.turn_jerk}
                        : LineLimits{tool.velocity, tool.acceleration, tool.jerk};
 }
 
 // Limits of the carrier's motion set by the joints at the present position; false: they cannot follow it at all.
-bool Riding::room_for(const Tracking::Carrier& carrier, Room& room) const noexcept {
+bool ConveyorTracking::room_for(const Tracking::Carrier& carrier, Room& room) const noexcept {
   const Joints now = robot_.commanded();
   const Pose tip = robot_.tip(now);
   std::array<Joints, 2> q;
@@ -85,11 +85,11 @@ bool Riding::room_for(const Tracking::Carrier& carrier, Room& room) const noexce
 }
 
 // Sets the product's coordinates in those of the machine.
-ErrorCode Riding::set_product(const Command& command) noexcept {
+ErrorCode ConveyorTracking::set_product(const Command& command) noexcept {
   if (!std::all_of(command.to.begin(), command.to.begin() + 6, [](double x) { return std::isfinite(x); })) {
     return ErrorCode::Value;
   }
-  get_off();
+  end_tracking();
   tracking_.forget();
   product_lost_ = false;
   product_ = pose_of(command.to);
@@ -98,7 +98,7 @@ ErrorCode Riding::set_product(const Command& command) noexcept {
 }
 
 // The product's coordinates move with a belt from now on.
-ErrorCode Riding::track(const Command& command, bool turns) noexcept {
+ErrorCode ConveyorTracking::track(const Command& command, bool turns) noexcept {
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::all_of(command.to.begin(), command.to.begin() + 6, finite) ||
       !std::all_of(command.aux.begin(), command.aux.begin() + 6, finite) || command.option < 1 ||
@@ -106,8 +106,8 @@ ErrorCode Riding::track(const Command& command, bool turns) noexcept {
     return ErrorCode::Value;
   }
   const Tracking::Carrier carrier{turns, command.option - 1, pose_of(command.to), pose_of(command.aux)};
-  const BeltWatch& watch = belts_[at(carrier.belt)];
-  if (!watch.known()) {
+  const BeltEstimator& belt = belts_[at(carrier.belt)];
+  if (!belt.known()) {
     FaultText why;
     std::snprintf(why, sizeof why,
                   "belt %d has no position: its reader has to write MC_BELT[%d] in each period, for 0.4 s",
@@ -115,14 +115,14 @@ ErrorCode Riding::track(const Command& command, bool turns) noexcept {
     robot_.job.set_message(why);
     return ErrorCode::Belt;
   }
-  get_off();
-  tracking_.set(carrier, watch);
+  end_tracking();
+  tracking_.set(carrier, belt);
   product_lost_ = false;
   return ErrorCode::Ok;
 }
 
 // Called before the product's coordinates change: the tool comes to rest, and motions on the product are discarded.
-void Riding::get_off() noexcept {
+void ConveyorTracking::end_tracking() noexcept {
   if (tracking_.on() && robot_.states.moving()) {
     group_.forget_plans();
     robot_.follower.stop();
@@ -130,7 +130,7 @@ void Riding::get_off() noexcept {
   }
 }
 
-void Riding::sense(const std::array<BeltIn, kBelts>& belts) noexcept {
+void ConveyorTracking::sense(const std::array<BeltIn, kBelts>& belts) noexcept {
   for (std::size_t k = 0; k < belts_.size(); ++k) {
     belts_[k].sense(belts[k]);
   }
@@ -140,7 +140,7 @@ void Riding::sense(const std::array<BeltIn, kBelts>& belts) noexcept {
 }
 
 // The tool comes to rest on its own, without the belt.
-void Riding::lose_product(const char* why) noexcept {
+void ConveyorTracking::lose_product(const char* why) noexcept {
   FaultText text;
   std::snprintf(text, sizeof text, "belt %d %s: check its encoder and its reader, then track it again",
                 tracking_.carrier().belt + 1, why);
@@ -154,7 +154,7 @@ void Riding::lose_product(const char* why) noexcept {
   robot_.job.set_message(text);
 }
 
-ErrorCode Riding::join() noexcept {
+ErrorCode ConveyorTracking::join() noexcept {
   Room room;
   if (!room_for(tracking_.carrier(), room)) {
     return ErrorCode::Unreachable;
@@ -172,31 +172,31 @@ ErrorCode Riding::join() noexcept {
   return ErrorCode::Ok;
 }
 
-void Riding::leave(bool stays) noexcept {
+void ConveyorTracking::leave(bool stays) noexcept {
   if (!tracking_.on() || (tracking_.leaves() && stays)) {
     return;
   }
   Room room;
-  room.limits = most_of(tracking_.ridden());
-  room_for(tracking_.ridden(), room);
+  room.limits = most_of(tracking_.tracked());
+  room_for(tracking_.tracked(), room);
   held_ = stays;
   tracking_.leave({room.limits.velocity, kWay * room.limits.acceleration, kWay * room.limits.jerk}, stays);
 }
 
-bool Riding::reaches(bool on_product, ErrorCode& error) noexcept {
+bool ConveyorTracking::reaches(bool on_product, ErrorCode& error) noexcept {
   const bool wanted = tracking_.known() && on_product;
   if (!wanted && !tracking_.on()) {
     return true;
   }
   if (!robot_.follower.idle()) {
-    return wanted && tracking_.rides();  // also planned from where the one before begins
+    return wanted && tracking_.is_synchronized();  // also planned from where the one before begins
   }
   if (!wanted) {
     leave(false);
   } else if (!tracking_.on() && !paused_) {
     error = join();
   }
-  if (!wanted || !tracking_.rides() || plans_.holds_forgotten()) {
+  if (!wanted || !tracking_.is_synchronized() || plans_.holds_forgotten()) {
     return false;
   }
   keep_to_product();
@@ -205,11 +205,11 @@ bool Riding::reaches(bool on_product, ErrorCode& error) noexcept {
 
 // The tool is at rest on the product: later motions are planned from there. The path may use the joint speed that
 // tracking leaves.
-void Riding::keep_to_product() noexcept {
+void ConveyorTracking::keep_to_product() noexcept {
   tracking_.anchor();
   robot_.follower.reset(robot_.commanded());
   Room room;
-  if (!room_for(tracking_.ridden(), room)) {
+  if (!room_for(tracking_.tracked(), room)) {
     return;
   }
   const double speed = std::abs(tracking_.belt(belt()).velocity);
@@ -218,12 +218,12 @@ void Riding::keep_to_product() noexcept {
 }
 
 // The product's pose for the motion that is being planned.
-Pose Riding::product_ahead() const noexcept {
-  return tracking_.rides() ? tracking_.product(tracking_.anchored() - tracking_.lag()) : product_;
+Pose ConveyorTracking::product_ahead() const noexcept {
+  return tracking_.is_synchronized() ? tracking_.product(tracking_.anchored() - tracking_.lag()) : product_;
 }
 
 // A hold also stops tracking, which later continues at the same place on the product. Any other stop ends it.
-void Riding::steer() noexcept {
+void ConveyorTracking::steer() noexcept {
   if (!robot_.states.moving()) {
     leave(false);
   } else if (paused_) {
@@ -239,7 +239,7 @@ void Riding::steer() noexcept {
 }
 
 // The set point of this period, computed from that of the path.
-Fault Riding::carry(Joints& q) noexcept {
+Fault ConveyorTracking::carry(Joints& q) noexcept {
   if (!tracking_.on()) {
     return {};
   }
@@ -272,7 +272,7 @@ Fault Riding::carry(Joints& q) noexcept {
 
 // Returns whether an axis has not enough torque there. The path was planned for the arm where the product was; the belt
 // moves it to where it may need more torque.
-Fault Riding::too_heavy(const Joints& q) const noexcept {
+Fault ConveyorTracking::too_heavy(const Joints& q) const noexcept {
   if (!robot_.tool.dynamics().limited()) {
     return {};
   }
@@ -290,14 +290,14 @@ Fault Riding::too_heavy(const Joints& q) const noexcept {
 }
 
 // Ends tracking when axes stop on their own.
-void Riding::drop(ErrorCode code) noexcept {
+void ConveyorTracking::drop(ErrorCode code) noexcept {
   if (!tracking_.on()) {
     return;
   }
-  if (is_by_ride(code)) {
+  if (is_of_tracking(code)) {
     FaultText why;
-    std::snprintf(why, sizeof why, "the tool fell off belt %d: %s; ride slower, nearer", tracking_.ridden().belt + 1,
-                  to_string(code));
+    std::snprintf(why, sizeof why, "the tool no longer follows belt %d: %s; run the belt slower or nearer to the arm",
+                  tracking_.tracked().belt + 1, to_string(code));
     robot_.job.set_message(why);
   }
   tracking_.drop();
@@ -306,12 +306,12 @@ void Riding::drop(ErrorCode code) noexcept {
   speed_ = 0;
 }
 
-void Riding::update_product() noexcept {
+void ConveyorTracking::update_product() noexcept {
   if (!tracking_.known()) {
     return;
   }
   const double place = tracking_.belt(belt()).position;
-  product_ = tracking_.product(tracking_.rides() ? tracking_.place() - tracking_.lag() : place);
+  product_ = tracking_.product(tracking_.is_synchronized() ? tracking_.place() - tracking_.lag() : place);
   const Vec3 rpy = to_rpy(product_.orientation);
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);

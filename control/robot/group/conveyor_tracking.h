@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "control/robot/group/belt_watch.h"
+#include "control/robot/group/belt_estimator.h"
 #include "control/robot/group/group_port.h"
 #include "control/robot/group/plans.h"
 #include "control/robot/group/robot.h"
@@ -15,9 +15,9 @@
 
 namespace indurop::robot {
 
-class Riding {
+class ConveyorTracking {
  public:
-  Riding(Robot& robot, GroupPort& group, Plans& plans) noexcept;
+  ConveyorTracking(Robot& robot, GroupPort& group, Plans& plans) noexcept;
 
   // Reads the belts. All functions of this class are real-time safe.
   void sense(const std::array<BeltIn, kBelts>& belts) noexcept;
@@ -28,7 +28,7 @@ class Riding {
   // Returns whether a belt moves the tool, or the tool has to come to rest after that.
   [[nodiscard]] bool on() const noexcept { return tracking_.on(); }
   // Returns whether the tool is synchronized with the belt.
-  [[nodiscard]] bool rides() const noexcept { return tracking_.rides(); }
+  [[nodiscard]] bool is_synchronized() const noexcept { return tracking_.is_synchronized(); }
   [[nodiscard]] bool at_rest() const noexcept { return tracking_.at_rest(); }
   // Returns whether the product moves with a belt; or should, but its position is unknown.
   [[nodiscard]] bool product_moves() const noexcept { return tracking_.known(); }
@@ -64,20 +64,20 @@ class Riding {
     LineLimits limits;
     double tip = 0;
   };
-  [[nodiscard]] const BeltWatch& belt() const noexcept { return belts_[at(tracking_.carrier().belt)]; }
+  [[nodiscard]] const BeltEstimator& belt() const noexcept { return belts_[at(tracking_.carrier().belt)]; }
   [[nodiscard]] LineLimits most_of(const Tracking::Carrier& carrier) const noexcept;
   bool room_for(const Tracking::Carrier& carrier, Room& room) const noexcept;
   ErrorCode join() noexcept;
   void keep_to_product() noexcept;
   void steer() noexcept;
-  void get_off() noexcept;
+  void end_tracking() noexcept;
   void lose_product(const char* why) noexcept;
   [[nodiscard]] Fault too_heavy(const Joints& q) const noexcept;
 
   Robot& robot_;
   GroupPort& group_;
   Plans& plans_;
-  std::array<BeltWatch, kBelts> belts_;
+  std::array<BeltEstimator, kBelts> belts_;
   Tracking tracking_;
   bool product_lost_ = false;
   bool held_ = false;    // it leaves the belt because all motions are held
