@@ -8,7 +8,7 @@
 
 #include "control/plc/check/designator.h"
 #include "control/plc/check/expression_checker.h"
-#include "control/plc/check/global_table.h"
+#include "control/plc/check/located_variables.h"
 #include "control/plc/check/shared_names.h"
 #include "control/plc/check/type_builder.h"
 #include "control/plc/library/standard.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "control/plc/check/global_table.h"
+#include "control/plc/check/located_variables.h"
 #include "control/plc/check/type_builder.h"
 
 namespace indurop::plc {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables outside of POUs: VAR_GLOBAL, located ones, and the shared variables of .glb files.
+// Variables outside of POUs: VAR_GLOBAL and the shared variables of .glb files.
 
 #pragma once
 
@@ -12,12 +12,12 @@ namespace indurop::plc {
 
 // Declares a variable of VAR_GLOBAL.
 void declare_global(Context& context, ast::Variable& variable);
-// Returns the variable at an address; declares it if no declaration names the address.
-Global& located_global(Context& context, const ast::DirectAddress& address, const Place& at);
-// Declares a variable at an address: `name AT %IX0.0 : type`.
-Global& declare_located(Context& context, ast::Variable& variable, const Type& type);
-// Declares a variable without an address, `name AT %I* : type`; null after an error where that is not possible.
-Global* declare_placeless(Context& context, ast::Variable& variable, const Type& type);
+// The same where the type is known and its address needs no check; null after an error.
+Global* declare_variable(Context& context, ast::Variable& variable, const Type& type);
+// Adds a variable to those of the program, by its name.
+Global& add_global(Program& program, Global global);
+// Returns the name of a variable outside of the program: its own, unless that is taken there.
+[[nodiscard]] std::string free_shared_name(const Program& program, const std::string& name);
 // Returns the shared variable of a .glb file with the full name, "knu::Robot::tick" in any case; null if there is none.
 Global* foreign_global(Context& context, std::string_view full_name);
 // Returns the only shared variable of the .glb files with this name after its namespaces; null if there is none or more

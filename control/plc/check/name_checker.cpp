@@ -8,6 +8,7 @@
 #include "control/plc/check/expression_checker.h"
 #include "control/plc/check/foreign_types.h"
 #include "control/plc/check/global_table.h"
+#include "control/plc/check/located_variables.h"
 #include "control/plc/library/standard.h"
 #include "control/plc/model/walk.h"
 

@@ -10,6 +10,7 @@
 #include "control/plc/check/global_table.h"
 #include "control/plc/check/instance_contents.h"
 #include "control/plc/check/late_value.h"
+#include "control/plc/check/located_variables.h"
 #include "control/plc/check/object_checker.h"
 #include "control/plc/check/statement_checker.h"
 #include "control/plc/check/type_builder.h"

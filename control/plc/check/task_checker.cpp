@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "control/plc/check/global_table.h"
+#include "control/plc/check/located_variables.h"
 #include "control/plc/check/reach.h"
 #include "control/plc/model/identifier.h"
 #include "control/plc/st/literal.h"
