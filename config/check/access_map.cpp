@@ -70,14 +70,18 @@ class Builder {
   void from_names(std::size_t module, const std::vector<std::string>& names,
                   const std::vector<base::SourcePlace>& places, bool reads) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-      std::string message;
-      const auto place = index_.find(names[i], context_.report.full() ? nullptr : &message);
+      const auto place = find(names[i]);
       if (place) {
         add(module, *place.value().variable, reads);
       } else {
-        context_.report.error(places[i], std::string(reads ? "<read>: " : "<write>: ") + message);
+        context_.report.error(places[i], std::string(reads ? "<read>: " : "<write>: ") + place.error().message);
       }
     }
+  }
+
+  // Nearest names are searched for as long as errors are shown.
+  [[nodiscard]] Result<schema::Place, schema::Failure> find(const std::string& name) const {
+    return index_.find(name, context_.report.full() ? schema::NearestName::Skip : schema::NearestName::Search);
   }
 
   void from_io(std::size_t module) {
@@ -121,18 +125,20 @@ class Builder {
 
   void check_failsafe(const Module& module) {
     for (const FailSafe& safe : module.failsafe) {
-      std::string message;
-      const auto place = index_.find(safe.variable, context_.report.full() ? nullptr : &message);
+      const auto place = find(safe.variable);
       if (!place) {
-        context_.report.error(safe.place, "<failsafe>: " + message);
+        context_.report.error(safe.place, "<failsafe>: " + place.error().message);
         continue;
       }
       constexpr double kUnlimited = std::numeric_limits<double>::infinity();
       const schema::Range range = place->range.value_or(schema::Range{-kUnlimited, kUnlimited});
       std::vector<std::uint8_t> bytes(place->type.size());
-      if (!schema::parse_value(place->type, safe.value, bytes, message) ||
-          !schema::check_range(range, place->type, bytes, message)) {
-        context_.report.error(safe.place, "<failsafe>: " + message);
+      auto valid = schema::parse_value(place->type, safe.value, bytes);
+      if (valid) {
+        valid = schema::check_range(range, place->type, bytes);
+      }
+      if (!valid) {
+        context_.report.error(safe.place, "<failsafe>: " + valid.error().message);
       }
     }
   }

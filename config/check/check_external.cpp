@@ -29,10 +29,9 @@ void resolve_rules(std::vector<VariableRule>& rules, const schema::Schema& schem
   const schema::PlaceIndex index(schema);
   std::map<std::string, int> lines;
   std::erase_if(rules, [&](VariableRule& rule) {
-    std::string message;
-    const auto place = index.find(rule.name, report.full() ? nullptr : &message);
+    const auto place = index.find(rule.name, report.full() ? schema::NearestName::Skip : schema::NearestName::Search);
     if (!place) {
-      report.error(rule.place, "<variable>: " + message);
+      report.error(rule.place, "<variable>: " + place.error().message);
       return true;
     }
     const schema::Variable& variable = *place.value().variable;

@@ -19,10 +19,10 @@ void add_named_variables(const std::vector<Module>& modules, const schema::Place
   std::vector<const schema::Variable*> missing;
   std::set<const schema::Variable*> known;
   const auto look_up = [&](const std::string& name) {
-    if (own.find(name, nullptr)) {
+    if (own.find(name, schema::NearestName::Skip)) {
       return;
     }
-    const auto found = plant.find(name, nullptr);
+    const auto found = plant.find(name, schema::NearestName::Skip);
     if (found && known.insert(found.value().variable).second) {
       missing.push_back(found.value().variable);
     }

@@ -43,10 +43,9 @@ class Binder {
 
  private:
   std::optional<schema::Place> find(const std::string& name, base::SourcePlace place) {
-    std::string message;
-    auto found = index_.find(name, report_.full() ? nullptr : &message);
+    auto found = index_.find(name, report_.full() ? schema::NearestName::Skip : schema::NearestName::Search);
     if (!found) {
-      report_.error(place, message);
+      report_.error(place, found.error().message);
       return std::nullopt;
     }
     return std::move(found).value();

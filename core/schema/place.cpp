@@ -27,11 +27,6 @@ struct Path {
   bool absolute = false;  // begins with "::"
 };
 
-struct Failure {
-  Errc code = Errc::Ok;
-  std::string message;
-};
-
 bool letter_or_digit(char c) noexcept {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
@@ -289,8 +284,8 @@ void collect(const Candidates& candidates, const Path& path, bool exact, std::ve
 
 // `candidates`: returns all variables that a name may refer to.
 template <class Candidates>
-Result<Place> find(const Schema& schema, const Candidates& candidates, std::string_view text, std::string* message) {
-  constexpr const char* kWhere = "looking for a variable by name";
+Result<Place, Failure> find(const Schema& schema, const Candidates& candidates, std::string_view text,
+                            NearestName nearest) {
   const std::string_view name = base::trimmed(text);
   Path path;
   Failure failure = split(name, path);
@@ -306,24 +301,22 @@ Result<Place> find(const Schema& schema, const Candidates& candidates, std::stri
     if (!places.empty()) {
       failure = ambiguous(name, places);
     } else if (failure.code == Errc::Ok) {
-      failure = message == nullptr ? Failure{Errc::NotFound, {}} : no_variable(schema, path);
+      failure = nearest == NearestName::Skip ? Failure{Errc::NotFound, fmt::format("no variable '{}'", name)}
+                                             : no_variable(schema, path);
     }
   }
-  if (message != nullptr) {
-    *message = std::move(failure.message);
-  }
-  return Error{failure.code, 0, kWhere};
+  return failure;
 }
 
 }  // namespace
 
-Result<Place> find_place(const Schema& schema, std::string_view text, std::string& message) {
+Result<Place, Failure> find_place(const Schema& schema, std::string_view text) {
   std::vector<const Variable*> all;
   for (const Variable& variable : schema.variables) {
     all.push_back(&variable);
   }
   return find(
-      schema, [&all](std::string_view) -> const auto& { return all; }, text, &message);
+      schema, [&all](std::string_view) -> const auto& { return all; }, text, NearestName::Search);
 }
 
 PlaceIndex::PlaceIndex(const Schema& schema) : schema_(schema) {
@@ -337,13 +330,13 @@ PlaceIndex::PlaceIndex(const Schema& schema) : schema_(schema) {
   }
 }
 
-Result<Place> PlaceIndex::find(std::string_view text, std::string* message) const {
+Result<Place, Failure> PlaceIndex::find(std::string_view text, NearestName nearest) const {
   static const std::vector<const Variable*> kNone;
   const auto candidates = [this](const std::string& wanted) -> const auto& {
     const auto found = by_ending_.find(wanted);
     return found == by_ending_.end() ? kNone : found->second;
   };
-  return schema::find(schema_, candidates, text, message);
+  return schema::find(schema_, candidates, text, nearest);
 }
 
 Part part_at(const Variable& variable, std::uint32_t offset) {

@@ -12,13 +12,16 @@
 
 namespace indurop::schema {
 
+// Whether the message of an unknown name has the nearest one, which takes time in proportion to the number of names.
+enum class NearestName { Search, Skip };
+
 class PlaceIndex {
  public:
   // Borrows the schema, which must not change.
   explicit PlaceIndex(const Schema& schema);
 
-  // As find_place(). Without `message` nearest names are not searched for.
-  [[nodiscard]] Result<Place> find(std::string_view text, std::string* message) const;
+  // As find_place().
+  [[nodiscard]] Result<Place, Failure> find(std::string_view text, NearestName nearest) const;
 
  private:
   const Schema& schema_;

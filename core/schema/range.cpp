@@ -61,16 +61,13 @@ class Checker {
 
 }  // namespace
 
-Status check_range(const Range& range, const Type& type, std::span<const std::uint8_t> bytes, std::string& message) {
-  constexpr const char* kWhere = "checking a value's range";
+Result<void, Failure> check_range(const Range& range, const Type& type, std::span<const std::uint8_t> bytes) {
   if (bytes.size() < type.size()) {
-    message = "the value is shorter than its type";
-    return Error{Errc::InvalidArgument, 0, kWhere};
+    return Failure{Errc::InvalidArgument, "the value is shorter than its type"};
   }
   Checker checker;
   if (!checker.value(range, type, 0, bytes.data(), "")) {
-    message = std::move(checker.message);
-    return Error{Errc::OutOfRange, 0, kWhere};
+    return Failure{Errc::OutOfRange, std::move(checker.message)};
   }
   return {};
 }

@@ -176,11 +176,16 @@ struct Place {
   std::string unit;
   std::optional<Range> range;
 };
+// Why a text names no part, or is no value. `message` describes the error and the correction.
+struct Failure {
+  Errc code = Errc::Ok;
+  std::string message;
+};
 // Finds the part that `text` addresses. Leading namespaces may be omitted if the rest is unique; '.' and '::' both
 // separate namespaces. Unit and range are those of the innermost declaration that has one. An index into text gives one
 // char. Errors: NotFound (no variable or field of that name; ambiguous), OutOfRange (index), InvalidArgument (syntax).
-// `message` then describes the error and the correction, with the nearest name.
-Result<Place> find_place(const Schema& schema, std::string_view text, std::string& message);
+// The message of a failure has the nearest name.
+Result<Place, Failure> find_place(const Schema& schema, std::string_view text);
 
 // The part of a variable at a byte offset, "knu::Robot::joints[1].y", and its type; as deep as there are names.
 struct Part {
@@ -193,16 +198,15 @@ Part part_at(const Variable& variable, std::uint32_t offset);
 // structs {x: 1}. parse accepts the same, and also 0/1 for bool, hex integers, numbers for enums, JSON's quoted field
 // names, and text and single characters without quotes when they are the whole value. Fields omitted in a struct keep
 // their bytes. Errors: InvalidArgument (not such a value), OutOfRange (the type cannot hold it); `bytes` is unchanged
-// then, and `message` describes the error and the correction. `bytes` holds type.size() bytes; with fewer format
-// returns "" and parse fails.
+// then. `bytes` holds type.size() bytes; with fewer format returns "" and parse fails.
 std::string format_value(const Type& type, std::span<const std::uint8_t> bytes);
-Status parse_value(const Type& type, std::string_view text, std::span<std::uint8_t> bytes, std::string& message);
+Result<void, Failure> parse_value(const Type& type, std::string_view text, std::span<std::uint8_t> bytes);
 // Returns the same bytes as JSON: numbers, strings, arrays, objects; NaN and infinities are null, a char is a string.
 std::string value_to_json(const Type& type, std::span<const std::uint8_t> bytes);
 
 // Checks every number of a value against `range`, or against its field's own range where it has one. Infinite limits
-// are not checked. Errors: OutOfRange; `message` names the first offender: "x: 190 is outside -180..180".
-Status check_range(const Range& range, const Type& type, std::span<const std::uint8_t> bytes, std::string& message);
+// are not checked. Errors: OutOfRange; the message names the first offender: "x: 190 is outside -180..180".
+Result<void, Failure> check_range(const Range& range, const Type& type, std::span<const std::uint8_t> bytes);
 
 // Matches a shell glob (*, ?, [a-z], [!a-z], a backslash quotes) against full names; '.' in a pattern means "::", and a
 // pattern without either also matches the last part alone.

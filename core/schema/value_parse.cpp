@@ -35,13 +35,11 @@ class Parser {
     return cursor_.at_end() || syntax(fmt::format("'{}' after the value", cursor_.rest().substr(0, 20)));
   }
 
-  Errc code = Errc::Ok;
-  std::string message;
+  Failure failure;
 
  private:
   bool fail(Errc why, std::string what) {
-    code = why;
-    message = path_.empty() ? std::move(what) : path_ + ": " + what;
+    failure = {why, path_.empty() ? std::move(what) : path_ + ": " + what};
     return false;
   }
   bool syntax(const std::string& what) {
@@ -324,17 +322,14 @@ class Parser {
 
 }  // namespace
 
-Status parse_value(const Type& type, std::string_view text, std::span<std::uint8_t> bytes, std::string& message) {
-  constexpr const char* kWhere = "reading a value";
+Result<void, Failure> parse_value(const Type& type, std::string_view text, std::span<std::uint8_t> bytes) {
   if (bytes.size() < type.size()) {
-    message = "there is less room than the type needs";
-    return Error{Errc::InvalidArgument, 0, kWhere};
+    return Failure{Errc::InvalidArgument, "there is less room than the type needs"};
   }
   std::vector<std::uint8_t> copy(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(type.size()));
   Parser parser(text);
   if (!parser.whole(type, copy.data())) {
-    message = std::move(parser.message);
-    return Error{parser.code, 0, kWhere};
+    return std::move(parser.failure);
   }
   std::copy(copy.begin(), copy.end(), bytes.begin());
   return {};

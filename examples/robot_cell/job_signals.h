@@ -20,8 +20,8 @@
 class JobSignals final : public indurop::robot::Signals {
  public:
   explicit JobSignals(const std::vector<std::string>& names) {
-    if (std::string why; !prepare(names, why)) {
-      throw std::runtime_error(why);
+    if (const auto prepared = prepare(names); !prepared) {
+      throw std::runtime_error(prepared.error());
     }
     adopt();
   }
@@ -35,7 +35,7 @@ class JobSignals final : public indurop::robot::Signals {
     signal.write(present_->handle, signal.name, value);
   }
   // The first access by a name looks it up, the others are real-time safe.
-  bool prepare(const std::vector<std::string>& names, std::string& why) override {
+  indurop::Result<void, std::string> prepare(const std::vector<std::string>& names) override {
     next_ = std::make_unique<Known>();
     std::string unknown;
     for (const std::string& name : names) {
@@ -49,8 +49,10 @@ class JobSignals final : public indurop::robot::Signals {
       }
       next_->signals.push_back(signal);
     }
-    why = "jobs name variables that are no numbers or bools of this node: " + unknown + "; indurop check says where";
-    return unknown.empty();
+    if (!unknown.empty()) {
+      return "jobs name variables that are no numbers or bools of this node: " + unknown + "; indurop check says where";
+    }
+    return {};
   }
   // Those before are destroyed when others are prepared.
   void adopt() noexcept override { std::swap(present_, next_); }

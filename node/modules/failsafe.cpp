@@ -9,14 +9,13 @@ FailSafe::FailSafe(vars::Store& store, const config::Config& config) : store_(st
   const schema::PlaceIndex index(store.schema());
   for (std::size_t i = 0; i < config.modules.size(); ++i) {
     for (const config::FailSafe& declared : config.modules[i].failsafe) {
-      std::string message;
-      const auto place = index.find(declared.variable, nullptr);
+      const auto place = index.find(declared.variable, schema::NearestName::Skip);
       if (!place) {
         continue;
       }
       Write write{store.find(place.value().variable->name_hash()), place.value().offset, {}};
       write.bytes.resize(place.value().type.size());
-      if (write.variable != nullptr && schema::parse_value(place.value().type, declared.value, write.bytes, message)) {
+      if (write.variable != nullptr && schema::parse_value(place.value().type, declared.value, write.bytes)) {
         writes_[i].push_back(std::move(write));
       }
     }

@@ -17,10 +17,11 @@ std::pair<schema::Part, std::size_t> first_different_part(const schema::Variable
   schema::Schema alone;
   alone.variables.push_back(variable);
   for (std::size_t i = 0; i < is.size(); ++i) {
-    std::string message;
+    if (was[i] == is[i]) {
+      continue;
+    }
     const schema::Part part = schema::part_at(variable, static_cast<std::uint32_t>(i));
-    const auto place =
-        was[i] == is[i] ? Result<schema::Place>(Error{Errc::NotFound}) : schema::find_place(alone, part.name, message);
+    const auto place = schema::find_place(alone, part.name);
     if (place && i >= place->offset && i < place->offset + part.type.size()) {
       return {part, place->offset};
     }

@@ -58,11 +58,14 @@ class Wrong {
   std::vector<std::string> texts_;
 };
 
-Result<Item, Problem> item_of(const vars::Store& store, const std::string& name, const Result<schema::Place>& place,
-                              std::string message) {
-  const auto* entry = place ? store.find(place->variable->name_hash()) : nullptr;
+Result<Item, Problem> item_of(const vars::Store& store, const std::string& name,
+                              const Result<schema::Place, schema::Failure>& place) {
+  if (!place) {
+    return Problem{place.error().message};
+  }
+  const auto* entry = store.find(place->variable->name_hash());
   if (entry == nullptr) {
-    return Problem{message.empty() ? fmt::format("there is no variable '{}'", name) : std::move(message)};
+    return Problem{fmt::format("there is no variable '{}'", name)};
   }
   return Item{full_name(name, *place), *place, entry};
 }
@@ -70,9 +73,7 @@ Result<Item, Problem> item_of(const vars::Store& store, const std::string& name,
 // As find(); the errors after those that are shown have no nearest name.
 Result<Item, Problem> find(const vars::Store& store, const schema::PlaceIndex& index, const std::string& name,
                            const Wrong& wrong) {
-  std::string message;
-  const auto place = index.find(name, wrong.full() ? nullptr : &message);
-  return item_of(store, name, place, std::move(message));
+  return item_of(store, name, index.find(name, wrong.full() ? schema::NearestName::Skip : schema::NearestName::Search));
 }
 
 // `find`: returns the item of a name.
@@ -87,18 +88,18 @@ Result<Assignment, Problem> parse_line(const vars::Store& store, const std::stri
   return item ? parse(store, std::move(item).value(), line.substr(equals + 1), literal) : std::move(item).error();
 }
 
-bool read_text(const Assignment& one, std::span<std::uint8_t> bytes, std::string& message) {
+Result<void, schema::Failure> read_text(const Assignment& one, std::span<std::uint8_t> bytes) {
   const schema::Type& type = one.item.place.type;
-  return (one.literal != nullptr && one.literal(type, one.text, bytes)) ||
-         schema::parse_value(type, one.text, bytes, message).ok();
+  if (one.literal != nullptr && one.literal(type, one.text, bytes)) {
+    return {};
+  }
+  return schema::parse_value(type, one.text, bytes);
 }
 
 }  // namespace
 
 Result<Item, Problem> find(const vars::Store& store, const std::string& name) {
-  std::string message;
-  const auto place = schema::find_place(store.schema(), name, message);
-  return item_of(store, name, place, std::move(message));
+  return item_of(store, name, schema::find_place(store.schema(), name));
 }
 
 Result<Item, Problem> whole(const vars::Store& store, const schema::Variable& variable) {
@@ -164,16 +165,13 @@ Result<Assignment, Problem> parse(const vars::Store& store, Item item, std::stri
   if (auto now = read(store, one.item)) {
     one.bytes = std::move(now).value();
   }
-  std::string message;
-  if (!read_text(one, one.bytes, message)) {
-    return Problem{fmt::format(
-        "{}: {}", one.item.name,
-        message.empty() ? fmt::format("'{}' is not a valid {}", one.text, schema::display_name(place.type)) : message)};
+  if (const auto read_in = read_text(one, one.bytes); !read_in) {
+    return Problem{fmt::format("{}: {}", one.item.name, read_in.error().message)};
   }
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   const schema::Range range = place.range.value_or(schema::Range{-kUnlimited, kUnlimited});
-  if (!schema::check_range(range, place.type, one.bytes, message)) {
-    return Problem{fmt::format("{}: {}", one.item.name, message)};
+  if (const auto inside = schema::check_range(range, place.type, one.bytes); !inside) {
+    return Problem{fmt::format("{}: {}", one.item.name, inside.error().message)};
   }
   return one;
 }
@@ -203,8 +201,7 @@ Result<std::vector<Assignment>, std::vector<std::string>> parse_all(const vars::
 }
 
 void write_over(const Assignment& one, std::span<std::uint8_t> bytes) {
-  std::string message;
-  if (!read_text(one, bytes, message)) {
+  if (!read_text(one, bytes)) {
     std::copy(one.bytes.begin(), one.bytes.end(), bytes.begin());
   }
 }

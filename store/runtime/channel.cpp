@@ -145,11 +145,10 @@ Resolved& Handle::Impl::resolve(std::string_view name) {
     return known->second;
   }
   Resolved& part = names[std::string(name)];
-  std::string message;
-  const auto place = schema::find_place(attachment->store().schema(), name, message);
+  const auto place = schema::find_place(attachment->store().schema(), name);
   if (!place) {
     part.error = place.error().code;
-    runtime::Process::get().report(fmt::format("channel to node '{}': {}", node, message));
+    runtime::Process::get().report(fmt::format("channel to node '{}': {}", node, place.error().message));
     return part;
   }
   part.entry = attachment->store().find(place.value().variable->name_hash());

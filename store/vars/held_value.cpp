@@ -94,8 +94,7 @@ std::vector<HeldPart> parts_to_hold(const schema::Type& type, std::string_view t
   // Bytes that are equal after parsing the text over zeros and over ones were given in the text.
   std::vector<std::uint8_t> zeros(type.size(), 0x00);
   std::vector<std::uint8_t> ones(type.size(), 0xFF);
-  std::string message;
-  const bool all = !schema::parse_value(type, text, zeros, message) || !schema::parse_value(type, text, ones, message);
+  const bool all = !schema::parse_value(type, text, zeros) || !schema::parse_value(type, text, ones);
   std::vector<HeldPart> parts;
   for_each_leaf(type, 0, [&](const schema::Type& leaf, std::uint32_t offset) {
     const auto size = static_cast<std::uint32_t>(leaf.size());
@@ -176,8 +175,7 @@ std::vector<ForcedPart> forced_parts(const Store& store) {
           {std::move(part.name), std::move(part.type), std::move(bytes), force.until, force.variable, force.offset});
       text = all.end() - 1;
     }
-    std::string message;
-    const auto place = schema::find_place(store.schema(), text->name, message);
+    const auto place = schema::find_place(store.schema(), text->name);
     const std::size_t at = place ? force.offset - place->offset : text->bytes.size();
     if (at + force.size <= text->bytes.size()) {
       std::copy(force.bytes().begin(), force.bytes().end(), text->bytes.begin() + static_cast<std::ptrdiff_t>(at));

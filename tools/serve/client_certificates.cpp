@@ -28,27 +28,25 @@ Result<ClientCertificates, base::Problem> ClientCertificates::open(const std::fi
   if (!revoked.empty() || of_plant || std::filesystem::exists(default_list, ignored)) {
     made.revoked_ = revoked.empty() ? default_list : revoked;
   }
-  std::string list;
-  if (std::string problem = made.read_list(list); !problem.empty()) {
-    return base::Problem{problem + "; copy the revoked.pem of the plant's keys into the folder of " +
+  if (const auto list = made.read_list(); !list) {
+    return base::Problem{list.error().text + "; copy the revoked.pem of the plant's keys into the folder of " +
                          authority.string() + ", or name it with --revoked"};
   }
   return made;
 }
 
-std::string ClientCertificates::read_list(std::string& list) const {
+Result<std::string, base::Problem> ClientCertificates::read_list() const {
   if (revoked_.empty()) {
-    return {};
+    return std::string();
   }
   auto text = base::read_file(revoked_);
   if (!text) {
-    return base::cannot_read(revoked_.string(), text.error());
+    return base::Problem{base::cannot_read(revoked_.string(), text.error())};
   }
   if (!keys::revocation_list_of(*text, authority_)) {
-    return fmt::format("{} is not a list of revoked certificates of this authority", revoked_.string());
+    return base::Problem{fmt::format("{} is not a list of revoked certificates of this authority", revoked_.string())};
   }
-  list = std::move(*text);
-  return {};
+  return std::move(*text);
 }
 
 bool ClientCertificates::is_person(const std::string& certificate) {
@@ -63,12 +61,12 @@ Client ClientCertificates::identify(const std::string& certificate) const {
   if (authority_.empty() || !facts || facts->common_name.empty()) {
     return {{}, Role::Unknown, "the certificate names no user", {}, {}};
   }
-  std::string list;
-  if (!read_list(list).empty()) {
+  const auto list = read_list();
+  if (!list) {
     return {
         facts->common_name, Role::Unknown, "which certificates were revoked cannot be read, so none counts", {}, {}};
   }
-  if (!list.empty() && keys::is_revoked(certificate, list)) {
+  if (!list->empty() && keys::is_revoked(certificate, *list)) {
     return {facts->common_name,
             Role::Unknown,
             fmt::format("the certificate of {} was revoked", facts->common_name),

@@ -29,8 +29,8 @@ class ClientCertificates {
   [[nodiscard]] static bool is_person(const std::string& certificate);
 
  private:
-  // Reads the revocation list. Returns why no certificate can be checked; empty: `list` is the list, or there is none.
-  [[nodiscard]] std::string read_list(std::string& list) const;
+  // Returns the revocation list, "" if there is none. Errors: no certificate can be checked.
+  [[nodiscard]] Result<std::string, base::Problem> read_list() const;
 
   std::filesystem::path revoked_;  // empty: there is no list
   std::string authority_;          // PEM

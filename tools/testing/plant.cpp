@@ -123,12 +123,13 @@ struct Plant::Impl {
   }
 
   [[nodiscard]] Part find(std::string_view text) const {
-    std::string message;
+    std::string unknown;
     std::optional<Part> found;
     for (const std::size_t board : boards_of(text)) {
       vars::Store& store = *stores[board];
-      auto place = schema::find_place(store.schema(), text, message);
+      auto place = schema::find_place(store.schema(), text);
       if (!place) {
+        unknown = place.error().message;
         continue;
       }
       const vars::DirectoryEntry* entry =
@@ -142,7 +143,7 @@ struct Plant::Impl {
       found = Part{std::move(place).value(), entry, &store, board};
     }
     if (!found) {
-      throw std::runtime_error(message);
+      throw std::runtime_error(unknown);
     }
     return *std::move(found);
   }
@@ -158,10 +159,9 @@ struct Plant::Impl {
   // Checks the range as `indurop set` and `force` do.
   static void check_range(const Part& part, std::string_view name, std::span<const std::uint8_t> bytes) {
     constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-    std::string message;
-    if (!schema::check_range(part.place.range.value_or(schema::Range{-kUnlimited, kUnlimited}), part.place.type, bytes,
-                             message)) {
-      throw std::runtime_error(fmt::format("{}: {}", name, message));
+    const schema::Range range = part.place.range.value_or(schema::Range{-kUnlimited, kUnlimited});
+    if (const auto inside = schema::check_range(range, part.place.type, bytes); !inside) {
+      throw std::runtime_error(fmt::format("{}: {}", name, inside.error().message));
     }
   }
 
@@ -309,9 +309,8 @@ void Plant::bytes(std::string_view name, std::span<std::uint8_t> to) const {
 void Plant::set_text(std::string_view name, const std::string& text, bool hold) {
   const Impl::Part part = impl_->find(name);
   std::vector<std::uint8_t> bytes = Impl::read(part);
-  std::string message;
-  if (!schema::parse_value(part.place.type, text, bytes, message)) {
-    throw std::runtime_error(fmt::format("{}: {}", name, message));
+  if (const auto read = schema::parse_value(part.place.type, text, bytes); !read) {
+    throw std::runtime_error(fmt::format("{}: {}", name, read.error().message));
   }
   Impl::check_range(part, name, bytes);
   if (!hold) {

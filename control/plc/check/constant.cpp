@@ -16,23 +16,33 @@ using ast::Operator;
 // Larger numbers are never IEC values.
 constexpr Integer kMaxInteger = Integer{1} << 64U;
 
+using Applied = Result<Constant, base::Problem>;
+
+base::Problem of_other_kinds() {
+  return {"these numbers cannot be combined so"};
+}
+
+Applied division_by_zero() {
+  return base::Problem{"division by zero, correct the divisor"};
+}
+
 template <class T>
-std::optional<Constant> compare(Operator op, const T& a, const T& b) {
+Applied compare(Operator op, const T& a, const T& b) {
   switch (op) {
     case Operator::Less:
-      return a < b;
+      return Constant(a < b);
     case Operator::Greater:
-      return a > b;
+      return Constant(a > b);
     case Operator::LessEqual:
-      return a <= b;
+      return Constant(a <= b);
     case Operator::GreaterEqual:
-      return a >= b;
+      return Constant(a >= b);
     case Operator::Equal:
-      return a == b;
+      return Constant(a == b);
     case Operator::NotEqual:
-      return a != b;
+      return Constant(a != b);
     default:
-      return std::nullopt;
+      return of_other_kinds();
   }
 }
 
@@ -62,8 +72,8 @@ std::optional<Integer> power(Integer base, Integer exponent) {
   return out;
 }
 
-std::optional<Constant> integers(Operator op, Integer a, Integer b, std::string& why) {
-  std::optional<Integer> out;
+Applied integers(Operator op, Integer a, Integer b) {
+  Integer out = 0;
   switch (op) {
     case Operator::Add:
       out = a + b;
@@ -77,14 +87,13 @@ std::optional<Constant> integers(Operator op, Integer a, Integer b, std::string&
     case Operator::Divide:
     case Operator::Modulo:
       if (b == 0) {
-        why = "division by zero, correct the divisor";
-        return std::nullopt;
+        return division_by_zero();
       }
       out = op == Operator::Divide ? a / b : a % b;
       break;
     case Operator::Power:
       if (b < 0) {
-        return std::nullopt;
+        return of_other_kinds();
       }
       out = power(a, b).value_or(kMaxInteger);
       break;
@@ -100,52 +109,46 @@ std::optional<Constant> integers(Operator op, Integer a, Integer b, std::string&
     default:
       return compare(op, a, b);
   }
-  if (*out >= kMaxInteger || *out <= -kMaxInteger) {
-    why = "the result does not fit 64 bits, correct the numbers";
-    return std::nullopt;
+  if (out >= kMaxInteger || out <= -kMaxInteger) {
+    return base::Problem{"the result does not fit 64 bits, correct the numbers"};
   }
-  return *out;
+  return Constant(out);
 }
 
 // Returns a constant unless it is infinite or NaN: such results are left to the run time, which knows how to treat
 // them.
-std::optional<Constant> finite(double value, std::string& why) {
+Applied finite(double value) {
   if (!std::isfinite(value)) {
-    why = "the result is no number that LREAL holds, correct the numbers";
-    return std::nullopt;
+    return base::Problem{"the result is no number that LREAL holds, correct the numbers"};
   }
-  return value;
+  return Constant(value);
 }
 
-std::optional<Constant> reals(Operator op, double a, double b, std::string& why) {
+Applied reals(Operator op, double a, double b) {
   switch (op) {
     case Operator::Add:
-      return finite(a + b, why);
+      return finite(a + b);
     case Operator::Subtract:
-      return finite(a - b, why);
+      return finite(a - b);
     case Operator::Multiply:
-      return finite(a * b, why);
+      return finite(a * b);
     case Operator::Divide:
-      if (b == 0) {
-        why = "division by zero, correct the divisor";
-        return std::nullopt;
-      }
-      return finite(a / b, why);
+      return b == 0 ? division_by_zero() : finite(a / b);
     case Operator::Power:
-      return finite(std::pow(a, b), why);
+      return finite(std::pow(a, b));
     default:
       return compare(op, a, b);
   }
 }
 
-std::optional<Constant> booleans(Operator op, bool a, bool b) {
+Applied booleans(Operator op, bool a, bool b) {
   switch (op) {
     case Operator::And:
-      return a && b;
+      return Constant(a && b);
     case Operator::Or:
-      return a || b;
+      return Constant(a || b);
     case Operator::Xor:
-      return a != b;
+      return Constant(a != b);
     default:
       return compare(op, a, b);
   }
@@ -161,26 +164,30 @@ std::optional<double> as_double(const Constant& value) noexcept {
 
 }  // namespace
 
-std::optional<Constant> apply(Operator op, const Constant& a, std::string& why) {
-  if (const auto* flag = std::get_if<bool>(&a)) {
-    return op == Operator::Not ? std::optional<Constant>(!*flag) : std::nullopt;
+Result<Constant, base::Problem> apply(Operator op, const Constant& a) {
+  const auto* flag = std::get_if<bool>(&a);
+  if (flag != nullptr && op == Operator::Not) {
+    return Constant(!*flag);
   }
   if (const auto* integer = std::get_if<Integer>(&a); integer != nullptr && op == Operator::Negate) {
-    return integers(Operator::Subtract, 0, *integer, why);
+    return integers(Operator::Subtract, 0, *integer);
   }
   if (const auto* real = std::get_if<double>(&a); real != nullptr && op == Operator::Negate) {
-    return -*real;
+    return Constant(-*real);
   }
-  return op == Operator::Plus ? std::optional(a) : std::nullopt;
+  if (flag == nullptr && op == Operator::Plus) {
+    return a;
+  }
+  return of_other_kinds();
 }
 
-std::optional<Constant> apply(Operator op, const Constant& a, const Constant& b, std::string& why) {
+Result<Constant, base::Problem> apply(Operator op, const Constant& a, const Constant& b) {
   if (a.index() == b.index()) {
     if (const auto* flag = std::get_if<bool>(&a)) {
       return booleans(op, *flag, std::get<bool>(b));
     }
     if (const auto* integer = std::get_if<Integer>(&a)) {
-      return integers(op, *integer, std::get<Integer>(b), why);
+      return integers(op, *integer, std::get<Integer>(b));
     }
     if (const auto* text = std::get_if<std::string>(&a)) {
       return compare(op, *text, std::get<std::string>(b));
@@ -188,7 +195,7 @@ std::optional<Constant> apply(Operator op, const Constant& a, const Constant& b,
   }
   const auto x = as_double(a);
   const auto y = as_double(b);
-  return x && y ? reals(op, *x, *y, why) : std::nullopt;
+  return x && y ? reals(op, *x, *y) : of_other_kinds();
 }
 
 bool fits(const Constant& value, const Type& type) noexcept {

@@ -3,12 +3,15 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
 
 #include "control/plc/check/type.h"
+#include "core/base/problem.h"
 
 namespace indurop::plc {
 
@@ -17,10 +20,9 @@ __extension__ using Integer = __int128;
 
 using Constant = std::variant<bool, Integer, double, std::string>;
 
-// Returns the result of an operator on constants of one kind. Returns none and sets `why` if it has no value (5 / 0);
-// returns none and leaves `why` empty if the operands are of different kinds.
-[[nodiscard]] std::optional<Constant> apply(ast::Operator op, const Constant& a, std::string& why);
-[[nodiscard]] std::optional<Constant> apply(ast::Operator op, const Constant& a, const Constant& b, std::string& why);
+// Returns the result of an operator on constants. Errors: it has no value (5 / 0), or the operands are not of one kind.
+[[nodiscard]] Result<Constant, base::Problem> apply(ast::Operator op, const Constant& a);
+[[nodiscard]] Result<Constant, base::Problem> apply(ast::Operator op, const Constant& a, const Constant& b);
 
 // Returns whether the type can hold the value unchanged; a whole number fits a real.
 [[nodiscard]] bool fits(const Constant& value, const Type& type) noexcept;

@@ -109,10 +109,8 @@ const Type* OperationChecker::unary(Expression& expression, const Type* wanted) 
   }
   out.untyped = operand.resolved->untyped;
   if (const Constant* known = constant_of(operand)) {
-    std::string why;
-    out.constant = apply(expression.op, *known, why);
-    if (out.constant && !out.untyped) {
-      out.constant = stored(*out.constant, *operand.type);
+    if (auto applied = apply(expression.op, *known)) {
+      out.constant = out.untyped ? std::move(applied).value() : stored(*applied, *operand.type);
     }
   }
   return out.untyped ? context_.elementary(default_type(*out.constant)) : context_.elementary(operand.type->elementary);
@@ -174,13 +172,13 @@ const Type* OperationChecker::binary(Expression& expression, const Type* wanted)
   }
   const Constant& a = *constant_of(expression.operands[0]);
   const Constant& b = *constant_of(expression.operands[1]);
-  std::string why;
-  Resolved& out = resolved(expression);
-  out.constant = apply(expression.op, a, b, why);
-  if (!out.constant) {
-    context_.error(expression.at, why.empty() ? "these numbers cannot be combined so" : why);
+  auto applied = apply(expression.op, a, b);
+  if (!applied) {
+    context_.error(expression.at, applied.error().text);
     return nullptr;
   }
+  Resolved& out = resolved(expression);
+  out.constant = std::move(applied).value();
   if (loses_fraction(expression, a, b, wanted)) {
     context_.warning(expression.at, fmt::format("{0} / {1} is {2}, a division of whole numbers; write {0}.0 / {1}.0",
                                                 to_string(a), to_string(b), to_string(*out.constant)));
@@ -294,9 +292,8 @@ void OperationChecker::fold(Expression& expression, const Type& operand) {
   if (a == nullptr || b == nullptr || operand.is(Elementary::Wstring)) {
     return;  // the order of UTF-16 differs from that of UTF-8
   }
-  std::string why;
-  auto known = apply(expression.op, operand.is_text() ? *a : stored(*a, operand),
-                     operand.is_text() ? *b : stored(*b, operand), why);
+  const auto known =
+      apply(expression.op, operand.is_text() ? *a : stored(*a, operand), operand.is_text() ? *b : stored(*b, operand));
   const bool compares = expression.op >= Operator::Less && expression.op <= Operator::NotEqual;
   if (known && (compares || holds(operand, *known))) {
     resolved(expression).constant = compares ? *known : stored(*known, operand);

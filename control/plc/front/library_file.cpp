@@ -60,11 +60,10 @@ std::string to_text(const LibraryFile& library) {
   return out;
 }
 
-std::optional<LibraryFile> read_library(std::string_view text, std::string& why) {
+Result<LibraryFile, base::Problem> read_library(std::string_view text) {
   LibraryFile out;
   if (!line_of(text, kFirstLine)) {
-    why = "this is no library, make one with indurop plc lib";
-    return std::nullopt;
+    return base::Problem{"this is no library, make one with indurop plc lib"};
   }
   const auto name = line_of(text, "name");
   const auto version = line_of(text, "version");
@@ -75,8 +74,7 @@ std::optional<LibraryFile> read_library(std::string_view text, std::string& why)
     fine = source && source_of(*source, text, out);
   }
   if (!fine) {
-    why = "this library is damaged, make it again with indurop plc lib";
-    return std::nullopt;
+    return base::Problem{"this library is damaged, make it again with indurop plc lib"};
   }
   out.name = *name;
   out.version = *version;

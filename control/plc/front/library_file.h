@@ -3,12 +3,15 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "control/plc/model/dialect.h"
+#include "core/base/problem.h"
 
 namespace indurop::plc {
 
@@ -25,8 +28,8 @@ struct LibraryFile {
 };
 
 [[nodiscard]] std::string to_text(const LibraryFile& library);
-// Returns none and sets `why` if it is not such a file.
-[[nodiscard]] std::optional<LibraryFile> read_library(std::string_view text, std::string& why);
+// Errors: no such file, or a damaged one.
+[[nodiscard]] Result<LibraryFile, base::Problem> read_library(std::string_view text);
 
 // Returns true for "1", "1.2", "1.2.0".
 [[nodiscard]] bool is_version(std::string_view text) noexcept;

@@ -199,11 +199,10 @@ class FileReader {
     if (!text) {
       return;
     }
-    std::string why;
-    const auto read = read_library(*text, why);
+    const auto read = read_library(*text);
     const Place at = place_of(choice.file);
     if (!read) {
-      diagnostics_.error(at, why);
+      diagnostics_.error(at, read.error().text);
       return;
     }
     if (!choice.version.empty() && !does_for(read->version, choice.version)) {

@@ -64,8 +64,7 @@ bool read_value_literal(const schema::Type& type, std::string_view text, std::sp
     return literal.value && put_text(std::get<std::string>(*literal.value), bytes);
   }
   const Literal literal = literal_of(text);
-  std::string message;
-  return literal.value && schema::parse_value(type, plain(literal), bytes, message).ok();
+  return literal.value && schema::parse_value(type, plain(literal), bytes).ok();
 }
 
 }  // namespace indurop::plc

@@ -17,18 +17,17 @@ Program::Program(const Arm& arm, JobBook read, Clearance made)
       unplanned(clearance, false),
       to_rest(clearance, false) {}
 
-std::unique_ptr<Program> read_program(const FileNames& names, const std::string& urdf, std::string& error) {
+Result<std::unique_ptr<Program>, base::Problem> read_program(const FileNames& names, const std::string& urdf) {
   ReadFiles read = read_files(names);
   if (!read.errors.empty()) {
     base::Diagnostic first = read.errors.front();
     first.file = first.file.substr(first.file.rfind('/') + 1);
     const std::size_t more = read.errors.size() - 1;
-    error = base::to_string(first) + (more == 0 ? "" : "; " + std::to_string(more) + " more: indurop check");
-    return nullptr;
+    return base::Problem{base::to_string(first) +
+                         (more == 0 ? "" : "; " + std::to_string(more) + " more: indurop check")};
   }
   if (read.urdf != urdf) {
-    error = "the arm's description (property urdf) has changed; restart the node to use it";
-    return nullptr;
+    return base::Problem{"the arm's description (property urdf) has changed; restart the node to use it"};
   }
   return std::make_unique<Program>(read.model->arm, std::move(read.book), std::move(read.clearance));
 }

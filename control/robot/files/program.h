@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "control/robot/collision/collision_check.h"
 #include "control/robot/files/files.h"
 #include "control/robot/kinematics/tool_set.h"
+#include "core/base/problem.h"
 
 namespace indurop::robot {
 
@@ -28,8 +31,8 @@ struct Program {
   CollisionCheck planned, followed, unplanned, to_rest;
 };
 
-// Reads the job files again. Returns null, and the reason in `error` (one line, with the number of further errors), if
-// they or the surroundings have errors, or if the arm's description is no longer `urdf`.
-std::unique_ptr<Program> read_program(const FileNames& names, const std::string& urdf, std::string& error);
+// Reads the job files again. Errors (one line, with the number of further ones): they or the surroundings have errors,
+// or the arm's description is no longer `urdf`.
+Result<std::unique_ptr<Program>, base::Problem> read_program(const FileNames& names, const std::string& urdf);
 
 }  // namespace indurop::robot

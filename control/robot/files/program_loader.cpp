@@ -74,13 +74,20 @@ void ProgramLoader::look_for_work() noexcept {
 void ProgramLoader::read() noexcept {
   try {
     other_signals_ = false;
-    program_ = read_program(names_, urdf_, why_);
-    if (program_ != nullptr && program_->book.signals != *present_) {
-      other_signals_ = signals_->prepare(program_->book.signals, why_);
-      if (!other_signals_) {
-        program_.reset();
-      }
+    program_.reset();
+    auto program = read_program(names_, urdf_);
+    if (!program) {
+      why_ = program.error().text;
+      return;
     }
+    if ((*program)->book.signals != *present_) {
+      if (const auto prepared = signals_->prepare((*program)->book.signals); !prepared) {
+        why_ = prepared.error();
+        return;
+      }
+      other_signals_ = true;
+    }
+    program_ = std::move(program).value();
   } catch (const std::exception& wrong) {
     program_.reset();
     why_ = wrong.what();

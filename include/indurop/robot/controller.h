@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <indurop/result.h>
 #include <indurop/robot/commands.h>
 #include <indurop/robot/words.h>
 #include <indurop/string.h>
@@ -98,12 +99,11 @@ class Signals {
   // `index` is the position in Controller::signals().
   virtual double read(std::size_t index) noexcept = 0;
   virtual void write(std::size_t index, double value) noexcept = 0;
-  // Reloaded jobs use other variables: prepares access to them, while read() and write() continue as before. Returns
-  // false, with the reason in `why`, if it cannot. Called by a thread of the controller, or in the tick of a
-  // simulation; not real-time safe.
-  virtual bool prepare(const std::vector<std::string>& /*names*/, std::string& why) {
-    why = "the jobs name other variables than before; restart the node";
-    return false;
+  // Reloaded jobs use other variables: prepares access to them, while read() and write() continue as before. The error
+  // is one line: why it cannot, and what to do. Called by a thread of the controller, or in the tick of a simulation;
+  // not real-time safe.
+  virtual Result<void, std::string> prepare(const std::vector<std::string>& /*names*/) {
+    return std::string("the jobs name other variables than before; restart the node");
   }
   // Switches to the prepared variables. Real-time safe.
   virtual void adopt() noexcept {}

@@ -183,12 +183,15 @@ void ExternalTopic::take_over(const std::uint8_t* sample, bool by_tool) noexcept
   tidy_texts(known.type, scratch_);
   std::string message = by_tool ? locked() : std::string();
   message = message.empty() ? strange_value(known.type, scratch_) : message;
-  const schema::Range range = known.range.value_or(schema::Range{-kUnlimited, kUnlimited});
-  bool taken = message.empty() && schema::check_range(range, known.type, scratch_, message).ok();
-  if (taken && !store_.write(entry_, 0, scratch_)) {
-    taken = false;
+  if (message.empty()) {
+    const schema::Range range = known.range.value_or(schema::Range{-kUnlimited, kUnlimited});
+    const auto inside = schema::check_range(range, known.type, scratch_);
+    message = inside ? "" : inside.error().message;
+  }
+  if (message.empty() && !store_.write(entry_, 0, scratch_)) {
     message = "its write lock is held by a stopped process";
   }
+  const bool taken = message.empty();
   (taken ? block_.received : block_.refused).fetch_add(1, kRelaxed);
   if (!taken) {
     refusal_ = fmt::format("a value for {} from outside is rejected: {}", known.name, message);

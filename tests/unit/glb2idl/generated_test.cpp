@@ -103,9 +103,8 @@ class Generated : public ::testing::Test {
   // The bytes that the schema says belong to "all.path[1][0].x" and the like.
   template <class T>
   [[nodiscard]] T bytes(const std::string& text) const {
-    std::string message;
-    const auto place = schema::find_place(schema_, text, message);
-    EXPECT_TRUE(place.ok()) << message;
+    const auto place = schema::find_place(schema_, text);
+    EXPECT_TRUE(place.ok()) << text;
     EXPECT_EQ(place->type.size(), sizeof(T)) << text;
     const Ref* ref = memory().refs.at(place->variable->name);
     const unsigned char* value = static_cast<unsigned char*>(ref->entry);

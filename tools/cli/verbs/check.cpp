@@ -41,7 +41,7 @@ Table variable_table(const CheckedConfig& checked) {
   Table table({{"VARIABLE", "name"}, {"TYPE", "type"}, {"WRITTEN BY", "writers"}, {"READ BY", "readers"}});
   const schema::PlaceIndex index(checked.check.schema);
   for (const auto& use : checked.check.uses) {
-    const auto place = index.find(use.name, nullptr);
+    const auto place = index.find(use.name, schema::NearestName::Skip);
     const std::string type = place ? schema::display_name(place->type) : "?";
     const auto names = [](const std::vector<std::string>& list) {
       return Cell(list.empty() ? "-" : fmt::format("{}", fmt::join(list, ", ")), JsonValue(list), Style::None);

@@ -71,7 +71,7 @@ std::vector<Difference> compare(const vars::Store& store, const Recipe& recipe) 
   std::vector<Difference> all;
   for (const auto& [name, value] : recipe.values) {
     Difference one{name, value, {}, false};
-    const auto place = index.find(name, nullptr);
+    const auto place = index.find(name, schema::NearestName::Skip);
     const auto* entry = place.ok() ? store.find(place.value().variable->name_hash()) : nullptr;
     if (entry != nullptr) {
       if (const auto bytes = operate::read(store, {name, place.value(), entry})) {

@@ -63,12 +63,11 @@ bool is_number(const schema::Type& type) {
 // Finds shared variables that jobs name and no module of the board declares; the node would not start.
 void check_variables(const robot::Findings& found, const schema::Schema& schema, std::vector<base::Diagnostic>& all) {
   for (const robot::NamedVariable& one : found.variables) {
-    std::string message;
-    const auto place = schema::find_place(schema, one.name, message);
+    const auto place = schema::find_place(schema, one.name);
     if (!place || !is_number(place->type)) {
       all.push_back({base::Diagnostic::Severity::Error, one.file, one.place,
                      place ? fmt::format("'{}' is not a number or bool; name a part that is one", one.name)
-                           : fmt::format("{} (jobs name variables of this board's modules)", message)});
+                           : fmt::format("{} (jobs name variables of this board's modules)", place.error().message)});
     }
   }
 }

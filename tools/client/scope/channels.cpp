@@ -56,10 +56,9 @@ class Planner {
 
  private:
   Result<schema::Place, Problem> place_of(std::string_view name) const {
-    std::string message;
-    auto place = schema::find_place(schema_, name, message);
+    auto place = schema::find_place(schema_, name);
     if (!place) {
-      return Problem{message.empty() ? fmt::format("there is no variable '{}'", name) : message};
+      return Problem{place.error().message};
     }
     return std::move(place).value();
   }

@@ -51,8 +51,7 @@ int take_board(Access& access, const vars::Store& store, std::string& name, std:
   name.resize(at);
   std::string pattern = name;
   if (!is_glob(name)) {
-    std::string message;
-    const auto place = schema::find_place(store.schema(), name, message);
+    const auto place = schema::find_place(store.schema(), name);
     pattern = place.ok() ? place.value().variable->name : name;
   }
   const std::string problem = access.values->prefer(pattern, board);

@@ -43,8 +43,7 @@ void WatchSource::attach_again(Access& access) {
   ++reconnects_;
   store_ = std::move(fresh).value();
   for (WatchedValue& value : values_) {
-    std::string message;
-    const auto place = schema::find_place(store_->schema(), value.item.name, message);
+    const auto place = schema::find_place(store_->schema(), value.item.name);
     const auto* entry = place.ok() ? store_->find(place.value().variable->name_hash()) : nullptr;
     value.gone = entry == nullptr;
     value.changed = true;

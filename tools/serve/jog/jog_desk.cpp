@@ -58,9 +58,8 @@ Result<JogDesk::Switch, Problem> JogDesk::switch_of(const vars::Store& store, co
   if (entry == nullptr) {
     return Problem{fmt::format("there is no {}", name)};
   }
-  std::string message;
-  const auto beat = schema::find_place(store.schema(), name + ".nBeat", message);
-  const auto speed = schema::find_place(store.schema(), name + ".dSpeed", message);
+  const auto beat = schema::find_place(store.schema(), name + ".nBeat");
+  const auto speed = schema::find_place(store.schema(), name + ".dSpeed");
   if (!beat || !speed || speed->type.dims.size() != 1 || beat->type.base != schema::Base::UInt32) {
     return Problem{
         fmt::format("{} has no nBeat: its robot was built with an older release and cannot be jogged remotely", name)};

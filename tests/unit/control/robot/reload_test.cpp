@@ -24,12 +24,11 @@ class Named final : public Signals {
   explicit Named(const std::vector<std::string>& names) : present_(names) {}
   double read(std::size_t index) noexcept override { return values[present_[index]]; }
   void write(std::size_t index, double value) noexcept override { values[present_[index]] = value; }
-  bool prepare(const std::vector<std::string>& names, std::string& why) override {
+  Result<void, std::string> prepare(const std::vector<std::string>& names) override {
     next_ = names;
     const bool known =
         std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.rfind("unknown", 0) == 0; });
-    why = known ? "" : "there is no variable unknown";
-    return known;
+    return known ? Result<void, std::string>() : std::string("there is no variable unknown");
   }
   void adopt() noexcept override { std::swap(present_, next_); }
 

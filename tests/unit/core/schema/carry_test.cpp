@@ -298,8 +298,8 @@ class Oracle {
 
 std::vector<std::uint8_t> bytes_of(const Type& type, const std::string& text) {
   std::vector<std::uint8_t> bytes(type.size());
-  std::string message;
-  EXPECT_TRUE(parse_value(type, text, bytes, message).ok()) << text << ": " << message << " " << display_name(type);
+  const auto parsed = parse_value(type, text, bytes);
+  EXPECT_TRUE(parsed.ok()) << text << ": " << parsed.error().message << " " << display_name(type);
   return bytes;
 }
 

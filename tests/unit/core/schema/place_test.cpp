@@ -34,23 +34,26 @@ class Place_of_a_name : public testing::Test {
   }
 
   Place found(std::string_view text) {
-    message_.clear();
-    auto sut = find_place(schema_, text, message_);
-    EXPECT_TRUE(sut.ok()) << text << ": " << message_;
-    const auto same = PlaceIndex(schema_).find(text, nullptr);
+    auto sut = find_place(schema_, text);
+    EXPECT_TRUE(sut.ok()) << text << ": " << sut.error().message;
+    const auto same = PlaceIndex(schema_).find(text, NearestName::Skip);
     EXPECT_TRUE(same.ok() && same->variable == sut->variable && same->offset == sut->offset) << text;
     return sut.ok() ? sut.value() : Place{};
   }
   Errc failed(std::string_view text) {
-    message_.clear();
-    const auto sut = find_place(schema_, text, message_);
-    EXPECT_FALSE(sut.ok()) << text;
-    EXPECT_FALSE(message_.empty());
-    std::string message;
-    const auto same = PlaceIndex(schema_).find(text, &message);
-    EXPECT_FALSE(same.ok()) << text;
-    EXPECT_EQ(message, message_);
-    return sut.ok() ? Errc::Ok : sut.error().code;
+    const auto sut = find_place(schema_, text);
+    const auto same = PlaceIndex(schema_).find(text, NearestName::Search);
+    const auto shorter = PlaceIndex(schema_).find(text, NearestName::Skip);
+    EXPECT_FALSE(sut.ok() || same.ok() || shorter.ok()) << text;
+    if (sut.ok() || same.ok() || shorter.ok()) {
+      return Errc::Ok;
+    }
+    message_ = sut.error().message;
+    EXPECT_NE(message_, "");
+    EXPECT_EQ(same.error().message, message_);
+    EXPECT_EQ(shorter.error().code, sut.error().code);
+    EXPECT_NE(shorter.error().message, "");
+    return sut.error().code;
   }
 
   Schema schema_;
@@ -146,16 +149,14 @@ TEST_F(Place_of_a_name, Wrong_indices_and_forms_say_what_to_do) {
 }
 
 TEST_F(Place_of_a_name, Empty_schema_has_nothing) {
-  std::string message;
-  EXPECT_FALSE(find_place({}, "joints", message).ok());
+  EXPECT_FALSE(find_place({}, "joints").ok());
 }
 
 TEST_F(Place_of_a_name, And_the_name_of_a_place) {
   for (const char* name : {"knu::Robot::tick", "knu::Robot::joints[9].y", "plant::grid[1][2]", "tool.n",
                            "tool.poses[3].p.at[2]", "tool.poses[1].p.label"}) {
-    std::string message;
-    const auto place = find_place(schema_, std::string("::") + name, message);
-    ASSERT_TRUE(place.ok()) << message;
+    const auto place = find_place(schema_, std::string("::") + name);
+    ASSERT_TRUE(place.ok()) << name;
     const Part part = part_at(*place->variable, place->offset);
     EXPECT_EQ(part.name, name);
     EXPECT_EQ(canonical(part.type), canonical(place->type));

@@ -35,9 +35,8 @@ Type mixed() {
 void compare(const std::string& field, const std::string& value, bool written, const Bytes& bytes) {
   const Type type = mixed();
   Bytes expected(type.size(), 1);
-  std::string message;
-  const bool parsed = parse_value(type, "{" + field + ": " + value + "}", expected, message).ok();
-  EXPECT_EQ(written, parsed) << field << ": " << value << " " << message;
+  const auto parsed = parse_value(type, "{" + field + ": " + value + "}", expected);
+  EXPECT_EQ(written, parsed.ok()) << field << ": " << value << " " << (parsed ? "" : parsed.error().message);
   EXPECT_EQ(bytes, expected) << field << ": " << value;
 }
 

@@ -68,8 +68,7 @@ class HeldValues : public ::testing::Test {
     const DirectoryEntry* entry = sut_->find(hash(name));
     const schema::Type& type = sut_->schema().variables[entry->schema_index].type;
     HeldValue made{entry, 0, type, std::vector<std::uint8_t>(type.size()), {}};
-    std::string message;
-    EXPECT_TRUE(schema::parse_value(type, text, made.bytes, message).ok()) << message;
+    EXPECT_TRUE(schema::parse_value(type, text, made.bytes).ok()) << text;
     made.parts = parts_to_hold(type, text, made.bytes);
     return made;
   }

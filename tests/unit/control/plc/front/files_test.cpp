@@ -170,12 +170,11 @@ TEST(PlcFiles, A_damaged_library_is_refused) {
   library.version = "1.2.0";
   library.sources = {{"a.st", "FUNCTION A : INT A := 1; END_FUNCTION\n"}, {"b.st", "\n\n"}};
   const std::string text = to_text(library);
-  std::string why;
-  const auto back = read_library(text, why);
-  ASSERT_TRUE(back) << why;
+  const auto back = read_library(text);
+  ASSERT_TRUE(back) << back.error().text;
   EXPECT_EQ(to_text(*back), text);
   for (std::size_t length = 0; length + 1 < text.size(); ++length) {
-    const auto cut = read_library(std::string_view(text).substr(0, length), why);
+    const auto cut = read_library(std::string_view(text).substr(0, length));
     EXPECT_TRUE(!cut || cut->sources.size() < 2) << length;
   }
   EXPECT_FALSE(is_version("1..2"));
