@@ -34,7 +34,7 @@ Result<std::string, base::Problem> signer_of(const Command& command, const UserS
 
 // Returns why the user may not give such a command to the board; empty: the role suffices, and the board is one of the
 // user's. `users`: the list.
-std::string beyond_role(const config::PlantUsers& users, const std::string& user, Action action,
+std::string beyond_role(const config::PlantUsers& users, const std::string& name, Action action,
                         const std::string& board);
 // Returns why the user may not change the variable or a part of it; empty: allowed.
 std::string beyond_variables(const config::PlantUser& user, const std::string& name);

@@ -23,8 +23,6 @@
 #include "deploy/transaction/release_package.h"
 #include "deploy/words/deployment_words.h"
 
-extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to the program
-
 namespace indurop::deploy {
 namespace {
 
