@@ -3,7 +3,7 @@
 
 namespace indurop::node {
 
-// A variable of exactly this place and size counts, else the smallest one around the address.
+// A variable of exactly this place and size counts, else the smallest one around all that it leads to.
 std::optional<std::uint64_t> Relocation::find(const StateAddress& address) const {
   const auto to = reinterpret_cast<std::uintptr_t>(address.to);
   if (to == 0 || address.ended != 0) {
@@ -14,7 +14,7 @@ std::optional<std::uint64_t> Relocation::find(const StateAddress& address) const
     if (one.before == to && one.size == address.size) {
       return one.now;
     }
-    const bool inside = to >= one.before && to - one.before < one.size;
+    const bool inside = to >= one.before && to - one.before < one.size && address.size <= one.size - (to - one.before);
     best = inside && (best == nullptr || one.size < best->size) ? &one : best;
   }
   return best == nullptr ? std::nullopt : std::optional(best->now + (to - best->before));

@@ -26,10 +26,10 @@ def differing(done):
     return "" if done.returncode == 0 and repeated and not in_doubt else output
 
 
-def box_of(cell, node):
+def box_of(cell, node, reason):
     """The file of the black box that was asked for; None: it is not there yet."""
     boxes = json.loads(cell.indurop("blackbox", "list", "--node", node, "-o", "json").stdout)["boxes"]
-    return next((box["file"] for box in boxes if "in the middle of the tour" in json.dumps(box)), None)
+    return next((box["file"] for box in boxes if box["reason"] == reason), None)
 
 
 def main():
@@ -50,10 +50,11 @@ def main():
                 time.sleep(random.uniform(0, 3))  # somewhere in the tour
                 done = cell.indurop("record", "--node", node, "-o", f"{i}.mcap", "--duration", "2s")
                 assert done.returncode == 0, done.stderr
-            done = cell.indurop("blackbox", "keep", "in the middle of the tour", "--node", node)
+            reason = f"in the middle of the tour of {os.getpid()} at {time.time():.0f}"
+            done = cell.indurop("blackbox", "keep", reason, "--node", node)
             assert done.returncode == 0, done.stderr
-            cell.wait("the black box", lambda: box_of(cell, node) is not None)
-            shutil.copy(box_of(cell, node), os.path.join(folder, "box.mcap"))
+            cell.wait("the black box", lambda: box_of(cell, node, reason) is not None)
+            shutil.copy(box_of(cell, node, reason), os.path.join(folder, "box.mcap"))
         for name in [*(str(i) for i in range(arguments.recordings)), "box"]:
             done = cell.indurop("replay", f"{name}.mcap", "--node", f"{node}_replay")
             wrong = differing(done)
