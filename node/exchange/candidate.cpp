@@ -124,7 +124,8 @@ Candidate make_candidate(const CandidateTask& task) {
   }
   if (candidate.errors.empty()) {
     candidate.library.prefault();
-    candidate.carry = plan_carry(task.running.memory(), candidate.library.memory());
+    candidate.carry = plan_carry(task.running.memory(), candidate.library.memory(),
+                                 most_in_tick(task.config.modules[task.module].period.count()));
   }
   return candidate;
 }

@@ -94,13 +94,20 @@ std::string why_fresh(const ModuleMemory& from, const ModuleMemory& to) {
 
 }  // namespace
 
-Carry plan_carry(const ModuleMemory& from, const ModuleMemory& to) {
+std::size_t most_in_tick(std::int64_t period_ns) noexcept {
+  constexpr std::int64_t kNsForOneByte = 20;  // of the period
+  constexpr std::int64_t kNotPeriodicNs = 100'000;
+  const std::int64_t bytes = (period_ns > 0 ? period_ns : kNotPeriodicNs) / kNsForOneByte;
+  return std::min(static_cast<std::size_t>(bytes), kMostInTick);
+}
+
+Carry plan_carry(const ModuleMemory& from, const ModuleMemory& to, std::size_t most) {
   Carry carry;
   carry.plan.why_not = why_fresh(from, to);
   if (carry.plan.why_not.empty() && !from.is_empty()) {
     compare_items(from, to, carry);
     carry.plan.with_state = true;
-    carry.between_runs = from.uses_functions() || from.has_addresses() || carry.plan.bytes > kMostInTick;
+    carry.between_runs = from.uses_functions() || from.has_addresses() || carry.plan.bytes > most;
   }
   if (from.uses_functions() || from.has_addresses()) {
     carry.plan.bytes = from.most();

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "node/modules/module_memory.h"
@@ -13,8 +14,10 @@
 
 namespace indurop::node {
 
-// Maximum number of bytes that are copied in a tick. More is copied between two runs, on a normal thread.
-inline constexpr std::size_t kMostInTick = std::size_t{64} * 1024;
+// Maximum number of bytes that are copied in a tick, for a module of this period (ns; 0: it is not periodic): what
+// takes a hundredth of it, at 5 bytes in a nanosecond. More is copied between two runs, on a normal thread.
+std::size_t most_in_tick(std::int64_t period_ns) noexcept;
+inline constexpr std::size_t kMostInTick = std::size_t{64} * 1024;  // whatever the period
 
 struct Carry {
   operate::ReloadPlan plan;
@@ -23,7 +26,7 @@ struct Carry {
   bool loses = false;                            // values are lost that the new version needs
 };
 
-// Compares what both keep. The pairs have the addresses of both.
-Carry plan_carry(const ModuleMemory& from, const ModuleMemory& to);
+// Compares what both keep. The pairs have the addresses of both. `most`: what may be copied in a tick.
+Carry plan_carry(const ModuleMemory& from, const ModuleMemory& to, std::size_t most = kMostInTick);
 
 }  // namespace indurop::node

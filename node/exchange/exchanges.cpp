@@ -112,7 +112,7 @@ void Exchanges::begin_back(std::uint32_t module, bool answered, scheduler::Excha
   work_->answered = answered;
   work_->reason = reason;
   work_->other = std::move(previous_.extract(module).mapped());
-  work_->carry = plan_carry(running().memory(), work_->other.memory());
+  work_->carry = plan_carry(running().memory(), work_->other.memory(), most_in_tick(record().period_ns));
   work_->report.module = record().name;
   work_->report.plan = work_->carry.plan;
   work_->report.from = running().digest();

@@ -6,6 +6,7 @@
 #include "core/rt/clock.h"
 #include "core/rt/copy_text.h"
 #include "node/exchange/exchanges.h"
+#include "store/operate/journal.h"
 #include "store/runtime/host.h"
 
 namespace indurop::node {
@@ -17,9 +18,16 @@ using scheduler::ModuleState;
 using scheduler::VersionState;
 
 constexpr std::chrono::seconds kNoGapFound{5};  // in addition to two periods
+constexpr std::int64_t kLongestGridNs = rt::kNanosPerSecond;
 constexpr std::chrono::milliseconds kEndPoll{1};
 constexpr int kCopiesInOneGo = 20;
 constexpr std::size_t kShownDigits = 12;
+
+// Modules that belong together meet at the beginning of a macro period; a long one is not waited for.
+std::uint64_t next_macro_period(const scheduler::RunBlock& run) {
+  const std::uint64_t next = run.tick.load();
+  return run.macro_period_ns > kLongestGridNs ? next : (next + run.slot_count - 1) / run.slot_count * run.slot_count;
+}
 
 std::string short_digest(const std::string& digest) {
   return digest.substr(0, kShownDigits);
@@ -49,6 +57,7 @@ void Exchanges::watch() {
   settings.pairs = carry.pairs;
   settings.offered = carry.between_runs;
   settings.can_return = !carry.between_runs && !work_->back;
+  settings.earliest_tick = next_macro_period(parts_.run);
   work_->saved.resize(carry.between_runs ? running().memory().most() : 0);
   work_->exchange = std::make_unique<Exchange>(std::move(settings));
   work_->skipped_before = record().skipped.load();
@@ -176,6 +185,10 @@ void Exchanges::report_return(Exchange::Reason reason) {
   work_->report.text = "the previous version runs again: " + why;
   work_->report.version = record().version.load() + 1;
   (void)operate::write_report(parts_.node, work_->report);
+  if (reason != Exchange::Reason::Command) {  // that one is noted by its client
+    operate::note(parts_.node, {rt::to_ns(parts_.store.now()), 0, "the node", "", "reload --back", record().name,
+                                "sha256:" + running().digest(), 0, why});
+  }
   set_version(VersionState::Returned);
   parts_.console.warning("module {}: version {} ({}), the previous one, runs again since tick {}: {}", record().name,
                          record().version.load(), short_digest(running().digest()), work_->report.tick, why);

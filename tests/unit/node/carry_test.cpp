@@ -140,6 +140,19 @@ TEST(CarryPlan, What_cannot_be_carried_is_said) {
   EXPECT_THAT(to_nothing.pairs, IsEmpty());
 }
 
+TEST(CarryPlan, A_tick_copies_a_hundredth_of_the_period_at_most) {
+  EXPECT_EQ(most_in_tick(100'000), 5000U);
+  EXPECT_EQ(most_in_tick(1'000'000), 50'000U);
+  EXPECT_EQ(most_in_tick(10'000'000), kMostInTick);
+  EXPECT_EQ(most_in_tick(0), 5000U);
+  Kept before;
+  before.add<int>("a", "int");
+  Kept after;
+  after.add<int>("a", "int");
+  EXPECT_FALSE(plan_carry(before.memory(), after.memory(), 4).between_runs);
+  EXPECT_TRUE(plan_carry(before.memory(), after.memory(), 3).between_runs);
+}
+
 TEST(CarryPlan, What_is_large_or_copied_by_functions_is_copied_between_two_runs) {
   std::vector<std::byte> much(kMostInTick + 1);
   StateItem item;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <indurop/indurop.h>
+#include <indurop/plc/program.h>
 
 #include <cstdlib>
 #include <sstream>
@@ -54,6 +55,38 @@ TEST(Refs, Move_to_the_store_and_back) {
   }
   EXPECT_EQ(tick, 1U);
   EXPECT_EQ(joints[2].x, 0.0);
+}
+
+// A version of a module that does not run sees the present values and changes nothing.
+TEST(Refs, Of_a_file_that_is_bound_apart_are_copies) {
+  TestNode node;
+  const Hosted hosted(node);
+  const void* const inside = &row_of(tick);
+  const auto* entry = node.store().find(indurop::abi::fnv1a64("knu::Robot::tick", 16));
+  const auto stored = [&] {
+    std::uint32_t value = 0;
+    EXPECT_TRUE(node.store().read(*entry, 0, {reinterpret_cast<std::uint8_t*>(&value), 4}));
+    return value;
+  };
+  tick = 42;
+  joints[2] = {1, 2, 3};
+  const std::uint32_t bindings = indurop_bindings();
+  indurop::runtime::bind_apart(inside);
+  EXPECT_EQ(tick, 42U);
+  EXPECT_EQ(joints[2].y, 2.0);
+  tick = 1000;
+  joints[2].y = -1;
+  EXPECT_EQ(tick, 1000U);
+  EXPECT_EQ(stored(), 42U);
+  indurop::runtime::bind_back(inside);
+  EXPECT_EQ(tick, 42U);
+  EXPECT_EQ(joints[2].y, 2.0);
+  tick = 43;
+  EXPECT_EQ(stored(), 43U);
+  indurop::runtime::bind_apart(inside);
+  EXPECT_EQ(tick, 43U) << "the copies are new each time";
+  indurop::runtime::bind_back(inside);
+  EXPECT_EQ(indurop_bindings(), bindings) << "others need not look up their addresses";
 }
 
 TEST(Refs, Of_another_type_stay_private_and_are_named) {
