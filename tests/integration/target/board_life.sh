@@ -28,9 +28,10 @@ tail -n +1 -f /tmp/agent.log | while read -r line; do echo "A $line"; done &
 if [ $old = no ]; then
   echo "N"
 else
-  until found=$(values) && [ -n "${found# }" ]; do sleep 0.2; done
-  echo "R$found"
-  echo "D $(indurop status --node b -o json | grep -o '"deployment":"[0-9a-f]*"' | cut -d'"' -f4)"
+  # A node that is starting has not restored its values yet.
+  until indurop status --node b -o json >/tmp/status 2>/dev/null && grep -q '"state":"running"' /tmp/status; do sleep 0.2; done
+  echo "R$(values)"
+  echo "D $(grep -o '"deployment":"[0-9a-f]*"' /tmp/status | cut -d'"' -f4)"
   echo "L $(ls $disk/agent/b/deployments | wc -l) $(ls $disk/agent/b/files | wc -l) $(ls $disk/agent/b/parts | wc -l)"
 fi
 
