@@ -172,10 +172,33 @@ bool copy_revoked(X509_CRL* into, const std::string& before) {
   return true;
 }
 
+// `names`: value of the extension subjectAltName; empty: the certificate has none.
+std::string issue(const Authority& authority, const std::string& key, const Identity& identity,
+                  const Validity& validity, const char* extended, const std::string& names,
+                  const char* usage = "critical,digitalSignature") {
+  const Key own = read_key(key);
+  const Key signing = read_key(authority.key);
+  const Cert issuer = read_cert(authority.certificate);
+  const Cert made(::X509_new());
+  const bool ok = own != nullptr && signing != nullptr && issuer != nullptr && made != nullptr &&
+                  fill(made.get(), own.get(), identity, validity) &&
+                  ::X509_set_issuer_name(made.get(), ::X509_get_subject_name(issuer.get())) == 1 &&
+                  add_extension(made.get(), issuer.get(), NID_basic_constraints, "critical,CA:FALSE") &&
+                  add_extension(made.get(), issuer.get(), NID_key_usage, usage) &&
+                  add_extension(made.get(), issuer.get(), NID_ext_key_usage, extended) &&
+                  (names.empty() || add_extension(made.get(), issuer.get(), NID_subject_alt_name, names.c_str())) &&
+                  add_extension(made.get(), issuer.get(), NID_authority_key_identifier, "keyid") &&
+                  ::X509_sign(made.get(), signing.get(), ::EVP_sha256()) != 0;
+  return ok ? pem_of(made.get()) : std::string{};
+}
+
 }  // namespace
 
 std::string make_key(KeyKind kind) {
-  const Key key(kind == KeyKind::P256 ? ::EVP_EC_gen("P-256") : ::EVP_PKEY_Q_keygen(nullptr, nullptr, "ED25519"));
+  constexpr unsigned int kRsaBits = 2048;
+  const Key key(kind == KeyKind::P256      ? ::EVP_EC_gen("P-256")
+                : kind == KeyKind::Rsa2048 ? ::EVP_RSA_gen(kRsaBits)
+                                           : ::EVP_PKEY_Q_keygen(nullptr, nullptr, "ED25519"));
   const Bio out = writing();
   return key != nullptr &&
                  ::PEM_write_bio_PKCS8PrivateKey(out.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) == 1
@@ -211,29 +234,6 @@ std::string make_authority(const std::string& key, const Identity& identity, con
   return ok ? pem_of(made.get()) : std::string{};
 }
 
-namespace {
-
-// `names`: value of the extension subjectAltName; empty: the certificate has none.
-std::string issue(const Authority& authority, const std::string& key, const Identity& identity,
-                  const Validity& validity, const char* usage, const std::string& names) {
-  const Key own = read_key(key);
-  const Key signing = read_key(authority.key);
-  const Cert issuer = read_cert(authority.certificate);
-  const Cert made(::X509_new());
-  const bool ok = own != nullptr && signing != nullptr && issuer != nullptr && made != nullptr &&
-                  fill(made.get(), own.get(), identity, validity) &&
-                  ::X509_set_issuer_name(made.get(), ::X509_get_subject_name(issuer.get())) == 1 &&
-                  add_extension(made.get(), issuer.get(), NID_basic_constraints, "critical,CA:FALSE") &&
-                  add_extension(made.get(), issuer.get(), NID_key_usage, "critical,digitalSignature") &&
-                  add_extension(made.get(), issuer.get(), NID_ext_key_usage, usage) &&
-                  (names.empty() || add_extension(made.get(), issuer.get(), NID_subject_alt_name, names.c_str())) &&
-                  add_extension(made.get(), issuer.get(), NID_authority_key_identifier, "keyid") &&
-                  ::X509_sign(made.get(), signing.get(), ::EVP_sha256()) != 0;
-  return ok ? pem_of(made.get()) : std::string{};
-}
-
-}  // namespace
-
 std::string make_certificate(const Authority& authority, const std::string& key, const Identity& identity,
                              const Validity& validity) {
   // Not for mail: a document signed with it is none of DDS Security's.
@@ -243,6 +243,12 @@ std::string make_certificate(const Authority& authority, const std::string& key,
 std::string make_server_certificate(const Authority& authority, const std::string& key, const Identity& identity,
                                     const std::string& names, const Validity& validity) {
   return issue(authority, key, identity, validity, "serverAuth", names);
+}
+
+std::string make_opcua_certificate(const Authority& authority, const std::string& key, const Identity& identity,
+                                   const std::string& names, const Validity& validity) {
+  return issue(authority, key, identity, validity, "serverAuth,clientAuth", names,
+               "critical,digitalSignature,nonRepudiation,keyEncipherment,dataEncipherment");
 }
 
 std::string make_revocation_list(const Authority& authority, const std::string& before,

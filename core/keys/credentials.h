@@ -14,7 +14,7 @@ namespace indurop::keys {
 
 using Instant = std::chrono::sys_seconds;  // UTC
 
-enum class KeyKind { P256, Ed25519 };
+enum class KeyKind { P256, Ed25519, Rsa2048 };
 
 // The holder of a certificate. `unit` may be empty.
 struct Identity {
@@ -56,6 +56,10 @@ std::string make_certificate(const Authority& authority, const std::string& key,
 // subjectAltName, "IP:192.168.1.5,DNS:cell.local".
 std::string make_server_certificate(const Authority& authority, const std::string& key, const Identity& identity,
                                     const std::string& names, const Validity& validity);
+// Makes a certificate of an OPC UA server (OPC 10000-6, 6.2.2) for `key`, which is RSA. `names` has its application
+// URI, "URI:urn:indurop:opcua:cell.local", too.
+std::string make_opcua_certificate(const Authority& authority, const std::string& key, const Identity& identity,
+                                   const std::string& names, const Validity& validity);
 // Makes a list that revokes certificates with these serial numbers, in addition to those of `before`, which may be
 // empty.
 std::string make_revocation_list(const Authority& authority, const std::string& before,

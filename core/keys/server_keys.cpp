@@ -41,20 +41,23 @@ bool is_host(const std::string& host) {
 }
 
 Result<ServerKeys, base::Problem> make_server_keys(const fs::path& keys, const std::string& name,
-                                                   const std::vector<std::string>& hosts, Instant until) {
+                                                   const std::vector<std::string>& hosts, Instant until,
+                                                   ServerKind kind) {
   const Authority authority = read_authority(keys);
   const auto facts = read_certificate(authority.certificate);
   if (!facts || authority.key.empty()) {
     return base::Problem{"there is no authority with its private key in " + keys.string()};
   }
+  const bool opcua = kind == ServerKind::OpcUa;
   const std::string whose = "servers/" + name;
   const ServerKeys made{keys / whose, keys / whose / "server.pem", keys / whose / "server.key"};
   std::error_code ignored;
   const bool renewed = fs::exists(made.key, ignored);
-  const std::string key = renewed ? read_text(made.key) : make_key(KeyKind::P256);
-  const std::string certificate =
-      make_server_certificate(authority, key, {facts->organisation, "server", name}, alternative_names(hosts),
-                              {instant_now() - std::chrono::days(1), until});
+  const std::string key = renewed ? read_text(made.key) : make_key(opcua ? KeyKind::Rsa2048 : KeyKind::P256);
+  const std::string names = (opcua ? "URI:urn:indurop:opcua:" + hosts.front() + "," : "") + alternative_names(hosts);
+  const auto issue = opcua ? &make_opcua_certificate : &make_server_certificate;
+  const std::string certificate = issue(authority, key, {facts->organisation, "server", name}, names,
+                                        {instant_now() - std::chrono::days(1), until});
   if (certificate.empty()) {
     return crypto_failed();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A client of OPC UA that a test drives: node client.mjs PACKAGES FOLDER. Each line of standard input is a request
 // {"do": NAME, ...}, each line of standard output its answer. Standard output has nothing else.
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { createInterface } from "node:readline";
 import { pathToFileURL } from "node:url";
@@ -46,10 +47,11 @@ const actions = {
       users: end.userIdentityTokens.map(({ tokenType }) => UserTokenType[tokenType]),
     }));
   },
-  async connect({ url, mode, policy, user, password }) {
+  // ca: accepts servers with a certificate of this authority only; else any.
+  async connect({ url, mode, policy, user, password, ca, revoked }) {
     client = OPCUAClient.create({
       endpointMustExist: false, securityMode: MessageSecurityMode[mode ?? "None"], securityPolicy: SecurityPolicy[policy ?? "None"],
-      connectionStrategy: { maxRetry: 0 }, requestedSessionTimeout: 60_000, clientCertificateManager: manager,
+      connectionStrategy: { maxRetry: 0 }, requestedSessionTimeout: 60_000, clientCertificateManager: ca ? await strict(ca, revoked) : manager,
     });
     try {
       await client.connect(url);
@@ -130,6 +132,15 @@ const actions = {
     return answer.statusCode.name;
   },
 };
+
+const der = (file, what) => Buffer.from(new RegExp(`-----BEGIN ${what}-----([^-]+)-----END`).exec(readFileSync(file, "utf8"))[1], "base64");
+async function strict(ca, revoked) {
+  const made = new ua.OPCUACertificateManager({ rootFolder: `${folder}/strict`, automaticallyAcceptUnknownCertificate: false });
+  await made.initialize();
+  await made.addIssuer(der(ca, "CERTIFICATE"), false, true);
+  await made.addRevocationList(der(revoked, "X509 CRL"), "issuers");
+  return made;
+}
 
 const manager = new ua.OPCUACertificateManager({ rootFolder: `${folder}/client`, automaticallyAcceptUnknownCertificate: true });
 await manager.initialize();

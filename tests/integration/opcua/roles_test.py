@@ -84,6 +84,8 @@ def test_values_of_every_kind_are_written(setting):
 def test_who_may_not_enter(setting):
     _, endpoint = begin(setting, anna=user("operate"))
     client = Client(setting, endpoint)
+    offered = client.do("endpoints", url=endpoint)
+    assert {kind for one in offered for kind in one["users"]} == {"UserName"}, offered
     refused(client.connect)
     assert "Bad" in refused(lambda: client.connect(user="anna", password="wrong", **SECURE))
     assert "Bad" in refused(lambda: client.connect(user="eve", password=PASSWORD, **SECURE))

@@ -228,6 +228,7 @@ Action declare(base::Options& app, Context& context) {
       verb("server", "Make or renew the TLS certificate of an indurop serve, by which browsers trust it", &make_server);
   made->add("name", "NAME", request->boards, "Name of the server; its files are in servers/NAME").required();
   made->add("--host", "HOST", request->hosts, "Addresses and names under which it is reached").required();
+  made->flag("--opcua", request->opcua, "For indurop-opcua instead; the first --host is the name in its URI");
   made->add("--days", "N", request->server_days, fmt::format("How long it is valid (default: {})", kServerDays))
       .range(1, kMostDays);
   return [chosen_action](Context& c) { return (*chosen_action)(c); };

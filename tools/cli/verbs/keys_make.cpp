@@ -246,13 +246,21 @@ int make_server(Context& context, const KeysRequest& request) {
     }
   }
   const keys::Instant end = keys::instant_now() + std::chrono::days(request.server_days);
-  const auto made = keys::make_server_keys(keys.folder(), request.boards.front(), request.hosts, end);
+  const auto made = keys::make_server_keys(keys.folder(), request.boards.front(), request.hosts, end,
+                                           request.opcua ? keys::ServerKind::OpcUa : keys::ServerKind::Tls);
   if (!made) {
     context.out.error(made.error().text);
     return kFailed;
   }
   context.out.line(fmt::format("made {} for {}, valid until {}", made->folder.string(), fmt::join(request.hosts, ", "),
                                keys::utc_text(end).substr(0, 10)));
+  if (request.opcua) {
+    context.out.note(
+        fmt::format("next: copy the folder to that host and start indurop-opcua --bind ADDRESS --host {} "
+                    "--cert {} --key {} there; clients trust it once they have {}/ca.pem as an authority",
+                    request.hosts.front(), made->certificate.string(), made->key.string(), keys.folder().string()));
+    return kOk;
+  }
   context.out.note(fmt::format(
       "next: copy the folder to that host and start indurop serve --bind ADDRESS --cert {} --key {} --users "
       "FILE there; browsers trust it once they have {}/ca.pem as an authority",

@@ -29,6 +29,7 @@ struct KeysRequest {
   std::vector<std::string> hosts;  // for server
   int days = kDefaultDays;
   int server_days = kServerDays;
+  bool opcua = false;   // for server
   bool finish = false;  // for rotate
 };
 

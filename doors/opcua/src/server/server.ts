@@ -103,7 +103,6 @@ export async function make_server(options: Options, users: Users): Promise<OPCUA
     securityModes: local ? [MessageSecurityMode.None, MessageSecurityMode.SignAndEncrypt] : [MessageSecurityMode.SignAndEncrypt],
     securityPolicies: [...(local ? [SecurityPolicy.None] : []), SecurityPolicy.Basic256Sha256, SecurityPolicy.Aes128_Sha256_RsaOaep],
     allowAnonymous: options.anonymous,
-    userTokenTypes: options.anonymous ? [UserTokenType.Anonymous, UserTokenType.UserName] : [UserTokenType.UserName],
     isAuditing: false,
     discoveryServerEndpointUrl: undefined,
     userManager: {
@@ -115,7 +114,15 @@ export async function make_server(options: Options, users: Users): Promise<OPCUA
     ...limits(options),
   } as any);
   await server.initialize();
+  refuse_user_certificates(server);
   return server;
+}
+
+// node-opcua offers signing in with a certificate in any case; who that is, `indurop serve` does not know.
+function refuse_user_certificates(server: OPCUAServer): void {
+  for (const description of server.endpoints.flatMap((endpoint) => endpoint.endpointDescriptions())) {
+    description.userIdentityTokens = (description.userIdentityTokens ?? []).filter(({ tokenType }) => tokenType !== UserTokenType.Certificate);
+  }
 }
 
 // What clients may do in the namespace of the boards: those without a role to write see a variable as read-only.
