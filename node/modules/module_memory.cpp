@@ -129,7 +129,7 @@ std::size_t ModuleMemory::save(std::span<std::byte> to) const {
     at += item.bytes();
   }
   for (std::size_t i = 0; has_addresses_ && i < items_.size(); ++i, at += sizeof(std::uint64_t)) {
-    const std::uint64_t place = reinterpret_cast<std::uintptr_t>(items_[i].address);
+    const auto place = reinterpret_cast<std::uintptr_t>(items_[i].address);
     std::memcpy(to.data() + at, &place, sizeof place);
   }
   if (!uses_functions()) {

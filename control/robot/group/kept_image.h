@@ -27,7 +27,7 @@ class KeptImage {
   // meanwhile: then the bytes are of no use, but nothing else happens.
   [[nodiscard]] std::size_t save(std::span<std::byte> to) const noexcept;
   // Puts bytes of save() back. Returns false, and changes nothing, if they are of other blocks.
-  [[nodiscard]] bool restore(std::span<const std::byte> from) noexcept;
+  [[nodiscard]] bool restore(std::span<const std::byte> bytes) noexcept;
 
  private:
   using Word = std::uint64_t;
