@@ -32,10 +32,9 @@ Result<GuardCondition, base::Problem> GuardCondition::parse(std::string_view tex
     if (at == std::string_view::npos) {
       continue;
     }
-    std::string message;
-    const auto place = schema::find_place(store.schema(), base::trimmed(text.substr(0, at)), message);
+    const auto place = schema::find_place(store.schema(), base::trimmed(text.substr(0, at)));
     if (!place) {
-      return wrong(text, message);
+      return wrong(text, place.error().message);
     }
     GuardCondition guard;
     guard.text_ = text;
@@ -44,8 +43,9 @@ Result<GuardCondition, base::Problem> GuardCondition::parse(std::string_view tex
     guard.entry_ = store.find(place->variable->name_hash());
     guard.condition_.comparison = comparison;
     std::vector<std::uint8_t> limit(guard.type_.size());
-    if (!schema::parse_value(guard.type_, base::trimmed(text.substr(at + symbol.size())), limit, message)) {
-      return wrong(text, message);
+    const auto parsed = schema::parse_value(guard.type_, base::trimmed(text.substr(at + symbol.size())), limit);
+    if (!parsed) {
+      return wrong(text, parsed.error().message);
     }
     const auto number = schema::as_number<double>(guard.type_.base, limit.data());
     if (!number || !guard.type_.dims.empty() || guard.entry_ == nullptr) {
