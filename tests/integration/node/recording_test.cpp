@@ -213,7 +213,7 @@ TEST_F(Recording, Of_a_node_that_runs_is_taken_by_record) {
   EXPECT_EQ(all.code, 0) << all.err;
   EXPECT_CONTAINS(all.out + all.err, " variables, ");
   const std::string one = folder() / "one.mcap";
-  EXPECT_CONTAINS(indurop({"record", "nt::wal*", "-o", one, "--past", "--duration", "100ms"}).err, " of 1 variables");
+  EXPECT_CONTAINS(indurop({"record", "nt::wal*", "-o", one, "--past", "--duration", "100ms"}).err, " of 1 variable,");
   EXPECT_CONTAINS(indurop({"record", "-o", file()}).err, file()) << "it is there already";
   const Outcome wrong = indurop({"record", "missing", "-o", (folder() / "x.mcap").string()});
   EXPECT_EQ(wrong.code, 1);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "node/exchange/carry.h"
 #include "node/modules/module_library.h"
@@ -39,6 +40,9 @@ ModuleLibrary load(const char* file) {
 std::uint64_t hash_of(const ModuleLibrary& library) {
   std::uint64_t hash = 0;
   for (const auto& item : library.memory().items()) {
+    if (item.kind != indurop::node::ModuleMemory::Kind::Value) {
+      continue;  // addresses differ from one copy to the next
+    }
     hash = hash * 31 + indurop::abi::fnv1a64(static_cast<const char*>(item.address), item.size);
   }
   return hash;
@@ -66,20 +70,30 @@ class Plant {
                 static_cast<unsigned long long>(hash_of(running_)));
   }
 
-  // Begins an exchange; it happens with the next step.
-  void begin() {
+  // Begins an exchange; it happens with the next step. Returns false if what the module keeps cannot be taken now.
+  bool begin() {
     other_ = load(file_);
     auto carry = indurop::node::plan_carry(running_.memory(), other_.memory());
-    if (!carry.plan.with_state || carry.loses || carry.between_runs) {
+    if (!carry.plan.with_state || carry.loses) {
       std::fprintf(stderr, "it cannot be exchanged: %s\n", carry.plan.why_not.c_str());
       std::exit(3);
+    }
+    if (carry.between_runs && !copy_between_runs()) {
+      other_.unload();
+      return false;
     }
     Exchange::Settings settings;
     settings.next.run = other_.functions().run;
     settings.pairs = std::move(carry.pairs);
+    settings.offered = carry.between_runs;
+    settings.can_return = !carry.between_runs;
     exchange_.emplace(std::move(settings));
     (void)engine_->watch(0, *exchange_);
+    if (carry.between_runs) {
+      exchange_->offer(exchange_->gap().value());
+    }
     std::swap(running_, other_);
+    return true;
   }
   void go_back() {
     if (exchange_->go_back(Exchange::Reason::Command)) {
@@ -95,6 +109,17 @@ class Plant {
   }
 
  private:
+  bool copy_between_runs() {
+    std::vector<std::byte> bytes(running_.memory().most());
+    const std::size_t size = running_.memory().save(bytes);
+    const std::span kept(reinterpret_cast<const std::uint8_t*>(bytes.data()), size);
+    if (size > 0 && !other_.memory().restore(running_.memory().form(), kept).empty()) {
+      std::fprintf(stderr, "a copy of the module keeps something else\n");
+      std::exit(3);
+    }
+    return size > 0;
+  }
+
   const char* file_;
   ModuleLibrary running_;
   ModuleLibrary other_;
@@ -121,7 +146,10 @@ int main(int argc, char** argv) {
       plant.step();
       continue;
     }
-    plant.begin();
+    if (!plant.begin()) {
+      plant.step();
+      continue;
+    }
     plant.step();
     ++count;
     if (random() % 3 == 0) {

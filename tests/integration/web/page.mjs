@@ -151,7 +151,7 @@ await browser.run({
     await sees(page, "emergency_stop");
     await browser.check_view(page, "variables-phone");
     await page.keyboard.press("Enter");
-    await sees(page, "The panel, for your hands");
+    await sees(page, "The panel, for operation by hand");
     await page.close();
   },
 
