@@ -94,6 +94,9 @@ double seconds_per_wave = 2.0;
 double phase = 0;
 }  // namespace
 
+// What the next run needs: recordings can begin in the middle, and `indurop reload wave` goes on from here.
+INDUROP_STATE(phase)
+
 // Before the first run and not real-time: the place for files, memory, properties.
 void on_start() {
   seconds_per_wave = irp::property("seconds per wave", 2.0);
@@ -116,6 +119,8 @@ constexpr const char* kSmooth = R"text(// Thread module, every 10 milliseconds: 
 #include <indurop/generated.h>
 
 using namespace @NAMESPACE@;
+
+INDUROP_STATE()  // keeps nothing of its own between two runs
 
 void on_run() {
   constexpr double kPart = 0.2;
