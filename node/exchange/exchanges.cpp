@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds kPreparingPoll{1};
 
 Exchanges::Exchanges(const Parts& parts, const config::CheckResult& check, Phases phases)
     : parts_(parts),
-      phases_(std::move(phases)),
+      phases_(phases),
       allowed_(parts.config.modules.size()),
       retired_(parts.run, phases_, parts.console) {
   for (std::uint32_t i = 0; i < allowed_.size(); ++i) {
@@ -78,7 +78,7 @@ void Exchanges::accept(std::uint32_t module, ModuleCommand command) {
     answer_other(module, CommandResult::Refused,
                  "it runs in the background, where no run is waited for: stop and run the node to load its new file");
   } else {
-    work_.emplace();
+    work_ = std::make_unique<Work>();
     work_->request = *request;
     prepare(module);
   }
@@ -106,7 +106,7 @@ void Exchanges::accept_back(std::uint32_t module) {
 }
 
 void Exchanges::begin_back(std::uint32_t module, bool answered, scheduler::Exchange::Reason reason) {
-  work_.emplace();
+  work_ = std::make_unique<Work>();
   work_->module = module;
   work_->back = true;
   work_->answered = answered;

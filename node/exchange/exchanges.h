@@ -123,7 +123,7 @@ class Exchanges {
   Phases phases_;
   std::vector<AllowedAccess> allowed_;
   std::map<std::uint32_t, ModuleLibrary> previous_;  // by module; started and not stopped
-  std::optional<Work> work_;
+  std::unique_ptr<Work> work_;                       // null: no exchange is in progress
   Retired retired_;
 };
 

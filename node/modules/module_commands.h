@@ -37,7 +37,7 @@ class ModuleCommands {
   };
   // `check`: as the node starts. `apart`: for versions that do not run.
   ModuleCommands(const Parts& parts, const Exchanges::Parts& exchanges, const config::CheckResult& check, Phases apart)
-      : parts_(parts), exchanges_(exchanges, check, std::move(apart)) {}
+      : parts_(parts), exchanges_(exchanges, check, apart) {}
 
   // Accepts new commands and continues those in progress.
   void poll(rt::MonoTime now);

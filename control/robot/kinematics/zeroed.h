@@ -20,13 +20,15 @@ struct Zeroed {
   Zeroed(const Zeroed<U>& /*other*/) noexcept {}  // NOLINT(google-explicit-constructor): as allocators are
 
   [[nodiscard, gnu::noinline]] T* allocate(std::size_t count) const {
-    void* const memory = std::calloc(count, sizeof(T));
+    void* const memory = std::calloc(count, sizeof(T));  // NOLINT(cppcoreguidelines-no-malloc): only it gives zeros
     if (memory == nullptr) {
       throw std::bad_alloc();
     }
     return static_cast<T*>(memory);
   }
-  void deallocate(T* memory, std::size_t /*count*/) const noexcept { std::free(memory); }
+  void deallocate(T* memory, std::size_t /*count*/) const noexcept {
+    std::free(memory);  // NOLINT(cppcoreguidelines-no-malloc): of calloc
+  }
   friend bool operator==(const Zeroed& /*a*/, const Zeroed& /*b*/) noexcept { return true; }
 };
 

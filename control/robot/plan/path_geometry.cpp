@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/robot/path/rates.h"
+
 namespace indurop::robot {
 
 namespace {
