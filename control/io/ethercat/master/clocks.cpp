@@ -50,18 +50,17 @@ void Clocks::restart(Clock now) noexcept {
 
 // A step is done for the slaves that it concerns, one after another.
 bool Clocks::concerns(std::size_t place) const noexcept {
-  const Slave& slave = slaves_[place];
   switch (step_) {
     case Step::Latch:
       return place == 0;
     case Step::Times:
     case Step::Delay:
-      return slave.ports.has_clock;
+      return has_clock(place);
     case Step::Offset:
     case Step::Filter:
-      return slave.ports.has_clock && !slave.is_set;
+      return has_clock(place) && !slaves_[place].is_set;
     case Step::Watch:
-      return slave.ports.has_clock && place != reference_;
+      return has_clock(place) && place != reference_;
     default:
       return true;
   }
@@ -88,36 +87,16 @@ void Clocks::advance(Clock now) noexcept {
 }
 
 void Clocks::finish_step(Clock now) noexcept {
-  switch (step_) {
-    case Step::Features:
-      step_ = Step::Latch;
-      return;
-    case Step::Latch:
-      step_ = Step::Times;
-      return;
-    case Step::Times:
-      step_ = Step::Ports;
-      return;
-    case Step::Ports:
-      if (work_out()) {
-        step_ = Step::Offset;
-      } else {
-        restart(now);
-      }
-      return;
-    case Step::Offset:
-      step_ = Step::Delay;
-      return;
-    case Step::Delay:
-      step_ = Step::Filter;
-      return;
-    default:
-      for (Slave& slave : slaves_) {
-        slave.is_set = slave.ports.has_clock;
-      }
-      step_ = Step::Watch;
-      return;
+  if (step_ == Step::Ports && !work_out()) {
+    restart(now);
+    return;
   }
+  if (step_ == Step::Filter) {
+    for (std::size_t i = 0; i < slaves_.size(); ++i) {
+      slaves_[i].is_set = has_clock(i);
+    }
+  }
+  step_ = static_cast<Step>(static_cast<int>(step_) + 1);
 }
 
 std::optional<Query> Clocks::query(Clock now) noexcept {
@@ -186,17 +165,17 @@ void Clocks::take(Bytes data) noexcept {
   Slave& slave = slaves_[place_];
   switch (step_) {
     case Step::Features:
-      slave.ports.has_clock = (load<std::uint16_t>(data, 0) & kHasClock) != 0;
+      ports_[place_].has_clock = (load<std::uint16_t>(data, 0) & kHasClock) != 0;
       return;
     case Step::Times:
       for (std::size_t port = 0; port < kPorts; ++port) {
-        slave.ports.arrival[port] = load<std::uint32_t>(data, port * sizeof(std::uint32_t));
+        ports_[place_].arrival[port] = load<std::uint32_t>(data, port * sizeof(std::uint32_t));
       }
       slave.received = load<std::int64_t>(data, kUnitTimeAt);
       return;
     case Step::Ports:
       for (std::size_t port = 0; port < kPorts; ++port) {
-        slave.ports.is_open[port] = (load<std::uint16_t>(data, 0) >> (kLinkBit + port) & 1U) != 0;
+        ports_[place_].is_open[port] = (load<std::uint16_t>(data, 0) >> (kLinkBit + port) & 1U) != 0;
       }
       return;
     case Step::Watch: {
@@ -218,24 +197,23 @@ void Clocks::take(Bytes data) noexcept {
 // far as the master knows it.
 bool Clocks::work_out() noexcept {
   const std::size_t count = std::min(on_cable_, slaves_.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    ports_[i] = slaves_[i].ports;
-  }
   is_tree_unclear_ = !propagation_.find(std::span(ports_).first(count), std::span(delays_).first(count));
-  const auto first = std::find_if(slaves_.begin(), slaves_.begin() + static_cast<std::ptrdiff_t>(count),
-                                  [](const Slave& slave) { return slave.ports.has_clock; });
-  if (is_tree_unclear_ || first == slaves_.begin() + static_cast<std::ptrdiff_t>(count)) {
+  const auto found = std::find_if(ports_.begin(), ports_.begin() + static_cast<std::ptrdiff_t>(count),
+                                  [](const PortTimes& ports) { return ports.has_clock; });
+  const auto place = static_cast<std::size_t>(found - ports_.begin());
+  if (is_tree_unclear_ || place == count) {
     reference_.reset();
     return false;
   }
-  if (!first->is_set) {
-    first->offset = reference_ ? reference_time(latched_at_) - first->received : 0;
+  Slave& first = slaves_[place];
+  if (!first.is_set) {
+    first.offset = reference_ ? reference_time(latched_at_) - first.received : 0;
   }
-  reference_ = static_cast<std::size_t>(first - slaves_.begin());
+  reference_ = place;
   for (std::size_t i = 0; i < count; ++i) {
     Slave& slave = slaves_[i];
-    if (&slave != &*first && !slave.is_set) {
-      slave.offset = first->received + first->offset + delays_[i] - slave.received;
+    if (i != place && !slave.is_set) {
+      slave.offset = first.received + first.offset + delays_[i] - slave.received;
     }
   }
   return true;

@@ -38,7 +38,7 @@ class Clocks {
   // The frame of a tick did not come back.
   void not_passed() noexcept;
 
-  [[nodiscard]] bool has_clock(std::size_t place) const noexcept { return slaves_[place].ports.has_clock; }
+  [[nodiscard]] bool has_clock(std::size_t place) const noexcept { return ports_[place].has_clock; }
   [[nodiscard]] bool is_measured() const noexcept { return step_ == Step::Watch; }
   // Its clock was set, and shows the reference's time within a microsecond.
   [[nodiscard]] bool is_in_step(std::size_t place) const noexcept;
@@ -62,9 +62,8 @@ class Clocks {
   [[nodiscard]] std::int64_t phase_ns() const noexcept { return lock_.phase_ns(); }
 
  private:
-  enum class Step { Wait, Features, Latch, Times, Ports, Offset, Delay, Filter, Watch };
+  enum class Step { Wait, Features, Latch, Times, Ports, Offset, Delay, Filter, Watch };  // in this order
   struct Slave {
-    PortTimes ports;
     std::int64_t received = 0;  // the frame that was latched, by its own clock
     std::int64_t offset = 0;    // of the reference's time to its own clock
     bool is_set = false;

@@ -45,22 +45,14 @@ std::optional<Query> SyncSetup::query(Clock now) noexcept {
 }
 
 SyncSetup::Outcome SyncSetup::answer(bool is_answered) noexcept {
-  if (!is_answered) {
+  if (!is_answered || step_ == Step::Await) {
     return Outcome::Running;
   }
-  switch (step_) {
-    case Step::Off:
-      step_ = Step::Cycles;
-      return Outcome::Running;
-    case Step::Cycles:
-      step_ = Step::Start;
-      return Outcome::Running;
-    case Step::Start:
-      step_ = Step::On;
-      return Outcome::Running;
-    default:
-      return step_ == Step::On ? Outcome::Done : Outcome::Running;
+  if (step_ == Step::On) {
+    return Outcome::Done;
   }
+  step_ = static_cast<Step>(static_cast<int>(step_) + 1);
+  return Outcome::Running;
 }
 
 SyncSetup::Outcome SyncSetup::outcome(Clock now) const noexcept {

@@ -31,7 +31,7 @@ class SyncSetup {
   [[nodiscard]] std::int32_t difference_ns() const noexcept { return clocks_.difference_ns(place_); }
 
  private:
-  enum class Step { Await, Off, Cycles, Start, On };
+  enum class Step { Await, Off, Cycles, Start, On };  // in this order
 
   const SyncPlan& plan_;
   Clocks& clocks_;

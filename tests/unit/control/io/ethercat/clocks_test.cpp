@@ -62,14 +62,7 @@ class Synchronous {
       tick();
     }
   }
-  [[nodiscard]] bool all_operate() const {
-    for (std::size_t i = 0; i < master_->size(); ++i) {
-      if (!master_->slave(i).operates()) {
-        return false;
-      }
-    }
-    return true;
-  }
+  [[nodiscard]] bool all_operate() const { return io::ethercat::all_operate(*master_); }
   void start() {
     for (unsigned i = 0; i < 5 * kSecond && !all_operate(); ++i) {
       tick();

@@ -29,6 +29,15 @@ inline std::vector<SlavePlan> drive_plans(std::size_t count) {
   return plans;
 }
 
+inline bool all_operate(const Master& master) {
+  for (std::size_t i = 0; i < master.size(); ++i) {
+    if (!master.slave(i).operates()) {
+      return false;
+    }
+  }
+  return true;
+}
+
 class Plant {
  public:
   explicit Plant(std::size_t count, std::vector<SlavePlan> plans) : applied_(count) {
@@ -59,14 +68,7 @@ class Plant {
       tick();
     }
   }
-  [[nodiscard]] bool all_operate() const {
-    for (std::size_t i = 0; i < master_->size(); ++i) {
-      if (!master_->slave(i).operates()) {
-        return false;
-      }
-    }
-    return true;
-  }
+  [[nodiscard]] bool all_operate() const { return io::ethercat::all_operate(*master_); }
   // Ticks until all slaves operate; `limit` if they do not.
   unsigned run_until_all_operate(unsigned limit) {
     unsigned ticks = 0;
