@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "config/users_reader.h"
+#include "core/base/name_patterns.h"
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 #include "core/keys/participant_keys.h"
@@ -32,11 +32,6 @@ constexpr mode_t kListMode = 0640;
 std::string text_of_file(const fs::path& file) {
   auto text = base::read_file(file);
   return text ? std::move(*text) : std::string{};
-}
-
-bool matches_one(const std::vector<std::string>& patterns, const std::string& name) {
-  return std::any_of(patterns.begin(), patterns.end(),
-                     [&name](const std::string& pattern) { return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0; });
 }
 
 bool is_about_variables(Action action) noexcept {
@@ -126,18 +121,16 @@ std::string beyond_role(const config::PlantUsers& users, const std::string& name
     return fmt::format("{} has the role {}, and this needs {}", name, config::name_of(user->role),
                        config::name_of(needed_role(action)));
   }
-  if (!user->boards.empty() && !matches_one(user->boards, board)) {
+  if (!base::matches_any(user->boards, board)) {
     return fmt::format("{} may change boards {} only", name, fmt::join(user->boards, ", "));
   }
   return {};
 }
 
 std::string beyond_variables(const config::PlantUser& user, const std::string& name) {
-  const std::string variable = name.substr(0, name.find_first_of(".["));
-  const bool allowed =
-      user.variables.empty() || matches_one(user.variables, variable) || matches_one(user.variables, name);
-  return allowed ? std::string()
-                 : fmt::format("{} may change {} only, not {}", user.name, fmt::join(user.variables, ", "), name);
+  return base::matches_any_variable(user.variables, name)
+             ? std::string()
+             : fmt::format("{} may change {} only, not {}", user.name, fmt::join(user.variables, ", "), name);
 }
 
 BoardUsers::BoardUsers(std::string board, const DeployKeys& keys) : board_(std::move(board)), keys_(keys) {}

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/name_patterns.h"
 #include "tools/serve/boards/local_board.h"
 
 namespace indurop::serve {
@@ -22,8 +23,7 @@ std::optional<std::string> beyond_rights(const Client& client, const Affected& a
     return most;
   }
   for (const std::string& name : affected.variables) {
-    const std::string variable = name.substr(0, name.find_first_of(".["));
-    if (!matches_any(client.variables, variable) && !matches_any(client.variables, name)) {
+    if (!base::matches_any_variable(client.variables, name)) {
       return fmt::format("{}, not {}", most, name);
     }
   }

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <cctype>
 
+#include "core/base/name_patterns.h"
 #include "core/base/text.h"
 
 namespace indurop::serve {
@@ -50,12 +50,6 @@ std::string_view sent_token(const Request& request) {
     rest = comma == std::string_view::npos ? std::string_view() : rest.substr(comma + 1);
   }
   return {};
-}
-
-bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
-  return patterns.empty() || std::any_of(patterns.begin(), patterns.end(), [&name](const std::string& pattern) {
-           return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-         });
 }
 
 bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept {
@@ -152,7 +146,7 @@ std::optional<Reply> AccessGate::refuse_client(const Client& client, const Neede
     return refuse_right(fmt::format("{} has the role {}; this needs the role {}", client.name, word_of(client.role),
                                     word_of(needed.role)));
   }
-  if (!client.boards.empty() && (needed.board.empty() || !matches_any(client.boards, needed.board))) {
+  if (!client.boards.empty() && (needed.board.empty() || !base::matches_any(client.boards, needed.board))) {
     return refuse_right(fmt::format("{} may change {} only", client.name, fmt::join(client.boards, ", ")));
   }
   return std::nullopt;

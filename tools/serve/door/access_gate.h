@@ -70,9 +70,6 @@ std::string host_name(std::string_view host);
 // Returns the token that a request sends in a header or, for the WebSocket of a browser, in a subprotocol. Empty: none.
 std::string_view sent_token(const Request& request);
 
-// Returns true if there are no patterns, or one of them matches the whole name. '*' stands for any characters.
-bool matches_any(const std::vector<std::string>& patterns, const std::string& name);
-
 // Takes the same time wherever the two texts differ.
 bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept;
 
