@@ -7,6 +7,7 @@
 #include "deploy/link/command_link.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/transaction/write_words.h"
+#include "held_check.h"
 #include "killed_fixture.h"
 
 namespace indurop::test {
@@ -17,31 +18,10 @@ using testing::HasSubstr;
 
 class Phases : public Killed {
  protected:
-  Phases() {
-    ::setenv("IRP_TEST_SLOW_UNTIL", path("go").c_str(), 1);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    ::setenv("LD_PRELOAD", HELD_OPEN, 1);
-#endif
-    ::setenv("IRP_TEST_HELD", ("/" + board("b") + "/deployments/").c_str(), 1);
-    ::setenv("IRP_TEST_HELD_WHILE", path("hold").c_str(), 1);
-  }
-  ~Phases() override {
-    for (const char* name : {"IRP_TEST_SLOW_UNTIL", "LD_PRELOAD", "IRP_TEST_HELD", "IRP_TEST_HELD_WHILE"}) {
-      ::unsetenv(name);
-    }
-    let_b_check();
-  }
-  // Board b waits when it opens a file of a deployment, as if its disk hung: it does so in its check.
-  void hold_the_check() const {
-    std::ofstream(path("hold")) << "hold\n";
-  }
-  void let_b_check() const {
-    std::filesystem::remove(path("hold"));
-  }
+  Phases() { ::setenv("IRP_TEST_SLOW_UNTIL", path("go").c_str(), 1); }
+  ~Phases() override { ::unsetenv("IRP_TEST_SLOW_UNTIL"); }
   // Lets the module of `deploy_until_healthy` start.
-  void let_b_start() const {
-    std::ofstream(path("go")) << "go\n";
-  }
+  void let_b_start() const { std::ofstream(path("go")) << "go\n"; }
   // Where a deployment's files lie on a board.
   [[nodiscard]] std::filesystem::path installed(const std::string& name, const std::string& deployment) const {
     return folder() / "state" / board(name) / "deployments" / deployment.substr(0, 16);
@@ -110,6 +90,8 @@ class Phases : public Killed {
     }));
     return id;
   }
+  // When board b opens a file of a deployment, which it does in its check.
+  HeldCheck b_check_{"/" + board("b") + "/deployments/", path("hold")};
 };
 
 TEST_F(Phases, A_board_killed_while_it_fetches_resumes_and_fetches_on) {
@@ -142,13 +124,13 @@ TEST_F(Phases, A_board_killed_while_it_checks_resumes) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
 #endif
-  hold_the_check();
+  b_check_.hold();
   Program& deployer = deploy_until_checking();
   lose("b");
   const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(board("b") + ": it no longer reports"));
-  let_b_check();
+  b_check_.release();
   start_agent("b");
   EXPECT_TRUE(both_run_the_committed());
 }
@@ -157,10 +139,10 @@ TEST_F(Phases, A_board_killed_while_it_is_prepared_resumes) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
 #endif
-  hold_the_check();
+  b_check_.hold();
   Program& deployer = deploy_until_checking();
   lose("a");
-  let_b_check();
+  b_check_.release();
   const Outcome outcome = deployer.finish();
   EXPECT_THAT(outcome.code, AnyOf(1, 5)) << "b may have begun its trial when a is missed: " << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(board("a") + ": it no longer reports"));
@@ -172,12 +154,12 @@ TEST_F(Phases, A_deployer_killed_while_one_board_checks_and_the_other_is_prepare
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
 #endif
-  hold_the_check();
+  b_check_.hold();
   Program& deployer = deploy_until_checking();
   deployer.signal(SIGKILL);
   (void)deployer.finish();
   EXPECT_TRUE(wait_until([&] { return runs("a", committed_); })) << "it does not wait for b";
-  let_b_check();
+  b_check_.release();
   EXPECT_TRUE(both_run_the_committed());
   EXPECT_EQ(deploy(next_).code, 0) << "the next one finds the boards free";
 }
@@ -212,14 +194,14 @@ TEST_F(Phases, A_deployer_that_stands_still_until_the_network_loses_it_goes_on) 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
 #endif
-  hold_the_check();
+  b_check_.hold();
   Witness witness(link_domain());
   Program& deployer = deploy_until_checking();
   (void)witness.loses_a_deployer();
   deployer.signal(SIGSTOP);
   EXPECT_TRUE(wait_until([&] { return witness.loses_a_deployer(); }));
   deployer.signal(SIGCONT);
-  let_b_check();
+  b_check_.release();
   const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 0) << outcome.err << agent("a").err() << agent("b").err();
   EXPECT_NE(new_one(), "");
@@ -229,14 +211,14 @@ TEST_F(Phases, A_board_that_stands_still_until_the_network_loses_it_goes_on) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
 #endif
-  hold_the_check();
+  b_check_.hold();
   Witness witness(link_domain());
   Program& deployer = deploy_until_checking();
   (void)witness.loses(board("a"));
   agent("a").signal(SIGSTOP);
   EXPECT_TRUE(wait_until([&] { return witness.loses(board("a")); }));
   agent("a").signal(SIGCONT);
-  let_b_check();
+  b_check_.release();
   const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 0) << outcome.err << agent("a").err() << agent("b").err();
   EXPECT_NE(new_one(), "");
@@ -279,7 +261,7 @@ TEST_F(Phases, A_lease_is_renewed_while_a_deployment_is_under_way) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
 #endif
-  hold_the_check();
+  b_check_.hold();
   Program& deployer = deploy_until_checking();
   deploy::Command command;
   command.action = deploy::Action::Force;
@@ -292,7 +274,7 @@ TEST_F(Phases, A_lease_is_renewed_while_a_deployment_is_under_way) {
   renewal.renew = true;
   command.target = text_of(renewal);
   EXPECT_EQ(answer_to(command, board("a"), link_domain()), "this lease no longer exists") << "it was looked up";
-  let_b_check();
+  b_check_.release();
   EXPECT_EQ(deployer.finish().code, 0);
 }
 

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "held_check.h"
 #include "platform_fixture.h"
 
 namespace indurop::test {
@@ -13,26 +14,6 @@ using testing::AnyOf;
 
 class PlatformPhases : public PlatformTest {
  protected:
-  PlatformPhases() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    ::setenv("LD_PRELOAD", HELD_OPEN, 1);
-#endif
-    ::setenv("IRP_TEST_HELD", ("/" + board("b") + "/platform/deployments/").c_str(), 1);
-    ::setenv("IRP_TEST_HELD_WHILE", path("hold").c_str(), 1);
-  }
-  ~PlatformPhases() override {
-    for (const char* name : {"LD_PRELOAD", "IRP_TEST_HELD", "IRP_TEST_HELD_WHILE"}) {
-      ::unsetenv(name);
-    }
-    let_b_check();
-  }
-  // Board b waits when it lays out the release, as if its disk hung.
-  void hold_the_check() const {
-    std::ofstream(path("hold")) << "hold\n";
-  }
-  void let_b_check() const {
-    std::filesystem::remove(path("hold"));
-  }
   // Updates until board a has some pieces of the release, and stops the desk there.
   Program& update_until_fetching() {
     const std::string prefix = installation("large");
@@ -56,6 +37,8 @@ class PlatformPhases : public PlatformTest {
     desk.signal(SIGKILL);
     (void)desk.finish();
   }
+  // When board b opens a file of a deployment, which it does in its check.
+  HeldCheck b_check_{"/" + board("b") + "/platform/deployments/", path("hold")};
 };
 
 TEST_F(PlatformPhases, A_board_killed_while_it_fetches) {
@@ -76,19 +59,19 @@ TEST_F(PlatformPhases, A_board_killed_while_it_checks_and_one_that_is_prepared) 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
 #endif
-  hold_the_check();
+  b_check_.hold();
   Program& desk = update_until("prepared", "500ms");
   stop_agent("b", SIGKILL);
-  let_b_check();
+  b_check_.release();
   start_agent("b");
   EXPECT_EQ(desk.finish().code, 1);
   EXPECT_EQ(common_release(), kInstalled);
 
-  hold_the_check();
+  b_check_.hold();
   Program& again = start_update(path("9.1.release"));
   ASSERT_TRUE(in_phase("a", "prepared"));
   restart("a", true);
-  let_b_check();
+  b_check_.release();
   EXPECT_EQ(again.finish().code, 1);
   EXPECT_EQ(common_release(), kInstalled);
 }
@@ -97,9 +80,9 @@ TEST_F(PlatformPhases, A_desk_killed_while_boards_check) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the library that holds files cannot be loaded before that of the sanitizer";
 #endif
-  hold_the_check();
+  b_check_.hold();
   kill_desk(update_until("prepared", "500ms"));
-  let_b_check();
+  b_check_.release();
   EXPECT_EQ(common_release(), kInstalled);
 }
 
