@@ -5,18 +5,10 @@ certificate of the plant's authority. In a network namespace of its own. certifi
 
 import subprocess
 
-from opcua_harness import Client, enter_namespace, Failed, main
+from opcua_harness import Client, enter_namespace, Failed, main, refused
 from users_test import PASSWORD, user, Users
 
 PLANT = '<plant name="press"><board name="here"/></plant>'
-
-
-def refused(attempt):
-    try:
-        attempt()
-    except Failed as failure:
-        return str(failure)
-    raise AssertionError("it was not refused")
 
 
 def begin(setting, *options):

@@ -39,6 +39,15 @@ class Failed(Exception):
     """What the client says of a request that failed."""
 
 
+def refused(attempt):
+    """Why the client's request failed."""
+    try:
+        attempt()
+    except Failed as failure:
+        return str(failure)
+    raise AssertionError("it was not refused")
+
+
 class Client:
     def __init__(self, setting, endpoint):
         self.endpoint = endpoint

@@ -3,7 +3,7 @@
 """Who may do what over OPC UA: users of `indurop serve` with their roles, its journal, tokens, anonymous clients, encrypted
 connections. roles_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
-from opcua_harness import API, Client, Failed, harness, main, wait_for
+from opcua_harness import API, Client, harness, main, refused, wait_for
 from users_test import entries, PASSWORD, sign_in, user, Users
 
 SECURE = {"mode": "SignAndEncrypt", "policy": "Basic256Sha256"}
@@ -17,14 +17,6 @@ def begin(setting, *options, real=False, **users):
 
 def value_of(server, setting, name):
     return server.get(f"{API}/boards/{setting.node}/variables/{name}").json()["value"]
-
-
-def refused(attempt):
-    try:
-        attempt()
-    except Failed as failure:
-        return str(failure)
-    raise AssertionError("it was not refused")
 
 
 def test_a_write_needs_the_role_and_names_the_user(setting):
