@@ -75,14 +75,15 @@ int pack(Context& context, PlatformRequest& request) {
   return kOk;
 }
 
-// The boards of one plant that a release is for.
+// The boards of one plant that a release is for, and that are there.
 struct Meant {
   std::string plant;
   std::vector<std::string> boards;
 };
 
-// Discovers boards and returns those of the plant, also those that others name and that are absent.
-Result<Meant, Failure> find_boards(deploy::DeployLink& link, BoardRoster& roster, const PlatformRequest& request) {
+// Discovers boards and returns those of the plant; a failure if one that others name is absent, unless that is allowed.
+Result<Meant, Failure> find_boards(Context& context, deploy::DeployLink& link, BoardRoster& roster,
+                                   const PlatformRequest& request) {
   roster.gather(link, request.wait_ns, [&] { return roster.complete(); });
   const auto plant = choose_plant(roster, request.plant);
   if (!plant) {
@@ -94,7 +95,12 @@ Result<Meant, Failure> find_boards(deploy::DeployLink& link, BoardRoster& roster
       boards.insert(entry.report.members.begin(), entry.report.members.end());
     }
   }
-  return Meant{*plant, {boards.begin(), boards.end()}};
+  auto present =
+      present_boards(context, link, roster, {boards.begin(), boards.end()}, request.allow_missing, request.timeout_ns);
+  if (!present) {
+    return with_keys_hint(present.error(), request.link);
+  }
+  return Meant{*plant, std::move(*present)};
 }
 
 // Returns why this release must not be deployed without --older; empty if none of the boards runs a newer one.
@@ -148,26 +154,22 @@ int deploy_release(Context& context, PlatformRequest& request) {
     return kUnreachable;
   }
   BoardRoster roster;
-  const auto meant = find_boards(*link, roster, request);
+  auto meant = find_boards(context, *link, roster, request);
   if (!meant) {
     return report(context.out, meant.error());
   }
-  auto present = present_boards(context, *link, roster, meant->boards, request.allow_missing, request.timeout_ns);
-  if (!present) {
-    return report(context.out, with_keys_hint(present.error(), request.link));
-  }
   const std::string& version = packed.package.release;
-  if (std::all_of(present->begin(), present->end(),
+  if (std::all_of(meant->boards.begin(), meant->boards.end(),
                   [&](const std::string& board) { return roster.find(board)->report.current == packed.id; })) {
     context.out.line(fmt::format("release {} ({}) runs on all boards of plant {} already", version,
                                  deploy::shown_id(packed.id), meant->plant));
     return kOk;
   }
-  if (const std::string refusal = older_refusal(roster, *present, version); !request.older && !refusal.empty()) {
+  if (const std::string refusal = older_refusal(roster, meant->boards, version); !request.older && !refusal.empty()) {
     context.out.error(refusal);
     return kFailed;
   }
-  Deployment deployment = deployment_of(request, meant->plant, std::move(*present), roster, packed.id, version);
+  Deployment deployment = deployment_of(request, meant->plant, std::move(meant->boards), roster, packed.id, version);
   deployment.key = std::move(*key);
   deployment.order.size = packed.text.size();
   deployment.files = [&packed](const std::string& name) { return blob_of(packed, name); };
@@ -203,21 +205,17 @@ int go_back(Context& context, PlatformRequest& request) {
     return kUnreachable;
   }
   BoardRoster roster;
-  const auto meant = find_boards(*link, roster, request);
+  auto meant = find_boards(context, *link, roster, request);
   if (!meant) {
     return report(context.out, meant.error());
   }
-  auto present = present_boards(context, *link, roster, meant->boards, request.allow_missing, request.timeout_ns);
-  if (!present) {
-    return report(context.out, with_keys_hint(present.error(), request.link));
-  }
-  const auto target = former_release(roster, *present);
+  const auto target = former_release(roster, meant->boards);
   if (!target) {
     return report(context.out, target.error());
   }
   const bool to_installed = *target == deploy::kInstalledRelease;
   const std::string name = to_installed ? "installed" : deploy::shown_id(*target);
-  Deployment deployment = deployment_of(request, meant->plant, std::move(*present), roster, *target, name);
+  Deployment deployment = deployment_of(request, meant->plant, std::move(meant->boards), roster, *target, name);
   deployment.title =
       fmt::format("{} of plant {}", to_installed ? "the installed release" : "release " + name, meant->plant);
   deployment.key = std::move(*key);
