@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -125,23 +124,14 @@ Result<ReloadLock> ReloadLock::acquire(const std::string& node) {
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   constexpr mode_t kMode = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP;
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kMode);
-  if (file < 0) {
+  base::Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kMode));
+  if (!file.is_open()) {
     return Error{Errc::System, errno, "folder of the node"};
   }
-  ReloadLock lock(file);
-  if (const Status locked = rt::lock_file(file, rt::FileLock::Exclusive); !locked) {
+  if (const Status locked = rt::lock_file(file.get(), rt::FileLock::Exclusive); !locked) {
     return locked.error();
   }
-  return lock;
-}
-
-ReloadLock::ReloadLock(ReloadLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
-
-ReloadLock::~ReloadLock() {
-  if (file_ >= 0) {
-    ::close(file_);
-  }
+  return ReloadLock(std::move(file));
 }
 
 }  // namespace indurop::operate

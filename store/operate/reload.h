@@ -9,8 +9,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/base/descriptor.h"
 #include "core/base/json.h"
 
 namespace indurop::operate {
@@ -64,15 +66,10 @@ base::Json json_of(const ReloadReport& report);
 class ReloadLock {
  public:
   static Result<ReloadLock> acquire(const std::string& node);
-  ReloadLock(ReloadLock&& other) noexcept;
-  ReloadLock(const ReloadLock&) = delete;
-  ReloadLock& operator=(const ReloadLock&) = delete;
-  ReloadLock& operator=(ReloadLock&&) = delete;
-  ~ReloadLock();
 
  private:
-  explicit ReloadLock(int file) noexcept : file_(file) {}
-  int file_;
+  explicit ReloadLock(base::Descriptor file) noexcept : file_(std::move(file)) {}
+  base::Descriptor file_;
 };
 
 }  // namespace indurop::operate
