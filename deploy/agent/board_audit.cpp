@@ -3,21 +3,16 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/stat.h>
 
-#include <cstdint>
 #include <utility>
 
-#include "core/base/json.h"
-#include "core/base/line_journal.h"
 #include "core/rt/clock.h"
 #include "deploy/transaction/write_words.h"
-#include "store/vars/retain.h"
+#include "store/operate/audit.h"
 
 namespace indurop::deploy {
 namespace {
 
-constexpr std::uintmax_t kMaxAuditBytes = 8U << 20U;
 constexpr std::size_t kMaxWhat = 400;
 
 // The form of these targets is their own.
@@ -82,16 +77,10 @@ void note_command(const Command& command, const std::string& user, const std::st
     return;
   }
   const std::string claimed = order.who.empty() ? "a deployer" : order.who + " (deployer)";
-  const base::Json entry{{"wall_ns", rt::wall_ns()},
-                         {"who", user.empty() ? claimed : user},
-                         {"from", command.host},
-                         {"board", command.board},
-                         {"action", word_of(command.action)},
-                         {"what", fmt::format("{}", fmt::join(order.lines, " ")).substr(0, kMaxWhat)},
-                         {"outcome", outcome},
-                         {"reason", order.reason}};
-  const auto file = vars::state_directory("serve") / "audit.jsonl";
-  (void)base::append_line({file, kMaxAuditBytes, S_IRUSR | S_IWUSR, base::Durable::Yes}, entry.dump());
+  const std::string what = fmt::format("{}", fmt::join(order.lines, " ")).substr(0, kMaxWhat);
+  (void)operate::append_audit(operate::usual_audit_file(),
+                              {rt::wall_ns(), user.empty() ? claimed : user, command.host, command.board,
+                               word_of(command.action), what, outcome, order.reason});
 }
 
 }  // namespace indurop::deploy

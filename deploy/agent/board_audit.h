@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The agent's part of the host's audit log (tools/client/audit.h): each remote command, done or refused, with the name
+// The agent's part of the host's audit log (store/operate/audit.h): each remote command, done or refused, with the name
 // of the user and the reason. Not real-time safe.
 
 #pragma once

@@ -7,7 +7,7 @@ namespace indurop::serve {
 
 std::string Audit::note(AuditEntry entry) const {
   entry.wall_ns = rt::wall_ns();
-  return tools::append_audit(file_, entry);
+  return operate::append_audit(file_, entry);
 }
 
 }  // namespace indurop::serve

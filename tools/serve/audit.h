@@ -7,13 +7,13 @@
 #include <string>
 #include <utility>
 
-#include "tools/client/audit.h"
+#include "store/operate/audit.h"
 
 namespace indurop::serve {
 
-using tools::AuditEntry;
-using tools::json_of;
-using tools::read_audit;
+using operate::AuditEntry;
+using operate::json_of;
+using operate::read_audit;
 
 class Audit {
  public:

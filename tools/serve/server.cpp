@@ -49,7 +49,7 @@ Server::Server(tools::ServeOptions options, Admission admission, const std::stri
       users_(options_.users, &rt::now_ns),
       gate_(std::move(admission.gate), &users_),
       authority_(std::move(admission.authority)),
-      audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
+      audit_(options_.audit.empty() ? operate::usual_audit_file() : options_.audit),
       leases_(audit_, options_.link),
       jogs_(audit_),
       api_(gate_, users_, audit_, leases_, jogs_,

@@ -5,10 +5,7 @@
 
 #include <algorithm>
 
-#include "core/base/user_name.h"
-#include "core/rt/clock.h"
 #include "tools/cli/values/forcing.h"
-#include "tools/client/audit.h"
 #include "tools/client/node/node_choice.h"
 
 namespace indurop::tools {
@@ -32,8 +29,7 @@ int command_local(Context& context, ModuleCommand command, const std::string& mo
     context.out.note(done->text);
   }
   if (done->result != scheduler::CommandResult::Unchanged) {
-    (void)append_audit(usual_audit_file(),
-                       {rt::wall_ns(), base::user_name(), "", *node, verb_of(command), module, "done", context.reason});
+    note_for_audit(context, *node, verb_of(command), module);
   }
   return kOk;
 }

@@ -7,8 +7,8 @@
 
 #include "core/base/user_name.h"
 #include "core/rt/clock.h"
+#include "store/operate/audit.h"
 #include "store/operate/set.h"
-#include "tools/client/audit.h"
 #include "tools/client/values/value_source.h"
 
 namespace indurop::tools {
@@ -32,10 +32,14 @@ int report(Context& context, const operate::Refusal& refusal) {
   return refusal.why == operate::Why::Busy || refusal.why == operate::Why::Absent ? kUnreachable : kFailed;
 }
 
+void note_for_audit(const Context& context, const std::string& node, const char* action, const std::string& what) {
+  (void)operate::append_audit(operate::usual_audit_file(),
+                              {rt::wall_ns(), base::user_name(), "", node, action, what, "done", context.reason});
+}
+
 void note_for_audit(const Context& context, const char* action, const std::string& what) {
   if (context.who.empty() && is_here(context)) {
-    (void)append_audit(usual_audit_file(),
-                       {rt::wall_ns(), base::user_name(), "", context.node, action, what, "done", context.reason});
+    note_for_audit(context, context.node, action, what);
   }
 }
 

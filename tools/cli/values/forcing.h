@@ -18,7 +18,9 @@ namespace indurop::tools {
 operate::Who who_orders(const Context& context);
 // Prints each reason and returns the exit code.
 int report(Context& context, const operate::Refusal& refusal);
-// Adds a line to the audit log of this machine; requests by HTTP are in the log of the server.
+// Adds a line to the audit log of this machine, of what was done in a node here.
+void note_for_audit(const Context& context, const std::string& node, const char* action, const std::string& what);
+// The same for the node of the context, if it is here; requests by HTTP are in the log of the server.
 void note_for_audit(const Context& context, const char* action, const std::string& what);
 // Returns "axis.x=1 axis.y=2".
 std::string text_of(const std::vector<Assignment>& assignments);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop audit: who wrote what to the boards of this host, from where and why.
-#include "tools/client/audit.h"
+#include "store/operate/audit.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace indurop::tools {
 namespace {
 
 struct Options {
-  std::filesystem::path file = usual_audit_file();
+  std::filesystem::path file = operate::usual_audit_file();
   std::uint64_t count = 40;
 };
 
@@ -24,7 +24,7 @@ int show_audit(Context& context, const Options& options) {
                {"WHAT", "what"},
                {"OUTCOME", "outcome"},
                {"REASON", "reason"}});
-  for (const AuditEntry& entry : read_audit(options.file, options.count)) {
+  for (const operate::AuditEntry& entry : operate::read_audit(options.file, options.count)) {
     table.add({{local_time(entry.wall_ns), entry.wall_ns},
                {printable(entry.who), entry.who},
                {printable(entry.from), entry.from},

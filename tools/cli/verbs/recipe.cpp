@@ -4,9 +4,9 @@
 
 #include "core/base/user_name.h"
 #include "core/rt/clock.h"
+#include "store/operate/audit.h"
 #include "tools/cli/values/forcing.h"
 #include "tools/cli/verbs/verbs.h"
-#include "tools/client/audit.h"
 #include "tools/client/node/node_choice.h"
 #include "tools/client/recipes/recipe_values.h"
 #include "tools/client/text/units.h"
@@ -71,7 +71,7 @@ int diff(Context& context, const vars::Store& store, const Recipe& recipe) {
 }
 
 int load(Context& context, vars::Store& store, const Recipe& recipe) {
-  AuditEntry entry;
+  operate::AuditEntry entry;
   entry.who = base::user_name();
   entry.from = "here";
   entry.board = context.node;
@@ -80,8 +80,8 @@ int load(Context& context, vars::Store& store, const Recipe& recipe) {
   const auto loaded = load_values(context.node, store, recipe, who_orders(context));
   entry.wall_ns = rt::wall_ns();
   entry.outcome = loaded ? "done" : "nothing was changed";
-  if (const std::string problem = append_audit(usual_audit_file(), entry); !problem.empty()) {
-    context.out.note(fmt::format("{} cannot be written: {}", usual_audit_file().string(), problem));
+  if (const std::string problem = operate::append_audit(operate::usual_audit_file(), entry); !problem.empty()) {
+    context.out.note(fmt::format("{} cannot be written: {}", operate::usual_audit_file().string(), problem));
   }
   if (!loaded) {
     return report(context, loaded.error());

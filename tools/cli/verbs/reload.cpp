@@ -5,11 +5,9 @@
 
 #include <filesystem>
 
-#include "core/base/user_name.h"
 #include "core/rt/clock.h"
 #include "tools/cli/values/forcing.h"
 #include "tools/cli/verbs/verbs.h"
-#include "tools/client/audit.h"
 #include "tools/client/node/module_reload.h"
 #include "tools/client/node/node_choice.h"
 #include "tools/client/process/interrupt.h"
@@ -131,8 +129,7 @@ int reload(Context& context, ReloadOptions& options) {
     return report(context.out, done.error());
   }
   if (done->answer.result == CommandResult::Done && !options.request.dry_run) {
-    (void)append_audit(usual_audit_file(), {rt::wall_ns(), base::user_name(), "", *node, verb_of(command),
-                                            options.module + " sha256:" + done->report.to, "done", context.reason});
+    note_for_audit(context, *node, verb_of(command), options.module + " sha256:" + done->report.to);
   }
   return conclude(context, options, *done);
 }

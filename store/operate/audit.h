@@ -13,7 +13,7 @@
 
 #include "core/base/json.h"
 
-namespace indurop::tools {
+namespace indurop::operate {
 
 struct AuditEntry {
   std::int64_t wall_ns = 0;  // CLOCK_REALTIME
@@ -38,4 +38,4 @@ std::string append_audit(const std::filesystem::path& file, const AuditEntry& en
 // Returns the newest `most` entries, oldest first, including those of FILE.1. Empty if there is no such file.
 std::vector<AuditEntry> read_audit(const std::filesystem::path& file, std::size_t most);
 
-}  // namespace indurop::tools
+}  // namespace indurop::operate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/client/audit.h"
+#include "store/operate/audit.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-namespace indurop::tools {
+namespace indurop::operate {
 namespace {
 
 TEST(Audit, Keeps_what_was_written_and_shows_the_newest) {
@@ -39,4 +39,4 @@ TEST(Audit, Passes_over_lines_that_are_none) {
 }
 
 }  // namespace
-}  // namespace indurop::tools
+}  // namespace indurop::operate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/client/audit.h"
+#include "store/operate/audit.h"
 
 #include <sys/stat.h>
 
@@ -8,7 +8,7 @@
 #include "core/base/line_journal.h"
 #include "store/vars/retain.h"
 
-namespace indurop::tools {
+namespace indurop::operate {
 namespace {
 
 constexpr std::uintmax_t kMaxAuditBytes = 8U << 20;
@@ -56,4 +56,4 @@ std::vector<AuditEntry> read_audit(const std::filesystem::path& file, std::size_
   return all;
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::operate
