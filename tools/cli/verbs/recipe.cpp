@@ -126,11 +126,11 @@ int with_recipe(Context& context, vars::Mode mode, const std::string& name, Act 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   auto chosen = std::make_shared<Action>();
-  const auto verb = [&](const char* name, const char* help, Action act) -> base::Options& {
+  const auto verb = [&](const char* name, const char* help, const Action& act) -> base::Options& {
     return app.command(name, help, [chosen, act] { *chosen = act; });
   };
-  const auto named = [&](const char* name, const char* help, Action act) -> base::Options& {
-    base::Options& made = verb(name, help, std::move(act));
+  const auto named = [&](const char* name, const char* help, const Action& act) -> base::Options& {
+    base::Options& made = verb(name, help, act);
     made.add("recipe", "NAME", options->name, "The recipe").required();
     return made;
   };
