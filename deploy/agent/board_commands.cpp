@@ -159,8 +159,7 @@ void BoardCommands::receive(CommandLink& link, const Command& command, const std
 CommandReply BoardCommands::begin(Command command, const std::string& plant, const std::string& busy,
                                   rt::MonoTime now) {
   const BoardUsers::Verdict verdict = users_.judge(command, plant);
-  const CommandReply answer = carry_out(signed_by(std::move(command), verdict.user), plant, verdict, busy, now);
-  return answer;
+  return carry_out(signed_by(std::move(command), verdict.user), plant, verdict, busy, now);
 }
 
 CommandReply BoardCommands::carry_out(const Command& command, const std::string& plant,
