@@ -177,8 +177,11 @@ CommandReply BoardCommands::carry_out(const Command& command, const std::string&
                                    : busy;
   }
   if (!why.empty()) {
-    log_.warning("a command from {} was refused: {}", command.host, why);
-    note_command(command, verdict.user, why);
+    if (const std::uint64_t count = refusals_.count(now.time_since_epoch().count()); count > 0) {
+      const std::string noted = count > 1 ? fmt::format("{} ({} refusals)", why, count) : why;
+      log_.warning("a command from {} was refused: {}", command.host, noted);
+      note_command(command, verdict.user, noted);
+    }
     return reply(command, Outcome::Refused, why);
   }
   deadline_ = now + kPatience;

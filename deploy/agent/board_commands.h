@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/note_limit.h"
 #include "core/rt/clock.h"
 #include "deploy/agent/board_forces.h"
 #include "deploy/agent/board_process.h"
@@ -66,6 +67,7 @@ class BoardCommands {
   BoardProcess& process_;
   BoardRecorder& recorder_;
   const base::Log& log_;
+  base::NoteLimit refusals_;                // a flood of refused commands pushes no entry out of the audit log
   std::map<std::uint64_t, Known> known_;    // by commander
   std::optional<deploy::Command> command_;  // under way
   WriteOrder words_;                        // its user, reason and module

@@ -9,12 +9,12 @@
 #include <memory>
 #include <string>
 
+#include "core/base/note_limit.h"
 #include "tools/serve/door/connection_limits.h"
 #include "tools/serve/door/door.h"
 #include "tools/serve/door/frames.h"
 #include "tools/serve/door/house.h"
 #include "tools/serve/door/http_head.h"
-#include "tools/serve/door/note_limit.h"
 #include "tools/serve/door/wire.h"
 #include "tools/serve/door/wrong_tokens.h"
 
@@ -29,7 +29,7 @@ struct Common {
   House* house = nullptr;
   ConnectionLimits limits;
   WrongTokens wrong_tokens;
-  NoteLimit lacking_rights;
+  base::NoteLimit lacking_rights;
   Ticket last_ticket = 0;
   std::size_t streams = 0;
   std::size_t unknown_streams = 0;  // streams of clients without token or certificate

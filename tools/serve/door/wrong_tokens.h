@@ -9,19 +9,19 @@
 #include <map>
 #include <string>
 
-#include "tools/serve/door/note_limit.h"
+#include "core/base/note_limit.h"
 
 namespace indurop::serve {
 
 class WrongTokens {
  public:
   static constexpr std::size_t kMostAddresses = 256;
-  static constexpr std::int64_t kWindowNs = NoteLimit::kWindowNs;  // after this time without a wrong one the counts are
-                                                                   // cleared
-  static constexpr std::uint64_t kAtOnce = 3;                      // these are refused without delay
-  static constexpr std::int64_t kFirstDelayNs = 250'000'000;       // doubled with each further one
+  static constexpr std::int64_t kWindowNs = base::NoteLimit::kWindowNs;  // after this time without a wrong one the
+                                                                         // counts are cleared
+  static constexpr std::uint64_t kAtOnce = 3;                 // these are refused without delay
+  static constexpr std::int64_t kFirstDelayNs = 250'000'000;  // doubled with each further one
   static constexpr std::int64_t kMostDelayNs = 2'000'000'000;
-  static constexpr std::uint64_t kMostNotes = NoteLimit::kMostNotes;  // for all addresses together
+  static constexpr std::uint64_t kMostNotes = base::NoteLimit::kMostNotes;  // for all addresses together
 
   struct Verdict {
     std::int64_t delay_ns = 0;
@@ -41,7 +41,7 @@ class WrongTokens {
   One& of(const std::string& key, std::int64_t now_ns);
 
   std::map<std::string, One> all_;
-  NoteLimit notes_;
+  base::NoteLimit notes_;
 };
 
 }  // namespace indurop::serve

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace indurop::serve {
+namespace indurop::base {
 
 class NoteLimit {
  public:
@@ -37,4 +37,4 @@ class NoteLimit {
   std::uint64_t not_noted_ = 0;
 };
 
-}  // namespace indurop::serve
+}  // namespace indurop::base
