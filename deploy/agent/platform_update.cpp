@@ -343,6 +343,9 @@ std::string PlatformUpdate::message() const {
   const std::string current = current_of(state_.committed());
   const Order& order = transaction_.order();
   const bool steady = transaction_.phase() == Phase::Steady;
+  if (steady && leaving_) {
+    return fmt::format("going back from release {} to {}: {}", version(), title_of(current), last_->ended);
+  }
   if (steady && running_.id != current) {
     return fmt::format("release {} cannot be run, see the log of the agent; {} runs", title_of(current), version());
   }
