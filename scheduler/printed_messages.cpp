@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scheduler/printed_messages.h"
 
-#include <indurop/detail/ring_access.h>
+#include <indurop/detail/variable_access.h>
 
 #include <algorithm>
 #include <span>

@@ -3,9 +3,9 @@
 // axes. Kinematics, trajectories and jobs are those of <indurop/robot/controller.h>; properties: urdf, jobs.
 #include <indurop/indurop.h>
 
+#include <indurop/crash_guard.h>
 #include <indurop/files.h>
 #include <indurop/generated.h>
-#include <indurop/guarded.h>
 #include <indurop/robot/controller.h>
 
 #include <chrono>

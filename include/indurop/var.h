@@ -6,7 +6,7 @@
 #pragma once
 
 #include <indurop/detail/freshness.h>
-#include <indurop/detail/ring_access.h>
+#include <indurop/detail/variable_access.h>
 #include <indurop/string.h>
 
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "store/runtime/message_ring.h"
 
-#include <indurop/detail/ring_access.h>
+#include <indurop/detail/variable_access.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "store/vars/custody.h"
 
-#include <indurop/detail/ring_access.h>
+#include <indurop/detail/variable_access.h>
 
 #include <algorithm>
 #include <atomic>

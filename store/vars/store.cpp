@@ -2,7 +2,7 @@
 
 #include "store/vars/store.h"
 
-#include <indurop/detail/ring_access.h>
+#include <indurop/detail/variable_access.h>
 
 #include <sched.h>
 #include <unistd.h>

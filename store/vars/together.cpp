@@ -5,7 +5,7 @@
 
 #include "store/vars/together.h"
 
-#include <indurop/detail/ring_access.h>
+#include <indurop/detail/variable_access.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Starts a thread of its own in start(), which crashes below irp::guarded() after five runs; run() says how.
+#include <indurop/crash_guard.h>
 #include <indurop/generated.h>
-#include <indurop/guarded.h>
 #include <indurop/indurop.h>
 
 #include <atomic>

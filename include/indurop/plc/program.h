@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include <indurop/detail/ring_access.h>
+#include <indurop/detail/variable_access.h>
 #include <indurop/plc/clock.h>
 #include <indurop/plc/log.h>
 #include <indurop/plc/types.h>

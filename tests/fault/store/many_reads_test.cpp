@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <indurop/detail/ring_access.h>
+#include <indurop/detail/variable_access.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a generated header leaves in a module, by hand: one schema line and the access records of two variables.
 
-#include <indurop/detail/ring_access.h>
+#include <indurop/detail/variable_access.h>
 
 asm(R"(.pushsection .indurop.schema,"G",%progbits,indurop_schema_sample,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"a::x\",\"type\":\"double\",\"kind\":\"scalar\"}]}\n"

@@ -3,7 +3,7 @@
 #include "store/vars/ring.h"
 
 #include <gtest/gtest.h>
-#include <indurop/detail/ring_access.h>
+#include <indurop/detail/variable_access.h>
 #include <unistd.h>
 
 #include <chrono>

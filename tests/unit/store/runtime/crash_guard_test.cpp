@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Threads of a module's own whose crash ends what they do, and nothing else.
 #include <gmock/gmock.h>
-#include <indurop/guarded.h>
+#include <indurop/crash_guard.h>
 
 #include <cstdlib>
 #include <string>

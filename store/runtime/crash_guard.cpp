@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Threads of a module: a crash ends the work of that thread, not the node.
-#include <indurop/guarded.h>
+#include <indurop/crash_guard.h>
 
 #include <csetjmp>
 #include <cstddef>
