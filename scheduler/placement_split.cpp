@@ -11,10 +11,10 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::size_t kFewModules = 9;          // up to this number: complete search
-constexpr std::int64_t kMaxNodes = 400'000;     // of that search
-constexpr std::int64_t kMaxSteps = 30'000'000;  // of improving, one step is a module in a tick
-constexpr Nanos kNever = Nanos::max();
+constexpr std::size_t kFewModules = 9;               // up to this number: complete search
+constexpr std::int64_t kMaxSplitNodes = 400'000;     // of that search
+constexpr std::int64_t kMaxSplitSteps = 30'000'000;  // of improving, one step is a module in a tick
+constexpr Nanos kNeverFits = Nanos::max();
 
 class SplitSearch {
  public:
@@ -136,7 +136,7 @@ class SplitSearch {
     }
     for (std::size_t i = 0; i < count_; ++i) {
       bool empty_seen = false;
-      for (int core = 0; core < problem_.cores && ready(i) && ++nodes_ < kMaxNodes; ++core) {
+      for (int core = 0; core < problem_.cores && ready(i) && ++nodes_ < kMaxSplitNodes; ++core) {
         const bool empty = std::find(core_.begin(), core_.end(), core) == core_.end();
         if (!allowed(i, core) || (empty && empty_seen && problem_.modules[i].core < 0)) {
           continue;
@@ -175,7 +175,7 @@ class SplitSearch {
       longest = std::max(longest, module.period);
     }
     const std::int64_t steps = static_cast<std::int64_t>(count_) * 3 * (longest / problem_.basic_period);
-    std::int64_t left = kMaxSteps / std::max<std::int64_t>(steps, 1);
+    std::int64_t left = kMaxSplitSteps / std::max<std::int64_t>(steps, 1);
     for (bool helped = true; helped && left > 0;) {
       helped = false;
       for (std::size_t i = 0; i < count_; ++i) {
@@ -201,7 +201,7 @@ class SplitSearch {
   std::vector<Nanos> ends_;
   std::vector<Nanos> free_;  // by core
   Modules order_;
-  Nanos least_ = kNever;
+  Nanos least_ = kNeverFits;
   std::int64_t nodes_ = 0;
   Modules found_order_;
   std::vector<int> found_core_;

@@ -13,10 +13,10 @@
 namespace indurop::scheduler {
 namespace {
 
-constexpr std::int64_t kMaxSteps = 60'000'000;  // of improving, one step is a tick of a core
-constexpr std::size_t kFewUnits = 14;           // up to this number: complete search
-constexpr std::int64_t kMaxNodes = 200'000;     // of that search
-constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMaxJoinSteps = 60'000'000;  // of improving, one step is a tick of a core
+constexpr std::size_t kFewUnits = 14;               // up to this number: complete search
+constexpr std::int64_t kMaxJoinNodes = 200'000;     // of that search
+constexpr std::int64_t kNoTime = std::numeric_limits<std::int64_t>::max();
 
 class Search {
  public:
@@ -111,10 +111,10 @@ class Search {
   // `in_time`: uses only cores on which all deadlines hold, as long as there is one.
   void spread(bool in_time) {
     clear();
-    std::int64_t left = kMaxSteps;  // 0: no more shifts are tried
+    std::int64_t left = kMaxJoinSteps;  // 0: no more shifts are tried
     for (std::size_t i = 0; i < units_.size(); ++i) {
       Spot best;
-      std::int64_t least = kNever;
+      std::int64_t least = kNoTime;
       bool best_holds = false;
       for (int core = 0; core < problem_.cores; ++core) {
         for (std::int64_t shift = 0; shift < (left > 0 ? units_[i].shifts : 1) && allowed(i, core); ++shift) {
@@ -147,7 +147,7 @@ class Search {
   // Moves a unit of the busiest core to another one, or exchanges it with one there, as long as that helps.
   void improve() {
     const std::int64_t steps_of_try = 2 * loads_.ticks();
-    for (std::int64_t left = kMaxSteps; left > 0 && loads_.busiest() > least_;) {
+    for (std::int64_t left = kMaxJoinSteps; left > 0 && loads_.busiest() > least_;) {
       int worst = 0;
       for (int core = 1; core < problem_.cores; ++core) {
         worst = loads_.busiest(core) > loads_.busiest(worst) ? core : worst;
@@ -227,14 +227,14 @@ class Search {
       return;
     }
     bool empty_seen = false;
-    for (int core = 0; core < problem_.cores && nodes_ < kMaxNodes; ++core) {
+    for (int core = 0; core < problem_.cores && nodes_ < kMaxJoinNodes; ++core) {
       const bool empty =
           std::none_of(spots_.begin(), spots_.end(), [core](const Spot& spot) { return spot.core == core; });
       if (!allowed(unit, core) || (empty && empty_seen && units_[unit].core < 0)) {
         continue;
       }
       empty_seen = empty_seen || (empty && !bound_[static_cast<std::size_t>(core)]);
-      for (std::int64_t shift = 0; shift < units_[unit].shifts && nodes_ < kMaxNodes; ++shift) {
+      for (std::int64_t shift = 0; shift < units_[unit].shifts && nodes_ < kMaxJoinNodes; ++shift) {
         const std::int64_t busiest = loads_.busiest_with(core, &units_[unit], shift);
         if ((best_holds_ && busiest >= best_busiest_) || (best_holds_ && best_busiest_ <= least_)) {
           continue;
@@ -319,7 +319,7 @@ class Search {
   std::vector<bool> bound_ = bound_cores();  // by core: a module is bound to it
   std::vector<Spot> best_;
   bool best_holds_ = false;
-  std::int64_t best_busiest_ = kNever;
+  std::int64_t best_busiest_ = kNoTime;
   std::int64_t nodes_ = 0;
 };
 

@@ -10,7 +10,7 @@
 namespace indurop::base {
 namespace {
 
-constexpr std::int64_t kLongest = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kLongestDuration = std::numeric_limits<std::int64_t>::max();
 
 struct Unit {
   std::string_view name;
@@ -62,7 +62,7 @@ std::optional<Decimal> take_decimal(std::string_view& text, bool& too_large) {
     }
     any = true;
     const int digit = c - '0';
-    if (number.digits > (kLongest - digit) / 10 || (fraction && number.scale > kLongest / 10)) {
+    if (number.digits > (kLongestDuration - digit) / 10 || (fraction && number.scale > kLongestDuration / 10)) {
       too_large = true;
       return std::nullopt;
     }
@@ -100,7 +100,7 @@ DurationText from_time(const Subject& subject, Decimal number, std::int64_t unit
     scale /= 10;
     unit /= 10;
   }
-  if (number.digits > kLongest / unit) {
+  if (number.digits > kLongestDuration / unit) {
     return subject.is(" is longer than 292 years");
   }
   const std::int64_t nanos = number.digits * unit;
@@ -116,7 +116,7 @@ DurationText from_frequency(const Subject& subject, Decimal number, std::int64_t
     return problem(in_quotes(subject.text) + " never comes; a frequency must be above 0");
   }
   // period = 1e9 * scale / (digits * hertz), rounded to the nearest nanosecond
-  if (number.scale > kLongest / kSecond || number.digits > kLongest / hertz) {
+  if (number.scale > kLongestDuration / kSecond || number.digits > kLongestDuration / hertz) {
     return subject.is(" is outside of what a period can be");
   }
   const std::int64_t numerator = kSecond * number.scale;

@@ -9,7 +9,7 @@
 namespace indurop::base {
 namespace {
 
-constexpr std::size_t kLongest = 256;  // longer names get no suggestion
+constexpr std::size_t kLongestName = 256;  // longer names get no suggestion
 
 char lower(char c) noexcept {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -40,7 +40,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest(std::string_view name, std::span<const std::string> candidates) {
-  if (name.empty() || name.size() > kLongest) {
+  if (name.empty() || name.size() > kLongestName) {
     return {};
   }
   std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;  // the best must have fewer edits than this

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::uint8_t kUp = 1;
 constexpr std::uint8_t kDown = 2;
-constexpr std::uint8_t kLeft = 4;
-constexpr std::uint8_t kRight = 8;
+constexpr std::uint8_t kArmLeft = 4;
+constexpr std::uint8_t kArmRight = 8;
 
 // By arms.
 constexpr std::array<const char*, 16> kUnicode{" ", "│", "│", "│", "─", "┘", "┐", "┤",
@@ -46,7 +46,7 @@ Canvas::Cell* Canvas::cell(int x, int y) {
 void Canvas::horizontal(int x1, int x2, int y, int net, bool powered) {
   for (int x = x1; x < x2; ++x) {
     if (Cell* at = cell(x / 2, y / 2)) {
-      at->arms = static_cast<std::uint8_t>(at->arms | (x % 2 == 0 ? kLeft : kRight));
+      at->arms = static_cast<std::uint8_t>(at->arms | (x % 2 == 0 ? kArmLeft : kArmRight));
       at->across = net;
       at->powered = at->powered || powered;
     }

@@ -10,8 +10,8 @@
 namespace indurop::plc::draw {
 namespace {
 
-constexpr int kMargin = 24;
-constexpr int kLeft = 64;  // numbers of networks are left of the sheet
+constexpr int kPageMargin = 24;
+constexpr int kSheetLeft = 64;  // numbers of networks are left of the sheet
 constexpr int kHeading = 40;
 constexpr int kRemark = 18;
 constexpr int kGap = 26;
@@ -71,18 +71,18 @@ class Sheets {
   std::string run(const std::vector<SvgSheet>& sheets) {
     int width = 0;
     for (const SvgSheet& sheet : sheets) {
-      width = std::max({width, kLeft + 9 * text_width(sheet.heading), kLeft + sheet.chart.width});
+      width = std::max({width, kSheetLeft + 9 * text_width(sheet.heading), kSheetLeft + sheet.chart.width});
       for (const SvgNetwork& network : sheet.networks) {
-        width = std::max(width, kLeft + network.picture.width * kCellWidth);
+        width = std::max(width, kSheetLeft + network.picture.width * kCellWidth);
         for (const std::string& remark : network.remarks) {
-          width = std::max(width, kLeft + 7 * text_width(remark));
+          width = std::max(width, kSheetLeft + 7 * text_width(remark));
         }
       }
     }
     for (const SvgSheet& sheet : sheets) {
       y_ += kHeading;
-      out_.text(kMargin, y_ - 12, sheet.heading, "font-size=\"17\" font-weight=\"bold\" fill=\"#16324F\"");
-      out_.line(kMargin, y_ - 2, width, y_ - 2, "stroke=\"#C9D3DF\" stroke-width=\"1\"");
+      out_.text(kPageMargin, y_ - 12, sheet.heading, "font-size=\"17\" font-weight=\"bold\" fill=\"#16324F\"");
+      out_.line(kPageMargin, y_ - 2, width, y_ - 2, "stroke=\"#C9D3DF\" stroke-width=\"1\"");
       y_ += kGap / 2;
       if (!sheet.chart.elements.empty()) {
         part(sheet.chart.elements, sheet.chart.height);
@@ -91,20 +91,20 @@ class Sheets {
         draw(network);
       }
     }
-    return base::svg_document(width + kMargin, y_ + kMargin, out_);
+    return base::svg_document(width + kPageMargin, y_ + kPageMargin, out_);
   }
 
  private:
   void draw(const SvgNetwork& network) {
-    out_.rect(kMargin - 6, y_ - 1, 30, 20, R"(rx="10" fill="#E6EDF5")");
-    out_.text(kMargin + 9, y_ + 13, std::to_string(network.number),
+    out_.rect(kPageMargin - 6, y_ - 1, 30, 20, R"(rx="10" fill="#E6EDF5")");
+    out_.text(kPageMargin + 9, y_ + 13, std::to_string(network.number),
               "text-anchor=\"middle\" font-weight=\"bold\" fill=\"#2B4C7E\"");
     for (const std::string& remark : network.remarks) {
-      out_.text(kLeft, y_ + 13, remark, "fill=\"#5B6B7B\" font-style=\"italic\"");
+      out_.text(kSheetLeft, y_ + 13, remark, "fill=\"#5B6B7B\" font-style=\"italic\"");
       y_ += kRemark;
     }
     for (const std::string& label : network.labels) {
-      out_.text(kLeft, y_ + 13, label + ":", "font-weight=\"bold\" fill=\"#8A4B08\"");
+      out_.text(kSheetLeft, y_ + 13, label + ":", "font-weight=\"bold\" fill=\"#8A4B08\"");
       y_ += kRemark;
     }
     y_ += network.remarks.empty() && network.labels.empty() ? 0 : kRemark / 3;
@@ -112,7 +112,7 @@ class Sheets {
   }
 
   void part(const base::SvgPart& elements, int height) {
-    out_.part(kLeft, y_, elements);
+    out_.part(kSheetLeft, y_, elements);
     y_ += height + kGap;
   }
 

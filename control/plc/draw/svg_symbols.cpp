@@ -17,9 +17,9 @@ std::string move_to(double x, double y) {
   return fmt::format("M{} {}", base::svg_number(x), base::svg_number(y));
 }
 
-class Drawing {
+class SymbolDrawing {
  public:
-  explicit Drawing(base::SvgPart& out) : out_(out) {}
+  explicit SymbolDrawing(base::SvgPart& out) : out_(out) {}
 
   void run(const Symbol& symbol) {
     if (symbol.element == nullptr) {
@@ -138,7 +138,7 @@ class Drawing {
 }  // namespace
 
 void svg_symbol(const Symbol& symbol, base::SvgPart& out) {
-  Drawing(out).run(symbol);
+  SymbolDrawing(out).run(symbol);
 }
 
 }  // namespace indurop::plc::draw

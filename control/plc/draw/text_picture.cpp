@@ -9,9 +9,9 @@ namespace {
 using Kind = Element::Kind;
 using Look = Run::Look;
 
-class Drawing {
+class TextDrawing {
  public:
-  Drawing(const Picture& picture, bool unicode, const Live& live)
+  TextDrawing(const Picture& picture, bool unicode, const Live& live)
       : picture_(picture), live_(live), canvas_(picture.width, picture.height, unicode) {}
 
   std::vector<Row> run() {
@@ -137,7 +137,7 @@ class Drawing {
 }  // namespace
 
 std::vector<Row> draw_text(const Picture& picture, bool unicode, const Live& live) {
-  return Drawing(picture, unicode, live).run();
+  return TextDrawing(picture, unicode, live).run();
 }
 
 }  // namespace indurop::plc::draw

@@ -11,7 +11,7 @@
 namespace indurop::plc::lower {
 namespace {
 
-using Kind = FlowPoint::Kind;
+using PointKind = FlowPoint::Kind;
 
 const std::string kFlow = "_flow";
 constexpr const char* kEnd = "_flow_end";
@@ -68,7 +68,7 @@ std::size_t number_points(std::vector<FlowPoint>& flow) {
   std::map<std::pair<std::size_t, std::string>, std::size_t> known;  // by network
   std::size_t next = 0;
   for (FlowPoint& point : flow) {
-    if (point.kind == Kind::Value) {
+    if (point.kind == PointKind::Value) {
       continue;
     }
     const bool name = point.value.kind == ast::Expression::Kind::Name;
@@ -93,7 +93,7 @@ void add_flow(LoweredNetworks& lowered, const std::string& variable, const Place
     }
   };
   for (FlowPoint& point : lowered.flow) {
-    if (point.kind == Kind::Value || point.number < points) {
+    if (point.kind == PointKind::Value || point.number < points) {
       continue;
     }
     take_until(at_end ? lowered.body.size() : point.behind);

@@ -17,21 +17,16 @@
 #include "control/plc/lower/networks.h"
 #include "control/plc/model/make.h"
 #include "control/plc/st/parser.h"
+#include "core/base/text.h"
 
 namespace indurop::plc::lower {
 namespace {
 
+using base::trimmed;
 using network::Body;
 using network::NamedBody;
 using network::PouCode;
 using Language = Body::Language;
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kSpace);
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-}
 
 // Returns x AND y for ":= x AND y;", as editors write conditions.
 std::string_view condition_text(std::string_view text) {
@@ -48,8 +43,8 @@ std::string_view condition_text(std::string_view text) {
 // Returns a statement that leaves the body.
 const ast::Statement* leaving(const ast::Body& body) {
   for (const ast::Statement& statement : body) {
-    using Kind = ast::Statement::Kind;
-    if (statement.kind == Kind::Label || statement.kind == Kind::Jump || statement.kind == Kind::Return) {
+    if (statement.kind == ast::Statement::Kind::Label || statement.kind == ast::Statement::Kind::Jump ||
+        statement.kind == ast::Statement::Kind::Return) {
       return &statement;
     }
     for (const ast::Branch& branch : statement.branches) {

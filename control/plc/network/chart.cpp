@@ -33,9 +33,9 @@ void each_source(const Element& element, const Index& index, Diagnostics& diagno
   }
 }
 
-class Reader {
+class ChartReader {
  public:
-  Reader(const Diagram& diagram, Diagnostics& diagnostics)
+  ChartReader(const Diagram& diagram, Diagnostics& diagnostics)
       : diagram_(diagram), index_(diagram), diagnostics_(diagnostics) {}
 
   Chart read() {
@@ -261,7 +261,7 @@ class Reader {
 }  // namespace
 
 Chart read_chart(const Diagram& diagram, Diagnostics& diagnostics) {
-  return Reader(diagram, diagnostics).read();
+  return ChartReader(diagram, diagnostics).read();
 }
 
 }  // namespace indurop::plc::network

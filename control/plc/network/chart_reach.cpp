@@ -20,9 +20,9 @@ using Active = std::vector<std::size_t>;  // the active steps, in order: few of 
 constexpr std::size_t kMostSituations = 5'000;
 constexpr std::size_t kMostSteps = 50'000'000;  // checked in all situations together
 
-class Walk {
+class ReachWalk {
  public:
-  explicit Walk(const Chart& chart)
+  explicit ReachWalk(const Chart& chart)
       : chart_(chart), leaving_(chart.steps.size()), reached_(chart.steps.size()), twice_(chart.steps.size()) {
     for (std::size_t i = 0; i < chart.transitions.size(); ++i) {
       const auto& from = chart.transitions[i].from;
@@ -109,7 +109,7 @@ void warn_about_reach(const Chart& chart, Diagnostics& diagnostics) {
   if (std::none_of(chart.steps.begin(), chart.steps.end(), [](const Step& step) { return step.initial; })) {
     return;  // reported as an error elsewhere
   }
-  Walk walk(chart);
+  ReachWalk walk(chart);
   walk.run();
   for (std::size_t i = 0; i < chart.steps.size(); ++i) {
     const Step& step = chart.steps[i];

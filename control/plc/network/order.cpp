@@ -18,9 +18,9 @@ struct Edge {
 
 // Walks depth first along the sources, without recursion: rungs may be long. A circle is cut after an element that
 // keeps its value; if that is not where the circle was found, the walk starts again with the cut.
-class Walk {
+class OrderWalk {
  public:
-  Walk(const Index& index, Order& order) : index_(index), order_(order) {}
+  OrderWalk(const Index& index, Order& order) : index_(index), order_(order) {}
 
   // Returns false if it must start again.
   bool run(const std::vector<const Element*>& roots) {
@@ -151,7 +151,7 @@ Order order_of(const std::vector<Network>& networks, const Index& index) {
       }
     }
   }
-  while (!Walk(index, order).run(roots)) {
+  while (!OrderWalk(index, order).run(roots)) {
     order.circles.clear();
   }
   return order;

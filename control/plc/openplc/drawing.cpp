@@ -20,10 +20,6 @@ using network::Element;
 using network::Pin;
 using Kind = Element::Kind;
 
-std::string text_of(const Json& value) {
-  return value.text().value_or("");
-}
-
 int number_of(const Json& value) {
   constexpr double kFar = 1e6;
   const double number = value.number().value_or(0);
@@ -192,6 +188,10 @@ class RungReader {
 };
 
 }  // namespace
+
+std::string text_of(const Json& value) {
+  return value.text().value_or("");
+}
 
 network::Body read_drawing(const Json& flow, network::Body::Language language, const Place& at,
                            const std::string& pou) {

@@ -16,10 +16,6 @@ namespace {
 using base::Json;
 using Language = network::Body::Language;
 
-std::string text_of(const Json& value) {
-  return value.text().value_or("");
-}
-
 // Returns ARRAY [0..9] OF INT.
 std::string array_text(const Json& dimensions, const Json& element) {
   std::string bounds;

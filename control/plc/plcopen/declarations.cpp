@@ -26,10 +26,6 @@ constexpr std::array<std::pair<std::string_view, ast::Section>, 6> kLists{{{"loc
                                                                            {"tempVars", ast::Section::Temp},
                                                                            {"externalVars", ast::Section::External}}};
 
-bool is_true(const Node& node, std::string_view attribute) {
-  return node.attribute(attribute) == "true" || node.attribute(attribute) == "1";
-}
-
 void read_address(const Node& node, ast::Variable& variable, Diagnostics& diagnostics) {
   const std::string_view text = node.attribute("address");
   Place at = node.value_at("address");
@@ -116,9 +112,9 @@ void read_variables(const Node& list, ast::Section section, const std::string& w
                     Diagnostics& diagnostics) {
   ast::Variable form;
   form.section = section;
-  form.constant = is_true(list, "constant");
-  form.retain = is_true(list, "retain") || is_true(list, "persistent");
-  form.non_retain = is_true(list, "nonretain");
+  form.constant = list.is_true("constant");
+  form.retain = list.is_true("retain") || list.is_true("persistent");
+  form.non_retain = list.is_true("nonretain");
   for (const Node& node : list.children) {
     if (node.name == "variable") {
       read_variable(node, form, what, into, diagnostics);

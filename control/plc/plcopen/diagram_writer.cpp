@@ -136,9 +136,9 @@ void add_marks(Attributes& attributes, bool negated, ast::Edge edge, Storage sto
   }
 }
 
-class Writer {
+class DiagramWriter {
  public:
-  Writer(const std::vector<Element>& elements, XmlWriter& out) : elements_(elements), out_(out) {
+  DiagramWriter(const std::vector<Element>& elements, XmlWriter& out) : elements_(elements), out_(out) {
     for (const Element& one : elements) {
       next_id_ = std::max(next_id_, one.id + 1);
       if (one.kind == Kind::ActionBlock && !one.inputs.empty()) {
@@ -393,7 +393,7 @@ void write_body(const Body& body, XmlWriter& out) {
   Body placed = body;
   place(placed);
   out.open(body.language == Body::Language::Ld ? "LD" : body.language == Body::Language::Fbd ? "FBD" : "SFC");
-  Writer(placed.diagram.elements, out).run();
+  DiagramWriter(placed.diagram.elements, out).run();
   out.close();
 }
 

@@ -25,9 +25,9 @@ std::optional<ast::Pou::Kind> kind_named(std::string_view name) {
   return name == "functionBlock" ? std::optional(ast::Pou::Kind::FunctionBlock) : std::nullopt;
 }
 
-class Reader {
+class ProjectElementReader {
  public:
-  explicit Reader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  explicit ProjectElementReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   Document read(const Node& root) {
     if (root.name != "project") {
@@ -186,7 +186,7 @@ Document read_document(std::string_view bytes, const std::string& name, Diagnost
   if (bytes.find(kExtensionsOfCodesys) == std::string_view::npos) {
     quote_texts(*root);
   }
-  Document document = Reader(diagnostics).read(*root);
+  Document document = ProjectElementReader(diagnostics).read(*root);
   if (bytes.find(kExtensionsOfCodesys) != std::string_view::npos) {
     document.project.dialect = Dialect::Codesys;
   }

@@ -12,10 +12,12 @@
 
 #include "control/plc/plcopen/body_reader.h"
 #include "control/plc/plcopen/extensions.h"
+#include "core/base/text.h"
 
 namespace indurop::plc::plcopen {
 namespace {
 
+using base::trimmed;
 using network::Element;
 using network::Pin;
 using network::Storage;
@@ -49,21 +51,9 @@ constexpr std::array<std::pair<std::string_view, Kind>, 22> kKinds{
 constexpr std::array<std::string_view, 4> kNameAttributes{"name", "label", "targetName", "target"};
 constexpr std::array<std::string_view, 2> kNameElements{"variable", "expression"};
 
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kSpace);
-  return first == std::string_view::npos ? std::string()
-                                         : std::string(text.substr(first, text.find_last_not_of(kSpace) - first + 1));
-}
-
 bool has_one_input(Kind kind) noexcept {
   return kind == Kind::Contact || kind == Kind::Coil || kind == Kind::Jump || kind == Kind::Return ||
          kind == Kind::OutVariable || kind == Kind::Connector;
-}
-
-bool is_true(const Node& node, std::string_view attribute) {
-  const std::string_view value = node.attribute(attribute);
-  return value == "true" || value == "1";
 }
 
 // Returns a coordinate on the sheet; 0 for invalid text, because positions only affect order and drawing.
@@ -79,9 +69,9 @@ network::Point point_of(const Node& position) {
   return {coordinate(position.attribute("x")), coordinate(position.attribute("y"))};
 }
 
-class Reader {
+class ElementReader {
  public:
-  Reader(std::string what, Diagnostics& diagnostics)
+  ElementReader(std::string what, Diagnostics& diagnostics)
       : what_(std::make_shared<const std::string>(std::move(what))), diagnostics_(diagnostics) {}
 
   network::Diagram read(const Node& language) {
@@ -197,10 +187,10 @@ class Reader {
     made.width = coordinate(node.attribute("width"));
     made.height = coordinate(node.attribute("height"));
     made.order = coordinate(node.attribute("executionOrderId"));
-    made.negated = is_true(node, "negated") || is_true(node, "negatedIn");
+    made.negated = node.is_true("negated") || node.is_true("negatedIn");
     made.edge = edge(node);
     made.storage = storage(node);
-    made.initial = is_true(node, "initialStep");
+    made.initial = node.is_true("initialStep");
     made.priority = coordinate(node.attribute("priority"));
     for (const std::string_view attribute : kNameAttributes) {
       if (node.has(attribute)) {
@@ -227,7 +217,7 @@ class Reader {
     if (made.inputs.empty() && has_one_input(made.kind)) {
       made.inputs.emplace_back().at = made.at;  // not connected: an error of the drawing
     }
-    if (made.kind == Kind::InOutVariable && is_true(node, "negatedOut")) {
+    if (made.kind == Kind::InOutVariable && node.is_true("negatedOut")) {
       diagnostics_.error(made.at, "a negated output of a variable is not supported; negate the pins after it");
     }
   }
@@ -299,7 +289,7 @@ class Reader {
       Pin& pin = pins.emplace_back();
       pin.at = place(node);
       pin.name = trimmed(node.attribute("formalParameter"));
-      pin.negated = is_true(node, "negated");
+      pin.negated = node.is_true("negated");
       pin.edge = edge(node);
       pin.storage = storage(node);
       for (const char* point : {"connectionPointIn", "connectionPointOut"}) {
@@ -315,7 +305,7 @@ class Reader {
     if (condition == nullptr) {
       return;
     }
-    if (is_true(*condition, "negated")) {
+    if (condition->is_true("negated")) {
       diagnostics_.error(place(*condition), "a negated condition is not supported; write NOT into it");
     }
     if (const Node* reference = condition->child("reference")) {
@@ -378,7 +368,7 @@ class Reader {
 }  // namespace
 
 network::Diagram read_elements(const Node& language, const std::string& what, Diagnostics& diagnostics) {
-  return Reader(what, diagnostics).read(language);
+  return ElementReader(what, diagnostics).read(language);
 }
 
 }  // namespace indurop::plc::plcopen

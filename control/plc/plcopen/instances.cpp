@@ -87,9 +87,9 @@ std::optional<std::int64_t> clock_ns(std::string_view text) {
   return seconds < kMaxSeconds ? std::optional(std::llround(seconds * 1e9)) : std::nullopt;
 }
 
-class Reader {
+class InstanceReader {
  public:
-  Reader(Project& project, Diagnostics& diagnostics) : project_(project), diagnostics_(diagnostics) {}
+  InstanceReader(Project& project, Diagnostics& diagnostics) : project_(project), diagnostics_(diagnostics) {}
 
   Configuration configuration(const Node& node) {
     Configuration made;
@@ -217,14 +217,14 @@ std::optional<std::int64_t> interval_ns(std::string_view text) {
 }
 
 void read_application(const Node& resource, Project& into, Diagnostics& diagnostics) {
-  into.configurations.push_back(Reader(into, diagnostics).application(resource));
+  into.configurations.push_back(InstanceReader(into, diagnostics).application(resource));
 }
 
 void read_instances(const Node& instances, Project& into, Diagnostics& diagnostics) {
   const Node* list = instances.child("configurations");
   for (const Node& node : children_of(list)) {
     if (node.name == "configuration") {
-      into.configurations.push_back(Reader(into, diagnostics).configuration(node));
+      into.configurations.push_back(InstanceReader(into, diagnostics).configuration(node));
     }
   }
 }

@@ -19,9 +19,9 @@ const char* type_of(ast::Pou::Kind kind) noexcept {
   return kind == ast::Pou::Kind::Program ? "program" : kind == ast::Pou::Kind::Function ? "function" : "functionBlock";
 }
 
-class Writer {
+class ProjectWriter {
  public:
-  Writer(const Document& document, const WriteOptions& options, Diagnostics& diagnostics)
+  ProjectWriter(const Document& document, const WriteOptions& options, Diagnostics& diagnostics)
       : document_(document), options_(options), diagnostics_(diagnostics), declarations_(out_, diagnostics) {}
 
   std::string run() {
@@ -236,7 +236,7 @@ class Writer {
 }  // namespace
 
 std::string write_project(const Document& document, const WriteOptions& options, Diagnostics& diagnostics) {
-  return Writer(document, options, diagnostics).run();
+  return ProjectWriter(document, options, diagnostics).run();
 }
 
 }  // namespace indurop::plc::plcopen

@@ -23,9 +23,9 @@ std::string one_line(std::string text) {
   return first == std::string::npos ? std::string() : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-class Reader {
+class TypeReader {
  public:
-  Reader(const std::string& what, Diagnostics& diagnostics)
+  TypeReader(const std::string& what, Diagnostics& diagnostics)
       : what_(std::make_shared<const std::string>(what)), diagnostics_(diagnostics) {}
 
   std::optional<TypeSpec> type(const Node& holder) {
@@ -283,12 +283,12 @@ bool is_empty(const Node& initial) {
 }  // namespace
 
 std::optional<TypeSpec> read_type(const Node& holder, const std::string& what, Diagnostics& diagnostics) {
-  return Reader(what, diagnostics).type(holder);
+  return TypeReader(what, diagnostics).type(holder);
 }
 
 std::optional<ast::Initial> read_initial(const Node& holder, const std::string& what, Diagnostics& diagnostics) {
   const Node* given = holder.child("initialValue");
-  return given == nullptr || is_empty(*given) ? std::nullopt : Reader(what, diagnostics).initial(*given);
+  return given == nullptr || is_empty(*given) ? std::nullopt : TypeReader(what, diagnostics).initial(*given);
 }
 
 std::string comment_of(const Node& node) {

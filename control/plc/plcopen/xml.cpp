@@ -63,6 +63,11 @@ bool Node::has(std::string_view wanted) const noexcept {
   return std::any_of(attributes.begin(), attributes.end(), [&](const Attribute& each) { return each.name == wanted; });
 }
 
+bool Node::is_true(std::string_view wanted) const noexcept {
+  const std::string_view value = attribute(wanted);
+  return value == "true" || value == "1";
+}
+
 const Node* Node::child(std::string_view wanted) const noexcept {
   for (const Node& each : children) {
     if (each.name == wanted) {

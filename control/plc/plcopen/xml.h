@@ -35,6 +35,8 @@ struct Node {
   // Returns the value of an attribute, "" if it is missing.
   [[nodiscard]] std::string_view attribute(std::string_view wanted) const noexcept;
   [[nodiscard]] bool has(std::string_view wanted) const noexcept;
+  // Returns true if the attribute is there and says so, as XML Schema writes it: "true" or "1".
+  [[nodiscard]] bool is_true(std::string_view wanted) const noexcept;
   // Returns the place where the value begins; that of the element if the attribute is missing.
   [[nodiscard]] Place value_at(std::string_view wanted) const;
   // Returns the first child of that name, or null.

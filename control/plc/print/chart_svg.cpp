@@ -13,22 +13,22 @@
 namespace indurop::plc {
 namespace {
 
-constexpr int kCharacter = 8;  // width of one
-constexpr int kStep = 30;      // height of a step
-constexpr int kAction = 22;    // height of a line of actions
-constexpr int kBar = 13;       // half the width of a transition
-constexpr int kBetween = 42;   // between rows: lines and branches
-constexpr int kBranch = 15;    // below a node its branch, above a node its joint
-constexpr int kColumn = 36;    // between columns
+constexpr int kCharacter = 8;   // width of one
+constexpr int kStep = 30;       // height of a step
+constexpr int kAction = 22;     // height of a line of actions
+constexpr int kBar = 13;        // half the width of a transition
+constexpr int kBetween = 42;    // between rows: lines and branches
+constexpr int kBranch = 15;     // below a node its branch, above a node its joint
+constexpr int kColumnGap = 36;  // between columns
 constexpr const char* kLine = R"(stroke="#1F2D3D" stroke-width="1.6" stroke-linecap="square")";
 
 int width_of(std::string_view text) {
   return kCharacter * draw::text_width(text);
 }
 
-class Drawing {
+class ChartDrawing {
  public:
-  explicit Drawing(const network::Chart& chart) : chart_(chart), layout_(lay_out_chart(chart)) {}
+  explicit ChartDrawing(const network::Chart& chart) : chart_(chart), layout_(lay_out_chart(chart)) {}
 
   draw::SvgPart run() {
     measure();
@@ -93,7 +93,7 @@ class Drawing {
     int x = 0;
     for (std::size_t i = 0; i < layout_.columns; ++i) {
       columns_.push_back(x + left[i]);
-      x += left[i] + right[i] + kColumn;
+      x += left[i] + right[i] + kColumnGap;
     }
     width_ = x;
     int y = 4;
@@ -196,7 +196,8 @@ class Drawing {
     for (std::size_t k = 0; k < to.size(); ++k) {
       const ChartSpot& target = layout_.steps[to[k]];
       const bool below = !layout_.jumps[t][k];
-      const int from = to.size() > 1 && below ? x_of(target) : x + (to.size() > 1 ? static_cast<int>(k) * kColumn : 0);
+      const int from =
+          to.size() > 1 && below ? x_of(target) : x + (to.size() > 1 ? static_cast<int>(k) * kColumnGap : 0);
       most = std::max(most, from);
       if (below) {
         const int joint = y_of(target) - kBranch + 3;
@@ -237,7 +238,7 @@ class Drawing {
 }  // namespace
 
 draw::SvgPart draw_chart(const network::Chart& chart, std::vector<StepBox>* boxes) {
-  Drawing drawing(chart);
+  ChartDrawing drawing(chart);
   draw::SvgPart part = drawing.run();
   if (boxes != nullptr) {
     *boxes = drawing.boxes();

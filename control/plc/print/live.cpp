@@ -9,23 +9,23 @@ namespace indurop::plc {
 namespace {
 
 using Language = network::Body::Language;
-using Kind = lower::FlowPoint::Kind;
+using PointKind = lower::FlowPoint::Kind;
 
 void number_points(lower::LoweredNetworks lowered, LiveBody& body) {
   const std::size_t points = lower::number_points(lowered.flow);
   for (const lower::FlowPoint& point : lowered.flow) {
-    if (point.kind == Kind::Power) {
+    if (point.kind == PointKind::Power) {
       body.power.emplace(LiveBody::Key(point.source.element, point.source.pin), point.number);
-    } else if (point.kind == Kind::Closed) {
+    } else if (point.kind == PointKind::Closed) {
       body.closed.emplace(point.source.element, point.number);
     }
   }
   body.flow_variable = points == 0 ? std::string() : lower::flow_variable(body.action);
 }
 
-class Reader {
+class LiveReader {
  public:
-  Reader(const Project& project, Diagnostics& diagnostics) : project_(project), diagnostics_(diagnostics) {}
+  LiveReader(const Project& project, Diagnostics& diagnostics) : project_(project), diagnostics_(diagnostics) {}
 
   void add(const std::string& pou, const std::string& action, network::Body& body) {
     LiveBody made;
@@ -159,7 +159,7 @@ std::vector<LiveBody> live_bodies(plcopen::Document& document, const std::string
   for (const plcopen::PouDocument& each : document.pous) {
     declared.pous.push_back(each.pou);
   }
-  Reader reader(declared, diagnostics);
+  LiveReader reader(declared, diagnostics);
   for (plcopen::PouDocument& each : document.pous) {
     const bool keeps = each.pou.kind == ast::Pou::Kind::Program || each.pou.kind == ast::Pou::Kind::FunctionBlock;
     if (!keeps || (!pou.empty() && !same_name(pou, each.pou.name))) {

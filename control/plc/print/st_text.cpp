@@ -10,7 +10,7 @@ namespace {
 
 using ast::Statement;
 
-class Writer {
+class TextWriter {
  public:
   void list(const ast::Body& body, int depth) {
     for (const Statement& each : body) {
@@ -119,7 +119,7 @@ class Writer {
 }  // namespace
 
 std::string st_text(const ast::Pou& pou) {
-  Writer writer;
+  TextWriter writer;
   writer.list(pou.body, 1);
   return pou.name + "\n" + writer.take();
 }

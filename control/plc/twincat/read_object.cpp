@@ -74,9 +74,9 @@ std::string_view end_of(const std::vector<Token>& declaration) {
   return "";
 }
 
-class ObjectReader {
+class TwinCatObjectReader {
  public:
-  ObjectReader(const Place& at, std::vector<st::WrittenBody>& others, Diagnostics& diagnostics)
+  TwinCatObjectReader(const Place& at, std::vector<st::WrittenBody>& others, Diagnostics& diagnostics)
       : at_(at), others_(others), diagnostics_(diagnostics) {}
 
   Project read(const Node& root) {
@@ -259,7 +259,7 @@ void collect(const Node& node, std::vector<std::string>& out) {
 Project read_object(std::string_view bytes, const Place& at, std::vector<st::WrittenBody>& others,
                     Diagnostics& diagnostics) {
   const auto root = read_root(bytes, at, diagnostics);
-  return root ? ObjectReader(at, others, diagnostics).read(*root) : Project();
+  return root ? TwinCatObjectReader(at, others, diagnostics).read(*root) : Project();
 }
 
 Project read_declarations(std::string_view bytes, const Place& at, std::vector<st::WrittenBody>& bodies,
@@ -269,7 +269,7 @@ Project read_declarations(std::string_view bytes, const Place& at, std::vector<s
     return {};
   }
   std::vector<st::WrittenBody> others;
-  Project out = ObjectReader(at, others, diagnostics).read(*root);
+  Project out = TwinCatObjectReader(at, others, diagnostics).read(*root);
   const Node* pou = root->child("POU");
   if (pou != nullptr && out.pous.size() == 1) {  // a file has one
     out.pous.front().body.clear();

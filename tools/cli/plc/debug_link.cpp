@@ -18,9 +18,9 @@ bool receive(int socket, void* to, std::size_t size) {
 }
 
 // Reads the parts of a message one after the other.
-class Parts {
+class ReplyParts {
  public:
-  explicit Parts(const std::string& text) : rest_(text) {}
+  explicit ReplyParts(const std::string& text) : rest_(text) {}
   template <class T>
   T take() {
     T value{};
@@ -54,7 +54,7 @@ class Parts {
 };
 
 std::optional<DebugStop> stop_of(const std::string& text) {
-  Parts parts(text);
+  ReplyParts parts(text);
   DebugStop stop;
   const char kind = parts.take<char>();
   stop.kind = kind == 'B' ? DebugStop::Kind::Begin : kind == 'S' ? DebugStop::Kind::Line : DebugStop::Kind::Fault;

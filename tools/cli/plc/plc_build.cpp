@@ -38,13 +38,13 @@ bool save(Context& context, const fs::path& path, const std::string& text) {
 
 // The programs, library and headers of InduRoP: in the folder of this program, in a build directory as well as in an
 // installation.
-struct Parts {
+struct BuildParts {
   fs::path glb2idl;
   fs::path headers;
   fs::path library;
 };
 
-bool find_parts(Context& context, Parts& parts) {
+bool find_parts(Context& context, BuildParts& parts) {
   const fs::path programs = base::program_folder();
   const fs::path prefix = programs.parent_path();
   std::error_code error;
@@ -87,7 +87,7 @@ std::string names_of(const std::vector<std::string>& files) {
 
 bool build_modules(Context& context, const plc::CompileOptions& options, const plc::Compiled& compiled,
                    const fs::path& folder) {
-  Parts parts;
+  BuildParts parts;
   if (!find_parts(context, parts)) {
     return false;
   }

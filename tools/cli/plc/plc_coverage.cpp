@@ -148,7 +148,7 @@ std::string lcov_text(const Coverage& coverage) {
 
 namespace {
 
-struct Request {
+struct PlcCoverageRequest {
   std::string folder;
   std::string lcov;
 };
@@ -287,7 +287,7 @@ int show_coverage(Context& context, const std::filesystem::path& folder, const s
 }
 
 void add_plc_coverage(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<PlcCoverageRequest>();
   base::Options& made =
       app.command("coverage", "Say which lines, rungs and branches were tried by tests", [request, chosen] {
         *chosen = [request](Context& c) { return show_coverage(c, request->folder, request->lcov); };

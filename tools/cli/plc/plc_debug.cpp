@@ -29,14 +29,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct PlcDebugRequest {
   plc::CompileOptions compile;
   std::string config;
   std::string until;
 };
 
 // Builds the program alone and a configuration for it.
-bool build(Context& context, Request& request, const plc::Compiled& compiled, const fs::path& folder) {
+bool build(Context& context, PlcDebugRequest& request, const plc::Compiled& compiled, const fs::path& folder) {
   if (!write_modules(context, request.compile, compiled, folder, false)) {
     return false;
   }
@@ -62,7 +62,7 @@ void end(pid_t process) {
   (void)::waitpid(process, nullptr, 0);
 }
 
-int debug(Context& context, Request& request) {
+int debug(Context& context, PlcDebugRequest& request) {
   request.compile.debug = true;
   const auto files = with_project_files(context, request.compile.files);
   if (!files) {
@@ -117,7 +117,7 @@ int debug(Context& context, Request& request) {
 }  // namespace
 
 void add_plc_debug(base::Options& app, const std::shared_ptr<Action>& chosen) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<PlcDebugRequest>();
   base::Options& made =
       app.command("debug", "Run a program in simulation, with breakpoints and line by line",
                   [request, chosen] { *chosen = [request](Context& c) { return debug(c, *request); }; });

@@ -20,7 +20,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Request {
+struct PlcExportRequest {
   plc::CompileOptions compile;
   std::string output;
 };
@@ -31,7 +31,7 @@ std::string now() {
 }
 
 // Prints the diagnostics of `check`, then what the format does not support.
-std::optional<std::string> text_of(Context& context, const Request& request) {
+std::optional<std::string> text_of(Context& context, const PlcExportRequest& request) {
   const auto files = with_project_files(context, request.compile.files);
   if (!files) {
     return std::nullopt;
@@ -57,7 +57,7 @@ std::optional<std::string> text_of(Context& context, const Request& request) {
   return diagnostics.failed() ? std::nullopt : std::optional(std::move(text));
 }
 
-int export_plc(Context& context, const Request& request) {
+int export_plc(Context& context, const PlcExportRequest& request) {
   const std::optional<std::string> text = text_of(context, request);
   if (!text) {
     return kCheckFailed;
@@ -77,7 +77,7 @@ int export_plc(Context& context, const Request& request) {
 }  // namespace
 
 void add_plc_export(base::Options& app, const std::shared_ptr<Action>& chosen) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<PlcExportRequest>();
   base::Options& made =
       app.command("export", "Write a program as PLCopen XML, which Beremiz, the OpenPLC editor and CODESYS import",
                   [request, chosen] { *chosen = [request](Context& c) { return export_plc(c, *request); }; });

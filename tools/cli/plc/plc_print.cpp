@@ -15,7 +15,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Request {
+struct PlcPrintRequest {
   std::vector<std::string> files;
   std::string svg;
   std::string pou;
@@ -30,7 +30,7 @@ std::string names_of(const plc::plcopen::Document& document) {
   return names;
 }
 
-int print(Context& context, const Request& request) {
+int print(Context& context, const PlcPrintRequest& request) {
   std::optional<EndsAtOnce> ends(std::in_place);
   plc::Diagnostics diagnostics;
   const plc::ReadOptions reading{.in_editor = request.dialect == plc::Dialect::Codesys};
@@ -71,7 +71,7 @@ int print(Context& context, const Request& request) {
 }  // namespace
 
 void add_plc_print(base::Options& app, const std::shared_ptr<Action>& chosen) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<PlcPrintRequest>();
   base::Options& made =
       app.command("print", "Print a program, its networks as text or as a picture",
                   [request, chosen] { *chosen = [request](Context& c) { return print(c, *request); }; });

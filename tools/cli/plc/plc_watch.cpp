@@ -20,7 +20,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Request {
+struct PlcWatchRequest {
   plc::CompileOptions compile;
   ViewChoice choice;
   double hz = 10;
@@ -30,9 +30,9 @@ struct Request {
 };
 
 // The view on a terminal: as many lines as fit, repainted in place.
-class View {
+class PlcWatchView {
  public:
-  View(Context& context, PlcView& view) : context_(context), view_(view), screen_(context.out) {}
+  PlcWatchView(Context& context, PlcView& view) : context_(context), view_(view), screen_(context.out) {}
 
   void run(Rounds rounds) {
     bool key = false;
@@ -94,7 +94,7 @@ class View {
   std::size_t last_ = 0;
 };
 
-int watch(Context& context, Request& request) {
+int watch(Context& context, PlcWatchRequest& request) {
   const auto files = with_project_files(context, request.compile.files);
   if (!files) {
     return kCheckFailed;
@@ -116,7 +116,7 @@ int watch(Context& context, Request& request) {
   const bool live = context.out.terminal() && !request.once;
   Rounds rounds(request.hz, live ? request.count : std::max<std::uint64_t>(request.count, 1), request.timeout_ns);
   if (live) {
-    View(context, view).run(rounds);
+    PlcWatchView(context, view).run(rounds);
     return kOk;
   }
   for (bool key = false; rounds.wait(-1, key); rounds.done()) {
@@ -135,7 +135,7 @@ int watch(Context& context, Request& request) {
 }  // namespace
 
 void add_plc_watch(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<PlcWatchRequest>();
   constexpr int kMostRungs = 1'000'000;
   base::Options& made =
       app.command("watch", "Show a running program with its values, active steps and power flow",

@@ -25,9 +25,9 @@ struct Columns {
   std::size_t first = 0;
 };
 
-class Sheet {
+class CsvSheet {
  public:
-  explicit Sheet(const CsvOptions& options) : options_(options) {}
+  explicit CsvSheet(const CsvOptions& options) : options_(options) {}
 
   Result<void, Problem> choose(const recording::McapReader& reader) {
     const recorder::Sources sources = recorder::find_sources(reader);
@@ -153,7 +153,7 @@ Result<Exported, Problem> recorded_csv(const std::filesystem::path& file, const 
   if (!reader) {
     return std::move(reader).error();
   }
-  Sheet sheet(options);
+  CsvSheet sheet(options);
   if (auto chosen = sheet.choose(*reader); !chosen) {
     return std::move(chosen).error();
   }

@@ -11,14 +11,14 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct RecordingCutOptions {
   std::filesystem::path file;
   std::filesystem::path to;
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;
 };
 
-int cut(Context& context, const Options& options) {
+int cut(Context& context, const RecordingCutOptions& options) {
   if (options.to_ns != 0 && options.to_ns <= options.from_ns) {
     context.out.error("--to is not later than --from");
     return kUsage;
@@ -40,7 +40,7 @@ int cut(Context& context, const Options& options) {
 }  // namespace
 
 void add_recording_cut(base::Options& app, const std::shared_ptr<Action>& chosen) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RecordingCutOptions>();
   base::Options& verb = app.command("cut", "Copy a part of a recording into a new one", [options, chosen] {
     *chosen = [options](Context& c) { return cut(c, *options); };
   });

@@ -13,12 +13,12 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct RecordingJoinOptions {
   std::vector<std::string> files;
   std::filesystem::path to;
 };
 
-int join(Context& context, const Options& options) {
+int join(Context& context, const RecordingJoinOptions& options) {
   const auto joined = recorder::join({options.files.begin(), options.files.end()}, options.to);
   if (!joined) {
     context.out.error(joined.error().text);
@@ -35,7 +35,7 @@ int join(Context& context, const Options& options) {
 }  // namespace
 
 void add_recording_join(base::Options& app, const std::shared_ptr<Action>& chosen) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RecordingJoinOptions>();
   base::Options& join_command =
       app.command("join", "Join the recordings of several boards to one on common time",
                   [options, chosen] { *chosen = [options](Context& c) { return join(c, *options); }; });

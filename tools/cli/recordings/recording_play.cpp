@@ -31,7 +31,7 @@ namespace {
 
 using base::Problem;
 
-struct Options {
+struct RecordingPlayOptions {
   std::filesystem::path file;
   std::vector<std::string> names;
   std::string board;
@@ -46,14 +46,14 @@ struct Played {
 };
 using Playlist = std::map<std::uint16_t, Played>;
 
-bool named(const Options& options, const std::string& name) {
+bool named(const RecordingPlayOptions& options, const std::string& name) {
   return std::any_of(options.names.begin(), options.names.end(),
                      [&name](const std::string& glob) { return schema::glob_match(glob, name); });
 }
 
 // Chooses the variables that modules of the node do not write themselves, or those named on the command line.
-Result<Playlist, Failure> choose(Context& context, const Options& options, const recording::McapReader& reader,
-                                 const vars::Store& store) {
+Result<Playlist, Failure> choose(Context& context, const RecordingPlayOptions& options,
+                                 const recording::McapReader& reader, const vars::Store& store) {
   const recorder::Sources sources = recorder::find_sources(reader);
   const auto source = recorder::choose_source(sources, options.board, options.file.string());
   if (!source) {
@@ -119,7 +119,7 @@ void play_one(Played& played, std::span<const std::uint8_t> cdr, vars::Store& st
   played.bytes = std::move(bytes);
 }
 
-Result<Done, Problem> play_all(const Options& options, recording::McapReader& reader, vars::Store& store,
+Result<Done, Problem> play_all(const RecordingPlayOptions& options, recording::McapReader& reader, vars::Store& store,
                                Playlist& list) {
   Done done;
   std::optional<std::uint64_t> first;
@@ -148,7 +148,7 @@ Result<Done, Problem> play_all(const Options& options, recording::McapReader& re
   return done;
 }
 
-int play(Context& context, const Options& options) {
+int play(Context& context, const RecordingPlayOptions& options) {
   auto reader = recording::McapReader::open(options.file);
   if (!reader) {
     context.out.error(reader.error().text);
@@ -198,7 +198,7 @@ int play(Context& context, const Options& options) {
 void add_recording_play(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen) {
   constexpr double kMinSpeed = 0.001;
   constexpr double kMaxSpeed = 1000;
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RecordingPlayOptions>();
   base::Options& verb =
       app.command("play", "Write recorded values into a running node at their times",
                   [options, chosen] { *chosen = [options](Context& c) { return play(c, *options); }; });

@@ -18,14 +18,14 @@ using base::Problem;
 
 constexpr std::size_t kMostColumns = 20;
 
-struct Row {
+struct ReplayedOverRow {
   std::int64_t time_ns = 0;
   std::vector<std::string> cells;
 };
 
-struct Sheet {
+struct ReadSheet {
   std::vector<std::string> names;
-  std::vector<Row> rows;
+  std::vector<ReplayedOverRow> rows;
 
   [[nodiscard]] std::optional<std::size_t> column(const std::string& name) const {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -33,12 +33,12 @@ struct Sheet {
   }
 };
 
-std::optional<Sheet> read(std::string_view text) {
-  Sheet sheet;
+std::optional<ReadSheet> read(std::string_view text) {
+  ReadSheet sheet;
   std::size_t line = 1;
   for (bool heading = true; !text.empty(); heading = false) {
     std::vector<base::CsvCell> cells = base::take_csv_row(text, ',', line);
-    Row row;
+    ReplayedOverRow row;
     const std::string& time = cells.front().text;
     if (!heading && std::from_chars(time.data(), time.data() + time.size(), row.time_ns).ec != std::errc()) {
       return std::nullopt;
@@ -59,9 +59,9 @@ std::optional<Sheet> read(std::string_view text) {
 
 // Merges the rows of both by time: calls `use(time, recorded, now)` with the rows that hold then; null: none yet.
 template <class Use>
-void for_each_time(const Sheet& recorded, const Sheet& now, const Use& use) {
-  const Row* left = nullptr;
-  const Row* right = nullptr;
+void for_each_time(const ReadSheet& recorded, const ReadSheet& now, const Use& use) {
+  const ReplayedOverRow* left = nullptr;
+  const ReplayedOverRow* right = nullptr;
   std::size_t i = 0;
   std::size_t j = 0;
   while (i < recorded.rows.size() || j < now.rows.size()) {
@@ -80,7 +80,7 @@ void for_each_time(const Sheet& recorded, const Sheet& now, const Use& use) {
 
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;  // columns of the same name
 
-Pairs differing(const Sheet& recorded, const Sheet& now) {
+Pairs differing(const ReadSheet& recorded, const ReadSheet& now) {
   Pairs pairs;
   std::vector<bool> differ;
   for (std::size_t i = 0; i < recorded.names.size(); ++i) {
@@ -89,7 +89,7 @@ Pairs differing(const Sheet& recorded, const Sheet& now) {
     }
   }
   differ.resize(pairs.size());
-  for_each_time(recorded, now, [&](std::int64_t, const Row* left, const Row* right) {
+  for_each_time(recorded, now, [&](std::int64_t, const ReplayedOverRow* left, const ReplayedOverRow* right) {
     for (std::size_t k = 0; left != nullptr && right != nullptr && k < pairs.size(); ++k) {
       const std::string& one = left->cells[pairs[k].first];
       const std::string& other = right->cells[pairs[k].second];
@@ -101,13 +101,13 @@ Pairs differing(const Sheet& recorded, const Sheet& now) {
   return pairs;
 }
 
-std::string together(const Sheet& recorded, const Sheet& now, const Pairs& pairs) {
+std::string together(const ReadSheet& recorded, const ReadSheet& now, const Pairs& pairs) {
   std::string text = "time_ns";
   for (const auto& [i, j] : pairs) {
     text += "," + base::csv_field(recorded.names[i] + " recorded") + "," + base::csv_field(now.names[j] + " now");
   }
   text += '\n';
-  for_each_time(recorded, now, [&](std::int64_t time, const Row* left, const Row* right) {
+  for_each_time(recorded, now, [&](std::int64_t time, const ReplayedOverRow* left, const ReplayedOverRow* right) {
     text += std::to_string(time);
     for (const auto& [i, j] : pairs) {
       text += "," + (left == nullptr ? std::string() : base::csv_field(left->cells[i]));

@@ -27,9 +27,9 @@ using base::Nanos;
 using explain::ChainAges;
 using explain::Keeping;
 
-constexpr std::int64_t kPauseNs = 5'000'000;
+constexpr std::int64_t kAgePauseNs = 5'000'000;
 
-struct Options {
+struct AgeOptions {
   std::string from;
   std::string to;
   std::vector<std::string> files;
@@ -39,7 +39,7 @@ struct Options {
 };
 
 // The configuration's file, and the requested node; no node: recordings are used.
-struct Asked {
+struct AgeAsked {
   std::string config;
   std::string node;
   std::string board;  // that node's
@@ -59,8 +59,8 @@ std::string any_board() {
   return configs.size() == 1 ? chosen : "";
 }
 
-Result<Asked, Failure> whom(const Context& context, const Options& options) {
-  Asked asked;
+Result<AgeAsked, Failure> whom(const Context& context, const AgeOptions& options) {
+  AgeAsked asked;
   if (!options.files.empty()) {
     const auto config = recorded_config(options.files.front());
     if (!config) {
@@ -87,7 +87,7 @@ Result<Asked, Failure> whom(const Context& context, const Options& options) {
 }
 
 // Nodes of one plant differ only in the name of the board: "control-sim" and "sensor-sim".
-std::string node_of(const Asked& asked, const std::string& board) {
+std::string node_of(const AgeAsked& asked, const std::string& board) {
   std::string node = asked.node;
   const auto at = asked.board.empty() ? std::string::npos : node.find(asked.board);
   return at == std::string::npos ? node : node.replace(at, asked.board.size(), board);
@@ -95,7 +95,7 @@ std::string node_of(const Asked& asked, const std::string& board) {
 
 using Runs = std::vector<BoardRuns>;
 
-Result<Runs, Failure> follow_nodes(const Asked& asked, const std::set<std::string>& boards,
+Result<Runs, Failure> follow_nodes(const AgeAsked& asked, const std::set<std::string>& boards,
                                    const std::vector<std::string>& wanted, std::int64_t duration_ns) {
   std::vector<FollowedBoard> followed;
   for (const std::string& board : boards) {
@@ -119,7 +119,7 @@ Result<Runs, Failure> follow_nodes(const Asked& asked, const std::set<std::strin
     }
   }
   while (duration_ns > 0 && rt::now_ns() - begin < duration_ns && !interrupted()) {
-    wait_until(rt::now_ns() + kPauseNs);
+    wait_until(rt::now_ns() + kAgePauseNs);
     for (FollowedBoard& one : followed) {
       one.take();
     }
@@ -131,7 +131,7 @@ Result<Runs, Failure> follow_nodes(const Asked& asked, const std::set<std::strin
   return runs;
 }
 
-Result<Runs, Failure> read_files(const Options& options, const std::vector<std::string>& wanted) {
+Result<Runs, Failure> read_files(const AgeOptions& options, const std::vector<std::string>& wanted) {
   Runs runs;
   for (const std::string& file : options.files) {
     auto some = recorded_runs(file, wanted);
@@ -288,7 +288,7 @@ bool add_row(Context& context, const Measurement& measurement, const Chain& chai
 }
 
 // Prints the measurements of all chains. Returns the exit code.
-int print_result(Context& context, const Options& options, const ChainPlant& plant, const std::vector<Chain>& found,
+int print_result(Context& context, const AgeOptions& options, const ChainPlant& plant, const std::vector<Chain>& found,
                  const Runs& runs) {
   // Current measurements of boards do not apply to a recording.
   const auto boards = options.files.empty() ? plant.boards() : std::span<const config::BoardView>{};
@@ -327,7 +327,7 @@ int print_result(Context& context, const Options& options, const ChainPlant& pla
   return within ? kOk : kCheckFailed;
 }
 
-int age(Context& context, const Options& options) {
+int age(Context& context, const AgeOptions& options) {
   const auto asked = whom(context, options);
   if (!asked) {
     return report(context.out, asked.error());
@@ -355,8 +355,8 @@ int age(Context& context, const Options& options) {
   return runs ? print_result(context, options, plant, *found, *runs) : report(context.out, runs.error());
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_age(base::Options& app, Context& context) {
+  auto options = std::make_shared<AgeOptions>();
   app.add("begin", "FROM", options->from, "Variable at which the chain begins, for example of a sensor")
       .required()
       .completes(base::Completion::Variable);
@@ -391,6 +391,6 @@ const Verb kAgeVerb{
     "  indurop age cell::encoder cell::torque\n"
     "  indurop age cell::encoder cell::torque --duration 10s\n"
     "  indurop age cell::encoder cell::torque --from run.sensor.mcap --from run.control.mcap\n",
-    &declare};
+    &declare_age};
 
 }  // namespace indurop::tools

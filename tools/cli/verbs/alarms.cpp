@@ -17,7 +17,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct AlarmsOptions {
   std::vector<std::string> names;
   std::string reason;
   std::int64_t for_ns = 3'600'000'000'000;
@@ -55,7 +55,7 @@ std::string more_of(const alarms::ListedAlarm& alarm) {
                           : fmt::format("by {}{}", last.who, last.reason.empty() ? "" : ": " + last.reason);
 }
 
-int show_list(Context& context, const Listed& listed, const Options& options) {
+int show_list(Context& context, const Listed& listed, const AlarmsOptions& options) {
   const auto& [node, declared] = listed;
   alarms::AlarmJournal journal(node);
   journal.refresh();
@@ -88,7 +88,7 @@ int show_list(Context& context, const Listed& listed, const Options& options) {
   return kOk;
 }
 
-int show_history(Context& context, const Listed& listed, const Options& options) {
+int show_history(Context& context, const Listed& listed, const AlarmsOptions& options) {
   const alarms::AlarmJournal journal(listed.node);
   Table table({{"TIME", "wall_ns"},
                {"EVENT", "event"},
@@ -107,7 +107,7 @@ int show_history(Context& context, const Listed& listed, const Options& options)
   return kOk;
 }
 
-int watch(Context& context, const Listed& listed, const Options& /*options*/) {
+int watch(Context& context, const Listed& listed, const AlarmsOptions& /*options*/) {
   const std::string& node = listed.node;
   constexpr std::int64_t kEveryNs = 100'000'000;
   be_gentle(node);
@@ -127,7 +127,8 @@ int watch(Context& context, const Listed& listed, const Options& /*options*/) {
   return interrupt_code();
 }
 
-int order(Context& context, const Listed& listed, alarms::AlarmEvent what, const char* verb, const Options& options) {
+int order(Context& context, const Listed& listed, alarms::AlarmEvent what, const char* verb,
+          const AlarmsOptions& options) {
   if (options.names.empty() != options.all) {
     context.out.error(fmt::format("name the alarms to {}, or --all", verb));
     return kUsage;
@@ -159,8 +160,8 @@ Result<Listed, Failure> open_alarms(Context& context) {
   return Listed{context.node.empty() ? context.values->title() : context.node, alarms::declared_alarms(*store)};
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_alarms(base::Options& app, Context& context) {
+  auto options = std::make_shared<AlarmsOptions>();
   auto chosen = std::make_shared<Action>();
   const auto verb = [&](const char* name, const char* help, auto act) -> base::Options& {
     return app.command(name, help, [options, chosen, act] {
@@ -171,7 +172,7 @@ Action declare(base::Options& app, Context& context) {
     });
   };
   const auto ordering = [&](const char* name, const char* help, alarms::AlarmEvent what) -> base::Options& {
-    base::Options& made = verb(name, help, [what, name](Context& c, const Listed& listed, const Options& o) {
+    base::Options& made = verb(name, help, [what, name](Context& c, const Listed& listed, const AlarmsOptions& o) {
       return order(c, listed, what, name, o);
     });
     made.add("names", "ALARM", options->names, "Alarms, the variables they evaluate, or globs");
@@ -208,6 +209,6 @@ const Verb kAlarmsVerb{
     "  indurop alarms ack --all\n"
     "  indurop alarms shelve 'press::oil > 80' --for 8h --reason 'sensor is ordered'\n"
     "  indurop alarms history -n 100 -o csv\n",
-    &declare};
+    &declare_alarms};
 
 }  // namespace indurop::tools

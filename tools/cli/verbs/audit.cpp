@@ -10,12 +10,12 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct AuditOptions {
   std::filesystem::path file = operate::usual_audit_file();
   std::uint64_t count = 40;
 };
 
-int show_audit(Context& context, const Options& options) {
+int show_audit(Context& context, const AuditOptions& options) {
   Table table({{"WHEN", "wall_ns"},
                {"WHO", "who"},
                {"FROM", "from"},
@@ -41,8 +41,8 @@ int show_audit(Context& context, const Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_audit(base::Options& app, Context& context) {
+  auto options = std::make_shared<AuditOptions>();
   app.add("-n,--count", "COUNT", options->count, "The newest COUNT entries (default 40)");
   app.add("--file", "FILE", options->file, "The file that indurop serve --audit names (default: in the state folder)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
@@ -58,6 +58,6 @@ const Verb kAuditVerb{
     "Examples:\n"
     "  indurop audit\n"
     "  indurop audit -n 100 -o csv\n",
-    &declare};
+    &declare_audit};
 
 }  // namespace indurop::tools

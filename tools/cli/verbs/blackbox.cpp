@@ -32,7 +32,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct BlackboxOptions {
   std::string what;  // reason, or a file
   std::string when;
   std::string at;     // name of a box; empty: the newest
@@ -45,7 +45,7 @@ struct Options {
   [[nodiscard]] bool is_remote() const noexcept { return remote || !board.empty(); }
 };
 
-Result<DiscoveredBoards, Failure> discover(Context& context, Options& options) {
+Result<DiscoveredBoards, Failure> discover(Context& context, BlackboxOptions& options) {
   if (!context.node.empty() && options.when.empty()) {
     return Failure{kUsage, "--node names a node of this machine; a board in the network is chosen with --board"};
   }
@@ -65,7 +65,7 @@ std::filesystem::path file_here(const BoardBox& box) {
   return recorder::box_folder(box.board) / box.name;
 }
 
-int list(Context& context, Options& options) {
+int list(Context& context, BlackboxOptions& options) {
   std::vector<BoardBox> boxes;
   if (options.is_remote()) {
     const auto boards = discover(context, options);
@@ -94,7 +94,7 @@ int list(Context& context, Options& options) {
 }
 
 // Returns the newest box, or the one that is named; null after an error message.
-const BoardBox* choose(Context& context, const Options& options, const std::vector<BoardBox>& boxes) {
+const BoardBox* choose(Context& context, const BlackboxOptions& options, const std::vector<BoardBox>& boxes) {
   const auto found = std::find_if(boxes.begin(), boxes.end(), [&](const BoardBox& box) {
     return options.at.empty() || box.name == std::filesystem::path(options.at).filename();
   });
@@ -115,7 +115,7 @@ int join_to(Context& context, const std::vector<std::filesystem::path>& files, c
   return kOk;
 }
 
-int fetch_local(Context& context, const Options& options) {
+int fetch_local(Context& context, const BlackboxOptions& options) {
   const auto boxes = boxes_here(context.node);
   const BoardBox* const first = choose(context, options, boxes);
   if (first == nullptr) {
@@ -140,7 +140,7 @@ std::vector<std::string> missing(const DiscoveredBoards& boards, const BoardBox&
   return names;
 }
 
-int fetch_remote(Context& context, Options& options) {
+int fetch_remote(Context& context, BlackboxOptions& options) {
   const auto boards = discover(context, options);
   if (!boards) {
     return report(context.out, boards.error());
@@ -181,13 +181,13 @@ int fetch_remote(Context& context, Options& options) {
   return code;
 }
 
-int fetch(Context& context, Options& options) {
+int fetch(Context& context, BlackboxOptions& options) {
   return options.is_remote() ? fetch_remote(context, options) : fetch_local(context, options);
 }
 
 // Processes one box, or the boxes of several boards from one moment, like any recording.
 template <class Act>
-int use(Context& context, Options& options, Act act) {
+int use(Context& context, BlackboxOptions& options, Act act) {
   const TemporaryFolder folder;
   std::filesystem::path file = folder.path() / "moment.mcap";
   if (options.is_remote()) {
@@ -207,18 +207,18 @@ int use(Context& context, Options& options, Act act) {
   return act(file);
 }
 
-int show_box(Context& context, Options& options) {
+int show_box(Context& context, BlackboxOptions& options) {
   return use(context, options, [&](const std::filesystem::path& file) { return show_recording(context, file); });
 }
 
-int export_box(Context& context, Options& options) {
+int export_box(Context& context, BlackboxOptions& options) {
   return use(context, options, [&](const std::filesystem::path& file) {
     options.out.file = file;
     return export_recording(context, options.out);
   });
 }
 
-int replay_box(Context& context, Options& options) {
+int replay_box(Context& context, BlackboxOptions& options) {
   return use(context, options, [&](const std::filesystem::path& file) {
     ReplayOptions replay;
     replay.file = file;
@@ -281,7 +281,7 @@ int keep(Context& context, const std::string& why) {
 
 // Saves a box on all discovered boards, at about the same time. They are discovered first, so that a box still contains
 // what preceded it.
-int keep_remote(Context& context, Options& options) {
+int keep_remote(Context& context, BlackboxOptions& options) {
   constexpr std::int64_t kTimeoutNs = 5'000'000'000;
   auto commander = BoardCommander::make(context.out, options.link.keys);
   if (!commander) {
@@ -313,7 +313,7 @@ int keep_remote(Context& context, Options& options) {
   return code;
 }
 
-int keep_any(Context& context, Options& options) {
+int keep_any(Context& context, BlackboxOptions& options) {
   options.what = options.what.empty() ? options.when : options.what;
   if (options.is_remote()) {
     return keep_remote(context, options);
@@ -324,19 +324,20 @@ int keep_any(Context& context, Options& options) {
   return keep(context, options.what);
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_blackbox(base::Options& app, Context& context) {
+  auto options = std::make_shared<BlackboxOptions>();
   auto chosen = std::make_shared<Action>();
-  const auto verb = [&](const char* name, const char* help, int (*act)(Context&, Options&)) -> base::Options& {
+  const auto verb = [&](const char* name, const char* help, int (*act)(Context&, BlackboxOptions&)) -> base::Options& {
     return app.command(name, help,
                        [options, chosen, act] { *chosen = [options, act](Context& c) { return act(c, *options); }; });
   };
-  const auto of_a_box = [&](const char* name, const char* help, int (*act)(Context&, Options&)) -> base::Options& {
+  const auto of_a_box = [&](const char* name, const char* help,
+                            int (*act)(Context&, BlackboxOptions&)) -> base::Options& {
     base::Options& made = verb(name, help, act);
     made.add("--at", "BOX", options->at, "The box, as listed, or its time (default: the newest)");
     return made;
   };
-  verb("list", "Show what was kept, the newest first", [](Context& c, Options& o) { return list(c, o); });
+  verb("list", "Show what was kept, the newest first", [](Context& c, BlackboxOptions& o) { return list(c, o); });
   of_a_box("show", "Describe the newest box, as indurop recording info", &show_box);
   base::Options& made = of_a_box("export", "Write the newest box as CSV or as a trace", &export_box);
   made.add("--csv", "FILE", options->out.csv, "Write the values, as indurop recording export");
@@ -381,6 +382,6 @@ const Verb kBlackboxVerb{
     "  indurop blackbox keep --when PLC_ROBOT::alarm --remote\n"
     "  indurop blackbox fetch moment.mcap --remote\n"
     "  indurop blackbox --node cell -o json\n",
-    &declare};
+    &declare_blackbox};
 
 }  // namespace indurop::tools

@@ -12,7 +12,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct BoardsOptions {
   deploy::LinkSettings link;
   std::int64_t wait_ns = 1'000'000'000;
   Repeat repeat;
@@ -20,7 +20,7 @@ struct Options {
   BoardRoster roster;
 };
 
-int show(Context& context, Options& options) {
+int show(Context& context, BoardsOptions& options) {
   if (options.open == nullptr) {
     options.open = open_link(context.out, options.link);
     if (options.open == nullptr) {
@@ -46,8 +46,8 @@ int show(Context& context, Options& options) {
   return table.empty() ? kUnreachable : kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_boards(base::Options& app, Context& context) {
+  auto options = std::make_shared<BoardsOptions>();
   deploy::add_link_options(app, options->link);
   add_time_option(app, "--wait", options->wait_ns,
                   "Maximum time to wait for boards before the first table (default: 1s)");
@@ -65,6 +65,6 @@ const Verb kBoardsVerb{
     "  indurop boards\n"
     "  indurop boards -w\n"
     "  indurop boards --one-host -o json\n",
-    &declare};
+    &declare_boards};
 
 }  // namespace indurop::tools

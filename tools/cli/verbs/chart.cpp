@@ -17,7 +17,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct ChartOptions {
   std::string file;
   std::string svg_file;
   std::string title;
@@ -26,7 +26,7 @@ struct Options {
   std::vector<std::string> words;
 };
 
-bool name_columns(Context& context, const Options& options, Recording& recording) {
+bool name_columns(Context& context, const ChartOptions& options, Recording& recording) {
   std::vector<std::string> problems;
   for (const std::string& rule : options.words) {
     if (auto problem = give_words(recording, rule)) {
@@ -45,7 +45,7 @@ bool name_columns(Context& context, const Options& options, Recording& recording
   return problems.empty();
 }
 
-int chart(Context& context, const Options& options) {
+int chart(Context& context, const ChartOptions& options) {
   const bool piped = options.file == "-";
   std::string text;
   if (piped) {
@@ -98,8 +98,8 @@ int chart(Context& context, const Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_chart(base::Options& app, Context& context) {
+  auto options = std::make_shared<ChartOptions>();
   app.add("file", "FILE.csv", options->file, "Recording; - reads it from stdin").required();
   app.add("--svg", "FILE", options->svg_file, "Write a picture to FILE");
   app.add("--title", "TEXT", options->title, "Heading of the picture");
@@ -121,6 +121,6 @@ const Verb kChartVerb{
     "  indurop chart run.csv\n"
     "  indurop chart run.csv --svg run.svg --title 'First run'\n"
     "  indurop chart run.csv --name 'joints[0]=J1' --words 'state=0 idle, 1 moves'\n",
-    &declare};
+    &declare_chart};
 
 }  // namespace indurop::tools

@@ -18,7 +18,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct CheckOptions {
   std::string file;
   bool adjust = false;
   bool simulation = false;
@@ -80,7 +80,7 @@ int check_one(Context& context, const std::string& file, const config::CheckOpti
   return checked.ok() ? kOk : kCheckFailed;
 }
 
-int check(Context& context, const Options& options) {
+int check(Context& context, const CheckOptions& options) {
   const auto file = find_config(options.file);
   if (!file) {
     return report(context.out, file.error());
@@ -101,8 +101,8 @@ int check(Context& context, const Options& options) {
   return config::is_plant_file(*file) ? check_plant_file(context, *file, all) : check_one(context, *file, all);
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_check(base::Options& app, Context& context) {
+  auto options = std::make_shared<CheckOptions>();
   app.add("file", "FILE", options->file,
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
   app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
@@ -132,6 +132,6 @@ const Verb kCheckVerb{
     "  indurop check plant.xml\n"
     "  indurop check plant.xml --chain cell::encoder cell::torque\n"
     "  indurop check module.xml -o json\n",
-    &declare};
+    &declare_check};
 
 }  // namespace indurop::tools

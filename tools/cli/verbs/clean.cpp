@@ -94,7 +94,7 @@ int clean(Context& context, bool all) {
   return code;
 }
 
-Action declare(base::Options& app, Context& context) {
+Action declare_clean(base::Options& app, Context& context) {
   auto all = std::make_shared<bool>(false);
   add_node_option(app, context);
   app.flag("--all", *all, "Every node that does not run");
@@ -110,6 +110,6 @@ const Verb kCleanVerb{
     "Examples:\n"
     "  indurop clean --node local\n"
     "  indurop clean --all\n",
-    &declare};
+    &declare_clean};
 
 }  // namespace indurop::tools

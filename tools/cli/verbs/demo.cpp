@@ -37,7 +37,7 @@ constexpr std::uint16_t kModbusPort = 1502;  // of ioconfig.xml of the robot cel
 constexpr std::int64_t kPollNs = 20'000'000;
 constexpr std::int64_t kGraceNs = 20'000'000'000;  // the script ends its nodes, which end their processes
 
-struct Options {
+struct DemoOptions {
   std::string example;  // empty: the page
   fs::path folder;      // empty: a temporary one
 };
@@ -141,7 +141,7 @@ int run_script(Context& context, const fs::path& folder, bool page) {
   return wait_for(context, *child);
 }
 
-int demo(Context& context, const Options& options) {
+int demo(Context& context, const DemoOptions& options) {
   const bool page = options.example.empty();
   const std::string name = page ? "robot_cell" : options.example;
   const fs::path programs = base::program_folder();
@@ -178,8 +178,8 @@ int demo(Context& context, const Options& options) {
   return run_script(context, folder, page);
 }
 
-Action declare(base::Options& app, Context& /*context*/) {
-  auto options = std::make_shared<Options>();
+Action declare_demo(base::Options& app, Context& /*context*/) {
+  auto options = std::make_shared<DemoOptions>();
   app.add("example", "EXAMPLE", options->example,
           "chapter, two_boards or robot_cell: what it shows, step by step (default: the robot cell and its page)")
       .choices({"chapter", "two_boards", "robot_cell"});
@@ -198,6 +198,6 @@ const Verb kDemoVerb{
     "  indurop demo\n"
     "  indurop demo two_boards\n"
     "  indurop demo robot_cell --folder cell\n",
-    &declare};
+    &declare_demo};
 
 }  // namespace indurop::tools

@@ -21,7 +21,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct DeployOptions {
   std::string file = "plant.xml";
   deploy::LinkSettings link;
   std::int64_t timeout_ns = 5'000'000'000;
@@ -84,7 +84,7 @@ void add_left_out(Context& context, deploy::DeployLink& link, BoardRoster& roste
 
 // Returns why the bundle must not be deployed without --older; empty if none of the boards runs something newer.
 std::string older_refusal(deploy::DeployLink& link, const BoardRoster& roster, const std::vector<std::string>& boards,
-                          const std::string& id, const Options& options) {
+                          const std::string& id, const DeployOptions& options) {
   std::vector<std::uint64_t> agents;
   for (const std::string& board : boards) {
     agents.push_back(roster.find(board)->report.agent);
@@ -131,7 +131,7 @@ Result<std::string, base::Problem> deploy_key(Context& context, const config::Pl
   return read_deploy_key(context.out, link.keys);
 }
 
-int deploy_plant(Context& context, Options& options) {
+int deploy_plant(Context& context, DeployOptions& options) {
   auto read = read_plant_source(context, options.file, options.also, options.comment);
   if (!read) {
     return report(context.out, not_done(read.error(), "deployed"));
@@ -185,8 +185,8 @@ int deploy_plant(Context& context, Options& options) {
   return run_deployment(context, *link, roster, std::move(deployment));
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_deploy(base::Options& app, Context& context) {
+  auto options = std::make_shared<DeployOptions>();
   app.add("file", "FILE", options->file, "Manifest of the plant, or a bundle of indurop pack (default: plant.xml)");
   deploy::add_link_options(app, options->link);
   add_time_option(app, "--timeout", options->timeout_ns,
@@ -217,6 +217,6 @@ const Verb kDeployVerb{
     "  indurop deploy plant.xml --keys keys --health 5s\n"
     "  indurop deploy plant.xml -m 'gripper opens wider'\n"
     "  indurop deploy cell.bundle --keys keys\n",
-    &declare};
+    &declare_deploy};
 
 }  // namespace indurop::tools

@@ -21,7 +21,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct DiffOptions {
   std::string file = "plant.xml";
   std::vector<std::string> also;
   deploy::LinkSettings link;
@@ -94,7 +94,7 @@ Result<std::size_t, Failure> compare_sources(DiscoveredBoards& boards, std::uint
   return compare("source", here, there, table);
 }
 
-int diff(Context& context, Options& options) {
+int diff(Context& context, DiffOptions& options) {
   auto source = read_plant_source(context, options.file, options.also, {});
   if (!source) {
     return report(context.out, not_done(source.error(), "compared"));
@@ -124,8 +124,8 @@ int diff(Context& context, Options& options) {
   return different == 0 ? kOk : kFailed;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_diff(base::Options& app, Context& context) {
+  auto options = std::make_shared<DiffOptions>();
   app.add("file", "FILE", options->file, "Manifest of the plant, or a bundle (default: plant.xml)");
   add_also_option(app, options->also);
   deploy::add_link_options(app, options->link);
@@ -143,6 +143,6 @@ const Verb kDiffVerb{
     "Examples:\n"
     "  indurop diff\n"
     "  indurop diff plant.xml -o json\n",
-    &declare};
+    &declare_diff};
 
 }  // namespace indurop::tools

@@ -23,7 +23,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct DoctorOptions {
   LatencyTest test;
   bool no_test = false;
   bool apply = false;
@@ -97,7 +97,7 @@ std::filesystem::path tuning_record() {
 }
 
 // Returns "p50 12 us, p99 40 us, at worst 90 us".
-std::string wake_up_test(const Options& options) {
+std::string wake_up_test(const DoctorOptions& options) {
   const LatencyResult result = measure_latency(options.test);
   const auto summary = scheduler::summarize(*result.lateness);
   return fmt::format("p50 {}, p99 {}, at worst {}", human_ns(summary.p50), human_ns(summary.p99),
@@ -136,7 +136,7 @@ int report_refused(Context& context, const std::vector<std::string>& refused) {
   return kOk;
 }
 
-int undo(Context& context, const Options& /*options*/) {
+int undo(Context& context, const DoctorOptions& /*options*/) {
   const auto undone = undo_tuning(tuning_record());
   if (!undone) {
     context.out.error(undone.error().text);
@@ -146,7 +146,7 @@ int undo(Context& context, const Options& /*options*/) {
   return report_refused(context, undone->refused);
 }
 
-int apply(Context& context, const Options& options, const Tuning& tuning) {
+int apply(Context& context, const DoctorOptions& options, const Tuning& tuning) {
   if (::geteuid() != 0) {
     context.out.error("settings of the kernel need root: sudo indurop doctor tune --apply");
     return kFailed;
@@ -165,13 +165,13 @@ int apply(Context& context, const Options& options, const Tuning& tuning) {
   return report_refused(context, *refused);
 }
 
-int core_of_a_node(const Options& options) {
+int core_of_a_node(const DoctorOptions& options) {
   const auto cores = rt::allowed_cores();
   return options.core.value_or(cores.empty() ? 0 : cores.back());
 }
 
 // Returns the cores of the running nodes; if none runs: the core that a new node would use.
-std::vector<int> cores_of_ticks(const Options& options) {
+std::vector<int> cores_of_ticks(const DoctorOptions& options) {
   std::set<int> cores;
   for (const std::string& node : options.core ? std::vector<std::string>() : vars::list_nodes()) {
     const auto run = RunView::open(node);
@@ -187,14 +187,14 @@ std::vector<int> cores_of_ticks(const Options& options) {
   return cores.empty() ? std::vector<int>{core_of_a_node(options)} : std::vector<int>(cores.begin(), cores.end());
 }
 
-int tune(Context& context, const Options& options) {
+int tune(Context& context, const DoctorOptions& options) {
   const int core = core_of_a_node(options);
   const Tuning tuning = examine_tuning(core);
   print_tuning(context, tuning, core);
   return options.apply ? apply(context, options, tuning) : kOk;
 }
 
-int check(Context& context, const Options& options) {
+int check(Context& context, const DoctorOptions& options) {
   auto findings = examine_machine();
   findings.push_back(examine_interrupts(cores_of_ticks(options)));
   if (context.format == Format::Table) {
@@ -217,10 +217,11 @@ int check(Context& context, const Options& options) {
   return verdict(context, findings);
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_doctor(base::Options& app, Context& context) {
+  auto options = std::make_shared<DoctorOptions>();
   auto chosen = std::make_shared<Action>();
-  const auto verb = [&](const char* name, const char* help, int (*act)(Context&, const Options&)) -> base::Options& {
+  const auto verb = [&](const char* name, const char* help,
+                        int (*act)(Context&, const DoctorOptions&)) -> base::Options& {
     return app.command(name, help,
                        [options, chosen, act] { *chosen = [options, act](Context& c) { return act(c, *options); }; });
   };
@@ -257,6 +258,6 @@ const Verb kDoctorVerb{
     "  indurop doctor tune\n"
     "  sudo indurop doctor tune --apply\n"
     "  sudo indurop doctor undo\n",
-    &declare};
+    &declare_doctor};
 
 }  // namespace indurop::tools

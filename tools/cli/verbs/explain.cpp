@@ -21,13 +21,13 @@ namespace {
 using explain::Answer;
 using explain::Facts;
 
-struct Options {
+struct ExplainOptions {
   std::string what;
   std::uint64_t tick = explain::kNone;
   std::vector<std::string> files;
 };
 
-struct Asked {
+struct ExplainAsked {
   std::string question;
   Answer answer;
 };
@@ -76,8 +76,8 @@ Result<ChosenRun, Failure> whom(const Context& context, const std::string& what)
                                                            fmt::join(knowing, ", "))};
 }
 
-Result<std::vector<Facts>, Failure> gather(const Context& context, const Options& options,
-                                           const std::string& variable) {
+Result<std::vector<Facts>, Failure> gather_facts(const Context& context, const ExplainOptions& options,
+                                                 const std::string& variable) {
   std::vector<Facts> plant;
   for (const std::string& file : options.files) {
     auto facts = facts_recorded(file, variable);
@@ -112,7 +112,7 @@ std::string how_it_ended(const Facts& facts) {
              : "; then the node ended: " + facts.stop_reason;
 }
 
-std::vector<Asked> ask_module(const Facts& facts, const Options& options) {
+std::vector<ExplainAsked> ask_module(const Facts& facts, const ExplainOptions& options) {
   std::uint64_t tick = options.tick;
   if (tick == explain::kNone) {
     tick = explain::last_trouble(facts, options.what);
@@ -132,8 +132,8 @@ std::vector<Asked> ask_module(const Facts& facts, const Options& options) {
            explain::why_late(facts, options.what, tick)}};
 }
 
-std::vector<Asked> ask_variable(const std::vector<Facts>& plant, std::size_t asked, const std::string& name,
-                                const Options& options) {
+std::vector<ExplainAsked> ask_variable(const std::vector<Facts>& plant, std::size_t asked, const std::string& name,
+                                       const ExplainOptions& options) {
   const Facts& facts = plant[asked];
   const explain::VariableFact& variable = *facts.find_variable(name);
   const auto owner =
@@ -181,8 +181,8 @@ std::optional<std::size_t> where_it_is_old(const std::vector<Facts>& plant, cons
 }
 
 // Asks the first of the nodes that knows the subject; for a board another node is asked.
-Result<std::vector<Asked>, Failure> ask(const std::vector<Facts>& plant, const Options& options,
-                                        const std::string& variable) {
+Result<std::vector<ExplainAsked>, Failure> ask(const std::vector<Facts>& plant, const ExplainOptions& options,
+                                               const std::string& variable) {
   std::vector<std::string> names;
   for (const Facts& facts : plant) {
     if (facts.find_module(options.what) != nullptr) {
@@ -203,7 +203,7 @@ Result<std::vector<Asked>, Failure> ask(const std::vector<Facts>& plant, const O
   for (std::size_t i = 0; i < plant.size(); ++i) {
     for (const explain::BoardFact& board : plant[i].boards) {
       if (board.name == options.what) {
-        return std::vector<Asked>{
+        return std::vector<ExplainAsked>{
             {fmt::format("why is board {} silent?", options.what), explain::why_gone(plant, i, options.what)}};
       }
       names.push_back(board.name);
@@ -211,7 +211,7 @@ Result<std::vector<Asked>, Failure> ask(const std::vector<Facts>& plant, const O
   }
   for (const Facts& facts : plant) {
     if (!facts.board.empty() && facts.board == options.what) {
-      return std::vector<Asked>{{fmt::format("why did board {} end?", options.what), explain::why_ended(facts)}};
+      return std::vector<ExplainAsked>{{fmt::format("why did board {} end?", options.what), explain::why_ended(facts)}};
     }
   }
   return Failure{kFailed, fmt::format("there is no module, variable or board '{}'.{}", options.what,
@@ -219,10 +219,10 @@ Result<std::vector<Asked>, Failure> ask(const std::vector<Facts>& plant, const O
 }
 
 // `node`: which one was asked; empty: recordings.
-void print(Context& context, const std::vector<Asked>& all, const std::string& node) {
+void print(Context& context, const std::vector<ExplainAsked>& all, const std::string& node) {
   if (context.format == Format::Json) {
     JsonValue list = JsonValue::array();
-    for (const Asked& one : all) {
+    for (const ExplainAsked& one : all) {
       JsonValue json{{"question", one.question}};
       json.update(explain::json_of(one.answer));
       list.push_back(std::move(json));
@@ -233,7 +233,7 @@ void print(Context& context, const std::vector<Asked>& all, const std::string& n
     context.out.line(whole.dump(2));
     return;
   }
-  for (const Asked& one : all) {
+  for (const ExplainAsked& one : all) {
     context.out.line(context.out.paint(Style::Bold, one.question));
     context.out.line("  " + one.answer.text);
     for (const std::string& line : one.answer.evidence) {
@@ -242,9 +242,9 @@ void print(Context& context, const std::vector<Asked>& all, const std::string& n
   }
 }
 
-int explain_it(Context& context, const Options& options) {
+int explain_it(Context& context, const ExplainOptions& options) {
   // The full name of the variable is known only after the configuration was read.
-  auto plant = gather(context, options, options.what);
+  auto plant = gather_facts(context, options, options.what);
   if (!plant) {
     return report(context.out, plant.error());
   }
@@ -256,7 +256,7 @@ int explain_it(Context& context, const Options& options) {
   }
   const std::string variable = meant.size() == 1 ? meant.front() : options.what;
   if (variable != options.what) {
-    plant = gather(context, options, variable);
+    plant = gather_facts(context, options, variable);
     if (!plant) {
       return report(context.out, plant.error());
     }
@@ -273,8 +273,8 @@ int explain_it(Context& context, const Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_explain(base::Options& app, Context& context) {
+  auto options = std::make_shared<ExplainOptions>();
   app.add("what", "NAME", options->what, "A module, a variable or a board").required();
   app.add("--tick", "N", options->tick, "Explain this tick (default: the last one in which something was wrong)");
   app.add("--from", "FILE.mcap", options->files,
@@ -297,6 +297,6 @@ const Verb kExplainVerb{"explain", "Timing", "Explain why a module was late, a v
                         "  indurop explain control\n"
                         "  indurop explain control --tick 48213\n"
                         "  indurop explain cell::encoder --from run.control.mcap --from run.sensor.mcap\n",
-                        &declare};
+                        &declare_explain};
 
 }  // namespace indurop::tools

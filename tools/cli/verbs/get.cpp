@@ -60,7 +60,7 @@ int get(Context& context, const std::vector<std::string>& names) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
+Action declare_get(base::Options& app, Context& context) {
   const auto names = add_items_to_show(app, context);
   return [names](Context& c) { return get(c, *names); };
 }
@@ -74,6 +74,6 @@ const Verb kGetVerb{"get", "Variables", "Print the value of variables or parts o
                     "  indurop get tick\n"
                     "  indurop get 'joints[1].y' 'joints[2]'\n"
                     "  indurop get 'knu::Robot::*' -o json\n",
-                    &declare};
+                    &declare_get};
 
 }  // namespace indurop::tools

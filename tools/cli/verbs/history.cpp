@@ -16,21 +16,21 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct HistoryOptions {
   std::string board;
   deploy::LinkSettings link;
   std::int64_t wait_ns = 3'000'000'000;  // less if all are discovered
 };
 
-struct Row {
+struct HistoryRow {
   PastDeployment past;
   std::vector<std::string> boards;
   bool current = false;
 };
 
 // Merges the reports of several boards about one deployment in one row.
-void merge(std::vector<Row>& rows, const std::string& board, const PastDeployment& past, bool current) {
-  const auto same = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
+void merge(std::vector<HistoryRow>& rows, const std::string& board, const PastDeployment& past, bool current) {
+  const auto same = std::find_if(rows.begin(), rows.end(), [&](const HistoryRow& row) {
     return std::tie(row.past.deployment, row.past.generation, row.past.outcome, row.past.host) ==
            std::tie(past.deployment, past.generation, past.outcome, past.host);
   });
@@ -44,7 +44,7 @@ void merge(std::vector<Row>& rows, const std::string& board, const PastDeploymen
   same->current = same->current || current;
 }
 
-Table table_of(const std::vector<Row>& rows) {
+Table table_of(const std::vector<HistoryRow>& rows) {
   Table table({{"", "generation"},
                {"", "current"},
                {"DEPLOYMENT", "deployment"},
@@ -54,7 +54,7 @@ Table table_of(const std::vector<Row>& rows) {
                {"BOARDS", "boards"},
                {"OUTCOME", "outcome"},
                {"COMMENT", "comment"}});
-  for (const Row& row : rows) {
+  for (const HistoryRow& row : rows) {
     const bool committed = row.past.outcome == "committed";
     table.add({{"", row.past.generation},
                {"", row.current},
@@ -69,7 +69,7 @@ Table table_of(const std::vector<Row>& rows) {
   return table;
 }
 
-int history(Context& context, Options& options) {
+int history(Context& context, HistoryOptions& options) {
   auto link = open_link(context.out, options.link);
   if (link == nullptr) {
     return kUnreachable;
@@ -79,7 +79,7 @@ int history(Context& context, Options& options) {
                 [&] { return options.board.empty() ? roster.complete() : roster.find(options.board) != nullptr; });
   const auto histories = fetch_histories(*link, options.link.self, roster.agents());
   roster.listen(*link, rt::now_ns());
-  std::vector<Row> rows;
+  std::vector<HistoryRow> rows;
   std::vector<std::string> missing = options.board.empty() ? missing_boards(roster) : std::vector<std::string>();
   bool found = false;
   for (const auto& [key, entry] : roster.all()) {
@@ -104,7 +104,7 @@ int history(Context& context, Options& options) {
     return kUnreachable;
   }
   std::stable_sort(rows.begin(), rows.end(),
-                   [](const Row& a, const Row& b) { return a.past.generation < b.past.generation; });
+                   [](const HistoryRow& a, const HistoryRow& b) { return a.past.generation < b.past.generation; });
   const Table table = table_of(rows);
   for (const std::string& board : missing) {
     context.out.error(
@@ -117,8 +117,8 @@ int history(Context& context, Options& options) {
   return missing.empty() ? kOk : kUnreachable;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_history(base::Options& app, Context& context) {
+  auto options = std::make_shared<HistoryOptions>();
   app.add("--board", "NAME", options->board, "Only the history of this board");
   deploy::add_link_options(app, options->link);
   add_time_option(app, "--wait", options->wait_ns, "Maximum time to wait for boards (default: 3s)");
@@ -135,6 +135,6 @@ const Verb kHistoryVerb{
     "Examples:\n"
     "  indurop history\n"
     "  indurop history --board press_1 -o json\n",
-    &declare};
+    &declare_history};
 
 }  // namespace indurop::tools

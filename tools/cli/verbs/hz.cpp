@@ -16,7 +16,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct HzOptions {
   std::string name;
   std::uint64_t count = 0;  // reports; 0: without end
   std::int64_t timeout_ns = 0;
@@ -118,7 +118,7 @@ void print(Context& context, const Item& item, const Counter& counter) {
   }
 }
 
-int hz(Context& context, const Options& options) {
+int hz(Context& context, const HzOptions& options) {
   const auto store = open_store(context, vars::Mode::ReadOnly, {options.name});
   if (!store) {
     return report(context.out, store.error());
@@ -173,8 +173,8 @@ int hz(Context& context, const Options& options) {
   }
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_hz(base::Options& app, Context& context) {
+  auto options = std::make_shared<HzOptions>();
   app.add("name", "NAME", options->name, "Variable").required().completes(base::Completion::Variable);
   app.add("-n,--count", "COUNT", options->count, "Stop after COUNT lines, one per second");
   app.flag("--once", options->once, "One line, after a second");
@@ -193,6 +193,6 @@ const Verb kHzVerb{
     "changes up to 1 kHz can be seen.\n"
     "Examples:\n"
     "  indurop hz 'station::*'\n",
-    &declare};
+    &declare_hz};
 
 }  // namespace indurop::tools

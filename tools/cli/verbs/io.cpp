@@ -15,7 +15,7 @@ using io::ethercat::FoundSlave;
 using io::ethercat::Pdo;
 using io::ethercat::PdoEntry;
 
-struct Options {
+struct IoOptions {
   std::string interface;
   std::filesystem::path file;
   std::string space = "IO";
@@ -122,7 +122,7 @@ void print_slaves(Context& context, const std::vector<FoundSlave>& slaves) {
   }
 }
 
-int scan(Context& context, const Options& options) {
+int scan(Context& context, const IoOptions& options) {
   auto link = io::ethercat::PacketLink::open(options.interface);
   if (!link) {
     context.out.error(link.error());
@@ -150,8 +150,8 @@ int scan(Context& context, const Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_io(base::Options& app, Context& context) {
+  auto options = std::make_shared<IoOptions>();
   base::Options& verb = app.command("scan", "List the slaves of an EtherCAT bus, with what they exchange", [] {});
   verb.add("interface", "INTERFACE", options->interface, "Where the cable is").required();
   verb.add("--write", "FILE", options->file, "Write an ioconfig.xml for them").completes(base::Completion::File);
@@ -170,6 +170,6 @@ const Verb kIoVerb{"io", "Before it runs", "Field devices, without a node: scan 
                    "Examples:\n"
                    "  indurop io scan eth1\n"
                    "  indurop io scan eth1 --write ioconfig.xml\n",
-                   &declare};
+                   &declare_io};
 
 }  // namespace indurop::tools

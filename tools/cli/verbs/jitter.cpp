@@ -26,7 +26,7 @@ constexpr std::array<Quantity, 4> kQuantities{{{"jitter", "jitter_ns", &schedule
                                                {"exec", "exec_ns", &scheduler::ModuleRecord::exec},
                                                {"response", "response_ns", &scheduler::ModuleRecord::response}}};
 
-struct Options {
+struct JitterOptions {
   BoardChoice board;
   std::string glob;
   std::string quantity = "all";
@@ -36,7 +36,7 @@ struct Options {
   Repeat repeat;
 };
 
-std::vector<Quantity> chosen(const Options& options) {
+std::vector<Quantity> chosen(const JitterOptions& options) {
   std::vector<Quantity> out;
   for (const Quantity& quantity : kQuantities) {
     if (options.quantity == "all" || options.quantity == quantity.name) {
@@ -46,7 +46,7 @@ std::vector<Quantity> chosen(const Options& options) {
   return out;
 }
 
-std::vector<std::uint32_t> chosen_modules(const RunView& run, const Options& options) {
+std::vector<std::uint32_t> chosen_modules(const RunView& run, const JitterOptions& options) {
   std::vector<std::uint32_t> out;
   for (std::uint32_t i = 0; i < run.module_count(); ++i) {
     if (options.glob.empty() || schema::glob_match(options.glob, fixed_text(run.module(i).name))) {
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> chosen_modules(const RunView& run, const Options& opt
   return out;
 }
 
-Table table_of(const RunView& run, const std::vector<std::uint32_t>& modules, const Options& options) {
+Table table_of(const RunView& run, const std::vector<std::uint32_t>& modules, const JitterOptions& options) {
   constexpr Align kRight = Align::Right;
   Table table({{"MODULE", "module"},
                {"QUANTITY", "quantity"},
@@ -112,7 +112,7 @@ JsonValue summary_json(const scheduler::Distribution& distribution, bool histogr
 }
 
 JsonValue json_of(const RunView& run, const std::string& node, const std::vector<std::uint32_t>& modules,
-                  const Options& options) {
+                  const JitterOptions& options) {
   JsonValue list = JsonValue::array();
   for (const std::uint32_t index : modules) {
     const auto& module = run.module(index);
@@ -135,7 +135,7 @@ JsonValue json_of(const RunView& run, const std::string& node, const std::vector
 }
 
 void print_histograms(Context& context, const RunView& run, const std::vector<std::uint32_t>& modules,
-                      const Options& options) {
+                      const JitterOptions& options) {
   constexpr std::size_t kMostRows = 20;
   constexpr std::size_t kLineWithoutBar = 46;
   const auto columns = static_cast<std::size_t>(std::max(60, context.out.extent().columns));
@@ -159,7 +159,7 @@ void print_histograms(Context& context, const RunView& run, const std::vector<st
 }
 
 std::string picture(const RunView& run, const std::string& node, const std::vector<std::uint32_t>& modules,
-                    const Options& options) {
+                    const JitterOptions& options) {
   std::vector<HistogramPanel> panels;
   for (const std::uint32_t index : modules) {
     for (const Quantity& quantity : kQuantities) {
@@ -176,7 +176,7 @@ std::string picture(const RunView& run, const std::string& node, const std::vect
       fmt::format("Node {}: {} of its modules", node, options.quantity == "all" ? "jitter" : options.quantity), panels);
 }
 
-int show(Context& context, Options& options) {
+int show(Context& context, JitterOptions& options) {
   const auto chosen = open_run(context, options.board);
   if (!chosen) {
     return report(context.out, chosen.error());
@@ -214,8 +214,8 @@ int show(Context& context, Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_jitter(base::Options& app, Context& context) {
+  auto options = std::make_shared<JitterOptions>();
   app.add("module", "GLOB", options->glob, "Only modules that match").completes(base::Completion::Module);
   app.add("--quantity", "WHAT", options->quantity, "jitter|latency|exec|response|all (default all)")
       .choices({"jitter", "latency", "exec", "response", "all"});
@@ -245,6 +245,6 @@ const Verb kJitterVerb{"jitter", "Timing", "Show how exactly modules start and h
                        "  indurop jitter wave --histogram\n"
                        "  indurop jitter --svg jitter.svg\n"
                        "  indurop jitter --board control\n",
-                       &declare};
+                       &declare_jitter};
 
 }  // namespace indurop::tools

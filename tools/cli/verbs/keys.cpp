@@ -188,7 +188,7 @@ void add_days(base::Options& verb, KeysRequest& request) {
       .range(1, kMostDays);
 }
 
-Action declare(base::Options& app, Context& context) {
+Action declare_keys(base::Options& app, Context& context) {
   auto request = std::make_shared<KeysRequest>();
   auto chosen_action = std::make_shared<Action>();
   const auto verb = [&](const char* name, const char* help, int (*action)(Context&, const KeysRequest&)) {
@@ -246,6 +246,6 @@ const Verb kKeysVerb{"keys", "Before it runs", "Make and list the keys of a plan
                      "  indurop keys add --tool panel --read 'cell::*' --write cell::target\n"
                      "  indurop keys add --deployer anna\n"
                      "  indurop keys server desk --host 192.168.1.5 cell.local\n",
-                     &declare};
+                     &declare_keys};
 
 }  // namespace indurop::tools

@@ -12,7 +12,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct LockOptions {
   BoardForces board;
   std::string word;
 };
@@ -35,7 +35,7 @@ int set_here(Context& context, const std::string& node, vars::WriteLock lock) {
   return kOk;
 }
 
-int lock(Context& context, Options& options) {
+int lock(Context& context, LockOptions& options) {
   const bool remote = options.board.board.wanted();
   if (options.word.empty() && remote) {
     const auto run = open_run(context, options.board.board);
@@ -56,8 +56,8 @@ int lock(Context& context, Options& options) {
   return wanted ? set_here(context, *node, *wanted) : show(context, *node, vars::lock_of(*node));
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_lock(base::Options& app, Context& context) {
+  auto options = std::make_shared<LockOptions>();
   app.add("lock", "none|tune|all", options->word, "New lock; without it: show the present one");
   add_reason_option(app, context);
   add_node_option(app, context);
@@ -79,6 +79,6 @@ const Verb kLockVerb{
     "  indurop lock tune --reason production\n"
     "  indurop lock none --board control --keys keys\n"
     "  indurop lock\n",
-    &declare};
+    &declare_lock};
 
 }  // namespace indurop::tools

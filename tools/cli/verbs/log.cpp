@@ -11,14 +11,14 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct LogOptions {
   BoardChoice board;
   std::string glob;
   std::string trace_file;
   std::uint64_t count = 0;
 };
 constexpr std::uint64_t kDefaultLines = 40;
-constexpr std::uint64_t kAll = UINT64_MAX;
+constexpr std::uint64_t kAllRuns = UINT64_MAX;
 
 Table table_of(const RunView& run, const std::vector<SlotSample>& samples) {
   constexpr Align kRight = Align::Right;
@@ -45,19 +45,19 @@ Table table_of(const RunView& run, const std::vector<SlotSample>& samples) {
   return table;
 }
 
-int show_log(Context& context, Options& options) {
+int show_log(Context& context, LogOptions& options) {
   const auto chosen = open_run(context, options.board);
   if (!chosen) {
     return report(context.out, chosen.error());
   }
   const std::string& node = chosen->node;
   const RunView* run = &chosen->run;
-  auto samples = run->slot_log(kAll);
+  auto samples = run->slot_log(kAllRuns);
   std::erase_if(samples, [&](const SlotSample& sample) {
     return !options.glob.empty() && !schema::glob_match(options.glob, run->module_name(sample.module));
   });
   // A trace is for zooming: contains everything available, unless less was requested.
-  const std::uint64_t most = options.count > 0 ? options.count : options.trace_file.empty() ? kDefaultLines : kAll;
+  const std::uint64_t most = options.count > 0 ? options.count : options.trace_file.empty() ? kDefaultLines : kAllRuns;
   if (samples.size() > most) {
     samples.erase(samples.begin(), samples.end() - static_cast<std::ptrdiff_t>(most));
   }
@@ -78,8 +78,8 @@ int show_log(Context& context, Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_log(base::Options& app, Context& context) {
+  auto options = std::make_shared<LogOptions>();
   app.add("module", "GLOB", options->glob, "Only modules that match").completes(base::Completion::Module);
   app.add("-n,--count", "COUNT", options->count, "The newest COUNT runs (default 40)");
   app.add("--trace", "FILE", options->trace_file, "Write a trace for Perfetto (all runs in the log) to FILE");
@@ -101,6 +101,6 @@ const Verb kLogVerb{"log", "Timing", "Show which module ran when, as table or as
                     "  indurop log -n 50\n"
                     "  indurop log --trace trace.json   # for ui.perfetto.dev\n"
                     "  indurop log --board control\n",
-                    &declare};
+                    &declare_log};
 
 }  // namespace indurop::tools

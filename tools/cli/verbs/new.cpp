@@ -53,7 +53,7 @@ std::string minor_version() {
   return whole.substr(0, whole.find('.', whole.find('.') + 1));
 }
 
-struct Options {
+struct NewOptions {
   std::string where;
   std::vector<std::string> with;
   std::uint64_t boards = 1;
@@ -63,7 +63,7 @@ struct Options {
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
-Words words_of(const Options& options, const std::string& name, const fs::path& programs, const fs::path& package) {
+Words words_of(const NewOptions& options, const std::string& name, const fs::path& programs, const fs::path& package) {
   // Texts that contain placeholders themselves come first.
   return {{"@PLC@", options.plc() ? plc_build() : ""},
           {"@PLC_ROW@",
@@ -92,7 +92,7 @@ bool write_file(Context& context, const fs::path& path, const std::string& text)
   return problem.empty();
 }
 
-bool write_project(Context& context, const fs::path& folder, const std::string& name, const Options& options) {
+bool write_project(Context& context, const fs::path& folder, const std::string& name, const NewOptions& options) {
   const fs::path programs = base::program_folder();
   const fs::path package = package_folder(programs);
   if (package.empty()) {
@@ -117,7 +117,7 @@ bool write_project(Context& context, const fs::path& folder, const std::string& 
   });
 }
 
-int make_project(Context& context, const Options& options) {
+int make_project(Context& context, const NewOptions& options) {
   const std::string& where = options.where;
   const fs::path folder(where);
   const std::string name = folder.filename().string();
@@ -145,9 +145,9 @@ int make_project(Context& context, const Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& /*context*/) {
+Action declare_new(base::Options& app, Context& /*context*/) {
   constexpr std::uint64_t kMaxBoards = 64;
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NewOptions>();
   app.add("name", "NAME", options->where, "Name of the project, or the path of its folder").required();
   app.add("--with", "WHAT", options->with, "plc: a program in Structured Text, too").choices({"plc"});
   app.add("--boards", "N", options->boards, "Also a plant.xml that distributes the modules to N boards")
@@ -164,6 +164,6 @@ const Verb kNewVerb{
     "Examples:\n"
     "  indurop new demo\n"
     "  indurop new line --with plc --boards 3\n",
-    &declare};
+    &declare_new};
 
 }  // namespace indurop::tools

@@ -109,7 +109,7 @@ int nodes(Context& context, bool names_only, bool all) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
+Action declare_nodes(base::Options& app, Context& context) {
   auto names = std::make_shared<bool>(false);
   auto all = std::make_shared<bool>(false);
   app.flag("--all", *all, "Also nodes that do not run and left values behind, and those of other users");
@@ -127,6 +127,6 @@ const Verb kNodesVerb{
     "Examples:\n"
     "  indurop nodes\n"
     "  indurop nodes --all -o json\n",
-    &declare};
+    &declare_nodes};
 
 }  // namespace indurop::tools

@@ -9,7 +9,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct OverrunsOptions {
   BoardChoice board;
   std::string glob;
   std::uint64_t count = 20;
@@ -31,7 +31,7 @@ std::string reason(const RunView& run, const OverrunSample& overrun) {
   return "took too long itself";
 }
 
-int overruns(Context& context, Options& options) {
+int overruns(Context& context, OverrunsOptions& options) {
   const auto chosen = open_run(context, options.board);
   if (!chosen) {
     return report(context.out, chosen.error());
@@ -82,8 +82,8 @@ int overruns(Context& context, Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_overruns(base::Options& app, Context& context) {
+  auto options = std::make_shared<OverrunsOptions>();
   app.add("module", "GLOB", options->glob, "Only modules that match").completes(base::Completion::Module);
   app.add("-n,--count", "COUNT", options->count, "The newest COUNT records (default 20)");
   add_node_option(app, context);
@@ -104,6 +104,6 @@ const Verb kOverrunsVerb{
     "  indurop overruns\n"
     "  indurop overruns control -n 100\n"
     "  indurop overruns --board control\n",
-    &declare};
+    &declare_overruns};
 
 }  // namespace indurop::tools

@@ -18,7 +18,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct PackOptions {
   std::string file = "plant.xml";
   std::string out;
   std::vector<std::string> also;
@@ -26,7 +26,7 @@ struct Options {
   std::string keys;
 };
 
-int pack(Context& context, const Options& options) {
+int pack(Context& context, const PackOptions& options) {
   if (deploy::is_bundle(options.file)) {
     context.out.error(fmt::format("{} is a bundle already; indurop deploy takes it", options.file));
     return kUsage;
@@ -48,8 +48,8 @@ int pack(Context& context, const Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& /*context*/) {
-  auto options = std::make_shared<Options>();
+Action declare_pack(base::Options& app, Context& /*context*/) {
+  auto options = std::make_shared<PackOptions>();
   app.add("file", "FILE", options->file, "Manifest of the plant (default: plant.xml)");
   app.add("-o,--file", "FILE", options->out, "Bundle to write (default: PLANT.bundle)");
   app.add("--keys", "DIR", options->keys, "Sign with the deployer's keys in DIR (default: <security> of the manifest)")
@@ -70,6 +70,6 @@ const Verb kPackVerb{
     "Examples:\n"
     "  indurop pack plant.xml\n"
     "  indurop pack plant.xml -o cell-12.bundle --keys keys -m 'gripper opens wider'\n",
-    &declare};
+    &declare_pack};
 
 }  // namespace indurop::tools

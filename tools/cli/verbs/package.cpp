@@ -17,7 +17,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct PackageOptions {
   std::string file = "plant.xml";
   std::string out;
   std::string version;
@@ -28,7 +28,7 @@ struct Options {
 };
 
 // Puts the bundle where the package has it: a bundle as it is, of a manifest a new one.
-Result<void, base::Problem> place_bundle(Context& context, const PlantSource& source, const Options& options,
+Result<void, base::Problem> place_bundle(Context& context, const PlantSource& source, const PackageOptions& options,
                                          const std::filesystem::path& place) {
   std::error_code error;
   std::filesystem::create_directories(place.parent_path(), error);
@@ -42,7 +42,7 @@ Result<void, base::Problem> place_bundle(Context& context, const PlantSource& so
   return {};
 }
 
-int package(Context& context, const Options& options) {
+int package(Context& context, const PackageOptions& options) {
   if (options.version.empty()) {
     context.out.error("the package needs a version, by which apt knows the newer one: --package-version 1.0");
     return kUsage;
@@ -75,8 +75,8 @@ int package(Context& context, const Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& /*context*/) {
-  auto options = std::make_shared<Options>();
+Action declare_package(base::Options& app, Context& /*context*/) {
+  auto options = std::make_shared<PackageOptions>();
   app.add("file", "FILE", options->file, "Manifest of the plant, or a bundle of indurop pack (default: plant.xml)");
   app.add("-o,--file", "FILE", options->out, "Package to write (default: indurop-plant-PLANT_VERSION_all.deb)");
   app.add("--package-version", "VERSION", options->version, "Version of the package; apt takes the highest")
@@ -101,6 +101,6 @@ const Verb kPackageVerb{
     "Examples:\n"
     "  indurop package cell.bundle --package-version 1.2\n"
     "  indurop package plant.xml --package-version 1.2 --keys keys --maintainer 'Cell Team <cell@factory.example>'\n",
-    &declare};
+    &declare_package};
 
 }  // namespace indurop::tools

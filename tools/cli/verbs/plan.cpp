@@ -14,7 +14,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct PlanOptions {
   std::string file;
   std::string svg_file;
   bool adjust = false;
@@ -31,7 +31,7 @@ std::string with_line_end(std::string text) {
 
 // Template parameters `Content` and `Check`: Config and CheckResult, or Plant and PlantCheck.
 template <class Content, class Check>
-int show(Context& context, const Options& options, const Content& content, const Check& check) {
+int show(Context& context, const PlanOptions& options, const Content& content, const Check& check) {
   if (!options.svg_file.empty()) {
     const auto saved = base::replace_file(options.svg_file, config::plan_svg(content, check), base::Durable::No);
     if (!saved) {
@@ -59,7 +59,7 @@ int show(Context& context, const Options& options, const Content& content, const
   return kOk;
 }
 
-int plan(Context& context, const Options& options) {
+int plan(Context& context, const PlanOptions& options) {
   const auto file = find_config(options.file);
   if (!file) {
     return report(context.out, file.error());
@@ -75,8 +75,8 @@ int plan(Context& context, const Options& options) {
   return checked.ok() ? show(context, options, checked.config, checked.check) : kCheckFailed;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_plan(base::Options& app, Context& context) {
+  auto options = std::make_shared<PlanOptions>();
   app.add("file", "FILE", options->file,
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
   app.add("--svg", "FILE", options->svg_file, "Write the timing diagram to FILE");
@@ -98,6 +98,6 @@ const Verb kPlanVerb{"plan", "Before it runs",
                      "  indurop plan\n"
                      "  indurop plan plant.xml -o svg > plan.svg\n"
                      "  indurop plan module.xml --times report.json --why\n",
-                     &declare};
+                     &declare_plan};
 
 }  // namespace indurop::tools

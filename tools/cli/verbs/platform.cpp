@@ -276,7 +276,7 @@ void add_switch_options(base::Options& line, Context& context, PlatformRequest& 
   add_format_option(line, context, {Format::Table, Format::Json, Format::Csv});
 }
 
-Action declare(base::Options& app, Context& context) {
+Action declare_platform(base::Options& app, Context& context) {
   auto request = std::make_shared<PlatformRequest>();
   request->link.subject = deploy::Subject::Platform;
   auto chosen = std::make_shared<Action>();
@@ -325,6 +325,6 @@ const Verb kPlatformVerb{
     "  indurop platform deploy indurop-0.3.0.release --keys keys\n"
     "  indurop platform status\n"
     "  indurop platform back --keys keys\n",
-    &declare};
+    &declare_platform};
 
 }  // namespace indurop::tools

@@ -11,7 +11,7 @@
 namespace indurop::tools {
 namespace {
 
-Action declare(base::Options& app, Context& context) {
+Action declare_plc(base::Options& app, Context& context) {
   auto chosen = std::make_shared<Action>();
   add_plc_build(app, chosen);
   add_plc_coverage(app, context, chosen);
@@ -37,6 +37,6 @@ const Verb kPlcVerb{
     "  indurop plc watch conveyor.xml\n"
     "  indurop plc debug motor.st\n"
     "  indurop plc coverage coverage --lcov coverage.info\n",
-    &declare};
+    &declare_plc};
 
 }  // namespace indurop::tools

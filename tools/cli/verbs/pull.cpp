@@ -13,7 +13,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct PullOptions {
   std::string folder;
   std::string plant;
   deploy::LinkSettings link;
@@ -39,7 +39,7 @@ std::string description_of(const JsonValue& about) {
                      git["changed"].boolean().value_or(false) ? " with changes that were not committed" : "");
 }
 
-int pull(Context& context, Options& options) {
+int pull(Context& context, PullOptions& options) {
   auto boards = discover_boards(context, options.link, {});
   if (!boards) {
     return report(context.out, boards.error());
@@ -66,8 +66,8 @@ int pull(Context& context, Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& /*context*/) {
-  auto options = std::make_shared<Options>();
+Action declare_pull(base::Options& app, Context& /*context*/) {
+  auto options = std::make_shared<PullOptions>();
   app.add("folder", "DIR", options->folder, "New or empty folder for the sources (default: name of the plant)");
   app.add("--plant", "NAME", options->plant, "The plant, if boards of several are heard");
   deploy::add_link_options(app, options->link);
@@ -84,6 +84,6 @@ const Verb kPullVerb{
     "Examples:\n"
     "  indurop pull\n"
     "  indurop pull cell-as-it-runs --plant cell --keys keys\n",
-    &declare};
+    &declare_pull};
 
 }  // namespace indurop::tools

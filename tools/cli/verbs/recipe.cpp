@@ -15,7 +15,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct RecipeOptions {
   std::string name;
   std::vector<std::string> names;
   std::string comment;
@@ -39,7 +39,7 @@ int show_list(Context& context) {
   return kOk;
 }
 
-int save(Context& context, const vars::Store& store, const Options& options) {
+int save(Context& context, const vars::Store& store, const RecipeOptions& options) {
   Recipe recipe{options.name, options.comment, base::user_name(), rt::wall_ns(), {}};
   if (const auto taken = take_values(store, options.names, recipe); !taken) {
     for (const std::string& reason : taken.error()) {
@@ -123,8 +123,8 @@ int with_recipe(Context& context, vars::Mode mode, const std::string& name, Act 
   });
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_recipe(base::Options& app, Context& context) {
+  auto options = std::make_shared<RecipeOptions>();
   auto chosen = std::make_shared<Action>();
   const auto verb = [&](const char* name, const char* help, const Action& act) -> base::Options& {
     return app.command(name, help, [chosen, act] { *chosen = act; });
@@ -172,6 +172,6 @@ const Verb kRecipeVerb{
     "  indurop recipe diff bottles\n"
     "  indurop recipe load bottles\n"
     "  indurop recipe list -o json\n",
-    &declare};
+    &declare_recipe};
 
 }  // namespace indurop::tools

@@ -31,10 +31,10 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kPauseNs = 5'000'000;
+constexpr std::int64_t kRecordPauseNs = 5'000'000;
 constexpr std::int64_t kFlushNs = 1'000'000'000;
 
-struct Options {
+struct RecordOptions {
   std::vector<std::string> names;
   std::filesystem::path plant;  // empty: one node
   std::filesystem::path file;
@@ -88,7 +88,7 @@ bool ended(const RunView& run) {
 using Nodes = std::vector<std::unique_ptr<Recorded>>;
 
 // Records until the end is requested. Errors: those of the disk.
-Result<void, base::Problem> go_on(const Options& options, const Nodes& nodes, recorder::Parts& parts) {
+Result<void, base::Problem> go_on(const RecordOptions& options, const Nodes& nodes, recorder::Parts& parts) {
   const std::int64_t begin = rt::now_ns();
   std::int64_t flushed = begin;
   for (;;) {
@@ -114,7 +114,7 @@ Result<void, base::Problem> go_on(const Options& options, const Nodes& nodes, re
       }
       flushed = rt::now_ns();
     }
-    wait_until(rt::now_ns() + kPauseNs);
+    wait_until(rt::now_ns() + kRecordPauseNs);
   }
 }
 
@@ -196,7 +196,7 @@ std::optional<Failure> add_node(Context& context, const std::string& board, Node
 }
 
 // Adds the boards of this host, unless agents are to record them too. Returns the others.
-std::vector<BoardElsewhere> add_boards(Context& context, const Options& options, const config::Plant& plant,
+std::vector<BoardElsewhere> add_boards(Context& context, const RecordOptions& options, const config::Plant& plant,
                                        Nodes& nodes, std::vector<recorder::Taped>& taped) {
   std::vector<BoardElsewhere> elsewhere;
   for (const config::Board& board : plant.boards) {
@@ -210,7 +210,7 @@ std::vector<BoardElsewhere> add_boards(Context& context, const Options& options,
 }
 
 // Records nodes of this host.
-int record_here(Context& context, const Options& options, const std::filesystem::path& file, const Nodes& nodes,
+int record_here(Context& context, const RecordOptions& options, const std::filesystem::path& file, const Nodes& nodes,
                 std::vector<recorder::Taped> taped, const std::vector<std::string>& names) {
   for (const auto& node : nodes) {
     be_gentle(node->chosen.node);
@@ -235,7 +235,7 @@ int record_here(Context& context, const Options& options, const std::filesystem:
   return code;
 }
 
-int record_plant(Context& context, Options& options) {
+int record_plant(Context& context, RecordOptions& options) {
   const config::ReadPlant read = config::read_plant(options.plant);
   if (!read.ok()) {
     print_diagnostics(context, read.diagnostics, false);
@@ -271,7 +271,7 @@ int record_plant(Context& context, Options& options) {
   return record_with_agents(context, request, options.link, unmatched, here);
 }
 
-int record(Context& context, Options& options) {
+int record(Context& context, RecordOptions& options) {
   if (options.plant.empty() && options.remote) {
     context.out.error("say which plant: indurop record --remote --plant plant.xml");
     return kUsage;
@@ -287,8 +287,8 @@ int record(Context& context, Options& options) {
   return record_here(context, options, options.file, nodes, std::move(taped), options.names);
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_record(base::Options& app, Context& context) {
+  auto options = std::make_shared<RecordOptions>();
   app.add("names", "GLOB", options->names, "Variables, or globs; none: all").completes(base::Completion::Variable);
   app.add("-o,--file", "FILE.mcap", options->file, "The file; it must not be there yet").required();
   app.flag("--past", options->past, "Begin with the oldest run that the node still has on its tape");
@@ -320,6 +320,6 @@ const Verb kRecordVerb{
     "  indurop record 'PLC_ROBOT::*' 'knu::Robot::joints' -o arm.mcap --duration 60s\n"
     "  indurop record --plant plant.xml -o plant.mcap --duration 60s\n"
     "  indurop record -o last.mcap --keep 1h      # day and night, in a bounded part of the disk\n",
-    &declare};
+    &declare_record};
 
 }  // namespace indurop::tools

@@ -10,7 +10,7 @@
 namespace indurop::tools {
 namespace {
 
-Action declare(base::Options& app, Context& context) {
+Action declare_recording(base::Options& app, Context& context) {
   auto chosen = std::make_shared<Action>();
   add_recording_info(app, context, chosen);
   add_recording_export(app, chosen);
@@ -32,6 +32,6 @@ const Verb kRecordingVerb{"recording", "Variables", "Recordings: info, export, c
                           "  indurop recording cut run.mcap --from 58s --to 60s -o crash.mcap\n"
                           "  indurop recording join run.sensor.mcap run.control.mcap -o plant.mcap\n"
                           "  indurop recording play run.mcap\n",
-                          &declare};
+                          &declare_recording};
 
 }  // namespace indurop::tools

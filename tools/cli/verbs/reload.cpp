@@ -134,7 +134,7 @@ int reload(Context& context, ReloadOptions& options) {
   return conclude(context, options, *done);
 }
 
-Action declare(base::Options& app, Context& context) {
+Action declare_reload(base::Options& app, Context& context) {
   auto options = std::make_shared<ReloadOptions>();
   options->request.health_ns = 5'000'000'000;
   app.add("module", "MODULE", options->module, "A thread module of the node")
@@ -172,6 +172,6 @@ const Verb kReloadVerb{
     "  indurop reload press --health 10s --guard \"pressure < 80\"\n"
     "  indurop reload press build/press.so --reason \"faster ramp\"\n"
     "  indurop reload press --back\n",
-    &declare};
+    &declare_reload};
 
 }  // namespace indurop::tools

@@ -6,7 +6,7 @@
 namespace indurop::tools {
 namespace {
 
-Action declare(base::Options& app, Context& /*context*/) {
+Action declare_replay(base::Options& app, Context& /*context*/) {
   auto options = std::make_shared<ReplayOptions>();
   app.add("file", "FILE.mcap", options->file, "The recording").required().completes(base::Completion::File);
   app.add("--config", "FILE", options->config, "module.xml or plant.xml (default: that of the recording)")
@@ -38,6 +38,6 @@ const Verb kReplayVerb{
     "  indurop replay run.mcap --from 90000 --to 91000\n"
     "  indurop replay run.mcap --with new/main.so\n"
     "  indurop replay run.mcap --with new/main.so --svg differs.svg\n",
-    &declare};
+    &declare_replay};
 
 }  // namespace indurop::tools

@@ -15,14 +15,14 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct ResetOptions {
   bool warm = false;
   bool cold = false;
   bool yes = false;
 };
 
 // Fails unless the user agrees. Without a terminal only --yes counts.
-Result<void, Failure> agreed(Context& context, const Options& options, const std::string& question) {
+Result<void, Failure> agreed(Context& context, const ResetOptions& options, const std::string& question) {
   if (options.yes) {
     return {};
   }
@@ -63,7 +63,7 @@ Result<std::string, Failure> node_or_name(const Context& context) {
   return choose_node(context.node);
 }
 
-int reset(Context& context, const Options& options) {
+int reset(Context& context, const ResetOptions& options) {
   if (options.warm == options.cold) {
     context.out.error("choose --warm (retained variables keep their values) or --cold (all get their initial values)");
     return kUsage;
@@ -99,8 +99,8 @@ int reset(Context& context, const Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_reset(base::Options& app, Context& context) {
+  auto options = std::make_shared<ResetOptions>();
   app.flag("--warm", options->warm, "Retained variables keep their values");
   app.flag("--cold", options->cold, "Retained variables too, and their files are removed");
   app.flag("-y,--yes", options->yes, "Do not ask");
@@ -117,6 +117,6 @@ const Verb kResetVerb{
     "Examples:\n"
     "  indurop reset\n"
     "  indurop reset --cold --yes\n",
-    &declare};
+    &declare_reset};
 
 }  // namespace indurop::tools

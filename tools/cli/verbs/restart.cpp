@@ -6,7 +6,7 @@
 namespace indurop::tools {
 namespace {
 
-Action declare(base::Options& app, Context& context) {
+Action declare_restart(base::Options& app, Context& context) {
   return declare_command(app, context, scheduler::ModuleCommand::Restart,
                          "restart what? MODULE, MODULE@BOARD or @BOARD");
 }
@@ -20,6 +20,6 @@ const Verb kRestartVerb{
     "Examples:\n"
     "  indurop restart vision\n"
     "  indurop restart vision@control --keys keys\n",
-    &declare};
+    &declare_restart};
 
 }  // namespace indurop::tools

@@ -9,26 +9,26 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct RobotOptions {
   RobotChoice choice;
   robot::TeachOrder order;
   Hand hand{"", "base"};
   std::function<int(Context&)> chosen;
 };
 
-void add_choice(base::Options& app, Context& context, Options& options) {
+void add_choice(base::Options& app, Context& context, RobotOptions& options) {
   app.add("--space", "NAMESPACE", options.choice.space, "Namespace of the robot's variables (default: PLC_ROBOT)");
   add_node_option(app, context);
 }
 
-void add_files(base::Options& app, Options& options) {
+void add_files(base::Options& app, RobotOptions& options) {
   app.add("--module", "NAME", options.choice.module, "The robot, if the node has several");
   app.add("--config", "FILE", options.choice.config,
           "module.xml or plant.xml that names the files (default: what the node runs)")
       .completes(base::Completion::File);
 }
 
-void declare_points(base::Options& app, Context& context, Options& options) {
+void declare_points(base::Options& app, Context& context, RobotOptions& options) {
   base::Options& points = app.command("points", "Show the points of its files", [&options] {
     options.chosen = [&options](Context& c) { return show_points(c, options.choice); };
   });
@@ -37,7 +37,7 @@ void declare_points(base::Options& app, Context& context, Options& options) {
   add_format_option(points, context, {Format::Table, Format::Json, Format::Csv});
 }
 
-void declare_teach(base::Options& app, Context& context, Options& options) {
+void declare_teach(base::Options& app, Context& context, RobotOptions& options) {
   base::Options& teach = app.command("teach", "Write the robot's position into its files as a point", [&options] {
     options.chosen = [&options](Context& c) { return teach_point(c, options.choice, options.order); };
   });
@@ -52,14 +52,14 @@ void declare_teach(base::Options& app, Context& context, Options& options) {
   add_files(teach, options);
 }
 
-void declare_reload(base::Options& app, Context& context, Options& options) {
+void declare_reload(base::Options& app, Context& context, RobotOptions& options) {
   base::Options& command =
       app.command("reload", "Read jobs and points again; the robot must be at standstill",
                   [&options] { options.chosen = [&options](Context& c) { return reload_jobs(c, options.choice); }; });
   add_choice(command, context, options);
 }
 
-void declare_jog(base::Options& app, Context& context, Options& options) {
+void declare_jog(base::Options& app, Context& context, RobotOptions& options) {
   base::Options& command = app.command("jog", "Jog the robot as long as the command runs", [&options] {
     options.chosen = [&options](Context& c) { return jog(c, options.choice, options.hand); };
   });
@@ -74,8 +74,8 @@ void declare_jog(base::Options& app, Context& context, Options& options) {
   add_remote_options(command, context);
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_robot(base::Options& app, Context& context) {
+  auto options = std::make_shared<RobotOptions>();
   declare_points(app, context, *options);
   declare_teach(app, context, *options);
   declare_reload(app, context, *options);
@@ -97,6 +97,6 @@ const Verb kRobotVerb{
     "  indurop robot teach CORNER --in pallet --file points.job\n"
     "  indurop robot reload\n"
     "  indurop robot points\n",
-    &declare};
+    &declare_robot};
 
 }  // namespace indurop::tools

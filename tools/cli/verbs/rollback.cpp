@@ -18,7 +18,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct RollbackOptions {
   std::string id;
   std::string plant;
   deploy::LinkSettings link;
@@ -27,7 +27,7 @@ struct Options {
   bool allow_missing = false;
 };
 
-constexpr std::int64_t kDiscoverNs = 3'000'000'000;  // less if all are discovered
+constexpr std::int64_t kRollbackDiscoverNs = 3'000'000'000;  // less if all are discovered
 constexpr std::size_t kShortestId = 4;
 
 // Returns the ids that were committed on the board and begin with `begin`.
@@ -43,7 +43,7 @@ std::set<std::string> ids_like(const std::vector<PastDeployment>& history, const
 
 // Returns the deployment to return to; empty after an error.
 std::string choose_target(Context& context, deploy::DeployLink& link, const BoardRoster& roster,
-                          const std::vector<std::string>& boards, const Options& options) {
+                          const std::vector<std::string>& boards, const RollbackOptions& options) {
   const deploy::BoardReport& first = roster.find(boards.front())->report;
   if (!options.id.empty()) {
     const auto ids = ids_like(fetch_histories(link, options.link.self, {first.agent})[first.agent], options.id);
@@ -79,13 +79,13 @@ std::string fetch_package(deploy::DeployLink& link, const BoardRoster& roster, s
   return {};
 }
 
-int roll_back(Context& context, Options& options) {
+int roll_back(Context& context, RollbackOptions& options) {
   auto link = open_link(context.out, options.link);
   if (link == nullptr) {
     return kUnreachable;
   }
   BoardRoster roster;
-  roster.gather(*link, kDiscoverNs, [&] { return roster.complete(); });
+  roster.gather(*link, kRollbackDiscoverNs, [&] { return roster.complete(); });
   const auto meant = choose_plant(roster, options.plant);
   if (!meant) {
     return report(context.out, with_keys_hint(meant.error(), options.link));
@@ -132,8 +132,8 @@ int roll_back(Context& context, Options& options) {
   return run_deployment(context, *link, roster, std::move(deployment));
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_rollback(base::Options& app, Context& context) {
+  auto options = std::make_shared<RollbackOptions>();
   app.add("id", "ID", options->id, "Deployment to go back to (default: the one before the present one)")
       .check([](const std::string& text) {
         const bool hex = text.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -161,6 +161,6 @@ const Verb kRollbackVerb{
     "Examples:\n"
     "  indurop rollback\n"
     "  indurop rollback 3f2a91\n",
-    &declare};
+    &declare_rollback};
 
 }  // namespace indurop::tools

@@ -15,13 +15,13 @@
 namespace indurop::tools {
 namespace {
 
-struct Request {
+struct RunRequest {
   config::RunOptions options;
   bool local = false;
   bool detach = false;
 };
 
-int run(Context& context, Request& request) {
+int run(Context& context, RunRequest& request) {
   const auto program = node_program(context);
   if (program.empty()) {
     return kFailed;
@@ -71,8 +71,8 @@ int run(Context& context, Request& request) {
   return request.detach ? run_detached(context, program, options) : become_node(context, program, options);
 }
 
-Action declare(base::Options& app, Context& /*context*/) {
-  auto request = std::make_shared<Request>();
+Action declare_run(base::Options& app, Context& /*context*/) {
+  auto request = std::make_shared<RunRequest>();
   app.flag("--local", request->local, "Run all boards of a plant on this host");
   app.flag("--detach", request->detach, "Return when the node runs; indurop stop ends it");
   config::declare_run_options(app, request->options);
@@ -91,6 +91,6 @@ const Verb kRunVerb{"run", "Start and stop", "Run a configuration, or with --loc
                     "  indurop run module.xml --sim --until 1min\n"
                     "  indurop run plant.xml --local\n"
                     "  indurop run plant.xml --sim --until 1min --network delay=200us,loss=0.001\n",
-                    &declare};
+                    &declare_run};
 
 }  // namespace indurop::tools

@@ -20,9 +20,9 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::int64_t kPauseNs = 5'000'000;
+constexpr std::int64_t kScopePauseNs = 5'000'000;
 
-struct Options {
+struct ScopeOptions {
   ScopeOrder order;
   std::string mode = "single";
   std::vector<std::string> files;
@@ -74,7 +74,8 @@ bool save(Context& context, const Capture& capture, const std::string& node, con
 
 class Show {
  public:
-  Show(Context& context, const Options& options, Scope& scope) : context_(context), options_(options), scope_(scope) {
+  Show(Context& context, const ScopeOptions& options, Scope& scope)
+      : context_(context), options_(options), scope_(scope) {
     if (context.format == Format::Table && context.out.terminal() && options.order.mode != ScopeMode::Single) {
       screen_ = std::make_unique<Screen>(context.out);
     }
@@ -102,7 +103,7 @@ class Show {
           return ended(fmt::format("no trigger within {}, in {} ticks", human_age(options_.timeout_ns), scope_.ticks()),
                        kUnreachable);
         }
-        const Woken why = wait_until(rt::now_ns() + kPauseNs, screen_ ? screen_->key_file() : -1);
+        const Woken why = wait_until(rt::now_ns() + kScopePauseNs, screen_ ? screen_->key_file() : -1);
         if (interrupted() || (why == Woken::Readable && !keys())) {
           return kOk;
         }
@@ -180,14 +181,14 @@ class Show {
   }
 
   Context& context_;
-  const Options& options_;
+  const ScopeOptions& options_;
   Scope& scope_;
   std::unique_ptr<Screen> screen_;
   std::uint64_t seen_ = 0;
   bool held_ = false;
 };
 
-int scope(Context& context, Options& options) {
+int scope(Context& context, ScopeOptions& options) {
   for (const std::string& file : options.files) {
     if (!has_form(file)) {
       context.out.error(fmt::format("'{}': the name has to end in .svg, .csv, .json or .mcap", file));
@@ -206,8 +207,8 @@ int scope(Context& context, Options& options) {
   return interrupted() ? interrupt_code() : code;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_scope(base::Options& app, Context& context) {
+  auto options = std::make_shared<ScopeOptions>();
   constexpr auto kMaxTicks = static_cast<double>(kMostScopeRows);
   app.add("names", "CHANNEL", options->order.channels, "Variables, parts of them, globs, or expressions")
       .required()
@@ -241,6 +242,6 @@ const Verb kScopeVerb{
     "  indurop scope joints --trigger 'motor_on rises' --pre 100 --post 400\n"
     "  indurop scope 'error = abs(target - actual)' --trigger 'state == Moving and not stop' --save run.svg\n"
     "  indurop scope speed --trigger 'speed > 100' --mode normal\n",
-    &declare};
+    &declare_scope};
 
 }  // namespace indurop::tools

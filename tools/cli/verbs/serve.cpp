@@ -9,7 +9,7 @@
 namespace indurop::tools {
 namespace {
 
-Action declare(base::Options& app, Context& /*context*/) {
+Action declare_serve(base::Options& app, Context& /*context*/) {
   auto options = std::make_shared<ServeOptions>();
   declare_serve_options(app, *options);
   return [options](Context& c) { return become_server(c, *options); };
@@ -26,6 +26,6 @@ const Verb kServeVerb{
     "  indurop serve\n"
     "  indurop serve --write --port 9000\n"
     "  indurop serve --bind 0.0.0.0 --write --token-file tokens --cert board.pem --key board.key\n",
-    &declare};
+    &declare_serve};
 
 }  // namespace indurop::tools

@@ -13,13 +13,13 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct SetOptions {
   std::vector<std::string> words;
   BoardForces board;
 };
 
 // The options for variables that boards show are also those for agents.
-int set_by_agent(Context& context, Options& options) {
+int set_by_agent(Context& context, SetOptions& options) {
   deploy::LinkSettings& link = options.board.board.link;
   const dds::NetworkSettings& remote = context.remote.network;
   link.network.domain = remote.domain != 0 ? remote.domain : deploy::LinkSettings::kDefaultDomain;
@@ -49,7 +49,7 @@ void note_writers(Context& context, const std::vector<Assignment>& assignments) 
   }
 }
 
-int set(Context& context, Options& options) {
+int set(Context& context, SetOptions& options) {
   if (options.board.board.wanted()) {
     return set_by_agent(context, options);
   }
@@ -82,8 +82,8 @@ int set(Context& context, Options& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_set(base::Options& app, Context& context) {
+  auto options = std::make_shared<SetOptions>();
   app.add("assignment", "TEXT", options->words, "NAME VALUE, or NAME=VALUE ...")
       .required()
       .completes(base::Completion::Variable);
@@ -110,6 +110,6 @@ const Verb kSetVerb{
     "  indurop set 'joints[1].y=-0.5' mode=AUTO\n"
     "  indurop set 'joints[0]' '{x: 1, y: 2, z: 3}'\n"
     "  indurop set gain=2.5 --board control --keys keys\n",
-    &declare};
+    &declare_set};
 
 }  // namespace indurop::tools

@@ -6,7 +6,7 @@
 namespace indurop::tools {
 namespace {
 
-Action declare(base::Options& app, Context& context) {
+Action declare_start(base::Options& app, Context& context) {
   return declare_command(app, context, scheduler::ModuleCommand::Start,
                          "start what? MODULE, MODULE@BOARD or @BOARD; a node is started by: indurop run module.xml");
 }
@@ -23,6 +23,6 @@ const Verb kStartVerb{
     "  indurop start gripper\n"
     "  indurop start gripper@control\n"
     "  indurop start @control\n",
-    &declare};
+    &declare_start};
 
 }  // namespace indurop::tools

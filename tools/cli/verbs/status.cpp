@@ -148,7 +148,7 @@ int show_once(Context& context, const BoardRun& chosen, bool check) {
   return check && !head.trouble.empty() ? kCheckFailed : kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
+Action declare_status(base::Options& app, Context& context) {
   auto repeat = std::make_shared<Repeat>();
   auto plant = std::make_shared<PlantStatus>();
   auto board = std::make_shared<BoardChoice>();
@@ -193,6 +193,6 @@ const Verb kStatusVerb{
     "  indurop status --check\n"
     "  indurop status --plant\n"
     "  indurop status --board control\n",
-    &declare};
+    &declare_status};
 
 }  // namespace indurop::tools

@@ -80,7 +80,7 @@ int stop_node(Context& context, const CommandOptions& options) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
+Action declare_stop(base::Options& app, Context& context) {
   auto options = std::make_shared<CommandOptions>();
   add_command_options(app, context, *options);
   return [options](Context& c) {
@@ -104,6 +104,6 @@ const Verb kStopVerb{
     "  indurop stop gripper\n"
     "  indurop stop gripper@control --interface eth1\n"
     "  indurop stop @control\n",
-    &declare};
+    &declare_stop};
 
 }  // namespace indurop::tools

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 60'000;  // maximum of a datagram; UDP has room for 65507
 
-struct Options {
+struct StreamOptions {
   std::vector<std::string> names;
   bool plotjuggler = false;
   bool foxglove = false;
@@ -141,7 +141,7 @@ class Stream {
 // Origins of Foxglove's own pages and programs; only they may connect, and programs that are not browsers.
 constexpr const char* kOrigins[] = {"https://app.foxglove.dev", "https://studio.foxglove.dev", "file://"};
 
-int stream_to_foxglove(Context& context, const Options& options) {
+int stream_to_foxglove(Context& context, const StreamOptions& options) {
   if (context.remote.wanted) {
     context.out.error("Foxglove gets the variables of this host only; run this on the board, or use --plotjuggler");
     return kUsage;
@@ -166,7 +166,7 @@ int stream_to_foxglove(Context& context, const Options& options) {
   return become_server(context, serve);
 }
 
-int stream(Context& context, const Options& options) {
+int stream(Context& context, const StreamOptions& options) {
   if (options.foxglove) {
     return stream_to_foxglove(context, options);
   }
@@ -197,8 +197,8 @@ int stream(Context& context, const Options& options) {
   return interrupted() ? interrupt_code() : kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_stream(base::Options& app, Context& context) {
+  auto options = std::make_shared<StreamOptions>();
   constexpr double kMostHz = 1000;
   constexpr double kLeastHz = 0.001;
   constexpr double kMostPort = 65535;
@@ -232,6 +232,6 @@ const Verb kStreamVerb{
     "  indurop stream 'knu::Robot::*' --plotjuggler\n"
     "  indurop stream joints --plotjuggler --to 192.168.1.5:9870 --hz 100\n"
     "  indurop stream 'knu::Robot::*' --foxglove\n",
-    &declare};
+    &declare_stream};
 
 }  // namespace indurop::tools

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct TestOptions {
   fs::path folder = ".";
   fs::path build;  // empty: FOLDER/build
   std::string select;
@@ -40,7 +40,7 @@ bool run(Context& context, const std::vector<std::string>& words, int& code) {
   return code == 0;
 }
 
-bool build(Context& context, const Options& options, const fs::path& folder) {
+bool build(Context& context, const TestOptions& options, const fs::path& folder) {
   int code = 0;
   std::error_code ignored;
   if (!fs::exists(folder / "CMakeCache.txt", ignored)) {
@@ -71,7 +71,7 @@ bool has_counters(const fs::path& folder) {
                      [](const fs::directory_entry& file) { return file.path().extension() == ".plccov"; });
 }
 
-int test(Context& context, const Options& options) {
+int test(Context& context, const TestOptions& options) {
   std::error_code error;
   if (!fs::exists(options.folder / "CMakeLists.txt", error)) {
     context.out.error(
@@ -120,8 +120,8 @@ int test(Context& context, const Options& options) {
   return passed ? kOk : kCheckFailed;
 }
 
-Action declare(base::Options& app, Context& /*context*/) {
-  auto options = std::make_shared<Options>();
+Action declare_test(base::Options& app, Context& /*context*/) {
+  auto options = std::make_shared<TestOptions>();
   app.add("folder", "FOLDER", options->folder, "The project: where its CMakeLists.txt is (default: here)")
       .completes(base::Completion::Folder);
   app.add("--build", "FOLDER", options->build, "Where it is built (default: build in the project)")
@@ -150,6 +150,6 @@ const Verb kTestVerb{
     "  indurop test\n"
     "  indurop test cell --select Stops --junit results.xml\n"
     "  indurop test cell --lcov coverage.info\n",
-    &declare};
+    &declare_test};
 
 }  // namespace indurop::tools

@@ -21,14 +21,14 @@ namespace {
 
 constexpr std::size_t kPage = 10;
 
-struct Options {
+struct TopOptions {
   double seconds = 1;
   std::uint64_t count = 0;  // 0: without end
 };
 
 class Top {
  public:
-  Top(Context& context, const Options& options) : context_(context), options_(options), node_(context.node) {}
+  Top(Context& context, const TopOptions& options) : context_(context), options_(options), node_(context.node) {}
 
   // For a pipe: prints pages of text.
   int print() {
@@ -142,7 +142,7 @@ class Top {
   }
 
   Context& context_;
-  const Options& options_;
+  const TopOptions& options_;
   std::string node_;
   std::string watched_;
   std::optional<TopSample> sample_;
@@ -150,13 +150,13 @@ class Top {
   TopLook look_;
 };
 
-int top(Context& context, const Options& options) {
+int top(Context& context, const TopOptions& options) {
   Top view(context, options);
   return context.out.terminal() ? view.show() : view.print();
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_top(base::Options& app, Context& context) {
+  auto options = std::make_shared<TopOptions>();
   constexpr double kLeastSeconds = 0.1;
   constexpr double kMostSeconds = 3600;
   app.add("-d,--delay", "SECONDS", options->seconds, "Update interval (default 1)").range(kLeastSeconds, kMostSeconds);
@@ -176,6 +176,6 @@ const Verb kTopVerb{"top", "A running node", "Follow a node and its modules on t
                     "Examples:\n"
                     "  indurop top\n"
                     "  indurop top -d 0.5 --node cell\n",
-                    &declare};
+                    &declare_top};
 
 }  // namespace indurop::tools

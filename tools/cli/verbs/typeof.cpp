@@ -69,7 +69,7 @@ int type_of(Context& context, const std::vector<std::string>& names) {
   return kOk;
 }
 
-Action declare(base::Options& app, Context& context) {
+Action declare_typeof(base::Options& app, Context& context) {
   const auto names = add_items_to_show(app, context);
   return [names](Context& c) { return type_of(c, *names); };
 }
@@ -81,6 +81,6 @@ const Verb kTypeofVerb{"typeof", "Variables", "Show what variables are made of",
                        "Examples:\n"
                        "  indurop typeof joints\n"
                        "  indurop typeof 'cell::*' --remote\n",
-                       &declare};
+                       &declare_typeof};
 
 }  // namespace indurop::tools

@@ -271,7 +271,7 @@ int send(Context& context, const UsersRequest& given) {
   return code;
 }
 
-Action declare(base::Options& app, Context& context) {
+Action declare_users(base::Options& app, Context& context) {
   auto request = std::make_shared<UsersRequest>();
   auto chosen = std::make_shared<Action>();
   const auto verb = [&](const char* name, const char* help, int (*action)(Context&, const UsersRequest&),
@@ -325,6 +325,6 @@ const Verb kUsersVerb{
     "  indurop users add logger --role look --no-password\n"
     "  indurop users token logger\n"
     "  indurop users send --keys keys\n",
-    &declare};
+    &declare_users};
 
 }  // namespace indurop::tools

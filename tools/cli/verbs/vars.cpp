@@ -14,10 +14,10 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::size_t kAlignedValue = 24;
+constexpr std::size_t kListedValueWidth = 24;
 constexpr std::size_t kLongestValue = 40;
 
-struct Options {
+struct VarsOptions {
   std::vector<std::string> globs;
   std::string type;
   bool names = false;
@@ -58,7 +58,7 @@ std::vector<Cell> row(const Item& item, const std::vector<std::uint8_t>& bytes, 
           Cell(variable.source)};
 }
 
-int list(Context& context, const Options& options) {
+int list(Context& context, const VarsOptions& options) {
   const auto store = open_store(context, vars::Mode::ReadOnly);
   if (!store) {
     return report(context.out, store.error());
@@ -86,7 +86,7 @@ int list(Context& context, const Options& options) {
   const KnownUses uses = context.values->here() ? known_uses(context.node) : KnownUses{};
   Table table({{"NAME", "name"},
                {"TYPE", "type"},
-               {"VALUE", "value", Align::Right, 0, kAlignedValue},
+               {"VALUE", "value", Align::Right, 0, kListedValueWidth},
                {"UNIT", "unit"},
                {"NOTES", "", Align::Left, 3},
                {"", "retain"},
@@ -113,8 +113,8 @@ int list(Context& context, const Options& options) {
   return code;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_vars(base::Options& app, Context& context) {
+  auto options = std::make_shared<VarsOptions>();
   app.add("names", "GLOB", options->globs, "Names or globs: * ? [a-z]; without '::' the last part alone may match")
       .completes(base::Completion::Variable);
   app.add("-t,--type", "TYPE", options->type, "Only variables of this type (glob)");
@@ -135,6 +135,6 @@ const Verb kVarsVerb{
     "  indurop vars\n"
     "  indurop vars 'knu::Robot::*' -o json\n"
     "  indurop vars -t double\n",
-    &declare};
+    &declare_vars};
 
 }  // namespace indurop::tools

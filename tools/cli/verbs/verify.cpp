@@ -18,7 +18,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct VerifyOptions {
   bool plant = false;
   std::string board;
   deploy::LinkSettings link;
@@ -59,7 +59,7 @@ Result<Findings, Failure> verify_local() {
 
 // Requests until all have answered; boards without an answer in time, or of a release that does not support it, are in
 // `silent`.
-Result<Findings, Failure> verify_remote(Context& context, Options& options, std::vector<std::string>& silent) {
+Result<Findings, Failure> verify_remote(Context& context, VerifyOptions& options, std::vector<std::string>& silent) {
   auto boards = discover_boards(context, options.link, options.board);
   if (!boards) {
     return boards.error();
@@ -113,7 +113,7 @@ void report_finding(Context& context, const std::string& board, const JsonValue&
   }
 }
 
-int verify(Context& context, Options& options) {
+int verify(Context& context, VerifyOptions& options) {
   std::vector<std::string> silent;
   const bool remote = options.plant || !options.board.empty();
   const auto found = remote ? verify_remote(context, options, silent) : verify_local();
@@ -154,8 +154,8 @@ int verify(Context& context, Options& options) {
   return silent.empty() ? kOk : kUnreachable;
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_verify(base::Options& app, Context& context) {
+  auto options = std::make_shared<VerifyOptions>();
   app.flag("--plant", options->plant, "All boards of the network, by their agents");
   app.add("--board", "NAME", options->board, "This board of the network, by its agent");
   deploy::add_link_options(app, options->link);
@@ -177,6 +177,6 @@ const Verb kVerifyVerb{
     "  indurop verify\n"
     "  indurop verify --plant\n"
     "  indurop verify --board press_1 -o json\n",
-    &declare};
+    &declare_verify};
 
 }  // namespace indurop::tools

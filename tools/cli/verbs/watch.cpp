@@ -20,7 +20,7 @@
 namespace indurop::tools {
 namespace {
 
-struct Options {
+struct WatchOptions {
   std::vector<std::string> names;
   std::vector<std::string> lists;
   double hz = 10;
@@ -30,7 +30,7 @@ struct Options {
   std::int64_t timeout_ns = 0;  // 0: none
 };
 
-constexpr std::size_t kAll = SIZE_MAX;
+constexpr std::size_t kAllItems = SIZE_MAX;
 constexpr std::size_t kAlignUpTo = 24;  // longer values extend to the right
 
 std::string text_of(const WatchedValue& value) {
@@ -80,7 +80,7 @@ void print_json(Context& context, const WatchSource& source) {
   context.out.line(whole.dump());
 }
 
-int stream(Context& context, WatchSource& source, const Options& options) {
+int stream(Context& context, WatchSource& source, const WatchOptions& options) {
   Rounds rounds(options.hz, options.once ? 1 : options.count, options.timeout_ns);
   if (context.format == Format::Csv) {
     print_csv_heading(context, source, options.units);
@@ -89,7 +89,7 @@ int stream(Context& context, WatchSource& source, const Options& options) {
   bool first = true;
   bool key = false;
   while (rounds.wait(-1, key)) {
-    source.sample(context, 0, kAll);
+    source.sample(context, 0, kAllItems);
     const bool was_gone = !absence.empty();
     if (source.alive() == was_gone) {
       absence = source.absence();
@@ -118,9 +118,9 @@ int stream(Context& context, WatchSource& source, const Options& options) {
 
 // ---- the terminal
 
-class View {
+class WatchView {
  public:
-  View(Context& context, WatchSource& source, const Options& options)
+  WatchView(Context& context, WatchSource& source, const WatchOptions& options)
       : context_(context), source_(source), options_(options), screen_(context.out) {}
 
   int run() {
@@ -228,7 +228,7 @@ class View {
 
   Context& context_;
   WatchSource& source_;
-  const Options& options_;
+  const WatchOptions& options_;
   Screen screen_;
   std::size_t first_ = 0;
   bool paused_ = false;
@@ -238,7 +238,7 @@ class View {
 };
 
 void print_once(Context& context, WatchSource& source) {
-  source.sample(context, 0, kAll);
+  source.sample(context, 0, kAllItems);
   if (!source.alive()) {
     context.out.note(context.values->gone(source.absence()) + ": these are the last values");
   }
@@ -249,7 +249,7 @@ void print_once(Context& context, WatchSource& source) {
   context.out.write(table_text(table, context.out));
 }
 
-int watch(Context& context, const Options& options) {
+int watch(Context& context, const WatchOptions& options) {
   std::vector<std::string> names = options.names;
   for (const std::string& list : options.lists) {
     if (!read_watch_list(context.out, list, names)) {
@@ -272,13 +272,13 @@ int watch(Context& context, const Options& options) {
     return kOk;
   }
   if (context.format == Format::Table && context.out.terminal()) {
-    return View(context, source, options).run();
+    return WatchView(context, source, options).run();
   }
   return stream(context, source, options);
 }
 
-Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<Options>();
+Action declare_watch(base::Options& app, Context& context) {
+  auto options = std::make_shared<WatchOptions>();
   constexpr double kMostHz = 1000;
   constexpr double kLeastHz = 0.001;
   app.add("names", "GLOB", options->names, "Variables, parts of them, or globs").completes(base::Completion::Variable);
@@ -305,6 +305,6 @@ const Verb kWatchVerb{
     "  indurop watch 'knu::Robot::*'\n"
     "  indurop watch -f arm.watch --hz 2\n"
     "  indurop watch tick 'joints[0]' -o csv -n 1000 > run.csv\n",
-    &declare};
+    &declare_watch};
 
 }  // namespace indurop::tools
