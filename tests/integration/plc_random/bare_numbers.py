@@ -96,7 +96,8 @@ class Writer:
         inputs = [self.made(depth - 1) for _ in range(2)]
         if self.rng.random() < 0.5:
             k = self.rng.randint(0, 1)
-            return self.one_of(f"MUX({k}, ", inputs, inputs[k].expr.run)
+            # All inputs are evaluated: what is not chosen may have calls that change variables.
+            return self.one_of(f"MUX({k}, ", inputs, lambda f: [one.expr.run(f) for one in inputs][k])
         g = self.make.value(BOOL, 0)
         return self.one_of(f"SEL({g.text}, ", inputs,
                            lambda f: do.selected(g.run(f), inputs[0].expr.run(f), inputs[1].expr.run(f)))
