@@ -6,6 +6,14 @@ const browser = await Browser.launch();
 const wide = { width: 1280, height: 800 };
 const phone = { width: 390, height: 844 };
 
+async function sign_in(page, user) {
+  await press(page, "Sign in");
+  await fill(page, "User", user);
+  await fill(page, "Password", "correct horse");
+  await Promise.all([page.waitForNavigation(), page.keyboard.press("Enter")]);
+  await sees(page, "Sign out");
+}
+
 await browser.run({
   async "An alarm is raised, acknowledged and cleared"() {
     const page = await browser.open("alarms", wide);
@@ -112,21 +120,38 @@ await browser.run({
     await browser.check_view(page, "signed-in");
     await Promise.all([page.waitForNavigation(), press(page, "Sign out")]);
     await sees_no(page, "Acknowledge all");
-    await press(page, "Sign in");
-    await fill(page, "User", "eve");
-    await fill(page, "Password", "correct horse");
-    await Promise.all([page.waitForNavigation(), page.keyboard.press("Enter")]);
-    await sees(page, "Sign out");
+    await sign_in(page, "eve");
     await sees_no(page, "Acknowledge all");
+    await page.close();
+  },
+
+  async "An administrator sees the users, their sessions and the audit log, and ends sessions"() {
+    const anna = await browser.open("alarms", { ...wide, token: false });
+    await sign_in(anna, "anna");
+    const page = await browser.open("audit", { ...wide, token: false });
+    await sees(page, "sensor is ordered");  // of the alarm that was shelved
+    await sees_no(page, "Signs in with");
+    await sign_in(page, "ida");
+    for (const text of ["Signs in with", "operate", "from 127.0.0.1", "wrong user or password, as 'anna'"]) await sees(page, text);
+    await browser.check_view(page, "audit-wide");
+    await fill(page, "Filter", "shelve");
+    await sees_no(page, "wrong user or password");
+    await page.locator("::-p-aria(End the sessions of anna)").click();
+    await sees(page, "anna: 1 session ended.");
+    await anna.bringToFront();  // a hidden page asks for nothing
+    await sees(anna, "the session has ended");
+    await page.bringToFront();
+    await fill(page, "Filter", "end sessions");
+    await sees(page, "1 ended");
+    await page.setViewport({ ...phone, isMobile: true, hasTouch: true });
+    await browser.check_view(page, "audit-phone");
+    await anna.close();
     await page.close();
   },
 
   async "A user who is removed is signed out"() {
     const page = await browser.open("alarms", { ...wide, token: false });
-    await press(page, "Sign in");
-    await fill(page, "User", "anna");
-    await fill(page, "Password", "correct horse");
-    await Promise.all([page.waitForNavigation(), page.keyboard.press("Enter")]);
+    await sign_in(page, "anna");
     await sees(page, "writing as anna");
     await command("remove-anna");
     await sees(page, "the session has ended");

@@ -30,7 +30,7 @@ class Press(PageServer):
         elif word == "other-token":
             (pathlib.Path(self.folder) / "tokens").write_text("tester the-next-token-of-this-server-0123456789\n")
         elif word == "users":
-            for user, role in (("anna", "operate"), ("eve", "look")):
+            for user, role in (("anna", "operate"), ("eve", "look"), ("ida", "administer")):
                 subprocess.run([f"{self.options.bin}/indurop", "users", "add", user, "--role", role], cwd=self.folder,
                                env=self.environment, input="correct horse\n", text=True, check=True)
             self.who = ("--users", "users.xml")

@@ -10,6 +10,7 @@ import "./views/schedule/schedule.css";
 import "./views/variables/variables.css";
 import "./views/plc/plc.css";
 import "./views/deployments/deployments.css";
+import "./views/audit/audit.css";
 import { render } from "preact";
 import { take_token_from_address } from "./api/http";
 import { start_polling } from "./shell/plant";
@@ -29,6 +30,7 @@ const VIEWS: (View & { show: () => preact.JSX.Element | null })[] = [
   { name: "deployments", title: "Deployments", icon: "M4 3h6v5H4zM14 16h6v5h-6zM6 9h2v4h8v-2l4 3-4 3v-2H6zM4 17h6v4H4z", show: lazy_view(() => import("./views/deployments/deployments").then(({ Deployments }) => Deployments)) },
   { name: "plc", title: "PLC", icon: "M3 3h2v18H3zM19 3h2v18h-2zM5 11h3V7h2v10H8v-4H5zM19 11h-3V7h-2v10h2v-4h3z", show: lazy_view(() => import("./views/plc/plc").then(({ Plc }) => Plc)) },
   { name: "robot", title: "Robot", icon: "M4 21v-3h3l1-6 6-5a3 3 0 1 1 1.4 1.8L10 13l-.9 5H13v3zM20 9l1.5 3-2.5 4-1.4-1 1.8-3-1-2z", show: lazy_view(() => import("./views/robot/robot").then(({ Robot }) => Robot)) },
+  { name: "audit", title: "Audit", icon: "M12 3a4.5 4.5 0 1 1 0 9 4.5 4.5 0 0 1 0-9zM4 21a8 7.5 0 0 1 16 0z", show: lazy_view(() => import("./views/audit/audit").then(({ Audit }) => Audit)) },
 ];
 
 function Page() {

@@ -445,3 +445,25 @@ export interface StreamBoard {
   state: string;
   layout: string;
 }
+
+// A user who may sign in.
+export interface User {
+  user: string;
+  role: Role;
+  boards: string[];     // patterns; empty: all
+  variables: string[];  // patterns; empty: all
+  password: boolean;    // has one
+  token: boolean;       // has one
+  sessions: { from: string; since_ns: number; idle_ns: number }[];
+}
+
+export interface AuditEntry {
+  wall_ns: number;
+  who: string;
+  from: string;
+  board: string;
+  action: string;
+  what: string;
+  outcome: string;
+  reason: string;
+}
