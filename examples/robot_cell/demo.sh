@@ -136,7 +136,7 @@ kill $watchers $runner 2>/dev/null || true
 wait $watchers $runner || true
 watchers=
 runner=
-say "Pictures: $folder/cell.svg, cell_two_boards.svg, main.svg (ladder), schedule.svg"
+say "Pictures: $(pwd -P)/cell.svg, cell_two_boards.svg, main.svg (ladder), schedule.svg"
 
 # Where a user watches, the cell continues.
 [ -t 1 ] || exit 0
