@@ -11,6 +11,11 @@ std::optional<std::uint64_t> Exchange::gap() const noexcept {
   return entries % 2 == 0 ? std::optional(entries) : std::nullopt;
 }
 
+bool Exchange::is_still_in(std::uint64_t gap) const noexcept {
+  std::atomic_thread_fence(std::memory_order_acquire);  // after all that was read
+  return entries_.load(std::memory_order_relaxed) == gap;
+}
+
 // What was copied while a run began is part of another gap, whatever order it is seen in.
 bool Exchange::is_due(std::uint64_t tick) const noexcept {
   return tick >= settings_.earliest_tick && (!settings_.offered || offered_gap_.load(std::memory_order_acquire) ==
@@ -69,7 +74,8 @@ bool Exchange::before_run(Task& task, std::uint64_t tick, Kernel& kernel) noexce
     step_.store(Step::Back, std::memory_order_release);
   }
   // Still odd after a run that a fault ended.
-  entries_.store((entries_.load(std::memory_order_relaxed) + 1) | 1U, std::memory_order_release);
+  entries_.store((entries_.load(std::memory_order_relaxed) + 1) | 1U, std::memory_order_relaxed);
+  std::atomic_thread_fence(std::memory_order_release);  // before anything that the run writes
   return exchanged;
 }
 

@@ -53,6 +53,8 @@ class Exchange {
 
   // For one normal thread. Number of the gap between two runs that the module is in; nullopt while it runs.
   [[nodiscard]] std::optional<std::uint64_t> gap() const noexcept;
+  // Returns true if no run has begun since: what was read meanwhile is what the module keeps in that gap.
+  [[nodiscard]] bool is_still_in(std::uint64_t gap) const noexcept;
   // Everything was copied in this gap: the next run is one of the new version, if it is the one that ends the gap.
   void offer(std::uint64_t gap) noexcept { offered_gap_.store(gap + 1, std::memory_order_release); }
   [[nodiscard]] bool is_offered(std::uint64_t gap) const noexcept { return offered_gap_.load() == gap + 1; }

@@ -91,7 +91,7 @@ void Exchanges::offer_copy() {
     }
     const std::size_t bytes = running().memory().save(work_->saved);
     const auto* const begin = reinterpret_cast<const std::uint8_t*>(work_->saved.data());
-    if (bytes > 0 && work_->exchange->gap() == gap) {
+    if (bytes > 0 && work_->exchange->is_still_in(*gap)) {
       (void)work_->other.memory().restore(running().memory().form(), {begin, bytes});
       work_->saved_bytes = bytes;
       work_->exchange->offer(*gap);
@@ -162,7 +162,7 @@ void Exchanges::save_for_return() {
   const auto gap = work_->carry.between_runs ? work_->exchange->gap() : std::nullopt;
   std::vector<std::byte> now(gap ? running().memory().most() : 0);
   const std::size_t bytes = gap ? running().memory().save(now) : 0;
-  if (bytes > 0 && work_->exchange->gap() == gap) {
+  if (bytes > 0 && work_->exchange->is_still_in(*gap)) {
     work_->saved = std::move(now);
     work_->saved_bytes = bytes;
   }
