@@ -126,6 +126,8 @@ void declare_run_options(base::Options& line, RunOptions& options) {
       .completes(base::Completion::File);
   line.add("--replay-from", "TICK", options.replay.from_tick, "With --replay: first tick whose runs are compared");
   line.add("--replay-to", "TICK", options.replay.to_tick, "With --replay: last tick whose runs are compared");
+  line.add("--replay-stop-at", "TICK", options.replay.stop_tick,
+           "With --replay: stop this process before the runs of this tick, for a debugger; SIGCONT continues it");
   line.add("--record", "FILE", options.record, "Record every run of every module to this MCAP file")
       .completes(base::Completion::File);
   declare_simulation(line, options.simulation);
@@ -163,6 +165,8 @@ std::vector<std::string> words_of(const RunOptions& options) {
   value("--replay-output", options.replay.output.string());
   value("--replay-from", options.replay.from_tick > 0 ? std::to_string(options.replay.from_tick) : "");
   value("--replay-to", options.replay.to_tick != Replay::kLastTick ? std::to_string(options.replay.to_tick) : "");
+  value("--replay-stop-at",
+        options.replay.stop_tick != Replay::kLastTick ? std::to_string(options.replay.stop_tick) : "");
   flag("--sim", options.simulation.on);
   flag("--step", options.simulation.step);
   value("--speed", options.simulation.speed > 0 ? fmt::format("{}", options.simulation.speed) : "");

@@ -37,6 +37,7 @@ struct Replay {
   std::filesystem::path output;   // recording of the values that modules write in the replay; empty: none
   std::uint64_t from_tick = 0;    // the runs of these ticks are compared
   std::uint64_t to_tick = kLastTick;
+  std::uint64_t stop_tick = kLastTick;  // the process stops before the runs of this tick, for a debugger
   static constexpr std::uint64_t kLastTick = UINT64_MAX;
 };
 

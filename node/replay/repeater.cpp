@@ -71,6 +71,9 @@ bool Repeater::prepare_processes() {
 void Repeater::attach() {
   rt::install_guard_handlers();
   runner_.attach_thread();
+  if (options_.replay.stop_tick != config::Replay::kLastTick) {
+    return;  // time passes while a debugger has stopped a run
+  }
   hang_watch_.emplace([this] { return returned_.load(std::memory_order_relaxed); },
                       [this] { runner_.enforce_budget(kernel_.now() + kReplayPatience, true, 0); });
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/replay/replay.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <csignal>
 #include <utility>
 
 #include "node/replay/notes.h"
@@ -77,10 +81,22 @@ void Replay::end_at_exchange(ReplayedModule& module, const recorder::RunWords& r
   module.runs = false;
 }
 
+// All threads stop, so that the store shows what the next run begins with for as long as somebody looks.
+void Replay::stop_for_debugger(const recorder::RunWords& next) {
+  stopped_ = true;
+  const ReplayedModule* const module = modules_.of_recording(next.module);
+  console_.info("stopped before tick {}, the next run is one of {}: gdb -p {pid}, or kill -CONT {pid}", next.tail.tick,
+                module != nullptr ? module->name : "a module that is not here", fmt::arg("pid", ::getpid()));
+  (void)::raise(SIGSTOP);
+}
+
 // Returns false if the replay cannot continue.
 bool Replay::replay_run(const recorder::RunWords& run) {
   if (run.tail.tick > options_.replay.to_tick) {
     return true;
+  }
+  if (run.tail.tick >= options_.replay.stop_tick && !stopped_) {
+    stop_for_debugger(run);
   }
   repeated_.ticks = std::max(repeated_.ticks, run.tail.tick + 1);
   ReplayedModule* const of_run = modules_.of_recording(run.module);

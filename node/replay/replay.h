@@ -23,6 +23,7 @@ class Replay {
  private:
   bool begin(const RecordedRuns& recorded);
   bool replay(RecordedRuns& recorded);
+  void stop_for_debugger(const recorder::RunWords& next);
   void take(const RecordedClock& clock);
   void take(const RecordedAnswer& answer);
   void take(const RecordedKeyframe& keyframe);
@@ -40,6 +41,7 @@ class Replay {
   Repeater repeater_;
   Comparison comparison_;
   Repeated repeated_;
+  bool stopped_ = false;  // at the tick where it was to stop
 };
 
 }  // namespace indurop::node

@@ -29,8 +29,10 @@ std::string idle_options(const Options& options) {
   if (!replays && !options.replay.output.empty()) {
     return "--replay-output is for --replay; to record a run: --record";
   }
-  if (!replays && (options.replay.from_tick > 0 || options.replay.to_tick != config::Replay::kLastTick)) {
-    return "--replay-from and --replay-to are for --replay";
+  constexpr std::uint64_t kLast = config::Replay::kLastTick;
+  if (!replays &&
+      (options.replay.from_tick > 0 || options.replay.to_tick != kLast || options.replay.stop_tick != kLast)) {
+    return "--replay-from, --replay-to and --replay-stop-at are for --replay";
   }
   if (replays && options.duration) {
     return "a replay ends with its recording; shorten that with indurop recording cut";

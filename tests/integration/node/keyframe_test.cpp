@@ -109,6 +109,24 @@ TEST_F(FromTheMiddle, Any_ticks_are_repeated_alone) {
   EXPECT_CONTAINS(none.err, "holds no run of these modules that can be repeated between the ticks asked for");
 }
 
+bool is_stopped(pid_t process) {
+  std::ifstream in("/proc/" + std::to_string(process) + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return contains(text, ") T ");
+}
+
+TEST_F(FromTheMiddle, A_replay_stops_before_a_tick_for_a_debugger) {
+  ASSERT_EQ(run_to_end({kCounter, rambler()}, {"--sim", "--until", "3s", "--record", file()}).code, 0);
+  Program again({INDUROP_PROGRAM, "replay", file(), "--node", node() + "-r", "--stop-at", "2222"}, environment());
+  ASSERT_TRUE(wait_until([&] { return is_stopped(again.pid()); })) << again.err();
+  EXPECT_CONTAINS(again.err(), "stopped before tick 2222, the next run is one of counter: gdb -p ");
+  EXPECT_CONTAINS(indurop({"get", "--node", node() + "-r", "nt::counted"}).out, "2222\n");  // runs of ticks 0 to 2221
+  again.signal(SIGCONT);
+  const Outcome outcome = again.finish();
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_CONTAINS(outcome.out, "778 ticks, 1167 runs, 2334 values: equal");
+}
+
 // Each keyframe is of a moment between two runs, however short that is.
 TEST_F(FromTheMiddle, A_module_that_is_nearly_always_running_has_whole_keyframes) {
   Module busy = rambler("rambler_busy.so");

@@ -127,7 +127,10 @@ int replay_recording(Context& context, const ReplayOptions& options) {
   run.replay.board = options.board;
   run.replay.with = options.with;
   run.replay.output = options.output;
-  run.replay.from_tick = one_tick ? options.at : options.from;
+  const bool stops = options.stop_at != config::Replay::kLastTick;
+  const std::uint64_t from = stops && options.from == 0 ? options.stop_at : options.from;
+  run.replay.stop_tick = options.stop_at;
+  run.replay.from_tick = one_tick ? options.at : from;
   run.replay.to_tick = one_tick ? options.at : options.to;
   run.config = options.config.empty() ? std::filesystem::path((*known)["config"]) : options.config;
   run.board = (*known)["board"];

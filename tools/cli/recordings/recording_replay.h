@@ -23,7 +23,8 @@ struct ReplayOptions {
   std::string svg;                // empty: no picture
   std::uint64_t from = 0;         // ticks to compare
   std::uint64_t to = config::Replay::kLastTick;
-  std::uint64_t at = config::Replay::kLastTick;  // this one only, if it is another value
+  std::uint64_t at = config::Replay::kLastTick;       // this one only, if it is another value
+  std::uint64_t stop_at = config::Replay::kLastTick;  // stop before the runs of this tick
   bool comes_back = false;  // return afterwards; else this program becomes the node, if nothing is to be done
                             // after it
 };

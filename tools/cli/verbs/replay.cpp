@@ -20,6 +20,8 @@ Action declare_replay(base::Options& app, Context& /*context*/) {
           "Compare the runs of this tick and later ones; begins at the keyframes before");
   app.add("--to", "TICK", options->to, "Compare the runs up to this tick");
   app.add("--at", "TICK", options->at, "Compare the runs of this tick only");
+  app.add("--stop-at", "TICK", options->stop_at,
+          "Stop before the runs of this tick, for a debugger; begins at the keyframes before");
   app.add("--board", "NAME", options->board, "Board to replay, if the recording has several");
   app.add("--node", "NAME", options->node, "Name of the replaying node (default: replay)");
   return [options](Context& c) { return replay_recording(c, *options); };
@@ -36,6 +38,7 @@ const Verb kReplayVerb{
     "  indurop run module.xml --duration 60s --record run.mcap\n"
     "  indurop replay run.mcap\n"
     "  indurop replay run.mcap --from 90000 --to 91000\n"
+    "  indurop replay run.mcap --stop-at 90500\n"
     "  indurop replay run.mcap --with new/main.so\n"
     "  indurop replay run.mcap --with new/main.so --svg differs.svg\n",
     &declare_replay};
