@@ -41,7 +41,7 @@ std::string taught(const std::array<Vec3, 3>& at, Pose& frame) {
   return {};
 }
 
-std::string shown(const Vec3& tip) {
+std::string shown_tip(const Vec3& tip) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(2) << 1000 * tip.x() << " " << 1000 * tip.y() << " " << 1000 * tip.z();
   return text.str();
@@ -68,7 +68,7 @@ std::vector<base::Diagnostic> place_tools(JobBook& book, const Arm& arm) {
     }
     tool.tip.position = fit.tip;
     std::ostringstream text;
-    text << std::fixed << std::setprecision(2) << "tool '" << tool.name << "': its tip is at " << shown(fit.tip)
+    text << std::fixed << std::setprecision(2) << "tool '" << tool.name << "': its tip is at " << shown_tip(fit.tip)
          << " mm; its points agree within " << 1000 * fit.most_error << " mm, " << 1000 * fit.mean_error
          << " mm on average";
     found.push_back({base::Diagnostic::Severity::Note, tool.file, tool.place, text.str()});
