@@ -81,7 +81,7 @@ void Replay::end_at_exchange(ReplayedModule& module, const recorder::RunWords& r
   module.runs = false;
 }
 
-// All threads stop, so that the store shows what the next run begins with for as long as somebody looks.
+// All threads stop, so that the store shows what the next run begins with for as long as a debugger needs.
 void Replay::stop_for_debugger(const recorder::RunWords& next) {
   stopped_ = true;
   const ReplayedModule* const module = modules_.of_recording(next.module);

@@ -107,6 +107,38 @@ TEST_F(PlcDebug, A_fault_shows_its_line_and_the_values_that_led_there) {
                                  "m.n = 5\nlist = [1..3] 2, 4, 6\n"));
 }
 
+// Returns the last place that was shown, with the values there, without what is said at the end of the node.
+std::string last_place(const std::string& out) {
+  const std::string from_place = out.substr(out.rfind("\nT#"));
+  return from_place.substr(0, std::min(from_place.find("\nindurop-node"), from_place.find("\nremoved")));
+}
+
+TEST_F(PlcDebug, Back_leads_to_the_lines_before_with_the_values_of_then) {
+  const std::string values = "p\nglobals\nwhere\nq\n";
+  std::string there = "set go TRUE\n";
+  for (int steps = 1; steps <= 17; ++steps) {  // over the end of the first scan, and through a loop
+    there += "s\n";
+    if (steps % 4 != 1) {
+      continue;
+    }
+    const std::string straight = last_place(debug(there + values).out);
+    const Outcome sut = debug(there + "s\nset go FALSE\ns\nback\nback\n" + values);
+    EXPECT_EQ(sut.code, 0) << sut.out;
+    EXPECT_EQ(last_place(sut.out), straight) << steps << "\n" << sut.out;
+  }
+}
+
+TEST_F(PlcDebug, Back_from_a_breakpoint_a_fault_and_the_beginning) {
+  const Outcome loop = debug("b 23\nc\nc\nback\np y\nd\nn\np i\nq\n");
+  EXPECT_THAT(loop.out, HasSubstr("T#0s  d.st:9 in Twice  Twice := y;\ny = 2\n"
+                                  "T#0s  d.st:23 in main  list[i] := Twice(x := i);\ni = 2\n"));
+  const Outcome fault = debug("c\nback\np m.n\nback\nq\n");
+  EXPECT_THAT(fault.out, AllOf(HasSubstr("T#40ms  d.st:25 in main  total := total / (5 - m.n);\nm.n = 5\n"),
+                               HasSubstr("T#40ms  d.st:9 in Twice  Twice := y;\n")));
+  const Outcome begin = debug("back\ns\nq\n");
+  EXPECT_THAT(begin.out, HasSubstr("the program has not run an earlier line\nT#0s  d.st:15 in Motor"));
+}
+
 TEST_F(PlcDebug, Without_a_configuration_the_program_runs_alone) {
   EXPECT_THAT(debug("scan\nq\n", {}).out, HasSubstr("T#10ms  d.st:21 in main"));
 }

@@ -42,7 +42,9 @@ class DebugLink {
   std::optional<DebugStop> wait(int milliseconds);
   // Lets the module that stopped last continue.
   void answer(DebugMode mode, const std::vector<std::uint32_t>& breakpoints);
-  // Lets all modules continue without further stops.
+  // Lets all modules continue without further stops; others may connect.
+  void release() { modules_.clear(); }
+  // The same, and no others may connect.
   void close();
 
  private:

@@ -2,7 +2,6 @@
 #include "tools/cli/plc/debug_session.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,9 +10,6 @@
 #include <sstream>
 
 #include "control/plc/print/expression_text.h"
-#include "core/base/program_folder.h"
-#include "core/base/spawn.h"
-#include "tools/client/process/child.h"
 #include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
@@ -29,6 +25,7 @@ constexpr const char* kHelp =
     "  next         the next line of this body (n)\n"
     "  out          back to the caller (o)\n"
     "  scan [N]     one scan on, or N\n"
+    "  back         to the line before, with the values of then\n"
     "  print [NAME ...]  values, without NAME all of this body (p)\n"
     "  globals      shared variables as this scan sees them\n"
     "  where        the calls that lead here; up and down choose one\n"
@@ -43,15 +40,9 @@ std::string trimmed(const std::string& text) {
 
 }  // namespace
 
-DebugSession::DebugSession(Context& context, const plc::Compiled& compiled, DebugLink& link, std::string node,
-                           pid_t process, bool ends)
-    : context_(context),
-      code_(compiled),
-      link_(link),
-      node_(std::move(node)),
-      process_(process),
-      prompts_(::isatty(STDIN_FILENO) == 1),
-      ends_(ends) {
+DebugSession::DebugSession(Context& context, const plc::Compiled& compiled, DebugLink& link, DebuggedNode& node,
+                           bool ends)
+    : context_(context), code_(compiled), link_(link), node_(node), prompts_(::isatty(STDIN_FILENO) == 1), ends_(ends) {
   for (const plc::ModuleText& module : compiled.modules) {
     for (const plc::DebugTable::Line& line : module.debug.lines) {
       if (first_file_.empty() && line.at.file != nullptr) {
@@ -71,10 +62,9 @@ int DebugSession::run() {
       }
       continue;
     }
-    int status = 0;
-    if (::waitpid(process_, &status, WNOHANG) == process_) {
+    if (const auto code = node_.ended()) {
       context_.out.note(met ? "the simulation has ended" : "the simulation has ended before the program ran");
-      return base::exit_code_of(status);
+      return *code;
     }
     if (interrupted()) {  // interrupted, and no module runs
       return interrupt_code();
@@ -97,17 +87,21 @@ bool DebugSession::meet(const DebugStop& stop) {
     begin_of_scan(stop);
     return true;
   }
-  if (stop.kind == DebugStop::Kind::Line && aim_ != Aim::Run && aim_ != Aim::Scan && is_same_line(stop)) {
+  if (aim_ != Aim::Run && aim_ != Aim::Scan && !stop_line_.empty() && is_same_line(stop_, stop)) {
     stop_.line = stop.line;
     go_on(mode_of_aim());
     return true;
   }
+  std::erase_if(breakpoints_, [](const Breakpoint& one) { return one.once; });
+  stand_at(stop);
+  return prompt();
+}
+
+void DebugSession::stand_at(const DebugStop& stop) {
   stop_ = stop;
   stop_line_ = code_.line(table(), stop_.line).name;
   frame_ = 0;
-  std::erase_if(breakpoints_, [](const Breakpoint& one) { return one.once; });
   print_place();
-  return prompt();
 }
 
 void DebugSession::begin_of_scan(const DebugStop& stop) {
@@ -117,14 +111,15 @@ void DebugSession::begin_of_scan(const DebugStop& stop) {
     stand = --scans_left_ == 0;
   }
   stop_line_.clear();
+  history_.note_scan();
   go_on(stand ? DebugMode::Into : DebugMode::ToBreakpoint);
 }
 
-// Returns true for further statements of the line at which the program has stopped, but not for the same line again in
-// a loop.
-bool DebugSession::is_same_line(const DebugStop& stop) {
-  return stop.module == stop_.module && stop.time_ns == stop_.time_ns && stop.frames.size() == stop_.frames.size() &&
-         stop.line > stop_.line && !stop_line_.empty() && code_.line(table(), stop.line).name == stop_line_;
+// Returns true for a further statement of the same line, but not for the same line again in a loop.
+bool DebugSession::is_same_line(const DebugStop& before, const DebugStop& next) {
+  return next.kind == DebugStop::Kind::Line && next.module == before.module && next.time_ns == before.time_ns &&
+         next.frames.size() == before.frames.size() && next.line > before.line &&
+         code_.line(table(), next.line).name == code_.line(table(), before.line).name;
 }
 
 DebugMode DebugSession::mode_of_aim() const {
@@ -141,6 +136,7 @@ void DebugSession::go_on(DebugMode mode) {
   }
   std::sort(numbers.begin(), numbers.end());
   link_.answer(mode, numbers);
+  history_.add({mode, std::move(numbers)});
 }
 
 std::string DebugSession::time_of(const DebugStop& stop) const {
@@ -191,6 +187,9 @@ std::optional<bool> DebugSession::obey(const std::string& line) {
   if (verb == "q" || verb == "quit") {
     return false;
   }
+  if (verb == "back") {
+    return go_back() ? std::nullopt : std::optional(false);
+  }
   if (const auto gone = travel(verb, rest)) {
     return gone;
   }
@@ -223,6 +222,19 @@ std::optional<bool> DebugSession::travel(const std::string& verb, const std::str
     return breakpoints_.size() > before ? std::optional(aim(Aim::Run)) : std::nullopt;
   }
   return std::nullopt;
+}
+
+// Returns false if the program cannot be brought anywhere.
+bool DebugSession::go_back() {
+  DebugBack back(node_, link_, history_,
+                 [this](const DebugStop& before, const DebugStop& next) { return is_same_line(before, next); });
+  if (const auto stop = back.line_before()) {
+    stand_at(*stop);
+  } else {
+    context_.out.error(back.is_lost() ? "the simulation did not take the same way again: start it again"
+                                      : "the program has not run an earlier line");
+  }
+  return !back.is_lost();
 }
 
 void DebugSession::show_values(const std::string& verb, const std::string& rest) {
@@ -319,11 +331,11 @@ void DebugSession::set(const std::string& assignment) {
   context_.out.flush();
   const std::size_t space = assignment.find(' ');
   const bool pair = assignment.find('=') == std::string::npos && space != std::string::npos;
-  std::vector<std::string> words{(base::program_folder() / "indurop").string(), "set", "--node", node_};
-  words.push_back(pair ? assignment.substr(0, space) + "=" + trimmed(assignment.substr(space)) : assignment);
-  if (const auto done = run_child(words); !done) {
-    context_.out.error(done.error().text);
+  const std::string text = pair ? assignment.substr(0, space) + "=" + trimmed(assignment.substr(space)) : assignment;
+  if (const std::string problem = node_.set(text, false); !problem.empty()) {
+    context_.out.error(problem);
   }
+  history_.add_set(text);
 }
 
 }  // namespace indurop::tools

@@ -3,24 +3,24 @@
 
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/cli/command/verb.h"
+#include "tools/cli/plc/debug_back.h"
 #include "tools/cli/plc/debug_code.h"
+#include "tools/cli/plc/debug_history.h"
 #include "tools/cli/plc/debug_link.h"
+#include "tools/cli/plc/debugged_node.h"
 
 namespace indurop::tools {
 
 class DebugSession {
  public:
-  // `node`: the name of the simulated node, whose process is `process`. `ends`: the simulation ends on its own.
-  DebugSession(Context& context, const plc::Compiled& compiled, DebugLink& link, std::string node, pid_t process,
-               bool ends);
+  // All references are borrowed; the node was started. `ends`: the simulation ends on its own.
+  DebugSession(Context& context, const plc::Compiled& compiled, DebugLink& link, DebuggedNode& node, bool ends);
 
   // Runs until the user leaves or the node ends. Returns the exit code.
   int run();
@@ -32,7 +32,7 @@ class DebugSession {
   bool meet(const DebugStop& stop);
   void go_on(DebugMode mode);
   void begin_of_scan(const DebugStop& stop);
-  [[nodiscard]] bool is_same_line(const DebugStop& stop);
+  bool is_same_line(const DebugStop& before, const DebugStop& next);
   [[nodiscard]] DebugMode mode_of_aim() const;
   // Reads commands until one lets the program continue; returns false to leave.
   bool prompt();
@@ -42,6 +42,8 @@ class DebugSession {
   // Returns whether a user, a breakpoint or the end of the simulation can stop the program once it runs.
   [[nodiscard]] bool can_stop() const { return prompts_ || ends_ || !breakpoints_.empty(); }
   std::optional<bool> travel(const std::string& verb, const std::string& rest);
+  bool go_back();
+  void stand_at(const DebugStop& stop);
   void show_values(const std::string& verb, const std::string& rest);
   void print_place();
   void print(const std::string& names);
@@ -59,8 +61,8 @@ class DebugSession {
   Context& context_;
   DebugCode code_;
   DebugLink& link_;
-  std::string node_;
-  pid_t process_;
+  DebuggedNode& node_;
+  DebugHistory history_;
   std::string first_file_;
   std::vector<Breakpoint> breakpoints_;
   Aim aim_ = Aim::Into;

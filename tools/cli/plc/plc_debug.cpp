@@ -2,25 +2,18 @@
 #include "tools/cli/plc/plc_debug.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <optional>
-#include <thread>
 
 #include "control/plc/front/compiler.h"
-#include "core/base/program_folder.h"
 #include "core/base/replace_file.h"
-#include "core/base/spawn.h"
 #include "tools/cli/plc/debug_link.h"
 #include "tools/cli/plc/debug_session.h"
+#include "tools/cli/plc/debugged_node.h"
 #include "tools/cli/plc/plc_build.h"
 #include "tools/cli/plc/plc_file.h"
 #include "tools/cli/plc/plc_sources.h"
-#include "tools/client/process/child.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/client/process/temporary_folder.h"
 
@@ -47,19 +40,6 @@ bool build(Context& context, PlcDebugRequest& request, const plc::Compiled& comp
     context.out.error(base::cannot_write(request.config, saved.error()));
   }
   return saved.ok();
-}
-
-void end(pid_t process) {
-  ::kill(process, SIGTERM);
-  constexpr int kLooks = 500;
-  for (int i = 0; i < kLooks; ++i) {
-    if (::waitpid(process, nullptr, WNOHANG) != 0) {
-      return;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  ::kill(process, SIGKILL);
-  (void)::waitpid(process, nullptr, 0);
 }
 
 int debug(Context& context, PlcDebugRequest& request) {
@@ -90,27 +70,14 @@ int debug(Context& context, PlcDebugRequest& request) {
     context.out.error("cannot make a socket in " + folder.path().string());
     return kFailed;
   }
-  ::setenv("INDUROP_PLC_DEBUG", socket.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): one thread
-  const std::string node = fmt::format("debug{}", ::getpid());
-  base::Launch launch;
-  launch.program = base::program_folder() / "indurop";
-  launch.words = {"indurop", "run", request.config, "--sim", "-q", "--node", node};
-  if (!request.until.empty()) {
-    launch.words.insert(launch.words.end(), {"--until", request.until});
-  }
-  launch.fresh_signals = true;
-  launch.group = base::Launch::Group::Own;
-  launch.ends_with_us = SIGTERM;  // however this program ends: no other process knows the node
-  const auto started = base::spawn(launch);
-  if (!started) {
-    context.out.error(fmt::format("cannot start {}", launch.program.string()));
+  DebuggedNode node(request.config, socket, request.until);
+  if (!node.start(false)) {
+    context.out.error("cannot start a node: the program indurop is not in the folder of this one");
     return kFailed;
   }
-  context.node = node;
-  const int code = DebugSession(context, compiled, link, node, started.value(), !request.until.empty()).run();
+  context.node = node.name();
+  const int code = DebugSession(context, compiled, link, node, !request.until.empty()).run();
   link.close();
-  end(started.value());
-  (void)run_child({launch.program.string(), "clean", "--node", node, "-q"});
   return code;
 }
 

@@ -18,8 +18,8 @@ class WrongTokens {
   static constexpr std::size_t kMostAddresses = 256;
   static constexpr std::int64_t kWindowNs = base::NoteLimit::kWindowNs;  // after this time without a wrong one the
                                                                          // counts are cleared
-  static constexpr std::uint64_t kAtOnce = 3;                 // these are refused without delay
-  static constexpr std::int64_t kFirstDelayNs = 250'000'000;  // doubled with each further one
+  static constexpr std::uint64_t kAtOnce = 3;                            // these are refused without delay
+  static constexpr std::int64_t kFirstDelayNs = 250'000'000;             // doubled with each further one
   static constexpr std::int64_t kMostDelayNs = 2'000'000'000;
   static constexpr std::uint64_t kMostNotes = base::NoteLimit::kMostNotes;  // for all addresses together
 
