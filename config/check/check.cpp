@@ -25,6 +25,9 @@ CheckResult check_config(Config& config, const CheckOptions& options) {
     if (options.simulation) {
       check_determinism(context);
     }
+    if (options.kept) {
+      check_kept(context);
+    }
     const std::array<BoardView, 1> alone{BoardView{"", config, result}};
     check_agreement(alone, context.report);
     const Uses uses(alone);

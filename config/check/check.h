@@ -73,6 +73,7 @@ struct CheckResult {
   // Modules that access variables by names known only at run time, indices into Config::modules.
   std::vector<std::size_t> unknown_readers;
   std::vector<std::size_t> unknown_writers;
+  std::vector<std::size_t> undeclared;  // modules that do not declare what they keep; only with CheckOptions::kept
   std::vector<Sharing> sharing;  // in order of execution; pairs on one core only if the module files were checked
   std::optional<Spreading> spreading;
   [[nodiscard]] bool ok() const noexcept;  // no errors; warnings allowed
@@ -85,6 +86,7 @@ struct CheckOptions {
   // Check against this machine: its cores and processor type. false: the modules will run on another machine.
   bool machine = true;
   bool simulation = false;       // also report what differs between runs in virtual time
+  bool kept = false;             // also report modules that do not declare what they keep
   const Times* times = nullptr;  // longest measured executions by module name, used for modules without <wcet>
   std::string arch{};            // what modules must be built for: amd64, arm64; empty: any, but all for the same
   std::string board{};           // of a plant: the only board that will run on this machine; empty: all

@@ -62,6 +62,9 @@ void check_access(CheckContext& context);
 // Reports modules whose runs may differ in a simulation. Call it after check_access().
 void check_determinism(CheckContext& context);
 
+// Reports modules that do not declare what they keep. Fills undeclared. Call it after check_files().
+void check_kept(CheckContext& context);
+
 // Checks that all modules that share a variable use the same layout of it, on all boards.
 void check_agreement(std::span<const BoardView> boards, base::Diagnostics& report);
 // Reports variables that several modules write, that none writes, or that none reads. Variables in `set_by_hand` need

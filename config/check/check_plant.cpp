@@ -84,6 +84,9 @@ class PlantCheckRun {
     for (CheckContext& context : contexts_) {
       add_named_variables(context.config.modules, index, context.result.schema);
       check_access(context);
+      if (options_.kept) {
+        check_kept(context);
+      }
     }
   }
 

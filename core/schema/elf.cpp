@@ -11,15 +11,15 @@
 #include <utility>
 
 #include <elf.h>
-#include <unistd.h>
 
 #include "core/base/read_file.h"
+#include "core/schema/checked_file.h"
+#include "core/schema/own_variable.h"
 #include "core/schema/schema.h"
 
 namespace indurop::schema {
 namespace {
 
-constexpr std::uint64_t kMaxSection = std::uint64_t{256} << 20U;
 constexpr std::uint64_t kMaxOurSections = std::uint64_t{64} << 20U;
 constexpr std::size_t kMaxAccessed = 1'000'000;                     // variables in an access map
 constexpr std::uint64_t kMaxNameBytes = std::uint64_t{256} << 20U;  // of all symbol names together
@@ -47,50 +47,6 @@ Error open_error(const base::FileProblem& problem) {
   }
 }
 
-// Refuses reads beyond the size that the file had when opened.
-class File {
- public:
-  explicit File(base::OpenFile opened) noexcept : opened_(std::move(opened)) {}
-
-  [[nodiscard]] bool holds(std::uint64_t offset, std::uint64_t length) const noexcept {
-    return offset <= opened_.size && length <= opened_.size - offset;
-  }
-  [[nodiscard]] bool read(std::uint64_t offset, void* to, std::uint64_t length) const {
-    if (!holds(offset, length)) {
-      return false;
-    }
-    auto* at = static_cast<char*>(to);
-    while (length > 0) {
-      const ssize_t got = ::pread(opened_.file.get(), at, length, static_cast<off_t>(offset));
-      if (got < 0 && errno == EINTR) {
-        continue;
-      }
-      if (got <= 0) {
-        return false;
-      }
-      at += got;
-      offset += static_cast<std::uint64_t>(got);
-      length -= static_cast<std::uint64_t>(got);
-    }
-    return true;
-  }
-  // Reads `count` consecutive records; nothing if the file is too short or there are too many.
-  template <class T>
-  [[nodiscard]] std::optional<std::vector<T>> table(std::uint64_t offset, std::uint64_t count) const {
-    if (count > kMaxSection / sizeof(T) || !holds(offset, count * sizeof(T))) {
-      return std::nullopt;
-    }
-    std::optional<std::vector<T>> rows(std::in_place, count);
-    if (!read(offset, rows->data(), count * sizeof(T))) {
-      rows.reset();
-    }
-    return rows;
-  }
-
- private:
-  base::OpenFile opened_;
-};
-
 // Returns the NUL-terminated text at `offset`, or nothing if it starts or ends outside.
 std::optional<std::string_view> text_at(std::string_view strings, std::uint64_t offset) {
   if (offset >= strings.size()) {
@@ -103,11 +59,12 @@ std::optional<std::string_view> text_at(std::string_view strings, std::uint64_t 
 
 class Reader {
  public:
-  explicit Reader(const File& file) : file_(file) {}
+  explicit Reader(const CheckedFile& file) : file_(file) {}
 
   Result<ModuleFile> run() {
-    for (const auto step : {&Reader::read_header, &Reader::read_segments, &Reader::read_sections,
-                            &Reader::read_our_sections, &Reader::read_dynamic, &Reader::read_symbols}) {
+    for (const auto step :
+         {&Reader::read_header, &Reader::read_segments, &Reader::read_sections, &Reader::read_our_sections,
+          &Reader::read_dynamic, &Reader::read_symbols, &Reader::read_variables}) {
       if (const Status status = (this->*step)(); !status.ok()) {
         return status.error();
       }
@@ -146,6 +103,10 @@ class Reader {
     for (const Elf64_Phdr& segment : *segments) {
       dynamic = dynamic || segment.p_type == PT_DYNAMIC;
       interpreter = interpreter || segment.p_type == PT_INTERP;
+      if (segment.p_type == PT_GNU_RELRO) {
+        constant_from_ = segment.p_vaddr;
+        constant_bytes_ = segment.p_memsz;
+      }
       if (segment.p_type == PT_LOAD && !file_.holds(segment.p_offset, segment.p_filesz)) {
         return corrupt("the module file is truncated: a segment ends beyond the file");
       }
@@ -334,17 +295,57 @@ class Reader {
       }
     }
     for (auto* list : {&out_.exports, &out_.imports}) {  // versions of one name appear once
-      std::sort(list->begin(), list->end());
-      list->erase(std::unique(list->begin(), list->end()), list->end());
+      sort_once(*list);
     }
     return {};
   }
 
-  const File& file_;
+  static void sort_once(std::vector<std::string>& names) {
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+  }
+
+  // What the linker makes read-only after it has written addresses is no variable.
+  [[nodiscard]] bool is_variable(const Elf64_Sym& symbol) const {
+    const unsigned bind = ELF64_ST_BIND(symbol.st_info);
+    const unsigned type = ELF64_ST_TYPE(symbol.st_info);
+    if ((type != STT_OBJECT && type != STT_TLS) || (bind != STB_LOCAL && bind != STB_GLOBAL) || symbol.st_size == 0 ||
+        symbol.st_shndx >= sections_.size()) {
+      return false;
+    }
+    const Elf64_Shdr& section = sections_[symbol.st_shndx];
+    const bool relocated =
+        type != STT_TLS &&  // of these, the section holds initial values only
+        (section.sh_addr - constant_from_ < constant_bytes_ ||
+         text_at({names_.data(), names_.size()}, section.sh_name).value_or("").starts_with(".data.rel.ro"));
+    return (section.sh_flags & (SHF_WRITE | SHF_ALLOC)) == (SHF_WRITE | SHF_ALLOC) && !relocated;
+  }
+
+  Status read_variables() {
+    const Elf64_Shdr* section = section_of_type(SHT_SYMTAB);
+    section = section != nullptr ? section : section_of_type(SHT_DYNSYM);  // a stripped file has only these
+    const auto symbols = section != nullptr ? contents<Elf64_Sym>(*section) : std::nullopt;
+    const auto text = section != nullptr ? strings_of(*section) : std::nullopt;
+    for (std::size_t i = 0; symbols && text && i < symbols->size(); ++i) {
+      std::vector<std::string> name;
+      if (is_variable((*symbols)[i]) && !add_name({text->data(), text->size()}, (*symbols)[i].st_name, name)) {
+        return corrupt("the module file's symbol names are damaged");
+      }
+      if (auto own = name.empty() ? std::nullopt : own_variable(name.front())) {
+        out_.variables.push_back(*std::move(own));
+      }
+    }
+    sort_once(out_.variables);
+    return {};
+  }
+
+  const CheckedFile& file_;
   Elf64_Ehdr header_{};
   std::vector<Elf64_Shdr> sections_;
   std::vector<char> names_;
   std::uint64_t name_bytes_ = 0;
+  std::uint64_t constant_from_ = 0;  // addresses that are constant after loading
+  std::uint64_t constant_bytes_ = 0;
   ModuleFile out_;
 };
 
@@ -355,7 +356,7 @@ Result<ModuleFile> read_module_file(const std::filesystem::path& file) {
   if (!opened) {
     return open_error(opened.error());
   }
-  const File readable(std::move(*opened));
+  const CheckedFile readable(std::move(*opened));
   return Reader(readable).run();
 }
 

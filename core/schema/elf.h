@@ -28,6 +28,8 @@ struct ModuleFile {
   std::vector<std::string> exports;        // functions it defines for other files, sorted
   std::vector<std::string> imports;        // symbols other files must define, without weak ones, sorted
   std::vector<std::string> needed;         // libraries it requires (DT_NEEDED), in its order
+  // Variables that its own code may change, sorted, as far as it has symbols of them; see own_variable().
+  std::vector<std::string> variables;
 };
 inline constexpr std::uint32_t kMixedAbi = 0xFFFFFFFF;
 

@@ -187,6 +187,24 @@ TEST_F(Reload, Values_that_would_be_lost_are_named_and_need_consent) {
   EXPECT_TRUE(wait_until([&] { return counted() > 0 && counted() < 50000; }));
 }
 
+TEST_F(Reload, Check_names_and_counts_modules_that_do_not_declare_what_they_keep) {
+  const std::string file = write("kept.xml", xml({kOther,
+                                                  counter(),
+                                                  {.file = "caller.so", .name = "stateless", .priority = 3},
+                                                  {.file = "process.exe",
+                                                   .name = "process",
+                                                   .type = "process",
+                                                   .priority = 4,
+                                                   .more = "<argument>count</argument>"},
+                                                  {.file = "faulty.so", .name = "normal", .operation = "non-real"}}));
+  const Outcome sut = indurop({"check", file});
+  EXPECT_EQ(sut.code, 0) << sut.out << sut.err;
+  EXPECT_CONTAINS(sut.out, "note: module other has variables of its own (label and own) and does not declare");
+  EXPECT_CONTAINS(sut.out, "note: module process is a process");
+  EXPECT_CONTAINS(sut.out, ", 2 modules without INDUROP_STATE");
+  EXPECT_EQ(indurop({"check", file, "-o", "json"}).json()["undeclared"], nlohmann::json({"other", "process"}));
+}
+
 TEST_F(Reload, What_is_gone_or_new_or_longer_is_listed_and_the_rest_is_carried) {
   start_counting();
   Outcome done = reload({"counter", built("grown"), "--health", "0s"});

@@ -101,12 +101,14 @@ class View {
 
   [[nodiscard]] std::string summary() const {
     std::size_t modules = 0;
-    for (const config::Board& board : checked_.plant.boards) {
-      modules += board.config.modules.size();
+    std::size_t undeclared = 0;
+    for (std::size_t i = 0; i < checked_.check.boards.size(); ++i) {
+      modules += checked_.plant.boards[i].config.modules.size();
+      undeclared += checked_.check.boards[i].undeclared.size();
     }
-    return fmt::format("{}, {}, {}, {} between boards", counted(checked_.plant.boards.size(), "board"),
+    return fmt::format("{}, {}, {}, {} between boards{}", counted(checked_.plant.boards.size(), "board"),
                        counted(modules, "module"), counted(uses_.variables().size(), "shared variable"),
-                       checked_.check.routes.size());
+                       checked_.check.routes.size(), without_state(undeclared));
   }
 
  private:
@@ -162,6 +164,10 @@ JsonValue head(const CheckedPlant& checked, const View& view) {
 }
 
 }  // namespace
+
+std::string without_state(std::size_t modules) {
+  return modules == 0 ? "" : ", " + counted(modules, "module") + " without INDUROP_STATE";
+}
 
 int check_plant_file(Context& context, const std::string& file, const config::CheckOptions& options) {
   const CheckedPlant checked = load_plant(file, options);

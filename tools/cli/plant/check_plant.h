@@ -10,6 +10,9 @@
 
 namespace indurop::tools {
 
+// ", 2 modules without INDUROP_STATE" for a summary; empty: all declare what they keep.
+std::string without_state(std::size_t modules);
+
 // Returns the exit code.
 int check_plant_file(Context& context, const std::string& file, const config::CheckOptions& options);
 

@@ -34,7 +34,8 @@ std::string summary_line(const CheckedConfig& checked) {
     line += fmt::format(", basic period {}, macro period {}, {}", base::format_duration(table.basic_period),
                         base::format_duration(table.macro_period), counted(table.slot_count, "slot"));
   }
-  return line + ", " + counted(checked.check.schema.variables.size(), "shared variable");
+  return line + ", " + counted(checked.check.schema.variables.size(), "shared variable") +
+         without_state(checked.check.undeclared.size());
 }
 
 Table variable_table(const CheckedConfig& checked) {
@@ -51,6 +52,15 @@ Table variable_table(const CheckedConfig& checked) {
   return table;
 }
 
+// Names of the modules that do not declare what they keep.
+std::vector<std::string> undeclared_modules(const CheckedConfig& checked) {
+  std::vector<std::string> names;
+  for (const std::size_t i : checked.check.undeclared) {
+    names.push_back(checked.config.modules[i].name);
+  }
+  return names;
+}
+
 JsonValue summary_json(const CheckedConfig& checked) {
   return {{"ok", checked.ok()},
           {"file", checked.config.file.string()},
@@ -58,6 +68,7 @@ JsonValue summary_json(const CheckedConfig& checked) {
           {"basic_period_ns", checked.check.table.basic_period.count()},
           {"macro_period_ns", checked.check.table.macro_period.count()},
           {"slots", checked.check.table.slot_count},
+          {"undeclared", undeclared_modules(checked)},
           {"diagnostics", diagnostics_json(checked.diagnostics)}};
 }
 
@@ -86,7 +97,7 @@ int check(Context& context, const CheckOptions& options) {
     return report(context.out, file.error());
   }
   const config::CheckOptions all{
-      .files = true, .adjust = options.adjust, .simulation = options.simulation, .times = &options.times};
+      .files = true, .adjust = options.adjust, .simulation = options.simulation, .kept = true, .times = &options.times};
   if (!options.chain.empty()) {
     if (options.chain.size() != 2) {
       context.out.error("--chain needs two variables: where it begins and where it ends");
@@ -125,6 +136,7 @@ const Verb kCheckVerb{
     "Prints every error, warning and note as file:line:col, the shared variables with the modules that write and\n"
     "read them, and one summary line. With -q only diagnostics and summary; -o csv prints the variables.\n"
     "For a plant it shows the boards and the variables that travel between them; -o csv prints these variables.\n"
+    "Modules that do not declare what they keep from run to run (INDUROP_STATE) are named and counted.\n"
     "If modules say how long they execute (<wcet>, or --times), it is an error if one can miss its deadline.\n"
     "Exit code 0 if there are no errors (warnings allowed), 4 if there are.\n"
     "Examples:\n"

@@ -98,6 +98,22 @@ TEST_F(Module_file, Tells_everything_about_a_real_module) {
   EXPECT_TRUE(module.access.at(7).reads && !module.access.at(7).writes);
 }
 
+// Constants, tables of addresses and what the compiler adds are none.
+TEST_F(Module_file, Tells_the_variables_that_the_module_may_change) {
+  const auto sut = read_module_file(SCHEMA_TEST_MODULE);
+  ASSERT_TRUE(sut.ok()) << sut.error().where;
+  EXPECT_THAT(sut.value().variables, testing::ElementsAre("Meter::number", "calls", "calls_of_thread", "filtered",
+                                                          "sample_data", "untouched"));
+}
+
+TEST_F(Module_file, A_stripped_module_tells_only_variables_that_others_may_use) {
+  section(".symtab").sh_type = SHT_NULL;
+  const Memory_file file(bytes_);
+  const auto sut = read_module_file(file.path());
+  ASSERT_TRUE(sut.ok()) << sut.error().where;
+  EXPECT_THAT(sut.value().variables, testing::ElementsAre("sample_data"));
+}
+
 TEST_F(Module_file, Programs_and_foreign_libraries_are_distinguished) {
   const auto self = read_module_file("/proc/self/exe");
   ASSERT_TRUE(self.ok());

@@ -14,6 +14,15 @@ struct Both {
 struct OnlyRead {
   static constexpr std::uint64_t kNameHash = 7;
 };
+double filtered = 0.5;
+volatile int untouched = 3;
+constexpr int kTable[] = {1, 2, 3};
+
+struct Meter {
+  static inline const char* const kUnits[] = {"mm", "rad"};
+  static int number;
+};
+int Meter::number = 1;
 }  // namespace
 
 extern "C" {
@@ -23,7 +32,10 @@ void run() {
   indurop::detail::record_access<Both, indurop::detail::kRead>();
   indurop::detail::record_access<Both, indurop::detail::kWrite>();
   indurop::detail::record_access<OnlyRead, indurop::detail::kRead>();
-  sample_data = sample_import();
+  static int calls = 0;
+  static thread_local int calls_of_thread = 0;
+  sample_data = sample_import() + kTable[calls % 3] + ++calls_of_thread + untouched + *Meter::kUnits[calls++ % 2];
+  filtered += Meter::number++;
 }
 [[gnu::weak]] int condition() {
   return sample_data;
