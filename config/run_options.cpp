@@ -119,10 +119,14 @@ void declare_run_options(base::Options& line, RunOptions& options) {
   line.add("--replay-board", "NAME", options.replay.board,
            "With --replay: board to replay, if the recording has several");
   line.add("--with", "FILE.so", options.replay.with,
-           "With --replay: use this file for the module of its name; may be given several times")
+           "With --replay: use this file for the module of its name, or of MODULE=FILE; may be given several times")
       .completes(base::Completion::File);
   line.add("--replay-output", "FILE", options.replay.output,
            "With --replay: write the values that modules write now to this MCAP file")
+      .completes(base::Completion::File);
+  line.add("--replay-report", "FILE", options.replay.report,
+           "With --replay and one --with: repeat only its module, which goes on with what it wrote itself, and write "
+           "what differs to this JSON file")
       .completes(base::Completion::File);
   line.add("--replay-from", "TICK", options.replay.from_tick, "With --replay: first tick whose runs are compared");
   line.add("--replay-to", "TICK", options.replay.to_tick, "With --replay: last tick whose runs are compared");
@@ -163,6 +167,7 @@ std::vector<std::string> words_of(const RunOptions& options) {
     value("--with", file);
   }
   value("--replay-output", options.replay.output.string());
+  value("--replay-report", options.replay.report.string());
   value("--replay-from", options.replay.from_tick > 0 ? std::to_string(options.replay.from_tick) : "");
   value("--replay-to", options.replay.to_tick != Replay::kLastTick ? std::to_string(options.replay.to_tick) : "");
   value("--replay-stop-at",

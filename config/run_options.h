@@ -33,7 +33,8 @@ inline constexpr std::uint64_t kTapeMegabytes = 20;
 struct Replay {
   std::filesystem::path file;     // empty: none
   std::string board;              // board to replay, if the file joins several recordings; else empty
-  std::vector<std::string> with;  // module files that replace those of the configuration
+  std::vector<std::string> with;  // module files that replace those of the configuration; "MODULE=FILE" or FILE
+  std::filesystem::path report;   // only the module of `with` is repeated, with its own values, and this is written
   std::filesystem::path output;   // recording of the values that modules write in the replay; empty: none
   std::uint64_t from_tick = 0;    // the runs of these ticks are compared
   std::uint64_t to_tick = kLastTick;

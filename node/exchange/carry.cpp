@@ -2,39 +2,16 @@
 #include "node/exchange/carry.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
-#include <optional>
 #include <string_view>
+
+#include "node/modules/grown_array.h"
 
 namespace indurop::node {
 namespace {
 
 using Item = ModuleMemory::Item;
 using scheduler::Exchange;
-
-// "double [4]": the element's type and the number of elements.
-struct ArrayType {
-  std::string_view element;
-  std::size_t count = 0;
-};
-
-std::optional<ArrayType> array_type(std::string_view type) {
-  const std::size_t open = type.rfind('[');
-  if (open == std::string_view::npos || type.find('[') != open || !type.ends_with(']')) {
-    return std::nullopt;
-  }
-  ArrayType array{type.substr(0, open), 0};
-  const char* const end = type.data() + type.size() - 1;
-  const auto read = std::from_chars(type.data() + open + 1, end, array.count);
-  return read.ec == std::errc() && read.ptr == end ? std::optional(array) : std::nullopt;
-}
-
-bool has_grown(const Item& from, const Item& to) {
-  const auto before = array_type(from.type);
-  const auto now = array_type(to.type);
-  return before && now && before->element == now->element && before->count < now->count && from.size < to.size;
-}
 
 void add_pair(const Item& from, const Item& to, std::vector<Exchange::Pair>& pairs) {
   const Exchange::Pair pair{static_cast<std::byte*>(from.address), static_cast<std::byte*>(to.address), from.size};
@@ -60,7 +37,7 @@ void compare_items(const ModuleMemory& from, const ModuleMemory& to, Carry& carr
     const Item& old = *found->second;
     before.erase(found);
     const bool same = old.type == item.type && old.size == item.size && item.size > 0;
-    if (!same && !has_grown(old, item)) {
+    if (!same && !(has_grown(old.type, item.type) && old.size < item.size)) {
       carry.plan.changed.push_back(item.name);
       continue;
     }

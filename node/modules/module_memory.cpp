@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "core/rt/guard.h"
+#include "node/modules/grown_array.h"
 
 namespace indurop::node {
 namespace {
@@ -162,7 +163,9 @@ std::size_t ModuleMemory::save_by_function(std::span<std::byte> to) const {
 
 const ModuleMemory::Item* ModuleMemory::find(const Old& old) const noexcept {
   const auto item = std::find_if(items_.begin(), items_.end(), [&](const Item& one) {
-    return one.name == old.name && one.type == old.type && one.bytes() == old.bytes.size();
+    const bool same = one.type == old.type && one.bytes() == old.bytes.size();
+    const bool grown = one.kind == Kind::Value && has_grown(old.type, one.type) && old.bytes.size() < one.bytes();
+    return one.name == old.name && (same || grown);
   });
   return item == items_.end() ? nullptr : &*item;
 }
@@ -206,7 +209,7 @@ std::vector<std::string> ModuleMemory::restore(std::span<const Old> all, std::sp
     }
     known[static_cast<std::size_t>(item - items_.data())] = true;
     if (item->bytes() > 0) {
-      std::memcpy(item->address, all[i].bytes.data(), item->bytes());
+      std::memcpy(item->address, all[i].bytes.data(), all[i].bytes.size());
     }
     if (std::uint64_t before = 0; (i + 1) * sizeof before <= places.size()) {
       std::memcpy(&before, places.data() + i * sizeof before, sizeof before);

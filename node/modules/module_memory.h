@@ -62,7 +62,8 @@ class ModuleMemory {
   [[nodiscard]] std::string astray() const;
 
   // Puts bytes of this form back. Returns the names of items that differ: kept in the bytes and unknown here, of
-  // another type, or new here. Items of the same name and type are put back whatever the others are.
+  // another type, or new here. Items of the same name and type are put back whatever the others are, also those of
+  // arrays that have more elements here.
   [[nodiscard]] std::vector<std::string> restore(std::string_view form, std::span<const std::uint8_t> bytes) const;
 
  private:

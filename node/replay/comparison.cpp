@@ -67,7 +67,11 @@ void Comparison::compare(ReplayedModule& module, const recorder::RunWords& run) 
   const bool faulted = module.has_faulted();
   if (faulted != run.faulted) {
     module.apart = true;
+    module.apart_tick = run.tail.tick;
     ++differences_;
+    if (module.keeps_own) {
+      return;
+    }
     console_.error("tick {}: module {} {} in the recording and {} now{}", run.tail.tick, module.state.record->name,
                    run.faulted ? "faulted" : "did not fault", faulted ? "faults" : "does not",
                    faulted ? fmt::format(": {}", module.state.record->last_fault) : "");
@@ -105,16 +109,24 @@ void Comparison::compare(const ReplayedModule& module, KnownValue& known, const 
   }
   write_output(known.variable, module.disturbed ? known.cdr : cdr_, run.tail.end_ns);
   note_difference(module, known, run.tail.tick);
-  (void)store_.write(entry, 0, known.bytes);  // the next run begins with the recorded value
+  if (!module.keeps_own) {
+    (void)store_.write(entry, 0, known.bytes);  // the next run begins with the recorded value
+  }
 }
 
 void Comparison::note_difference(const ReplayedModule& module, KnownValue& known, std::uint64_t tick) {
-  if (module.disturbed) {
+  const schema::Variable& variable = variable_at(store_, known.variable);
+  if (module.keeps_own) {
+    const Distance now = distance(variable, known.bytes, now_);
+    known.farthest =
+        known.differing + known.unclear == 0 || now.largest > known.farthest.largest ? now : known.farthest;
+  }
+  if (module.disturbed || module.doubtful) {
+    ++known.unclear;
     ++unclear_;
     return;
   }
-  const schema::Variable& variable = variable_at(store_, known.variable);
-  if (differences_++ == 0) {
+  if (differences_++ == 0 && !module.keeps_own) {
     console_.error("tick {}, module {}: {} was {} in the recording and is {} now", tick, module.name, variable.name,
                    schema::format_value(variable.type, known.bytes), schema::format_value(variable.type, now_));
   }

@@ -10,15 +10,10 @@ namespace indurop::node {
 namespace {
 
 // The condition of another file could be true at other times.
-void warn_about_conditions(const config::Replay& replay, const config::Config& config, const ReplayedModules& modules,
-                           const Console& console) {
-  const auto& with = replay.with;
-  for (const auto& replayed : modules.all()) {
-    const config::Module& module = config.modules[replayed->index];
-    const bool other = std::any_of(with.begin(), with.end(), [&](const std::string& file) {
-      return module.file == std::filesystem::absolute(file);
-    });
-    if (other && replayed->runs && module.operation == scheduler::Operation::Sporadic) {
+void warn_about_conditions(const Checked& checked, const ReplayedModules& modules, const Console& console) {
+  for (const std::uint32_t i : checked.replaced) {
+    const config::Module& module = checked.config.modules[i];
+    if (modules.all()[i]->runs && module.operation == scheduler::Operation::Sporadic) {
       console.warning(
           "module {} runs when it ran in the recording: the condition of the other file is not evaluated; to see when "
           "it is true, simulate or run it",
@@ -63,11 +58,11 @@ void warn_about_schedule(const config::Config& config, const explain::Facts& fac
 
 }  // namespace
 
-void print_notes(const Options& options, const config::Config& config, const ReplayedModules& modules,
-                 const RecordedRuns& recorded, const explain::Facts& facts, const Console& console) {
-  warn_about_conditions(options.replay, config, modules, console);
+void print_notes(const Checked& checked, const ReplayedModules& modules, const RecordedRuns& recorded,
+                 const explain::Facts& facts, const Console& console) {
+  warn_about_conditions(checked, modules, console);
   warn_about_format(recorded, console);
-  warn_about_schedule(config, facts, console);
+  warn_about_schedule(checked.config, facts, console);
 }
 
 }  // namespace indurop::node

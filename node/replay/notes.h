@@ -6,12 +6,12 @@
 #include "history/explain/facts.h"
 #include "node/replay/recorded_runs.h"
 #include "node/replay/replayed_modules.h"
+#include "node/run/checked.h"
 #include "node/run/console.h"
-#include "node/run/options.h"
 
 namespace indurop::node {
 
-void print_notes(const Options& options, const config::Config& config, const ReplayedModules& modules,
-                 const RecordedRuns& recorded, const explain::Facts& facts, const Console& console);
+void print_notes(const Checked& checked, const ReplayedModules& modules, const RecordedRuns& recorded,
+                 const explain::Facts& facts, const Console& console);
 
 }  // namespace indurop::node

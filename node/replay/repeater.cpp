@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/rt/thread_time.h"
 #include "store/runtime/host.h"
 
 namespace indurop::node {
@@ -132,7 +133,9 @@ bool Repeater::repeat(ReplayedModule& module, const recorder::RunWords& run) {
     const std::vector<tape::ReplayedAnswer> answers = module.replayed_answers();
     runtime::set_clock_readings(module.clock);
     runtime::set_answers(answers);
+    const std::int64_t before_ns = rt::thread_time_ns();
     runner_.run({&state, 1}, run.tail.tick, rt::mono_time(run.tail.release_ns));
+    module.busy_ns = rt::thread_time_ns() - before_ns;
     runtime::set_clock_readings({});
     runtime::set_answers({});
   }

@@ -26,7 +26,7 @@ Replay::Replay(const Options& options, Console& console, base::StopSignal& signa
 bool Replay::begin(const RecordedRuns& recorded) {
   const bool any = modules_.choose(recorded);
   const explain::Facts facts = recorded.facts();
-  print_notes(options_, checked_.config, modules_, recorded, facts, console_);
+  print_notes(checked_, modules_, recorded, facts, console_);
   comparison_.expect_forces(ForcedThen(facts.orders));
   const auto& all = modules_.all();
   const bool processes =
@@ -37,6 +37,9 @@ bool Replay::begin(const RecordedRuns& recorded) {
   for (const std::string& name : recorded.unknown_variables()) {
     console_.warning("{} of the recording is not in this configuration", name);
   }
+  if (checked_.alone) {
+    alone_.emplace(*modules_.all()[*checked_.alone], store_);
+  }
   repeated_.closed = recorded.complete();
   if (!repeated_.closed) {
     console_.warning("the recording was not closed: it is replayed as far as it goes");
@@ -45,8 +48,13 @@ bool Replay::begin(const RecordedRuns& recorded) {
 }
 
 // Runs before this one are missing, and nothing tells what the module kept inside.
-void Replay::warn_of_doubt(ReplayedModule& module, std::uint64_t tick) const {
+void Replay::note_doubt(ReplayedModule& module, std::uint64_t tick) {
   const std::string reason = module.is_process() ? "a process has no keyframes" : module.kept.why_none();
+  if (alone_) {
+    alone_->begin_with_initial_values(reason);
+    (void)module.kept.take_missing();
+    return;
+  }
   console_.warning(
       "{} runs of {} before tick {} are not in the recording: its internal state may differ from here on; {}",
       module.kept.take_missing(), module.state.record->name, tick, reason);
@@ -62,8 +70,11 @@ bool Replay::can_repeat(ReplayedModule& module, const recorder::RunWords& run) {
   module.too_early += known ? 0U : 1U;
   const ReplayedMemory::Next next = module.kept.next(run.tail.number, run.anew, known);
   module.restores = next == ReplayedMemory::Next::Restore;
+  if (module.restores) {
+    module.begin_with_recorded();
+  }
   if (next == ReplayedMemory::Next::Doubt) {
-    warn_of_doubt(module, run.tail.tick);
+    note_doubt(module, run.tail.tick);
   }
   return next != ReplayedMemory::Next::Wait;
 }
@@ -122,12 +133,17 @@ bool Replay::replay_run(const recorder::RunWords& run) {
   module.take_outputs();
   if (!can) {
     module.write_outputs(store_);
+  } else if (alone_) {
+    module.note_disturbance();
   }
   ++module.seen;
   if (can && can_continue && run.tail.tick >= options_.replay.from_tick) {
     ++repeated_.runs;
     ++module.repeated;
     comparison_.compare(module, run);
+    if (alone_) {
+      alone_->note(run);
+    }
   }
   return can_continue;
 }
@@ -151,10 +167,23 @@ void Replay::take(const RecordedKeyframe& keyframe) {
   }
 }
 
-// The modules are started with the values from before the first module started.
+// The modules are started with the values from before the first module started; one that is compared alone, with those
+// from before its first run. `run`: the run that is to be repeated next, null: a value is next.
+bool Replay::start(const recorder::RunWords* run) {
+  if (started_) {
+    return true;
+  }
+  if (alone_) {
+    if (run == nullptr || modules_.of_recording(run->module) != &alone_->module()) {
+      return true;
+    }
+    alone_->module().write_inputs(store_);
+  }
+  started_ = true;
+  return repeater_.start(modules_);
+}
+
 bool Replay::replay(RecordedRuns& recorded) {
-  bool started = false;
-  const auto start = [&] { return std::exchange(started, true) || repeater_.start(modules_); };
   for (;;) {
     auto item = recorded.next();
     if (!item) {
@@ -173,10 +202,10 @@ bool Replay::replay(RecordedRuns& recorded) {
       take(*keyframe);
     } else if (const auto* value = std::get_if<RecordedValue>(&**item); value != nullptr) {
       const bool first = value->words.kind == tape::EntryKind::Run;
-      if (!(first || start()) || !modules_.take(*value)) {
+      if (!(first || start(nullptr)) || !modules_.take(*value)) {
         return false;
       }
-    } else if (!start() || !replay_run(std::get<RecordedRun>(**item).words)) {
+    } else if (const auto& run = std::get<RecordedRun>(**item).words; !start(&run) || !replay_run(run)) {
       return false;
     }
     console_.print_messages(rt::MonoClock::now());
@@ -185,6 +214,17 @@ bool Replay::replay(RecordedRuns& recorded) {
       return false;
     }
   }
+}
+
+Ending Replay::conclude() {
+  if (!alone_ || repeated_.runs == 0) {
+    return node::conclude(options_.replay, modules_, comparison_, repeated_, store_, console_);
+  }
+  if (const auto written = alone_->write(options_.replay.report); !written) {
+    console_.error("{}", written.error().text);
+    return {kFailed, "the report cannot be written"};
+  }
+  return {kOk, "end of the recording"};
 }
 
 Ending Replay::run() {
@@ -206,8 +246,7 @@ Ending Replay::run() {
   console_.print_messages(rt::MonoClock::now());
   console_.report_losses();
   comparison_.close_output();
-  return whole ? conclude(options_.replay, modules_, comparison_, repeated_, store_, console_)
-               : Ending{kFailed, "the recording was not replayed to its end"};
+  return whole ? conclude() : Ending{kFailed, "the recording was not replayed to its end"};
 }
 
 }  // namespace indurop::node

@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <optional>
+
+#include "node/replay/alone.h"
 #include "node/replay/comparison.h"
 #include "node/replay/outcome.h"
 #include "node/replay/recorded_runs.h"
@@ -22,6 +25,7 @@ class Replay {
 
  private:
   bool begin(const RecordedRuns& recorded);
+  bool start(const recorder::RunWords* run);
   bool replay(RecordedRuns& recorded);
   void stop_for_debugger(const recorder::RunWords& next);
   void take(const RecordedClock& clock);
@@ -30,7 +34,8 @@ class Replay {
   void end_at_exchange(ReplayedModule& module, const recorder::RunWords& run);
   bool replay_run(const recorder::RunWords& run);
   bool can_repeat(ReplayedModule& module, const recorder::RunWords& run);
-  void warn_of_doubt(ReplayedModule& module, std::uint64_t tick) const;
+  void note_doubt(ReplayedModule& module, std::uint64_t tick);
+  Ending conclude();
 
   const Options& options_;
   Console& console_;
@@ -42,6 +47,8 @@ class Replay {
   Comparison comparison_;
   Repeated repeated_;
   bool stopped_ = false;  // at the tick where it was to stop
+  std::optional<Alone> alone_;  // only this module is repeated
+  bool started_ = false;
 };
 
 }  // namespace indurop::node

@@ -22,12 +22,14 @@ ReplayedMemory::Next ReplayedMemory::next(std::uint64_t run, bool restarted, boo
     ++missing_;
     return Next::Wait;
   }
-  if (missing_ == 0 || restarted || memory_->is_empty()) {
+  const bool begins_with_keyframe = has_keyframes() && keyframe_run_ == run;
+  if ((missing_ == 0 && !(renews_ && begins_with_keyframe)) || restarted || memory_->is_empty()) {
     missing_ = 0;
     return Next::Run;
   }
-  if (has_keyframes() && keyframe_run_ == run) {
+  if (begins_with_keyframe) {
     missing_ = 0;
+    renews_ = false;
     return Next::Restore;
   }
   if (has_keyframes()) {

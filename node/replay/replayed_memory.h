@@ -35,6 +35,10 @@ class ReplayedMemory {
   // Called for each run, in order. `restarted`: its module was started again before it. `possible`: all that it reads
   // is known; else it is not repeated.
   Next next(std::uint64_t run, bool restarted, bool possible) noexcept;
+  // The next keyframe is put back, although no run is missing. Returns false if there is none to come.
+  bool renew() noexcept { return renews_ = has_keyframes(); }
+  // Returns true if the module declares that it keeps nothing.
+  [[nodiscard]] bool is_empty() const noexcept { return memory_->is_empty(); }
   // Puts the keyframe of this run back. Returns the names of what was not possible with.
   [[nodiscard]] std::vector<std::string> restore() const;
 
@@ -49,6 +53,7 @@ class ReplayedMemory {
  private:
   const ModuleMemory* memory_ = nullptr;
   bool recorded_ = false;
+  bool renews_ = false;
   std::uint64_t first_ = 0;
   std::uint64_t next_run_ = 0;
   std::uint64_t missing_ = 0;

@@ -6,6 +6,18 @@
 
 namespace indurop::node {
 
+namespace {
+
+void write_known(vars::Store& store, const KnownValue& one) {
+  const vars::DirectoryEntry& entry = store.directory()[one.variable];
+  std::vector<std::uint8_t> now(entry.value_size);
+  if (one.has_value && store.read(entry, 0, now).ok() && now != one.bytes) {
+    (void)store.write(entry, 0, one.bytes);
+  }
+}
+
+}  // namespace
+
 const schema::Variable& variable_at(const vars::Store& store, std::uint32_t index) {
   return store.schema().variables[store.directory()[index].schema_index];
 }
@@ -32,13 +44,37 @@ void ReplayedModule::forget_older_values() noexcept {
   }
 }
 
-void ReplayedModule::write_known(vars::Store& store, bool KnownValue::*which) const {
+void ReplayedModule::write_inputs(vars::Store& store) const {
   for (const KnownValue& one : known) {
-    const vars::DirectoryEntry& entry = store.directory()[one.variable];
-    std::vector<std::uint8_t> now(entry.value_size);
-    if (one.*which && one.has_value && store.read(entry, 0, now).ok() && now != one.bytes) {
-      (void)store.write(entry, 0, one.bytes);
+    const bool is_own = keeps_own && one.written;
+    if (is_own ? one.foreign : one.read) {
+      write_known(store, one);
     }
+  }
+}
+
+void ReplayedModule::write_outputs(vars::Store& store) const {
+  for (const KnownValue& one : known) {
+    if (one.written) {
+      write_known(store, one);
+    }
+  }
+}
+
+void ReplayedModule::begin_with_recorded() noexcept {
+  for (KnownValue& one : known) {
+    one.foreign = true;
+  }
+  doubtful = false;
+}
+
+// What it keeps may differ from now on, and so may what it writes: until the next keyframe, that proves nothing.
+void ReplayedModule::note_disturbance() noexcept {
+  if (disturbed && kept.is_empty()) {
+    begin_with_recorded();
+  } else if (disturbed) {
+    doubtful = true;
+    (void)kept.renew();
   }
 }
 
@@ -51,6 +87,9 @@ void ReplayedModule::take_outputs() {
     one.cdr = std::move(output.cdr);
     one.bytes = std::move(output.bytes);
     disturbed = disturbed || output.kind == tape::EntryKind::During;
+  }
+  for (KnownValue& one : known) {
+    one.foreign = false;
   }
   outputs.clear();
   clock.clear();

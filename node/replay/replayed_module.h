@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "history/recorder/run_words.h"
+#include "node/replay/distance.h"
 #include "node/replay/recorded_runs.h"
 #include "node/replay/replayed_memory.h"
 #include "scheduler/runner.h"
@@ -28,6 +30,7 @@ struct KnownValue {
   bool has_value = false;
   bool ever_recorded = false;  // anywhere in the recording
   bool ever_compared = false;
+  bool foreign = true;             // no repeated run, but another writer or a run before wrote the value last
   std::uint64_t recorded_run = 0;  // run (ReplayedModule::seen) in which it was recorded last
   std::vector<std::uint8_t> cdr;
   std::vector<std::uint8_t> bytes;
@@ -37,6 +40,8 @@ struct KnownValue {
   std::string first_place;  // first part of it that differed
   std::string first_was;
   std::string first_is;
+  std::uint64_t unclear = 0;  // runs that wrote another value, perhaps because their inputs changed while they ran
+  Distance farthest;          // of all values that differ, unclear ones too
 };
 
 // A value a run wrote, from the recording.
@@ -56,6 +61,7 @@ struct ReplayedModule {
   ReplayedMemory kept;
   std::vector<KnownValue> known;
   std::map<std::uint32_t, std::size_t> place;  // of a variable in `known`
+  std::set<std::string> not_written;           // variables that the recorded module wrote and this file does not
 
   // The run that is read.
   std::vector<RecordedOutput> outputs;
@@ -65,6 +71,7 @@ struct ReplayedModule {
   bool restart_due = false;  // it must be restarted before it runs again
   bool restores = false;     // its keyframe is put back before this run
   bool disturbed = false;    // its inputs were changed while it ran
+  std::int64_t busy_ns = 0;  // processor time of the repeated run; threads only
 
   // Numbers of runs.
   std::uint64_t seen = 0;       // in the recording
@@ -77,6 +84,11 @@ struct ReplayedModule {
   bool died = false;  // its process ended
   bool faulted_alike = false;
   bool apart = false;  // it faulted only in the replay or only in the recording
+  std::uint64_t apart_tick = 0;
+
+  // For a module that goes on with what it wrote itself.
+  bool keeps_own = false;
+  bool doubtful = false;  // a run was disturbed since it began with what the recorded module kept
 
   [[nodiscard]] bool is_process() const noexcept { return state.task.type == scheduler::ModuleType::Process; }
   [[nodiscard]] bool has_faulted() const noexcept;
@@ -86,10 +98,13 @@ struct ReplayedModule {
   // Keeps only the values of the run that was read last: the others may have changed since.
   void forget_older_values() noexcept;
   // Writes the known inputs of the next run to the store.
-  void write_inputs(vars::Store& store) const { write_known(store, &KnownValue::read); }
+  void write_inputs(vars::Store& store) const;
+  // The next run begins with all recorded values, also of what it wrote itself.
+  void begin_with_recorded() noexcept;
+  // Notes whether the run that was repeated last was disturbed, and what that means for the following ones.
+  void note_disturbance() noexcept;
   // Writes what a run that was not repeated had written: the next run begins with it.
-  void write_outputs(vars::Store& store) const { write_known(store, &KnownValue::written); }
-  void write_known(vars::Store& store, bool KnownValue::*which) const;
+  void write_outputs(vars::Store& store) const;
   // Makes the recorded outputs of the run that was read the known values.
   void take_outputs();
 };

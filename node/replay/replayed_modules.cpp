@@ -59,12 +59,18 @@ bool ReplayedModules::choose(const RecordedRuns& recorded) {
   match(recorded);
   for (const auto& module : modules_) {
     const config::Module& configured = checked_.config.modules[module->index];
-    const std::string reason = names(recorded.modules(), module->name)
-                                   ? reason_to_leave_out(configured, checked_.check.facts[module->index].file.imports)
-                                   : "it is not in the recording";
-    module->runs = reason.empty();
+    const bool is_wanted = checked_.alone.value_or(module->index) == module->index;
+    std::string reason = names(recorded.modules(), module->name)
+                             ? reason_to_leave_out(configured, checked_.check.facts[module->index].file.imports)
+                             : "it is not in the recording";
+    if (checked_.alone && configured.type == ModuleType::Process) {
+      reason = "it is a process";
+    }
+    module->runs = reason.empty() && is_wanted;
     module->kept.expect(libraries_[module->index].memory(), recorded.has_keyframes(module->name));
-    if (!module->runs) {
+    if (!reason.empty() && is_wanted && checked_.alone) {
+      console_.error("module {} cannot be repeated alone: {}", module->name, reason);
+    } else if (!module->runs && is_wanted) {
       console_.info("module {} does not run: {}; what it wrote comes from the recording", module->name, reason);
     }
   }
@@ -113,19 +119,28 @@ bool ReplayedModules::take(const RecordedValue& value) {
     console_.error("a value of {} in the recording is damaged", variable.name);
     return false;
   }
-  const bool of_run = value.words.kind != tape::EntryKind::Run && value.words.module != recorder::kOthers;
+  const bool first = value.words.kind == tape::EntryKind::Run;
+  const bool of_run = !first && value.words.module != recorder::kOthers;
   ReplayedModule* const module = of_run ? of_recording(value.words.module) : nullptr;
+  if (checked_.alone && !first && (module == nullptr || module->index != *checked_.alone)) {
+    return true;  // its own track has all that it reads
+  }
   if (module == nullptr || !module->runs) {
     (void)store_.write(entry, 0, bytes);
     return true;
   }
   const auto place = module->place.find(value.variable);
-  if (place == module->place.end()) {
+  const bool used = place != module->place.end();
+  if (value.words.kind == tape::EntryKind::After && !(used && module->known[place->second].written)) {
+    module->not_written.insert(variable.name);
+  }
+  if (!used) {
     return true;  // the changed module no longer uses it
   }
   if (value.words.kind == tape::EntryKind::Before) {
     KnownValue& known = module->known[place->second];
     known.has_value = true;
+    known.foreign = true;
     known.recorded_run = module->seen;
     known.cdr.assign(value.cdr.begin(), value.cdr.end());
     known.bytes = std::move(bytes);

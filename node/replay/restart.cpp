@@ -93,6 +93,9 @@ bool Repeater::restart(ReplayedModule& module) {
 
 void Repeater::restore(const ReplayedModule& module) {
   for (const std::string& name : module.kept.restore()) {
+    if (module.keeps_own) {
+      continue;  // the plan of the exchange has it
+    }
     console_.warning("module {}: {} cannot be put back: it is declared otherwise than in the recording",
                      module.state.record->name, name);
   }

@@ -23,8 +23,28 @@ struct Reading {
   }
 };
 
-// Files that replace a module's file, selected by its name or that of its file. Returns false if one fits no module.
-bool take_files(const std::vector<std::string>& files, config::Config& config,
+// A file of --with: "MODULE=FILE", or a file whose name is that of a module or of its file.
+struct Replacement {
+  std::vector<config::Module>::iterator module;
+  std::filesystem::path file;
+};
+Replacement replacement(const std::string& text, std::vector<config::Module>& modules) {
+  const std::size_t named = text.find('=');
+  if (const auto module = std::find_if(modules.begin(), modules.end(),
+                                       [&](const config::Module& one) { return one.name == text.substr(0, named); });
+      named != std::string::npos && module != modules.end()) {
+    return {module, text.substr(named + 1)};
+  }
+  const std::filesystem::path file = text;
+  return {std::find_if(modules.begin(), modules.end(),
+                       [&](const config::Module& one) {
+                         return one.name == file.stem() || one.file.filename() == file.filename();
+                       }),
+          file};
+}
+
+// Files that replace those of modules. Returns false if one fits no module.
+bool take_files(const std::vector<std::string>& files, Checked& checked, config::Config& config,
                 std::vector<base::Diagnostic>& diagnostics) {
   bool ok = true;
   std::map<std::string, std::filesystem::path> taken;  // by module
@@ -32,17 +52,16 @@ bool take_files(const std::vector<std::string>& files, config::Config& config,
     ok = false;
     diagnostics.push_back({base::Diagnostic::Severity::Error, file.string(), {}, std::move(text)});
   };
-  for (const std::filesystem::path file : files) {
-    const auto module = std::find_if(config.modules.begin(), config.modules.end(), [&](const config::Module& one) {
-      return one.name == file.stem() || one.file.filename() == file.filename();
-    });
+  for (const std::string& text : files) {
+    const auto [module, file] = replacement(text, config.modules);
     if (module == config.modules.end()) {
-      wrong(file, "no module has this name or such a file; rename the file");
+      wrong(file, "no module has this name or such a file; name it: --with MODULE=FILE");
     } else if (const auto [first, fresh] = taken.emplace(module->name, file); !fresh) {
       wrong(file,
             fmt::format("replaces module {}, as {} does; leave one of them out", module->name, first->second.string()));
     } else {
       module->file = std::filesystem::absolute(file);
+      checked.replaced.push_back(static_cast<std::uint32_t>(module - config.modules.begin()));
     }
   }
   return ok;
@@ -64,7 +83,7 @@ Reading read_modules(const Options& options) {
   }
   Checked& checked = out.checked;
   checked.config = std::move(read.config);
-  if (!take_files(options.replay.with, checked.config, out.diagnostics)) {
+  if (!take_files(options.replay.with, checked, checked.config, out.diagnostics)) {
     return out;
   }
   take_core(options, checked.config);
@@ -85,7 +104,7 @@ Reading read_plant(const Options& options) {
   config::Plant& plant = read.plant;
   for (config::Board& board : plant.boards) {
     if (board.name == options.board) {
-      if (!take_files(options.replay.with, board.config, out.diagnostics)) {
+      if (!take_files(options.replay.with, out.checked, board.config, out.diagnostics)) {
         return out;
       }
       take_core(options, board.config);
@@ -133,6 +152,9 @@ Result<Checked, Ending> check(const Options& options, const Console& console) {
   }
   if (!reading.ok) {
     return Ending{kCheckFailed};
+  }
+  if (!options.replay.report.empty()) {
+    reading.checked.alone = reading.checked.replaced.front();
   }
   return std::move(reading.checked);
 }

@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "config/check/check.h"
 #include "network/mirror/frames/settings.h"
@@ -18,6 +20,8 @@ struct Checked {
   config::CheckResult check;
   std::optional<mirror::Settings> mirror;  // of a board of a plant
   ExternalPart external;
+  std::vector<std::uint32_t> replaced;  // indices of modules with a file of --with
+  std::optional<std::uint32_t> alone;   // index of the only module that is loaded, for Replay::report
 };
 
 Result<Checked, Ending> check(const Options& options, const Console& console);

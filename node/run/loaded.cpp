@@ -13,13 +13,14 @@ using scheduler::ModuleType;
 using scheduler::Operation;
 
 // Returns false if some of the modules have errors, which were reported.
-bool load_libraries(const config::Config& config, std::vector<ModuleLibrary>& libraries, const Console& console) {
+bool load_libraries(const Checked& checked, std::vector<ModuleLibrary>& libraries, const Console& console) {
+  const config::Config& config = checked.config;
   libraries.resize(config.modules.size());
   std::set<std::filesystem::path> known;
   bool ok = true;
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
     const config::Module& module = config.modules[i];
-    if (module.type != ModuleType::Thread) {
+    if (module.type != ModuleType::Thread || checked.alone.value_or(i) != i) {
       continue;
     }
     runtime::set_current_module(i);
@@ -56,7 +57,7 @@ Result<Loaded, Ending> load(const Options& options, const Checked& checked, cons
   }
   auto problems = runtime::attach_process(*prepared.store, prepared.run());
   Loaded loaded;
-  if (!load_libraries(checked.config, loaded.libraries, console)) {
+  if (!load_libraries(checked, loaded.libraries, console)) {
     return Ending{kCheckFailed};
   }
   const auto late = runtime::take_binding_errors();

@@ -29,6 +29,9 @@ std::string idle_options(const Options& options) {
   if (!replays && !options.replay.output.empty()) {
     return "--replay-output is for --replay; to record a run: --record";
   }
+  if (!options.replay.report.empty() && (!replays || options.replay.with.size() != 1)) {
+    return "--replay-report is for --replay and one --with";
+  }
   constexpr std::uint64_t kLast = config::Replay::kLastTick;
   if (!replays &&
       (options.replay.from_tick > 0 || options.replay.to_tick != kLast || options.replay.stop_tick != kLast)) {

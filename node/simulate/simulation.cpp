@@ -3,19 +3,13 @@
 
 #include <algorithm>
 #include <csignal>
-#include <ctime>
 #include <utility>
 
 #include "core/rt/clock.h"
+#include "core/rt/thread_time.h"
 
 namespace indurop::node {
 namespace {
-
-std::int64_t thread_time_ns() {
-  timespec time{};
-  (void)::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return time.tv_sec * rt::kNanosPerSecond + time.tv_nsec;
-}
 
 // The conductor of a plant sends the place first of all.
 BoardPlace receive_place(std::optional<BoardChannel>& conductor) {
@@ -99,7 +93,7 @@ bool Simulation::answer() {
   answer.next_ns = rt::to_ns(kernel_.next_event());
   answer.epoch_ns = run_.epoch_ns;
   answer.basic_period_ns = run_.basic_period_ns;
-  const std::int64_t busy = thread_time_ns();
+  const std::int64_t busy = rt::thread_time_ns();
   answer.took_ns = busy - std::exchange(busy_ns_, busy);
   answer.ended = ended_();
   answer.sent = link_.take_sent();

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <thread>
@@ -87,6 +88,10 @@ void onStop() {
 
 #if defined(RELOAD_OFFERS)
 INDUROP_IMPLEMENT(nt::add, [](double a, double b) { return a + b; })
+#elif defined(RELOAD_DIES)
+namespace {
+[[maybe_unused]] const int kNever = (std::abort(), 0);
+}
 #elif defined(RELOAD_THREADS)
 void beginThread() {
   std::thread([] {}).detach();

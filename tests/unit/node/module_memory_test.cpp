@@ -121,5 +121,16 @@ TEST_F(Addresses, To_a_block_of_another_version_lead_nowhere_and_are_named) {
   EXPECT_EQ(now.pointer.to, nullptr);
 }
 
+TEST(ModuleMemory, An_array_with_more_elements_keeps_those_it_had) {
+  std::array<double, 2> before{1, 2};
+  std::array<double, 4> now{9, 9, 9, 9};
+  const ModuleMemory from = memory_of({item("row", "double [2]", before.data(), sizeof before)});
+  const ModuleMemory to = memory_of({item("row", "double [4]", now.data(), sizeof now)});
+  EXPECT_THAT(to.restore(from.form(), saved(from)), IsEmpty());
+  EXPECT_THAT(now, ElementsAre(1, 2, 9, 9));
+  EXPECT_THAT(from.restore(to.form(), saved(to)), ElementsAre("row"));
+  EXPECT_THAT(before, ElementsAre(1, 2));
+}
+
 }  // namespace
 }  // namespace indurop::node

@@ -60,5 +60,56 @@ TEST(ReplayedModule, Forgets_values_that_may_have_changed_in_missing_runs) {
   EXPECT_TRUE(sut.known[1].has_value);
 }
 
+// A module that keeps nothing continues with the recorded values after a run that was disturbed.
+TEST(ReplayedModule, Takes_all_values_from_the_recording_once_and_after_a_disturbed_run) {
+  StateDescriptor nothing;
+  const ModuleMemory memory(nothing);
+  ReplayedModule sut;
+  describe(sut);
+  sut.keeps_own = true;
+  sut.kept.expect(memory, false);
+  EXPECT_TRUE(sut.known[1].foreign);
+  sut.outputs.push_back({1, tape::EntryKind::After, {}, {4}});
+  sut.take_outputs();
+  sut.note_disturbance();
+  EXPECT_FALSE(sut.known[1].foreign);
+  sut.outputs.push_back({0, tape::EntryKind::During, {}, {1}});
+  sut.take_outputs();
+  sut.note_disturbance();
+  EXPECT_TRUE(sut.known[1].foreign);
+  EXPECT_FALSE(sut.doubtful);
+}
+
+// What it keeps inside may differ then, and only a keyframe puts that right.
+TEST(ReplayedModule, Is_doubtful_after_a_disturbed_run_until_the_next_keyframe) {
+  std::int64_t counted = 0;
+  const StateItem item{"counted", 7, 4, "long", &counted, sizeof counted};
+  StateDescriptor declared;
+  declared.items = &item;
+  declared.item_count = 1;
+  const ModuleMemory memory(declared);
+  ReplayedModule sut;
+  describe(sut);
+  sut.keeps_own = true;
+  sut.kept.expect(memory, true);
+  const std::vector<std::uint8_t> bytes(sizeof counted, 0);
+  const auto keyframe = [&](std::uint64_t run) { sut.kept.take({run, run, bytes}, memory.form()); };
+  keyframe(0);
+  EXPECT_EQ(sut.kept.next(0, false, true), ReplayedMemory::Next::Run) << "the first run of all";
+  keyframe(1);
+  EXPECT_EQ(sut.kept.next(1, false, true), ReplayedMemory::Next::Run) << "it keeps what it kept";
+  sut.outputs.push_back({0, tape::EntryKind::During, {}, {1}});
+  sut.take_outputs();
+  sut.note_disturbance();
+  EXPECT_TRUE(sut.doubtful);
+  EXPECT_EQ(sut.kept.next(2, false, true), ReplayedMemory::Next::Run);
+  keyframe(3);
+  EXPECT_EQ(sut.kept.next(3, false, true), ReplayedMemory::Next::Restore);
+  sut.begin_with_recorded();
+  EXPECT_FALSE(sut.doubtful);
+  keyframe(4);
+  EXPECT_EQ(sut.kept.next(4, false, true), ReplayedMemory::Next::Run);
+}
+
 }  // namespace
 }  // namespace indurop::node

@@ -4,8 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
+#include <memory>
+#include <optional>
 
 #include "core/rt/clock.h"
+#include "tools/cli/shadow/shadow_run.h"
 #include "tools/cli/values/forcing.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/module_reload.h"
@@ -27,6 +30,9 @@ struct ReloadOptions {
   std::string file;
   operate::ReloadRequest request;
   bool back = false;
+  std::int64_t shadow_ns = 0;  // 0: no shadow
+  AcceptedDifferences accepted;
+  std::optional<ShadowReport> shadow;
   std::int64_t timeout_ns = 30'000'000'000;
 };
 
@@ -78,13 +84,45 @@ int await_health(Context& context, const Reloaded& done) {
   return kOk;
 }
 
+void print_json(Context& context, const ReloadOptions& options, const operate::ReloadReport& report) {
+  JsonValue json = json_of(report);
+  if (options.shadow) {
+    json["shadow"] = options.shadow->json;
+  }
+  context.out.line(json.dump(2));
+}
+
+// Compares the new version with the running one. Returns nothing if it may be exchanged, else the exit code.
+std::optional<int> compare_as_shadow(Context& context, ReloadOptions& options, const std::string& node) {
+  auto found = run_shadow(context, {node, options.module, options.request.file, options.shadow_ns});
+  if (!found) {
+    return report(context.out, found.error());
+  }
+  options.shadow = std::move(found).value();
+  if (context.format != Format::Json) {
+    print_shadow(context, *options.shadow);
+  }
+  const auto why_not = objection(*options.shadow, options.accepted, options.request.lossy);
+  if (!why_not) {
+    return std::nullopt;
+  }
+  operate::ReloadReport refused;
+  refused.module = options.module;
+  refused.text = "not exchanged: " + *why_not;
+  if (context.format == Format::Json) {
+    print_json(context, options, refused);
+  }
+  context.out.error(fmt::format("module '{}': {}", refused.module, refused.text));
+  return kCheckFailed;
+}
+
 int conclude(Context& context, const ReloadOptions& options, const Reloaded& done) {
   const operate::ReloadReport& report = done.report;
   for (const std::string& error : report.errors) {
     context.out.message_line(error);
   }
   if (context.format == Format::Json) {
-    context.out.line(json_of(report).dump(2));
+    print_json(context, options, report);
   } else if (report.errors.empty() && !report.to.empty()) {
     print_plan(context, report.plan);
   }
@@ -111,7 +149,7 @@ int conclude(Context& context, const ReloadOptions& options, const Reloaded& don
 }
 
 int reload(Context& context, ReloadOptions& options) {
-  if (options.back && (!options.file.empty() || options.request.dry_run)) {
+  if (options.back && (!options.file.empty() || options.request.dry_run || options.shadow_ns > 0)) {
     context.out.error("--back takes a module only: the previous version is in memory");
     return kUsage;
   }
@@ -121,6 +159,11 @@ int reload(Context& context, ReloadOptions& options) {
   }
   if (!options.file.empty()) {
     options.request.file = std::filesystem::absolute(options.file).lexically_normal().string();
+  }
+  if (options.shadow_ns > 0) {
+    if (const auto code = compare_as_shadow(context, options, *node)) {
+      return *code;
+    }
   }
   const ModuleCommand command = options.back ? ModuleCommand::Back : ModuleCommand::Reload;
   const auto done =
@@ -144,6 +187,18 @@ Action declare_reload(base::Options& app, Context& context) {
       .completes(base::Completion::File);
   app.flag("--dry-run", options->request.dry_run, "Load and compare it, and exchange nothing");
   app.flag("--back", options->back, "Exchange it with the previous version");
+  const base::Option shadow = add_time_option(
+      app, "--shadow", options->shadow_ns,
+      "First compare it with the running version: repeat the runs of this time, and exchange it if nothing differs");
+  const auto accept = [&accepted = options->accepted](const std::string& text) {
+    auto rules = AcceptedDifferences::parse(text);
+    if (rules) {
+      accepted = std::move(rules).value();
+    }
+    return rules ? std::string() : rules.error().text;
+  };
+  app.add("--accept", "RULES", accept, "With --shadow: differences that do not matter: \"O* == 0, joint < 0.01\"")
+      .needs(shadow);
   app.flag("--lossy", options->request.lossy, "Exchange it although values that it keeps are lost");
   add_time_option(app, "--health", options->request.health_ns,
                   "How long the previous version is ready to run again (default 5 s, 0s: not at all)");
@@ -160,15 +215,19 @@ Action declare_reload(base::Options& app, Context& context) {
 
 const Verb kReloadVerb{
     "reload", "Start and stop", "Exchange the code of a module while the node runs",
-    "The new version is checked, loaded and started next to the running one. Between two runs of the module it "
-    "follows\n"
-    "with what the module keeps (INDUROP_STATE; PLC programs on their own); no run is left out. If it then faults,\n"
-    "overruns or breaks the guard within the health window, the previous version runs again in the next tick.\n"
+    "The new version is checked, loaded and started next to the running one. Between two runs of the module it\n"
+    "follows with what the module keeps (INDUROP_STATE; PLC programs on their own); no run is left out. If it then\n"
+    "faults, overruns or breaks the guard within the health window, the previous version runs again in the next tick.\n"
+    "With --shadow the new version repeats the runs of the running one first, in another process and with the same\n"
+    "inputs, and what it writes is compared.\n"
     "Exit code 0 if it runs, or was the same version; 1 if it could not be started or exchanged; 4 if it was refused:\n"
-    "it cannot run here, or values would be lost; 5 if it was exchanged and the previous version runs again; 6 if the\n"
-    "node does not run or did not answer. Unless it is 0, the version that ran before runs.\n"
+    "it cannot run here, values would be lost, or it differs as a shadow; 5 if it was exchanged and the previous\n"
+    "version runs again; 6 if the node does not run or did not answer. Unless it is 0, the version that ran before\n"
+    "runs.\n"
     "Examples:\n"
     "  indurop reload press --dry-run\n"
+    "  indurop reload press --shadow 5s\n"
+    "  indurop reload press --shadow 5s --accept \"heat <= 0.5\"\n"
     "  indurop reload press --health 10s --guard \"pressure < 80\"\n"
     "  indurop reload press build/press.so --reason \"faster ramp\"\n"
     "  indurop reload press --back\n",

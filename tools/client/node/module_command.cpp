@@ -23,19 +23,6 @@ using scheduler::ModuleCommand;
 
 constexpr std::int64_t kPollNs = 2'000'000;
 
-Result<scheduler::ModuleRecord*, Failure> find_module(RunView& run, const std::string& node,
-                                                      const std::string& module) {
-  std::vector<std::string> names;
-  for (std::uint32_t i = 0; i < run.module_count(); ++i) {
-    names.push_back(fixed_text(run.module(i).name));
-    if (names.back() == module) {
-      return &run.module_to_command(i);
-    }
-  }
-  return Failure{kFailed, fmt::format("node '{}' has no module '{}'.{} indurop status lists them", node,
-                                      printable(module), did_you_mean(module, names))};
-}
-
 Result<Commanded, Failure> conclude(ModuleCommand command, const scheduler::ModuleRecord& record, CommandResult result,
                                     std::int64_t took_ns) {
   const std::string module = printable(fixed_text(record.name));
@@ -81,6 +68,18 @@ Result<RunView, Failure> open_running(const std::string& node, ModuleCommand com
 
 }  // namespace
 
+Result<std::uint32_t, Failure> find_module(const RunView& run, const std::string& node, const std::string& module) {
+  std::vector<std::string> names;
+  for (std::uint32_t i = 0; i < run.module_count(); ++i) {
+    names.push_back(fixed_text(run.module(i).name));
+    if (names.back() == module) {
+      return i;
+    }
+  }
+  return Failure{kFailed, fmt::format("node '{}' has no module '{}'.{} indurop status lists them", node,
+                                      printable(module), did_you_mean(module, names))};
+}
+
 const char* verb_of(ModuleCommand command) {
   switch (command) {
     case ModuleCommand::Stop:
@@ -123,17 +122,18 @@ Result<CommandAnswer, Failure> await_answer(const std::string& node, ModuleComma
   if (const auto locked = operate::refusal(node, vars::Act::Command)) {
     return Failure{kFailed, fmt::format("node '{}': {}", node, locked->text())};
   }
-  const auto record = find_module(*run, node, module);
-  if (!record) {
-    return record.error();
+  const auto index = find_module(*run, node, module);
+  if (!index) {
+    return index.error();
   }
+  scheduler::ModuleRecord& record = run->module_to_command(*index);
   const std::int64_t begin = rt::now_ns();
   std::optional<scheduler::CommandTicket> ticket;
   while (rt::now_ns() < begin + timeout_ns && !interrupted() && run->node_alive()) {
     if (!ticket) {
-      ticket = scheduler::place_command(**record, command);
-    } else if (const auto result = scheduler::result_of(**record, *ticket); result != CommandResult::None) {
-      return CommandAnswer{std::move(run).value(), *record, result, rt::now_ns() - begin};
+      ticket = scheduler::place_command(record, command);
+    } else if (const auto result = scheduler::result_of(record, *ticket); result != CommandResult::None) {
+      return CommandAnswer{std::move(run).value(), &record, result, rt::now_ns() - begin};
     }
     wait_until(rt::now_ns() + kPollNs);
   }

@@ -26,6 +26,9 @@ struct CommandAnswer {
   scheduler::CommandResult result = scheduler::CommandResult::None;
   std::int64_t took_ns = 0;
 };
+// Returns the index of a module. Errors: the node has none of this name; the text has the nearest one.
+Result<std::uint32_t, Failure> find_module(const RunView& run, const std::string& node, const std::string& module);
+
 // Waits until the node has answered, at most `timeout_ns`.
 Result<CommandAnswer, Failure> await_answer(const std::string& node, scheduler::ModuleCommand command,
                                             const std::string& module, std::int64_t timeout_ns);

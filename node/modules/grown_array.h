@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Types of kept variables as compilers write them: an array that has more elements in another version of its module.
+
+#pragma once
+
+#include <string_view>
+
+namespace indurop::node {
+
+// Returns true if both are arrays of one dimension and of the same element, and `now` has more elements: "double [4]"
+// and "double [8]".
+bool has_grown(std::string_view before, std::string_view now) noexcept;
+
+}  // namespace indurop::node
