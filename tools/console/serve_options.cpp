@@ -54,6 +54,9 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
       .completes(base::Completion::Variable);
   app.add("--foxglove-hz", "RATE", options.foxglove_hz, "Messages per second and variable to Foxglove (default 50)")
       .range(kLeastHz, kMostFoxgloveHz);
+  app.add("--metrics", "GLOB", options.metrics, "Values of these variables or parts of them in /metrics, too")
+      .one_at_a_time()
+      .completes(base::Completion::Variable);
   app.add("--web", "DIR", options.web, "Folder of the page (default: the installed one)")
       .completes(base::Completion::Folder);
   app.add("--audit", "FILE", options.audit, "Keep who wrote what here (default: in the state folder)")
@@ -101,6 +104,9 @@ std::vector<std::string> words_of(const ServeOptions& options) {
     value("--foxglove", name);
   }
   value("--foxglove-hz", fmt::format("{}", options.foxglove_hz));
+  for (const std::string& name : options.metrics) {
+    value("--metrics", name);
+  }
   value("--web", options.web.string());
   value("--audit", options.audit.string());
   value("--recordings", options.recordings.string());

@@ -26,6 +26,7 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
   facts.plant = options.plant;
   facts.recordings = options.recordings;
   facts.plc = !options.plc.empty();
+  facts.metrics = options.metrics;
   return facts;
 }
 
@@ -58,7 +59,7 @@ Server::Server(tools::ServeOptions options, Admission admission, const std::stri
       boards_(options_.node, &remote_boards_),
       hub_(boards_, version, {options_.foxglove, options_.foxglove_hz},
            [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
-      files_(options_.node),
+      files_(options_.node, &remote_boards_, kFilesReader),
       sign_in_(options_.node),
       orders_(options_.node),
       holds_(options_.node) {}

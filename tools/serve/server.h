@@ -43,6 +43,9 @@ class Server final : public House {
   std::unique_ptr<Visitor> receive(const Request& request, Line& line) override;
 
  private:
+  // Readers of boards of other hosts; the door's thread is 0.
+  static constexpr std::size_t kPlantReader = 1;
+  static constexpr std::size_t kFilesReader = 2;
   // One more thread with its own boards and jobs. The worker ends first.
   struct Helper {
     explicit Helper(const std::string& node, const RemotePoller* remote = nullptr, std::size_t reader = 0)
@@ -83,10 +86,9 @@ class Server final : public House {
   Helper holds_;
   struct Plant {
     Plant(const deploy::LinkSettings& settings, const std::string& node, const RemotePoller& boards_of_it)
-        : watch(settings), boards(node, &boards_of_it, kReader, &watch) {}
-    static constexpr std::size_t kReader = 1;  // the door's thread is 0
-    tools::PlantWatch watch;                   // used by the worker's thread
-    Boards boards;                             // used by the worker's thread
+        : watch(settings), boards(node, &boards_of_it, kPlantReader, &watch) {}
+    tools::PlantWatch watch;  // used by the worker's thread
+    Boards boards;            // used by the worker's thread
     Worker worker;
     Worker orders;  // one at a time
   };

@@ -59,8 +59,10 @@ for (const [pattern, methods] of Object.entries(described.paths)) {
       if (answer.status !== expected) fail(`${method} ${where}: ${answer.status} instead of ${expected}: ${text}`);
       let response = operation.responses[answer.status] ?? operation.responses.default;
       if (response.$ref) response = described.components.responses[response.$ref.split("/").pop()];
-      const check = ajv.compile(refer(response.content["application/json"].schema));
-      if (!check(JSON.parse(text))) fail(`${method} ${where}: ${ajv.errorsText(check.errors)}\n${text.slice(0, 2000)}`);
+      const [type] = Object.keys(response.content);
+      if (!answer.headers.get("content-type").startsWith(type)) fail(`${method} ${where}: ${answer.headers.get("content-type")}`);
+      const check = ajv.compile(refer(response.content[type].schema));
+      if (!check(type === "application/json" ? JSON.parse(text) : text)) fail(`${method} ${where}: ${ajv.errorsText(check.errors)}\n${text.slice(0, 2000)}`);
       ++answered;
     }
   }

@@ -22,7 +22,7 @@ std::string remote_store_prefix();
 
 class ReportedBoard {
  public:
-  static constexpr std::size_t kReaders = 2;
+  static constexpr std::size_t kReaders = 3;
 
   explicit ReportedBoard(std::string name) : name_(std::move(name)) {}
   ReportedBoard(const ReportedBoard&) = delete;

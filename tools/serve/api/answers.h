@@ -16,6 +16,7 @@ namespace answers {
 Reply description(Api& api, const Call& call);
 Reply server_status(Api& api, const Call& call);
 Reply audit(Api& api, const Call& call);
+Reply metrics(Api& api, const Call& call);
 
 Reply sign_in(Api& api, const Call& call);
 Reply session(Api& api, const Call& call);

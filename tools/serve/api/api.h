@@ -39,6 +39,7 @@ struct ServerFacts {
   std::filesystem::path recordings;  // folder of recordings; empty: black boxes only
   bool plant = false;                // remote boards are served too
   bool plc = false;                  // a PLC program is served too
+  std::vector<std::string> metrics;  // patterns of variables whose values are metrics
   std::int64_t started_wall_ns = 0;
   std::int64_t started_ns = 0;
   std::function<std::vector<ClientFigures>()> clients;

@@ -83,6 +83,7 @@ std::span<const Route> all_routes() {
       Route{kGet, "/api/v1/recordings/{name}/values", kLook, Pace::Files, &answers::recorded_values, kLocalOnly},
       Route{kGet, "/api/v1/deployments", kLook, Pace::Quick, &answers::deployments, kLocalOnly},
       Route{kGet, "/api/v1/audit", kLook, Pace::Files, &answers::audit, kLocalOnly},
+      Route{kGet, "/metrics", kLook, Pace::Files, &answers::metrics, kLocalOnly},
       Route{kGet, "/api/v1/stream", kLook, Pace::Stream, nullptr, kLocalOnly, kStream},
       Route{kGet, "/{any...}", kLook, Pace::Stream, nullptr, kLocalOnly, kFoxglove},
       Route{kGet, "/{any...}", kLook, Pace::Stream, nullptr, kLocalOnly, kFoxgloveSdk},
