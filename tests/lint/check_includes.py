@@ -28,6 +28,7 @@ THIRD_PARTY = {
     "fcl": ("fcl/",),
     "assimp": ("assimp/",),
     "gtest": ("gtest/", "gmock/"),
+    "mosquitto": ("mosquitto.h",),
     "benchmark": ("benchmark/",),
     "ros": ("ros/", "std_msgs/"),
 }
