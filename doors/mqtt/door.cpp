@@ -22,9 +22,9 @@ BrokerSettings with_id(BrokerSettings settings, const char* what) {
 
 }  // namespace
 
-Door::PlainSide::PlainSide(Door& door, const BrokerSettings& settings)
+Door::PlainSide::PlainSide(Door& door, const BrokerSettings& to)
     : broker(
-          with_id(settings, "-plain"),
+          with_id(to, "-plain"),
           [topic = door.settings_.plain.prefix + "/online"] {
             return Will{topic, "false", true, 1, 0};
           },
@@ -46,11 +46,11 @@ Door::PlainSide::PlainSide(Door& door, const BrokerSettings& settings)
           door.mailbox_),
       plain(door.settings_.plain, broker, [&door](Command command) { door.commands_.add(std::move(command)); }) {}
 
-Door::SparkplugSide::SparkplugSide(Door& door, const BrokerSettings& settings, std::optional<Backlog> kept)
+Door::SparkplugSide::SparkplugSide(Door& door, const BrokerSettings& to, std::optional<Backlog> kept)
     : births(door.settings_.state / "bdseq"),
       backlog(std::move(kept)),
       broker(
-          with_id(settings, "-sparkplug"),
+          with_id(to, "-sparkplug"),
           [&door, this] {
             Will will = EdgeNode::will_of(door.settings_.sparkplug, births.next(), rt::wall_ns());
             if (!births.problem().empty()) {

@@ -33,12 +33,12 @@ class Door {
  private:
   // A connection has one will, so plain topics and Sparkplug have a connection each.
   struct PlainSide {
-    PlainSide(Door& door, const BrokerSettings& broker);
+    PlainSide(Door& door, const BrokerSettings& to);
     Broker broker;
     Plain plain;
   };
   struct SparkplugSide {
-    SparkplugSide(Door& door, const BrokerSettings& broker, std::optional<Backlog> kept);
+    SparkplugSide(Door& door, const BrokerSettings& to, std::optional<Backlog> kept);
     BirthCount births;
     std::optional<Backlog> backlog;
     Broker broker;

@@ -28,9 +28,11 @@ std::string reason_of_mqtt(int code) {
 }  // namespace
 
 Broker::Broker(BrokerSettings settings, std::function<Will()> next_will, BrokerEvents events, Mailbox& mailbox)
-    : settings_(std::move(settings)), next_will_(std::move(next_will)), events_(std::move(events)), mailbox_(&mailbox) {
-  mosquitto_lib_init();
-  client_ = mosquitto_new(settings_.client_id.c_str(), true, this);
+    : settings_(std::move(settings)),
+      next_will_(std::move(next_will)),
+      events_(std::move(events)),
+      mailbox_(&mailbox),
+      client_((mosquitto_lib_init(), mosquitto_new(settings_.client_id.c_str(), true, this))) {
   mosquitto_threaded_set(client_, true);
   mosquitto_int_option(client_, MOSQ_OPT_PROTOCOL_VERSION, MQTT_PROTOCOL_V311);
   if (!settings_.user.empty()) {

@@ -8,7 +8,6 @@
 #include <poll.h>
 #include <sys/socket.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 
@@ -16,7 +15,7 @@ namespace indurop::mqtt {
 namespace {
 
 constexpr int kPatienceMs = 5000;
-constexpr std::size_t kReadBytes = 65536;
+constexpr std::size_t kReadBytes = 16384;
 
 bool is_ready(int socket, short events, int wait_ms) {
   pollfd one{socket, events, 0};
@@ -79,8 +78,9 @@ bool expect_host(SSL* tls, const std::string& host) {
   if (X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(tls), host.c_str()) == 1) {
     return true;
   }
+  std::string name = host;  // the interface of OpenSSL is without const
   return SSL_set1_host(tls, host.c_str()) == 1 &&
-         SSL_ctrl(tls, SSL_CTRL_SET_TLSEXT_HOSTNAME, TLSEXT_NAMETYPE_host_name, const_cast<char*>(host.c_str())) == 1;
+         SSL_ctrl(tls, SSL_CTRL_SET_TLSEXT_HOSTNAME, TLSEXT_NAMETYPE_host_name, name.data()) == 1;
 }
 
 std::string tls_reason(SSL* tls) {
@@ -171,7 +171,7 @@ Result<void, base::Problem> Connection::send(std::string_view bytes) {
 }
 
 Result<void, base::Problem> Connection::receive(std::string& to, std::chrono::milliseconds wait) {
-  std::array<char, kReadBytes> buffer;
+  std::string buffer(kReadBytes, '\0');
   bool any = false;
   for (;;) {
     short events = 0;

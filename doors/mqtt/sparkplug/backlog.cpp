@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::uint64_t kLeastBytes = std::uint64_t{1} << 20U;
 constexpr std::uint64_t kSegments = 32;  // of the room that is allowed
-constexpr char kNamesRecord = 'N';
-constexpr char kDataRecord = 'D';
+constexpr std::uint32_t kNamesRecord = 1;
+constexpr std::uint32_t kDataRecord = 2;
 constexpr const char* kSegmentEnding = ".backlog";
 constexpr mode_t kSegmentMode = 0600;
 
@@ -150,10 +150,10 @@ std::string Backlog::begin_segment() {
   return {};
 }
 
-std::string Backlog::write_record(char kind, const std::string& body) {
+std::string Backlog::write_record(std::uint32_t kind, const std::string& body) {
   RecordHeader header;
   header.size = static_cast<std::uint32_t>(body.size());
-  header.kind = static_cast<std::uint32_t>(kind);
+  header.kind = kind;
   header.check = check_of(header.kind, body);
   std::string bytes(sizeof header, '\0');
   std::memcpy(bytes.data(), &header, sizeof header);
@@ -253,7 +253,7 @@ void Backlog::read_segment(std::uint64_t most_bytes, std::vector<Stored>& to) {
     }
     const Position begin{read_.segment, at};
     at += sizeof(RecordHeader) + record->body.size();
-    if (record->kind == static_cast<std::uint32_t>(kNamesRecord)) {
+    if (record->kind == kNamesRecord) {
       take_names(record->body);
     } else if (begin >= read_) {
       auto some = data_of(record->body, begin, {read_.segment, at});

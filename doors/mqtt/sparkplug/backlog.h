@@ -74,7 +74,7 @@ class Backlog {
   void find_segments();
   // Returns why it failed, else an empty text.
   std::string begin_segment();
-  std::string write_record(char kind, const std::string& body);
+  std::string write_record(std::uint32_t kind, const std::string& body);
   void make_room();
   void remove(std::uint64_t segment);
   // Reads about `most_bytes` of records of the segment at `read_`.
