@@ -116,7 +116,7 @@ class Binder {
     std::vector<std::string> objects;
     std::size_t found = 0;
     for (const AxisObject& object : kAxisObjects) {
-      if (object.output != output || (object.index == 0 && into.device.driver == IoDriver::Ethercat)) {
+      if (object.output != output || (object.object.index == 0 && into.device.driver == IoDriver::Ethercat)) {
         continue;
       }
       objects.emplace_back(object.name);
@@ -130,7 +130,7 @@ class Binder {
       point.output = output;
       point.variable = name + "." + object.name;
       point.at = object.name;
-      point.object.index = object.index;
+      point.object = object.object;
       point.type = WireType::Int32;
       point.place = point.variable_place = point.at_place = place;
       add(point, into);

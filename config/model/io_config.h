@@ -53,6 +53,8 @@ struct IoAddress {
 struct IoObject {
   std::uint16_t index = 0;
   std::uint8_t subindex = 0;
+  std::uint8_t bytes = 0;  // as a PDO gets it; 0: only the slave knows
+  bool is_signed = false;
 };
 
 struct IoPoint {
@@ -180,31 +182,31 @@ struct IoConfig {
 struct AxisObject {
   const char* name;
   bool output;
-  std::uint16_t index;  // 0: of the simulated drive only
+  IoObject object;  // index 0: of the simulated drive only
 };
-inline constexpr std::array<AxisObject, 23> kAxisObjects{{{"error", false, 0x603F},
-                                                          {"status", false, 0x6041},
-                                                          {"mode", false, 0x6061},
-                                                          {"position", false, 0x6064},
-                                                          {"velocity", false, 0x606C},
-                                                          {"torque", false, 0x6077},
-                                                          {"inputs", false, 0x60FD},
-                                                          {"probe", false, 0x60B9},
-                                                          {"probe_rise", false, 0x60BA},
-                                                          {"probe_fall", false, 0x60BB},
-                                                          {"probe2_rise", false, 0x60BC},
-                                                          {"probe2_fall", false, 0x60BD},
-                                                          {"following", false, 0x60F4},
-                                                          {"control", true, 0x6040},
-                                                          {"mode", true, 0x6060},
-                                                          {"position", true, 0x607A},
-                                                          {"velocity", true, 0x60FF},
-                                                          {"torque", true, 0x6071},
-                                                          {"position_offset", true, 0x60B0},
-                                                          {"velocity_offset", true, 0x60B1},
-                                                          {"torque_offset", true, 0x60B2},
-                                                          {"load", true, 0},
-                                                          {"probe", true, 0x60B8}}};
+inline constexpr std::array<AxisObject, 23> kAxisObjects{{{"error", false, {0x603F, 0, 2, false}},
+                                                          {"status", false, {0x6041, 0, 2, false}},
+                                                          {"mode", false, {0x6061, 0, 1, true}},
+                                                          {"position", false, {0x6064, 0, 4, true}},
+                                                          {"velocity", false, {0x606C, 0, 4, true}},
+                                                          {"torque", false, {0x6077, 0, 2, true}},
+                                                          {"inputs", false, {0x60FD, 0, 4, false}},
+                                                          {"probe", false, {0x60B9, 0, 2, false}},
+                                                          {"probe_rise", false, {0x60BA, 0, 4, true}},
+                                                          {"probe_fall", false, {0x60BB, 0, 4, true}},
+                                                          {"probe2_rise", false, {0x60BC, 0, 4, true}},
+                                                          {"probe2_fall", false, {0x60BD, 0, 4, true}},
+                                                          {"following", false, {0x60F4, 0, 4, true}},
+                                                          {"control", true, {0x6040, 0, 2, false}},
+                                                          {"mode", true, {0x6060, 0, 1, true}},
+                                                          {"position", true, {0x607A, 0, 4, true}},
+                                                          {"velocity", true, {0x60FF, 0, 4, true}},
+                                                          {"torque", true, {0x6071, 0, 2, true}},
+                                                          {"position_offset", true, {0x60B0, 0, 4, true}},
+                                                          {"velocity_offset", true, {0x60B1, 0, 4, true}},
+                                                          {"torque_offset", true, {0x60B2, 0, 2, true}},
+                                                          {"load", true, {}},
+                                                          {"probe", true, {0x60B8, 0, 2, false}}}};
 
 // A module file that exports this function reads the path of an ioconfig.xml from its property "config", so the checks
 // know which variables it reads and writes.

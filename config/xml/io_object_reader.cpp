@@ -6,7 +6,6 @@
 #include <array>
 #include <utility>
 
-#include "config/xml/attributes.h"
 #include "config/xml/element_rules.h"
 #include "config/xml/values.h"
 #include "core/base/text.h"
@@ -28,6 +27,14 @@ constexpr std::array<NumberType, 6> kNumberTypes{{{"int8", 1, -0x80, 0x7F},
                                                   {"int32", 4, -0x80000000LL, 0x7FFFFFFF},
                                                   {"uint32", 4, 0, 0xFFFFFFFF}}};
 
+std::vector<std::string> type_names() {
+  std::vector<std::string> names;
+  for (const NumberType& type : kNumberTypes) {
+    names.emplace_back(type.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 bool read_io_object(const std::string& text, IoObject& object) {
@@ -37,7 +44,18 @@ bool read_io_object(const std::string& text, IoObject& object) {
   const auto index = read_hex(text.substr(0, colon), kMaxIndex);
   const auto subindex = colon == std::string::npos ? std::optional(0U) : read_hex(text.substr(colon + 1), kMaxSubindex);
   object = {static_cast<std::uint16_t>(index.value_or(0)), static_cast<std::uint8_t>(subindex.value_or(0))};
+  for (const AxisObject& known : kAxisObjects) {
+    object = known.object.index == object.index && object.subindex == 0 ? known.object : object;
+  }
   return index && *index != 0 && subindex;
+}
+
+void read_io_type(Attributes& attributes, IoObject& object) {
+  if (const auto type = attributes.choose("type", type_names())) {
+    const NumberType& number = kNumberTypes.at(*type);
+    object.bytes = static_cast<std::uint8_t>(number.bytes);
+    object.is_signed = number.low < 0;
+  }
 }
 
 void read_io_value(const base::Element& element, IoDevice& device, base::Diagnostics& report) {
@@ -49,12 +67,8 @@ void read_io_value(const base::Element& element, IoDevice& device, base::Diagnos
     report.error(place, fmt::format("at: {} is no object; write its index, 6060, or with a subindex, 1c12:1",
                                     base::in_quotes(*at)));
   }
-  std::vector<std::string> words;
-  for (const NumberType& type : kNumberTypes) {
-    words.emplace_back(type.name);
-  }
   const bool has_type = attributes.need("type", "type=\"int8\"").has_value();
-  const auto type = has_type ? attributes.choose("type", words) : std::nullopt;
+  const auto type = has_type ? attributes.choose("type", type_names()) : std::nullopt;
   const bool has_value = attributes.need("value", "value=\"8\"").has_value();
   if (type && has_value) {
     const NumberType& number = kNumberTypes.at(*type);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "config/model/io_config.h"
+#include "config/xml/attributes.h"
 #include "core/base/diagnostics.h"
 #include "core/base/xml_element.h"
 
@@ -13,6 +14,8 @@ namespace indurop::config {
 
 // Reads an index and a subindex of an object, as manuals write them: 6064, 7000:1. False: it is none.
 bool read_io_object(const std::string& text, IoObject& object);
+// Reads `type` of a point, which says how long the object is.
+void read_io_type(Attributes& attributes, IoObject& object);
 
 // Reads a <set> of an EtherCAT device, adds it to the device, and reports all its errors.
 void read_io_value(const base::Element& element, IoDevice& device, base::Diagnostics& report);

@@ -142,9 +142,9 @@ class PointReader {
     point_.at = at.value_or("");
     std::vector<std::string> known;
     for (const AxisObject& object : kAxisObjects) {
-      if (object.output == point_.output && (object.index != 0 || !is_slave)) {
+      if (object.output == point_.output && (object.object.index != 0 || !is_slave)) {
         known.emplace_back(object.name);
-        point_.object.index = object.name == point_.at ? object.index : point_.object.index;
+        point_.object = object.name == point_.at ? object.object : point_.object;
       }
     }
     if (at && std::find(known.begin(), known.end(), *at) == known.end() &&
@@ -155,6 +155,9 @@ class PointReader {
                                                  base::in_quotes(*at), base::suggestion(*at, known)));
     }
     point_.type = WireType::Int32;
+    if (is_slave) {
+      read_io_type(attributes_, point_.object);
+    }
   }
 
   void read_column() {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "control/io/ethercat/master/mapping.h"
 #include "core/rt/clock.h"
 #include "store/runtime/host.h"
 
@@ -29,17 +30,44 @@ std::string name_of_object(config::IoObject object) {
   return fmt::format("{:04x}:{:02x}", object.index, object.subindex);
 }
 
-// What a device can name.
+// What the PDOs of a slave have, each once.
 std::string objects_of(const std::vector<ethercat::Pdo>& pdos) {
-  std::string names;
+  std::vector<std::string> names;
   for (const ethercat::Pdo& pdo : pdos) {
     for (const ethercat::PdoEntry& entry : pdo.entries) {
-      if (entry.index != 0 && pdo.sync_manager != 0xFF) {
-        names += (names.empty() ? "" : ", ") + name_of_object({entry.index, entry.subindex});
+      const std::string name = name_of_object({entry.index, entry.subindex});
+      if (entry.index != 0 && std::find(names.begin(), names.end(), name) == names.end()) {
+        names.push_back(name);
       }
     }
   }
-  return names.empty() ? "none" : names;
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+ethercat::WantedObject wanted(config::IoObject object) {
+  // CoE numbers signed types of 1, 2 and 4 bytes from 2 on, unsigned ones from 5 on.
+  const unsigned type = (object.is_signed ? 2U : 5U) + object.bytes / 2U;
+  return {object.index, object.subindex, static_cast<std::uint8_t>(8U * object.bytes), static_cast<std::uint8_t>(type)};
+}
+
+std::vector<ethercat::WantedObject> wanted(const std::vector<config::IoPoint>& points) {
+  std::vector<ethercat::WantedObject> objects;
+  for (const config::IoPoint& point : points) {
+    objects.push_back(wanted(point.object));
+  }
+  return objects;
+}
+
+// Which point cannot be exchanged, and why.
+std::string refusal_of(const EthercatMember& member, const ethercat::Unmapped& unmapped, const ethercat::Sii& sii) {
+  const auto& points = unmapped.output ? member.outputs : member.inputs;
+  const auto point = std::find_if(points.begin(), points.end(), [&unmapped](const config::IoPoint& other) {
+    return other.object.index == unmapped.object.index && other.object.subindex == unmapped.object.subindex;
+  });
+  return fmt::format("slave {} ({}), device {}: {} {} ({}) cannot be exchanged: {}; its {} are {}",
+                     member.slave.position, sii.name, member.device, unmapped.output ? "output" : "input", point->at,
+                     name_of_object(point->object), unmapped.reason, unmapped.output ? "outputs" : "inputs",
+                     objects_of(unmapped.output ? sii.outputs : sii.inputs));
 }
 
 }  // namespace
@@ -184,14 +212,17 @@ std::string EthercatBus::prepare() {
   if (!(*link)->has_carrier()) {
     return "no link; check the cable, and the power of the first slave";
   }
-  const auto found = ethercat::Scan(**link, [&link] {
-                       (*link)->wait(milliseconds(1));
-                       return now();
-                     }).run();
+  auto found = ethercat::Scan(**link, [&link] {
+                 (*link)->wait(milliseconds(1));
+                 return now();
+               }).run();
   if (!found) {
     return found.error();
   }
   if (std::string wrong = check(*found); !wrong.empty()) {
+    return wrong;
+  }
+  if (std::string wrong = map(*found); !wrong.empty()) {
     return wrong;
   }
   std::vector<ethercat::SlavePlan> plans;
@@ -202,9 +233,12 @@ std::string EthercatBus::prepare() {
   }
   for (const EthercatMember& member : members_) {
     ethercat::SlavePlan& plan = plans[static_cast<std::size_t>(member.slave.position)];
+    // The mapping comes after what the file sets, so that nothing in the file changes it.
+    std::vector<ethercat::StartObject> objects;
     for (const config::IoObjectValue& value : member.slave.values) {
-      plan.start_objects.push_back({value.object.index, value.object.subindex, false, value.bytes});
+      objects.push_back({value.object.index, value.object.subindex, false, value.bytes});
     }
+    plan.start_objects.insert(plan.start_objects.begin(), objects.begin(), objects.end());
     const config::IoSync& sync = member.slave.sync;
     plan.sync = {sync.activate, sync.cycle, sync.shift, sync.sync1};
   }
@@ -250,6 +284,19 @@ std::string EthercatBus::check(const std::vector<ethercat::FoundSlave>& found) c
   return {};
 }
 
+// Chooses the process data of each slave by the points of its device. Returns what is wrong.
+std::string EthercatBus::map(std::vector<ethercat::FoundSlave>& found) const {
+  for (const EthercatMember& member : members_) {
+    ethercat::Sii& sii = found[static_cast<std::size_t>(member.slave.position)].sii;
+    auto mapped = ethercat::map_objects(sii, wanted(member.outputs), wanted(member.inputs));
+    if (!mapped) {
+      return refusal_of(member, mapped.error(), sii);
+    }
+    sii = std::move(*mapped);
+  }
+  return {};
+}
+
 void EthercatBus::make_fields(const std::vector<ethercat::FoundSlave>& found, Running& running) const {
   for (const EthercatMember& member : members_) {
     const ethercat::Sii& sii = found[static_cast<std::size_t>(member.slave.position)].sii;
@@ -264,8 +311,8 @@ EthercatBus::Fields EthercatBus::fields_of(const EthercatMember& member, const s
   for (const config::IoPoint& point : points) {
     fields.push_back(find_field(pdos, point.object));
     if (!fields.back()) {
-      irp::printf("I/O device %s: the slave has no %s %s (%s) in its process data; it has %s\n", member.device,
-                  point.output ? "output" : "input", point.at, name_of_object(point.object), objects_of(pdos));
+      irp::printf("I/O device %s: %s %s (%s) is no number of at most 64 bits\n", member.device,
+                  point.output ? "output" : "input", point.at, name_of_object(point.object));
     }
   }
   return fields;

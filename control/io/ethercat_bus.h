@@ -76,6 +76,7 @@ class EthercatBus {
   void work();
   [[nodiscard]] std::string prepare();
   [[nodiscard]] std::string check(const std::vector<ethercat::FoundSlave>& found) const;
+  [[nodiscard]] std::string map(std::vector<ethercat::FoundSlave>& found) const;
   void make_fields(const std::vector<ethercat::FoundSlave>& found, Running& running) const;
   [[nodiscard]] Fields fields_of(const EthercatMember& member, const std::vector<config::IoPoint>& points,
                                  const std::vector<ethercat::Pdo>& pdos) const;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A servo drive as an EtherCAT slave: the simulated CiA 402 drive after a mailbox and a process image. What it is, its
-// master reads in its EEPROM.
+// A servo drive as an EtherCAT slave: the simulated CiA 402 drive after a mailbox and process data that its master
+// maps. What it is, its master reads in its EEPROM.
 
 #pragma once
 
+#include <optional>
+
 #include "control/io/cia402_drive.h"
+#include "control/io/ethercat/simulator/mapped_objects.h"
 #include "control/io/ethercat/simulator/slave.h"
 
 namespace indurop::io::ecsim {
@@ -15,11 +18,15 @@ class Drive {
 
   // The slave, without its application.
   static ethercat::SlaveConfig slave();
+  // The slave that it is part of, before compute(); borrowed until the end.
+  void attach(ethercat::Slave& slave);
   // The application of the slave: moves the axis up to this time, with what it has got, and fills in where it is then.
   void compute(ethercat::Bytes outputs, std::span<std::uint8_t> inputs, ethercat::Time now);
 
  private:
   Cia402Drive drive_;
+  ethercat::ObjectDictionary* objects_ = nullptr;
+  std::optional<ethercat::MappedObjects> mapped_;
   ethercat::Time last_{0};
 };
 

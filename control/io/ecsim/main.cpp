@@ -59,9 +59,9 @@ class Simulation {
     auto& segment = bus_.segment();
     if (word == "drive") {
       const auto drive = std::make_shared<Drive>(config::IoAxis{});
-      segment.add(Drive::slave(), [this, drive](ethercat::Bytes outputs, std::span<std::uint8_t> inputs) {
+      drive->attach(segment.add(Drive::slave(), [this, drive](ethercat::Bytes outputs, std::span<std::uint8_t> inputs) {
         drive->compute(outputs, inputs, now());
-      });
+      }));
       return {};
     }
     const auto image = base::read_file(word);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -42,13 +43,21 @@ constexpr std::array<Form, ethercat::kFaultKinds> kForms{
      {"other_identity", FaultKind::OtherIdentity, true, true},
      {"eeprom_busy", FaultKind::EepromBusy, true, true},
      {"emergency", FaultKind::Emergency, true, false, "code"},
-     {"clock_jumps", FaultKind::ClockJumps, true, false, "by"}}};
+     {"clock_jumps", FaultKind::ClockJumps, true, false, "by"},
+     {"value", FaultKind::ObjectSet, true, false, "to"}}};
 
 std::string example_of(const Form& form) {
-  return fmt::format("{}{}{}{}", form.word, form.slave ? " slave=0" : "", form.lasts ? " for=5ms" : "",
-                     form.value.empty()   ? ""
-                     : form.value == "by" ? " by=2ms"
-                                          : " code=0x8611");
+  std::string text(form.word);
+  text += form.slave ? " slave=0" : "";
+  text += form.lasts ? " for=5ms" : "";
+  if (form.value == "by") {
+    text += " by=2ms";
+  } else if (form.value == "code") {
+    text += " code=0x8611";
+  } else if (form.value == "to") {
+    text += " at=6000:1 to=1";
+  }
+  return text;
 }
 
 struct Word {
@@ -75,6 +84,17 @@ std::optional<std::uint32_t> number_of(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
+// Index and subindex in hexadecimal digits, as manuals write them: 6000:1.
+std::optional<std::uint32_t> object_of(std::string_view text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto index = number_of("0x" + std::string(text.substr(0, colon)));
+  const auto subindex =
+      colon == text.size() ? std::optional(0U) : number_of("0x" + std::string(text.substr(colon + 1)));
+  return index && *index > 0 && *index <= 0xFFFF && subindex && *subindex <= 0xFF
+             ? std::optional(*index << 8U | *subindex)
+             : std::nullopt;
+}
+
 class LineReader {
  public:
   LineReader(int line, std::size_t slaves, base::Diagnostics& report) : line_(line), slaves_(slaves), report_(report) {}
@@ -94,8 +114,8 @@ class LineReader {
         return std::nullopt;
       }
     }
-    const bool complete =
-        has_slave_ == form_->slave && has_duration_ == form_->lasts && has_value_ == !form_->value.empty();
+    const bool complete = has_slave_ == form_->slave && has_duration_ == form_->lasts &&
+                          has_value_ == !form_->value.empty() && (fault_.object != 0) == (form_->value == "to");
     return complete ? std::optional(fault_)
                     : wrong(words[1], fmt::format("{} is written so: {}", form_->word, example_of(*form_)));
   }
@@ -135,6 +155,11 @@ class LineReader {
       has_duration_ = true;
     } else if (name == "by" && form_->value == "by" && duration && *duration < std::chrono::seconds(4)) {
       fault_.value = static_cast<std::uint32_t>(duration->count());
+      has_value_ = true;
+    } else if (name == "at" && form_->value == "to" && object_of(value)) {
+      fault_.object = *object_of(value);
+    } else if (name == "to" && form_->value == "to" && number) {
+      fault_.value = *number;
       has_value_ = true;
     } else if (name == "code" && form_->value == "code" && number) {
       fault_.value = *number;

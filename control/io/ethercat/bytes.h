@@ -29,4 +29,15 @@ constexpr void store(std::span<std::uint8_t> bytes, std::size_t at, T value) noe
   }
 }
 
+// Bits count from the lowest one of the first byte.
+inline void copy_bits(Bytes from, std::uint64_t from_bit, std::span<std::uint8_t> to, std::uint64_t to_bit,
+                      std::uint64_t count) noexcept {
+  for (std::uint64_t bit = 0; bit < count; ++bit) {
+    const unsigned value = static_cast<unsigned>(from[(from_bit + bit) / 8]) >> ((from_bit + bit) % 8) & 1U;
+    const unsigned shift = (to_bit + bit) % 8;
+    std::uint8_t& byte = to[(to_bit + bit) / 8];
+    byte = static_cast<std::uint8_t>((byte & ~(1U << shift)) | value << shift);
+  }
+}
+
 }  // namespace indurop::io::ethercat

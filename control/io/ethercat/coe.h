@@ -61,11 +61,20 @@ inline constexpr std::uint32_t kAbortCommand = 0x05040001;
 inline constexpr std::uint32_t kAbortMemory = 0x05040005;
 inline constexpr std::uint32_t kAbortUnsupported = 0x06010000;
 inline constexpr std::uint32_t kAbortReadOnly = 0x06010002;
+inline constexpr std::uint32_t kAbortNotEmpty = 0x06010003;
 inline constexpr std::uint32_t kAbortNoObject = 0x06020000;
+inline constexpr std::uint32_t kAbortNotMappable = 0x06040041;
+inline constexpr std::uint32_t kAbortPdoLength = 0x06040042;
+inline constexpr std::uint32_t kAbortIncompatible = 0x06040043;
 inline constexpr std::uint32_t kAbortLength = 0x06070010;
 inline constexpr std::uint32_t kAbortNoSubindex = 0x06090011;
+inline constexpr std::uint32_t kAbortRange = 0x06090030;
+inline constexpr std::uint32_t kAbortTooHigh = 0x06090031;
 inline constexpr std::uint32_t kAbortState = 0x08000022;
 std::string_view sdo_abort_text(std::uint32_t code) noexcept;
+
+// The objects of a SyncManager's PDOs, from this index on.
+inline constexpr std::uint16_t kPdoAssignment = 0x1C10;
 
 struct Emergency {
   std::uint16_t code = 0;

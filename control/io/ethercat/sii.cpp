@@ -199,6 +199,20 @@ std::size_t bits_of(const Pdo& pdo) noexcept {
   return bits;
 }
 
+const PdoEntry* find_entry(const Pdo& pdo, std::uint16_t index, std::uint8_t subindex) noexcept {
+  const auto found = std::find_if(pdo.entries.begin(), pdo.entries.end(), [index, subindex](const PdoEntry& entry) {
+    return entry.index == index && entry.subindex == subindex;
+  });
+  return found == pdo.entries.end() ? nullptr : &*found;
+}
+
+std::uint8_t first_manager(const Sii& sii, SyncManagerUse use) noexcept {
+  const auto& managers = sii.sync_managers;
+  const auto first = std::find_if(managers.begin(), managers.end(),
+                                  [use](const SyncManagerEntry& manager) { return manager.use == use; });
+  return first == managers.end() ? kNotAssigned : static_cast<std::uint8_t>(first - managers.begin());
+}
+
 std::uint8_t sii_checksum(Bytes image) noexcept {
   constexpr unsigned kPolynomial = 0x07;
   unsigned crc = 0xFF;

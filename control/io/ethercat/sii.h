@@ -43,6 +43,7 @@ inline constexpr std::uint8_t kCoeSdo = 0x01;
 inline constexpr std::uint8_t kCoeSdoInfo = 0x02;
 inline constexpr std::uint8_t kCoePdoAssign = 0x04;
 inline constexpr std::uint8_t kCoePdoConfiguration = 0x08;
+inline constexpr std::uint8_t kCoePdoUpload = 0x10;
 inline constexpr std::uint8_t kCoeCompleteAccess = 0x20;
 
 enum class FmmuUse : std::uint8_t { None = 0, Outputs = 1, Inputs = 2, MailboxState = 3, Unused = 0xFF };
@@ -64,15 +65,23 @@ struct PdoEntry {
   std::string name;
 };
 
+inline constexpr std::uint8_t kNotAssigned = 0xFF;
+// Bits of Pdo::flags.
+inline constexpr std::uint16_t kPdoMandatory = 0x0001;
+inline constexpr std::uint16_t kPdoFixed = 0x0010;  // what it contains
+
 struct Pdo {
   std::uint16_t index = 0;
-  std::uint8_t sync_manager = 0xFF;  // 0xFF: not assigned at first
+  std::uint8_t sync_manager = kNotAssigned;
   std::uint16_t flags = 0;
   std::string name;
   std::vector<PdoEntry> entries;
+  std::vector<std::uint16_t> excludes{};  // PDOs that cannot be assigned with it; an EEPROM does not say so
 };
 // The sum of the entries.
 std::size_t bits_of(const Pdo& pdo) noexcept;
+// The entry that is this object; null if there is none.
+const PdoEntry* find_entry(const Pdo& pdo, std::uint16_t index, std::uint8_t subindex) noexcept;
 
 struct ClockMode {
   std::string name;
@@ -105,6 +114,9 @@ struct Sii {
   std::vector<Pdo> outputs;  // RxPDOs
   std::vector<ClockMode> clocks;
 };
+
+// The first SyncManager that is used so; kNotAssigned if there is none.
+std::uint8_t first_manager(const Sii& sii, SyncManagerUse use) noexcept;
 
 // Words of the fixed part, where the categories begin.
 inline constexpr std::uint16_t kSiiIdentity = 0x0008;

@@ -104,11 +104,33 @@ TEST_F(EthercatNode, An_object_that_the_slave_refuses_is_named) {
       "<device name='axis1' driver='ethercat' address='ec0' slave='0' in='TEST_CELL::AXIS1_IN'>\n"
       "  <set at='2001:3' type='int32' value='-5'/>\n"
       "</device>");
-  EXPECT_TRUE(sut.prints("EtherCAT ec0: slave 0 (InduRoP simulated drive): refused an object: there is no such object"))
+  EXPECT_TRUE(
+      sut.prints("EtherCAT ec0: slave 0 (InduRoP simulated drive): refused object 2001:03: there is no such object"))
       << sut.out();
 }
 
-TEST_F(EthercatNode, An_object_that_the_slave_does_not_map_is_named) {
+// The mapping that the drive comes with has neither the torque nor the digital inputs, and no PDO of it has the latter.
+TEST_F(EthercatNode, The_process_data_of_a_slave_is_what_the_points_name) {
+  simulate(2);
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0' slave='0' in='TEST_CELL::AXIS1_IN'\n"
+      "  out='TEST_CELL::AXIS1_OUT'>\n"
+      "  <input variable='speeds[1]' at='torque' quality='TEST_CELL::I0_quality'/>\n"
+      "  <input variable='speeds[2]' at='60fd:0'/>\n"
+      "  <output variable='speeds[3]' at='torque_offset'/>\n"
+      "</device>\n"
+      "<device name='axis2' driver='ethercat' address='ec0' slave='1' quality='TEST_CELL::link_good'>\n"
+      "  <input variable='speeds[0]' at='velocity'/>\n"
+      "</device>");
+  EXPECT_TRUE(moves()) << sut.out() << sut.err();
+  EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 1; })) << sut.out();
+  EXPECT_TRUE(wait_until([&] { return value<bool>("TEST_CELL::link_good"); })) << sut.out();
+  drives_->input("0s power_off slave=0 for=300ms\n");
+  EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 2; }));
+  EXPECT_TRUE(moves()) << "it was mapped again\n" << sut.out();
+}
+
+TEST_F(EthercatNode, An_object_that_the_slave_cannot_exchange_is_named_and_nothing_starts) {
   simulate(1);
   Program& sut = run_node(
       "<device name='axis1' driver='ethercat' address='ec0' slave='0' quality='TEST_CELL::link_good'>\n"
@@ -116,11 +138,24 @@ TEST_F(EthercatNode, An_object_that_the_slave_does_not_map_is_named) {
       "  <input variable='TEST_CELL::AXIS1_IN.status' at='status'/>\n"
       "</device>");
   EXPECT_TRUE(
-      sut.prints("I/O device axis1: the slave has no input 7000:1 (7000:01) in its process data; it has "
-                 "603f:00, 6041:00, 6061:00, 6064:00"))
+      sut.prints("EtherCAT ec0: slave 0 (InduRoP simulated drive), device axis1: input 7000:1 (7000:01) cannot be "
+                 "exchanged: no PDO of the slave has it, and its type is not known; give it: type=\"int16\"; its "
+                 "inputs are 603f:00, 6041:00, 6061:00, 6064:00, 606c:00, 6077:00; trying again"))
       << sut.out();
-  EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 3; }));
-  EXPECT_TRUE(wait_until([&] { return number("AXIS1_IN.status") != 0; })) << "the other points are exchanged";
+  EXPECT_FALSE(value<bool>("TEST_CELL::link_good"));
+  EXPECT_EQ(number("AXIS1_IN.status"), 0);
+}
+
+TEST_F(EthercatNode, An_object_that_the_slave_does_not_have_is_named) {
+  simulate(1);
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0' slave='0'>\n"
+      "  <input variable='speeds[1]' at='7000:1' type='int16'/>\n"
+      "</device>");
+  EXPECT_TRUE(
+      sut.prints("EtherCAT ec0: slave 0 (InduRoP simulated drive): refused object 1a00:01: there is no such "
+                 "object"))
+      << sut.out();
 }
 
 }  // namespace

@@ -16,19 +16,18 @@
 
 #include "control/io/ecsim/drive.h"
 #include "control/io/ethercat/link/packet_link.h"
+#include "control/io/ethercat/master/mapping.h"
 #include "control/io/ethercat/master/master.h"
 #include "tests/support/program.h"
 
 namespace indurop::io::ethercat {
 
-// They assign their PDOs again, so that each slave's mailbox has something to do.
 inline std::vector<SlavePlan> plans_of_drives(std::size_t count) {
   const auto sii = read_sii(ecsim::Drive::slave().esc.eeprom);
   std::vector<SlavePlan> plans;
   std::uint32_t logical = 0x10000;
   for (std::size_t i = 0; i < count; ++i) {
     plans.push_back(plan_of(*sii, logical));
-    plans.back().start_objects = {{0x1C12, 0, false, {0}}, {0x1C12, 1, false, {0x00, 0x16}}, {0x1C12, 0, false, {1}}};
     logical += static_cast<std::uint32_t>(plans.back().output_bytes + plans.back().input_bytes);
   }
   return plans;

@@ -16,7 +16,8 @@ constexpr Clock kCycle = std::chrono::milliseconds(1);
 // The clock of the master counts cycles, so that its time-outs do not depend on how busy the machine is.
 class Bus {
  public:
-  explicit Bus(std::size_t drives) {
+  explicit Bus(std::size_t drives) : Bus(plans_of_drives(drives)) {}
+  explicit Bus(std::vector<SlavePlan> plans) {
     auto opened = PacketLink::open("ec0");
     if (!opened) {
       ADD_FAILURE() << opened.error();
@@ -24,7 +25,7 @@ class Bus {
     }
     packets_ = std::move(*opened);
     link_ = std::make_unique<PatientLink>(*packets_);
-    master_ = std::make_unique<Master>(*link_, plans_of_drives(drives), std::chrono::milliseconds(1));
+    master_ = std::make_unique<Master>(*link_, std::move(plans), std::chrono::milliseconds(1));
   }
   void cycle() {
     now_ += kCycle;
@@ -194,6 +195,43 @@ TEST_F(Veth, Every_frame_is_what_tshark_expects) {
   EXPECT_THAT(seen.managers, testing::Contains("0x1000,0x1080,0x1000,0x1080,0x1000,0x1080"));
   EXPECT_THAT(seen.requests, testing::Contains("0x1c12,0x1c12,0x1c12"));
   EXPECT_THAT(seen.answers, testing::Contains("0x1c12,0x1c12,0x1c12"));
+}
+
+// What the drive comes with has no torque. One direction is filled, for the other a PDO has all.
+TEST_F(Veth, The_mapping_is_written_as_tshark_reads_it) {
+  if (!has_tshark()) {
+    GTEST_SKIP() << "tshark is not installed";
+  }
+  simulate(1);
+  const std::vector<WantedObject> outputs = {
+      {0x6040, 0, 0, 0}, {0x6060, 0, 0, 0}, {0x6071, 0, 0, 0}, {0x60B8, 0, 16, 6}};
+  const std::vector<WantedObject> inputs = {{0x6041, 0, 0, 0}, {0x6064, 0, 0, 0}, {0x6077, 0, 0, 0}};
+  const auto sii = read_sii(ecsim::Drive::slave().esc.eeprom);
+  ASSERT_TRUE(sii);
+  const auto mapped = map_objects(*sii, outputs, inputs);
+  ASSERT_TRUE(mapped);
+  Bus sut({plan_of(*mapped, 0x10000)});
+  ASSERT_TRUE(sut.run_until_all_operate()) << sut.story();
+  ASSERT_TRUE(sut.run_until([&] { return sut.all_fresh(); }));
+  EXPECT_EQ(sut.master().outputs(0).size(), 7U);
+  EXPECT_EQ(sut.master().inputs(0).size(), 15U);
+  end_simulation();
+  // Frames of the master, before a slave has counted in them.
+  const auto writes = tshark("ecat_mailbox.coe.sdoreq && !(ecat.cnt > 0)",
+                             {"ecat_mailbox.coe.sdoidx", "ecat_mailbox.coe.sdosub", "ecat_mailbox.coe.sdodata"});
+  EXPECT_THAT(writes, testing::ElementsAre("0x1c12\t0x00\t0x00",                                    //
+                                           "0x1600\t0x00\t0x00", "0x1600\t0x01\t0x60400010",        //
+                                           "0x1600\t0x02\t0x60600008", "0x1600\t0x03\t0x60710010",  //
+                                           "0x1600\t0x04\t0x60b80010", "0x1600\t0x00\t0x04",        //
+                                           "0x1c12\t0x01\t0x1600", "0x1c12\t0x00\t0x01",            //
+                                           "0x1c13\t0x00\t0x00", "0x1c13\t0x01\t0x1b00",            //
+                                           "0x1c13\t0x00\t0x01"));
+  EXPECT_THAT(tshark("ecat_mailbox.coe.abortcode", {"frame.number"}), testing::IsEmpty());
+  // The lengths of SyncManagers and FMMUs follow.
+  EXPECT_THAT(tshark("ecat.syncman.start == 0x1100 && ecat.cnt > 0", {"ecat.syncman.start", "ecat.syncman.len"}),
+              testing::Contains("0x1100,0x1180\t0x0007,0x000f"));
+  EXPECT_THAT(tshark("ecat.fmmu.lstart == 0x10000 && ecat.cnt > 0", {"ecat.fmmu.llen"}),
+              testing::Contains("0x0007,0x000f"));
 }
 
 TEST_F(Veth, Lost_late_and_doubled_frames_are_counted_and_the_exchange_goes_on) {

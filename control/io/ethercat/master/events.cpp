@@ -31,7 +31,8 @@ std::string words(const Event& event) {
       return fmt::format("left OP: {} ({:04x}h)", al_status_text(static_cast<std::uint16_t>(event.detail)),
                          event.detail);
     case Problem::SdoAborted:
-      return fmt::format("refused an object: {} ({:08x}h)", sdo_abort_text(event.detail), event.detail);
+      return fmt::format("refused object {:04x}:{:02x}: {} ({:08x}h)", event.object >> 8U, event.object & 0xFFU,
+                         sdo_abort_text(event.detail), event.detail);
     case Problem::SdoTimeout:
       return fmt::format("did not answer for object {:04x}h", event.detail);
     case Problem::WrongCounter:

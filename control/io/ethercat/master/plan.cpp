@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "control/io/ethercat/coe.h"
+#include "control/io/ethercat/master/mapping.h"
 #include "control/io/ethercat/registers.h"
 
 namespace indurop::io::ethercat {
@@ -42,6 +44,45 @@ void append_fmmu(std::vector<std::uint8_t>& to, std::uint32_t logical, std::size
   to[at + 12] = 1;
 }
 
+template <class T>
+StartObject object_of(std::uint16_t index, std::size_t subindex, T value) {
+  StartObject object{index, static_cast<std::uint8_t>(subindex), false, std::vector<std::uint8_t>(sizeof(T))};
+  store<T>(object.value, 0, value);
+  return object;
+}
+
+void append_contents(std::vector<StartObject>& to, const Pdo& pdo) {
+  to.push_back(object_of<std::uint8_t>(pdo.index, 0, 0));
+  for (std::size_t i = 0; i < pdo.entries.size(); ++i) {
+    const PdoEntry& entry = pdo.entries[i];
+    to.push_back(object_of<std::uint32_t>(pdo.index, i + 1,
+                                          static_cast<std::uint32_t>(entry.index) << 16U |
+                                              static_cast<std::uint32_t>(entry.subindex) << 8U | entry.bits));
+  }
+  to.push_back(object_of<std::uint8_t>(pdo.index, 0, static_cast<std::uint8_t>(pdo.entries.size())));
+}
+
+// What a SyncManager exchanges, also if it is what the slave begins with: another program may have changed it. A PDO is
+// filled while it is not assigned.
+void append_mapping(std::vector<StartObject>& to, const Sii& sii, const std::vector<Pdo>& pdos, std::size_t manager) {
+  const auto assignment = static_cast<std::uint16_t>(kPdoAssignment + manager);
+  std::vector<const Pdo*> assigned;
+  to.push_back(object_of<std::uint8_t>(assignment, 0, 0));
+  for (const Pdo& pdo : pdos) {
+    if (pdo.sync_manager != manager) {
+      continue;
+    }
+    assigned.push_back(&pdo);
+    if (may_fill(sii, pdo)) {
+      append_contents(to, pdo);
+    }
+  }
+  for (std::size_t i = 0; i < assigned.size(); ++i) {
+    to.push_back(object_of<std::uint16_t>(assignment, i + 1, assigned[i]->index));
+  }
+  to.push_back(object_of<std::uint8_t>(assignment, 0, static_cast<std::uint8_t>(assigned.size())));
+}
+
 }  // namespace
 
 SlavePlan plan_of(const Sii& sii, std::uint32_t logical) {
@@ -77,8 +118,12 @@ SlavePlan plan_of(const Sii& sii, std::uint32_t logical) {
   }
   for (std::size_t i = first; i < sii.sync_managers.size(); ++i) {
     const auto& entry = sii.sync_managers[i];
-    append_manager(plan.process_managers, entry,
-                   bytes_of(entry.use == SyncManagerUse::Outputs ? sii.outputs : sii.inputs, i));
+    const bool out = entry.use == SyncManagerUse::Outputs;
+    const auto& pdos = out ? sii.outputs : sii.inputs;
+    append_manager(plan.process_managers, entry, bytes_of(pdos, i));
+    if (has_mailbox && may_assign(sii) && !pdos.empty() && (out || entry.use == SyncManagerUse::Inputs)) {
+      append_mapping(plan.start_objects, sii, pdos, i);
+    }
   }
   plan.safe_outputs.assign(plan.output_bytes, 0);
   return plan;

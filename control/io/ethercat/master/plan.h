@@ -44,7 +44,8 @@ struct SlavePlan {
   SyncPlan sync;
 };
 
-// The plan for a slave with its own mapping, at this logical address. Its safe outputs are zeros.
+// The plan for a slave whose assigned PDOs are exchanged, at this logical address. Its safe outputs are zeros, its
+// start objects those of the mapping, as far as the slave lets its master write them.
 SlavePlan plan_of(const Sii& sii, std::uint32_t logical);
 
 }  // namespace indurop::io::ethercat

@@ -55,6 +55,7 @@ struct Event {
   std::uint16_t slave = 0;  // its place in the configuration
   Problem problem = Problem::None;
   std::uint32_t detail = 0;
+  std::uint32_t object = 0;  // of SdoAborted: index and subindex, 0x607100
 };
 
 }  // namespace indurop::io::ethercat

@@ -51,7 +51,8 @@ void SlaveControl::request(AlState state, Clock now) noexcept {
 
 void SlaveControl::fail(Problem problem, std::uint32_t detail, Clock pause, Clock now) noexcept {
   if (problem_ != problem || detail_ != detail) {
-    events_.push({now, place_, problem, detail});
+    events_.push({now, place_, problem, detail,
+                  static_cast<std::uint32_t>(transfer_.index) << 8U | static_cast<std::uint32_t>(transfer_.subindex)});
   }
   problem_ = problem;
   detail_ = detail;

@@ -72,6 +72,14 @@ void SimulatedBus::begin(const Fault& fault) {
     case FaultKind::ClockJumps:
       slave.esc().jump_clock(Time(fault.value));
       return;
+    case FaultKind::ObjectSet: {
+      const auto value = slave.objects().storage(static_cast<std::uint16_t>(fault.object >> 8U),
+                                                 static_cast<std::uint8_t>(fault.object));
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        value[i] = i < sizeof(fault.value) ? static_cast<std::uint8_t>(fault.value >> (8U * i)) : std::uint8_t{0};
+      }
+      return;
+    }
     case FaultKind::ForeignFrame: {
       FrameBuilder builder({2, 9, 9, 9, 9, 9});
       builder.add(Command::Brd, 0, address_of(0, 0xFFFF), 1);

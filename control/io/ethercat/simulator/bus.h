@@ -29,9 +29,10 @@ enum class FaultKind : std::uint8_t {
   OtherIdentity,  // the slave's EEPROM has another product code, for the duration, after it was restarted
   EepromBusy,     // for the duration, after the slave was restarted
   Emergency,      // the slave sends one with `value` as its code
-  ClockJumps      // the slave's, forward by `value` ns
+  ClockJumps,     // the slave's, forward by `value` ns
+  ObjectSet       // no fault: what a sensor of the slave measures; the object becomes `value`
 };
-inline constexpr std::uint8_t kFaultKinds = 15;
+inline constexpr std::uint8_t kFaultKinds = 16;
 
 struct Fault {
   FaultKind kind = FaultKind::FramesLost;
@@ -39,6 +40,7 @@ struct Fault {
   Time duration{0};
   std::size_t slave = 0;
   std::uint32_t value = 0;
+  std::uint32_t object = 0;  // index and subindex, 0x600001
 };
 
 class SimulatedBus final : public Link {

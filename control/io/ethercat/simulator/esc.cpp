@@ -38,16 +38,6 @@ bool overlaps(std::size_t offset, std::size_t size, std::size_t first, std::size
   return offset < first + length && first < offset + size;
 }
 
-void copy_bits(Bytes from, std::uint64_t from_bit, std::span<std::uint8_t> to, std::uint64_t to_bit,
-               std::uint64_t count) noexcept {
-  for (std::uint64_t bit = 0; bit < count; ++bit) {
-    const unsigned value = static_cast<unsigned>(from[(from_bit + bit) / 8]) >> ((from_bit + bit) % 8) & 1U;
-    const unsigned shift = (to_bit + bit) % 8;
-    std::uint8_t& byte = to[(to_bit + bit) / 8];
-    byte = static_cast<std::uint8_t>((byte & ~(1U << shift)) | value << shift);
-  }
-}
-
 std::size_t sync_manager_at(unsigned number) noexcept {
   return reg::kSyncManager + std::size_t{number} * kSyncManagerBytes;
 }

@@ -2,6 +2,7 @@
 #include "control/io/ethercat/simulator/object_dictionary.h"
 
 #include <algorithm>
+#include <array>
 
 namespace indurop::io::ethercat {
 
@@ -30,21 +31,34 @@ std::vector<std::uint8_t> sdo_abort(std::uint16_t index, std::uint8_t subindex, 
   return sdo_answer(kSdoAbort, index, subindex, code);
 }
 
+std::uint64_t number_of(Bytes bytes) {
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < std::min(bytes.size(), sizeof(number)); ++i) {
+    number |= std::uint64_t{bytes[i]} << (8U * i);
+  }
+  return number;
+}
+
 }  // namespace
 
 void ObjectDictionary::add(std::uint16_t index, std::uint8_t subindex, std::vector<std::uint8_t> value, bool writable) {
   objects_[{index, subindex}] = {std::move(value), writable};
+  ++changes_;
 }
 
 std::uint64_t ObjectDictionary::number(std::uint16_t index, std::uint8_t subindex) const {
   const auto found = objects_.find({index, subindex});
-  std::uint64_t number = 0;
-  if (found != objects_.end()) {
-    for (std::size_t i = 0; i < std::min<std::size_t>(found->second.value.size(), sizeof(number)); ++i) {
-      number |= std::uint64_t{found->second.value[i]} << (8U * i);
-    }
-  }
-  return number;
+  return found == objects_.end() ? 0 : number_of(found->second.value);
+}
+
+std::span<std::uint8_t> ObjectDictionary::storage(std::uint16_t index, std::uint8_t subindex) {
+  const auto found = objects_.find({index, subindex});
+  return found == objects_.end() ? std::span<std::uint8_t>() : std::span(found->second.value);
+}
+
+bool ObjectDictionary::is_writable(std::uint16_t index, std::uint8_t subindex) const {
+  const auto found = objects_.find({index, subindex});
+  return found != objects_.end() && found->second.writable;
 }
 
 bool ObjectDictionary::has(std::uint16_t index) const {
@@ -84,7 +98,7 @@ std::optional<std::uint32_t> ObjectDictionary::write(std::uint16_t index, std::u
     return kAbortNoSubindex;
   }
   auto rest = value;
-  std::vector<std::pair<Object*, Bytes>> parts;
+  std::vector<std::pair<std::uint8_t, Bytes>> parts;  // by subindex
   for (; found != objects_.end() && found->first.first == index && (complete || parts.empty()); ++found) {
     const bool counts = complete && found->first.second == 0;
     const std::size_t size = counts ? 2 : found->second.value.size();
@@ -97,15 +111,35 @@ std::optional<std::uint32_t> ObjectDictionary::write(std::uint16_t index, std::u
       }
       return kAbortLength;
     }
-    parts.emplace_back(&found->second, rest.first(counts ? 1 : size));
+    parts.emplace_back(found->first.second, rest.first(counts ? 1 : size));
     rest = rest.subspan(size);
   }
   if (!rest.empty()) {
     return kAbortLength;
   }
-  for (const auto& [object, bytes] : parts) {
-    object->value.assign(bytes.begin(), bytes.end());
+  if (complete && rule_ && parts.front().first == 0) {
+    const std::array<std::uint8_t, 1> none{};
+    if (const auto refused = put(index, 0, none)) {
+      return refused;
+    }
+    std::rotate(parts.begin(), parts.begin() + 1, parts.end());
   }
+  for (const auto& part : parts) {
+    if (const auto refused = put(index, part.first, part.second)) {
+      return refused;
+    }
+  }
+  ++changes_;
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> ObjectDictionary::put(std::uint16_t index, std::uint8_t subindex, Bytes value) {
+  if (rule_) {
+    if (const auto refused = rule_(*this, index, subindex, number_of(value))) {
+      return refused;
+    }
+  }
+  std::copy(value.begin(), value.end(), storage(index, subindex).begin());
   return std::nullopt;
 }
 

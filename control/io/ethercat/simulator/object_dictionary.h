@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -15,6 +16,10 @@ namespace indurop::io::ethercat {
 
 class ObjectDictionary {
  public:
+  // Says why a master may not write a number there now, else nothing.
+  using Rule = std::function<std::optional<std::uint32_t>(const ObjectDictionary& objects, std::uint16_t index,
+                                                          std::uint8_t subindex, std::uint64_t number)>;
+
   void add(std::uint16_t index, std::uint8_t subindex, std::vector<std::uint8_t> value, bool writable = true);
   template <class T>
   void add_number(std::uint16_t index, std::uint8_t subindex, T value, bool writable = true) {
@@ -25,18 +30,29 @@ class ObjectDictionary {
   // The value as a number, 0 if it is not there.
   [[nodiscard]] std::uint64_t number(std::uint16_t index, std::uint8_t subindex) const;
   [[nodiscard]] bool has(std::uint16_t index) const;
+  // The bytes of an object, for the device itself, until the next change; none if it is not there.
+  [[nodiscard]] std::span<std::uint8_t> storage(std::uint16_t index, std::uint8_t subindex);
+  [[nodiscard]] bool is_writable(std::uint16_t index, std::uint8_t subindex) const;
 
   // An object's value, or the reason why not. Complete: all subindices in a row, the first as 16 bits.
   std::optional<std::uint32_t> read(std::uint16_t index, std::uint8_t subindex, bool complete,
                                     std::vector<std::uint8_t>& value) const;
+  // Complete: the rule sees subindex 0 become 0, the others their values, and subindex 0 the one it gets.
   std::optional<std::uint32_t> write(std::uint16_t index, std::uint8_t subindex, bool complete, Bytes value);
+  void set_rule(Rule rule) { rule_ = std::move(rule); }
+  // Counts what was added and what a master has written.
+  [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
 
  private:
   struct Object {
     std::vector<std::uint8_t> value;
     bool writable = true;
   };
+  std::optional<std::uint32_t> put(std::uint16_t index, std::uint8_t subindex, Bytes value);
+
   std::map<std::pair<std::uint16_t, std::uint8_t>, Object> objects_;
+  Rule rule_;
+  std::uint64_t changes_ = 0;
 };
 
 // Answers SDO requests one after the other, and remembers a transfer in segments. A message is what is behind the

@@ -18,12 +18,14 @@ class ImageWriter {
     store<T>(bytes_, at, value);
   }
   void put_text(const std::string& text) {
+    constexpr std::size_t kMost = 255;  // texts, and bytes of one
     std::uint8_t number = 0;
-    if (!text.empty()) {
-      auto found = std::find(texts_.begin(), texts_.end(), text);
-      if (found == texts_.end()) {
-        found = texts_.insert(found, text);
-      }
+    const std::string kept = text.substr(0, kMost);
+    auto found = std::find(texts_.begin(), texts_.end(), kept);
+    if (!kept.empty() && found == texts_.end() && texts_.size() < kMost) {
+      found = texts_.insert(found, kept);
+    }
+    if (!kept.empty() && found != texts_.end()) {
       number = static_cast<std::uint8_t>(found - texts_.begin() + 1);
     }
     put(number);

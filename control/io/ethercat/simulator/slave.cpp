@@ -5,15 +5,14 @@
 #include <array>
 #include <utility>
 
+#include "control/io/ethercat/simulator/pdo_rules.h"
+
 namespace indurop::io::ethercat {
 
 namespace {
 
 constexpr unsigned kMailboxOut = 0;  // SyncManagers
 constexpr unsigned kMailboxIn = 1;
-constexpr unsigned kOutputs = 2;
-constexpr unsigned kInputs = 3;
-constexpr std::uint16_t kAssignment = 0x1C10;  // plus the number of a SyncManager
 
 constexpr std::size_t manager_at(unsigned number) {
   return reg::kSyncManager + std::size_t{number} * kSyncManagerBytes;
@@ -29,6 +28,15 @@ Slave::Slave(SlaveConfig config, Application application)
       mailbox_time_(config.mailbox_time) {
   if (auto sii = read_sii(esc_.eeprom())) {
     sii_ = std::move(sii).value();
+    const std::uint8_t out = first_manager(sii_, SyncManagerUse::Outputs);
+    const std::uint8_t in = first_manager(sii_, SyncManagerUse::Inputs);
+    output_manager_ = out == kNotAssigned ? output_manager_ : out;
+    input_manager_ = in == kNotAssigned ? input_manager_ : in;
+    add_pdo_objects(sii_, objects_);
+    objects_.set_rule(
+        [this](const ObjectDictionary& objects, std::uint16_t index, std::uint8_t subindex, std::uint64_t number) {
+          return judge_mapping(sii_, objects, state(), {index, subindex, number});
+        });
   }
 }
 
@@ -40,6 +48,7 @@ void Slave::set_power(bool on) {
   if (on && !on_) {
     esc_.reset();
     sdo_.reset();
+    add_pdo_objects(sii_, objects_);
     answers_.clear();
     last_answer_.clear();
     state_due_.reset();
@@ -64,6 +73,8 @@ void Slave::process(std::span<std::uint8_t> frame, Time now, Time back) {
     run_datagram(datagram, frame, now, back);
     react(now);
   }
+  // A slave without outputs measures for each frame.
+  is_due_ |= state() >= AlState::SafeOp && area_of(output_manager_).length == 0;
 }
 
 bool Slave::is_station(std::uint16_t address) const noexcept {
@@ -189,7 +200,7 @@ void Slave::advance_device(Time now) {
   const auto watchdog = Time(esc_.value<std::uint16_t>(reg::kWatchdogProcessData) * std::int64_t{40} *
                              (esc_.value<std::uint16_t>(reg::kWatchdogDivider) + 2));
   if (state() == AlState::Op && process_bytes(SyncManagerUse::Outputs) > 0 && now - outputs_at_ > watchdog &&
-      (esc_.at(manager_at(kOutputs) + 4) & 0x40U) != 0) {
+      (esc_.at(manager_at(output_manager_) + 4) & 0x40U) != 0) {
     fall_to(AlState::SafeOp, kAlSyncWatchdog);
   }
   deliver_mailbox(now);
@@ -247,10 +258,10 @@ std::uint16_t Slave::check_change(AlState from, AlState to) const {
     if (to != AlState::SafeOp) {
       return kAlInvalidChange;
     }
-    if (!process_data_fits(SyncManagerUse::Outputs, kOutputs)) {
+    if (!process_data_fits(SyncManagerUse::Outputs, output_manager_)) {
       return kAlInvalidOutputs;
     }
-    return process_data_fits(SyncManagerUse::Inputs, kInputs) ? kAlNoError : kAlInvalidInputs;
+    return process_data_fits(SyncManagerUse::Inputs, input_manager_) ? kAlNoError : kAlInvalidInputs;
   }
   return esc_.wants_pulses() && !esc_.has_pulses() ? kAlNoSync : kAlNoError;
 }
@@ -274,10 +285,10 @@ bool Slave::mailbox_fits() const {
 }
 
 std::size_t Slave::process_bytes(SyncManagerUse use) const {
-  const unsigned number = use == SyncManagerUse::Outputs ? kOutputs : kInputs;
+  const unsigned number = use == SyncManagerUse::Outputs ? output_manager_ : input_manager_;
   std::size_t bits = 0;
-  if (objects_.has(static_cast<std::uint16_t>(kAssignment + number))) {
-    const auto assignment = static_cast<std::uint16_t>(kAssignment + number);
+  if (objects_.has(static_cast<std::uint16_t>(kPdoAssignment + number))) {
+    const auto assignment = static_cast<std::uint16_t>(kPdoAssignment + number);
     for (std::uint64_t i = 1; i <= objects_.number(assignment, 0); ++i) {
       const auto pdo = static_cast<std::uint16_t>(objects_.number(assignment, static_cast<std::uint8_t>(i)));
       for (std::uint64_t k = 1; k <= objects_.number(pdo, 0); ++k) {
@@ -303,8 +314,8 @@ void Slave::compute() {
   if (!std::exchange(is_due_, false) || !application_) {
     return;
   }
-  const Area out = area_of(kOutputs);
-  const Area in = area_of(kInputs);
+  const Area out = area_of(output_manager_);
+  const Area in = area_of(input_manager_);
   const bool operates = state() == AlState::Op;
   application_(operates ? Bytes(esc_.memory(out.start, out.length)) : Bytes(), esc_.memory(in.start, in.length));
 }

@@ -51,6 +51,8 @@ class Slave {
   [[nodiscard]] bool is_on() const noexcept { return on_; }
   [[nodiscard]] AlState state() const noexcept;
   [[nodiscard]] Esc& esc() noexcept { return esc_; }
+  // What its EEPROM says.
+  [[nodiscard]] const Sii& sii() const noexcept { return sii_; }
   [[nodiscard]] ObjectDictionary& objects() noexcept { return objects_; }
   [[nodiscard]] SdoServer& sdo() noexcept { return sdo_; }
 
@@ -81,6 +83,9 @@ class Slave {
   Time state_time_;
   Time mailbox_time_;
   Sii sii_;
+  // SyncManagers of the process data; those after a mailbox if the EEPROM names none.
+  unsigned output_manager_ = 2;
+  unsigned input_manager_ = 3;
   SdoServer sdo_;
   bool on_ = true;
   std::optional<Time> state_due_;

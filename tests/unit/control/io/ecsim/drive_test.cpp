@@ -32,8 +32,8 @@ TEST(EcsimDrive, Moves_as_its_master_commands) {
   Drive drive{config::IoAxis{}};
   SimulatedBus bus;
   Clock now{0};
-  bus.segment().add(Drive::slave(),
-                    [&](Bytes outputs, std::span<std::uint8_t> inputs) { drive.compute(outputs, inputs, now); });
+  drive.attach(bus.segment().add(
+      Drive::slave(), [&](Bytes outputs, std::span<std::uint8_t> inputs) { drive.compute(outputs, inputs, now); }));
   Master master(bus, {plan_of(*sii, 0x10000)}, std::chrono::milliseconds(1));
   std::int32_t target = 0;
   bool is_enabled = false;

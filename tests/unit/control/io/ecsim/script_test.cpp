@@ -19,10 +19,13 @@ TEST(Script, Lines_say_when_what_to_which_slave_and_for_how_long) {
       "0s frames_lost for=5ms\n"
       "  2.5s  power_off slave=1 for=400ms   # pulled\n"
       "3s frames_late for=5ms by=2ms\n"
-      "4s emergency slave=0 code=0x8611\n",
+      "4s emergency slave=0 code=0x8611\n"
+      "5s value slave=1 at=6000:1a to=1\n",
       "faults", 2);
   EXPECT_EQ(base::to_text(sut.diagnostics), "");
-  ASSERT_EQ(sut.faults.size(), 4U);
+  ASSERT_EQ(sut.faults.size(), 5U);
+  EXPECT_EQ(sut.faults[4].object, 0x60001AU);
+  EXPECT_EQ(sut.faults[4].value, 1U);
   EXPECT_EQ(sut.faults[0].kind, FaultKind::FramesLost);
   EXPECT_EQ(sut.faults[0].at, ethercat::Time(0));
   EXPECT_EQ(sut.faults[1].kind, FaultKind::PowerOff);
@@ -54,6 +57,7 @@ TEST(Script, Wrong_lines_are_named_with_their_place_and_what_to_write) {
   EXPECT_EQ(said("2s power_off slave=2 for=5ms"),
             "faults:1:14: error: 'slave=2' is not possible here; power_off is written so: power_off slave=0 for=5ms, "
             "with a slave from 0 to 1\n");
+  EXPECT_EQ(said("2s value slave=0 to=1"), "faults:1:4: error: value is written so: value slave=0 at=6000:1 to=1\n");
   EXPECT_EQ(said("2s frames_lost for=5x"),
             "faults:1:16: error: 'for=5x' is not possible here; frames_lost is written so: frames_lost for=5ms\n");
 }

@@ -77,6 +77,8 @@ class FaultyPlant {
         return has(fault.slave, Problem::EmergencySent, fault.value);
       case FaultKind::ClockJumps:
         return plant.happened(fault.slave, Problem::ClockNotInStep);
+      case FaultKind::ObjectSet:
+        return true;
     }
     return false;
   }
