@@ -12,9 +12,9 @@
 #include <memory>
 #include <optional>
 
-#include "control/io/ecsim/drive.h"
 #include "control/io/ecsim/pcap_file.h"
 #include "control/io/ecsim/script.h"
+#include "control/io/ecsim/slave_word.h"
 #include "control/io/ethercat/link/packet_link.h"
 #include "core/base/exit_code.h"
 #include "core/base/options.h"
@@ -30,8 +30,14 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr const char* kDetails = R"(A SLAVE is 'drive', a simulated servo drive (CiA 402), or a file with the EEPROM of
-a device: then the slave is that device, but does nothing with its process data.
+constexpr const char* kDetails = R"(A SLAVE is
+  drive                        a simulated servo drive (CiA 402)
+  drive:start=-20,speed=220    with start, deg; speed, deg/s; acceleration, deg/s2;
+                               following, deg; counts of its encoder in a revolution
+  el2004.bin                   the device of this EEPROM
+  terminals.xml:EL2004         the device of a maker's file (ESI); without :EL2004 if it has one
+Devices of files keep the values of their outputs and send those of their inputs, which a
+script sets.
 
 Two ends of a cable without hardware:
   ip link add ec0 type veth peer name ec1
@@ -54,27 +60,13 @@ class Simulation {
  public:
   Simulation(ethercat::PacketLink& link, std::unique_ptr<PcapFile> pcap) : link_(link), pcap_(std::move(pcap)) {}
 
-  // Returns what is wrong with the word, else an empty string.
-  std::string add(const std::string& word) {
-    auto& segment = bus_.segment();
-    if (word == "drive") {
-      const auto drive = std::make_shared<Drive>(config::IoAxis{});
-      drive->attach(segment.add(Drive::slave(), [this, drive](ethercat::Bytes outputs, std::span<std::uint8_t> inputs) {
-        drive->compute(outputs, inputs, now());
-      }));
-      return {};
-    }
-    const auto image = base::read_file(word);
-    if (!image) {
-      return base::cannot_read(word, image.error()) + "; write 'drive' or a file with the EEPROM of a device";
-    }
-    ethercat::SlaveConfig config;
-    config.esc.eeprom.assign(image->begin(), image->end());
-    if (const auto sii = ethercat::read_sii(config.esc.eeprom); !sii) {
-      return fmt::format("{}: this is no EEPROM of a slave: {}", base::path_in_quotes(word), sii.error());
-    }
-    segment.add(std::move(config));
-    return {};
+  void add(SlaveModel model) {
+    ethercat::Slave& slave = bus_.segment().add(
+        std::move(model.config),
+        [this, compute = std::move(model.compute)](ethercat::Bytes outputs, std::span<std::uint8_t> inputs) {
+          compute(outputs, inputs, now());
+        });
+    model.attach(slave);
   }
 
   // Their times count from the first frame, or from now if it has come.
@@ -184,9 +176,11 @@ int run(const Setup& setup) {
   }
   Simulation simulation(**link, setup.pcap.empty() ? nullptr : std::make_unique<PcapFile>(setup.pcap));
   for (const std::string& word : setup.slaves) {
-    if (const std::string wrong = simulation.add(word); !wrong.empty()) {
-      return fail(wrong);
+    auto model = read_slave_word(word);
+    if (!model) {
+      return fail(model.error());
     }
+    simulation.add(std::move(*model));
   }
   if (setup.script == "-") {
     simulation.read_faults_from(STDIN_FILENO);

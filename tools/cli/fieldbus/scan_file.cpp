@@ -45,22 +45,26 @@ std::string points_of(const std::vector<Pdo>& pdos, std::string_view element, co
 
 }  // namespace
 
+std::string device_text(const io::ethercat::Sii& sii, const DevicePlace& place, const std::string& children) {
+  const std::string variable = fmt::format("{}::SLAVE{}", place.space, place.slave);
+  const std::string device = fmt::format(
+      "  <device name=\"slave{}\" driver=\"ethercat\" address=\"{}\" slave=\"{}\" vendor=\"0x{:x}\" "
+      "product=\"0x{:x}\" revision=\"0x{:x}\"",
+      place.slave, base::xml_text(place.interface), place.slave, sii.identity.vendor, sii.identity.product,
+      sii.identity.revision);
+  if (is_drive(sii)) {
+    const std::string drive = fmt::format("{}\n          in=\"{}_IN\" out=\"{}_OUT\"", device, variable, variable);
+    return children.empty() ? drive + "/>\n" : fmt::format("{}>\n{}  </device>\n", drive, children);
+  }
+  const std::string points = points_of(sii.inputs, "input", variable) + points_of(sii.outputs, "output", variable);
+  return points.empty() ? "" : fmt::format("{}>\n{}{}  </device>\n", device, children, points);
+}
+
 std::string scan_file(const std::vector<io::ethercat::FoundSlave>& slaves, const std::string& interface,
                       const std::string& space) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ioconfig>\n";
   for (std::size_t place = 0; place < slaves.size(); ++place) {
-    const io::ethercat::Sii& sii = slaves[place].sii;
-    const std::string variable = fmt::format("{}::SLAVE{}", space, place);
-    const std::string device = fmt::format(
-        "  <device name=\"slave{}\" driver=\"ethercat\" address=\"{}\" slave=\"{}\" vendor=\"0x{:x}\" "
-        "product=\"0x{:x}\" revision=\"0x{:x}\"",
-        place, base::xml_text(interface), place, sii.identity.vendor, sii.identity.product, sii.identity.revision);
-    const std::string points = points_of(sii.inputs, "input", variable) + points_of(sii.outputs, "output", variable);
-    if (is_drive(sii)) {
-      text += fmt::format("{}\n          in=\"{}_IN\" out=\"{}_OUT\"/>\n", device, variable, variable);
-    } else if (!points.empty()) {
-      text += fmt::format("{}>\n{}  </device>\n", device, points);
-    }
+    text += device_text(slaves[place].sii, {interface, place, space}, "");
   }
   return text + "</ioconfig>\n";
 }

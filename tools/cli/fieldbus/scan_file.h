@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An ioconfig.xml for the slaves that a scan of an EtherCAT bus has found.
+// Devices of an ioconfig.xml for slaves of an EtherCAT bus: for those that a scan has found, or that files describe.
 
 #pragma once
 
@@ -10,8 +10,18 @@
 
 namespace indurop::tools {
 
-// A device for each slave with process data: a drive gets structs for its objects, another slave a point for each
-// object. Names of variables begin with `space`; the user of the file declares them.
+// Where a device is, and what its variables are called.
+struct DevicePlace {
+  std::string interface;
+  std::size_t slave = 0;
+  std::string space;  // names of variables begin with it; the user of the file declares them
+};
+
+// The device for a slave: a drive gets structs for its objects, another slave a point for each object. `children` are
+// lines that come before its points. Empty if the slave exchanges nothing.
+std::string device_text(const io::ethercat::Sii& sii, const DevicePlace& place, const std::string& children);
+
+// A device for each slave with process data.
 std::string scan_file(const std::vector<io::ethercat::FoundSlave>& slaves, const std::string& interface,
                       const std::string& space);
 

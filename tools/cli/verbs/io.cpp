@@ -5,6 +5,7 @@
 #include "control/io/ethercat/link/packet_link.h"
 #include "core/base/replace_file.h"
 #include "core/rt/clock.h"
+#include "tools/cli/fieldbus/import_esi.h"
 #include "tools/cli/fieldbus/scan_file.h"
 #include "tools/cli/verbs/verbs.h"
 
@@ -152,24 +153,37 @@ int scan(Context& context, const IoOptions& options) {
 
 Action declare_io(base::Options& app, Context& context) {
   auto options = std::make_shared<IoOptions>();
-  base::Options& verb = app.command("scan", "List the slaves of an EtherCAT bus, with what they exchange", [] {});
-  verb.add("interface", "INTERFACE", options->interface, "Where the cable is").required();
-  verb.add("--write", "FILE", options->file, "Write an ioconfig.xml for them").completes(base::Completion::File);
-  verb.add("--namespace", "NAME", options->space, "Of the variables in that file (default: IO)");
-  add_format_option(verb, context, {Format::Table, Format::Json, Format::Csv});
-  verb.details(
+  auto request = std::make_shared<ImportRequest>();
+  auto chosen = std::make_shared<Action>();
+  base::Options& scanning =
+      app.command("scan", "List the slaves of an EtherCAT bus, with what they exchange",
+                  [options, chosen] { *chosen = [options](Context& c) { return scan(c, *options); }; });
+  scanning.add("interface", "INTERFACE", options->interface, "Where the cable is").required();
+  scanning.add("--write", "FILE", options->file, "Write an ioconfig.xml for them").completes(base::Completion::File);
+  scanning.add("--namespace", "NAME", options->space, "Of the variables in that file (default: IO)");
+  add_format_option(scanning, context, {Format::Table, Format::Json, Format::Csv});
+  scanning.details(
       "Reads the EEPROM of each slave by its position. No state and no output changes; still, it is one more talker\n"
-      "on the bus: do not scan a bus that moves a machine.\n");
-  return [options](Context& c) { return scan(c, *options); };
+      "on the bus: do not scan a bus that moves a machine. Needs root or CAP_NET_RAW.\n");
+  base::Options& importing =
+      app.command("import", "List the devices that makers describe (ESI), and write them",
+                  [request, chosen] { *chosen = [request](Context& c) { return import_esi(c, *request); }; });
+  add_import_options(importing, *request);
+  add_format_option(importing, context, {Format::Table, Format::Json, Format::Csv});
+  importing.details(
+      "With --write, devices of that file that are described get <sync> and <set>s if they have none, and those of\n"
+      "--device are added. The clock mode is the device's first one, or that of --mode.\n");
+  return [chosen](Context& c) { return (*chosen)(c); };
 }
 
 }  // namespace
 
-const Verb kIoVerb{"io", "Before it runs", "Field devices, without a node: scan an EtherCAT bus",
-                   "Needs root or CAP_NET_RAW.\n"
+const Verb kIoVerb{"io", "Before it runs", "Field devices, without a node: scan an EtherCAT bus, read ESI files",
                    "Examples:\n"
                    "  indurop io scan eth1\n"
-                   "  indurop io scan eth1 --write ioconfig.xml\n",
+                   "  indurop io scan eth1 --write ioconfig.xml\n"
+                   "  indurop io import drives.xml\n"
+                   "  indurop io import drives.xml --write ioconfig.xml --device AKD --device AKD\n",
                    &declare_io};
 
 }  // namespace indurop::tools

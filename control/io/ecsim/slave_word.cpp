@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/io/ecsim/slave_word.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "control/io/ecsim/drive.h"
+#include "control/io/ecsim/terminal.h"
+#include "control/io/esi/esi_file.h"
+#include "core/base/read_file.h"
+#include "core/base/text.h"
+
+namespace indurop::io::ecsim {
+
+namespace {
+
+using Model = Result<SlaveModel, std::string>;
+
+constexpr std::string_view kDrive = "drive";
+
+struct AxisValue {
+  std::string_view name;
+  double config::IoAxis::*value;
+  double least;
+};
+constexpr std::array<AxisValue, 5> kAxisValues{{{"start", &config::IoAxis::start, -1e6},
+                                                {"speed", &config::IoAxis::speed, 1e-9},
+                                                {"acceleration", &config::IoAxis::acceleration, 1e-9},
+                                                {"following", &config::IoAxis::following, 1e-9},
+                                                {"counts", &config::IoAxis::counts, 4}}};
+
+// Returns what is wrong with "start=-20".
+std::string read_value(std::string_view part, config::IoAxis& axis) {
+  const std::size_t equals = std::min(part.find('='), part.size());
+  const std::string_view text = part.substr(std::min(equals + 1, part.size()));
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  std::vector<std::string> names;
+  for (const AxisValue& known : kAxisValues) {
+    names.emplace_back(known.name);
+    if (known.name != part.substr(0, equals)) {
+      continue;
+    }
+    if (error != std::errc() || end != text.data() + text.size() || !(number >= known.least && number <= 1e9)) {
+      return fmt::format("{} is no {} of a drive; write {}=220", base::in_quotes(text), known.name, known.name);
+    }
+    axis.*known.value = number;
+    return {};
+  }
+  return fmt::format("a drive has no {}{}", base::in_quotes(part.substr(0, equals)),
+                     base::suggestion(part.substr(0, equals), names));
+}
+
+Model drive_of(std::string_view values) {
+  config::IoAxis axis;
+  while (!values.empty()) {
+    const std::size_t comma = std::min(values.find(','), values.size());
+    if (std::string wrong = read_value(values.substr(0, comma), axis); !wrong.empty()) {
+      return wrong;
+    }
+    values.remove_prefix(std::min(comma + 1, values.size()));
+  }
+  const auto drive = std::make_shared<Drive>(axis);
+  return SlaveModel{Drive::slave(), [drive](ethercat::Slave& slave) { drive->attach(slave); },
+                    [drive](ethercat::Bytes outputs, std::span<std::uint8_t> inputs, ethercat::Time now) {
+                      drive->compute(outputs, inputs, now);
+                    }};
+}
+
+Model terminal_of(ethercat::SlaveConfig config) {
+  const auto terminal = std::make_shared<Terminal>();
+  return SlaveModel{std::move(config), [terminal](ethercat::Slave& slave) { terminal->attach(slave); },
+                    [terminal](ethercat::Bytes outputs, std::span<std::uint8_t> inputs, ethercat::Time /*now*/) {
+                      terminal->compute(outputs, inputs);
+                    }};
+}
+
+Model device_of_esi(const std::filesystem::path& file, const std::string& type) {
+  const esi::EsiFile esi = esi::read_esi(file);
+  if (!esi.ok()) {
+    return "not a description of devices:\n" + base::to_text(esi.diagnostics);
+  }
+  const esi::Device* const found = esi::find_device(esi, type);
+  if (found == nullptr) {
+    return fmt::format("{}: {}", base::path_in_quotes(file.string()),
+                       type.empty() ? fmt::format("it has {} devices; write which one, {}:{}", esi.devices.size(),
+                                                  file.string(), esi.devices.empty() ? "" : esi.devices.front().type)
+                                    : fmt::format("it has no device {}{}", base::in_quotes(type),
+                                                  base::suggestion(type, esi::types_of(esi))));
+  }
+  return terminal_of(Terminal::slave(found->sii));
+}
+
+Model device_of_eeprom(const std::filesystem::path& file) {
+  const auto image = base::read_file(file);
+  if (!image) {
+    return base::cannot_read(file, image.error()) +
+           "; write 'drive', or a file with the EEPROM or the description (ESI) of a device";
+  }
+  std::vector<std::uint8_t> bytes(image->begin(), image->end());
+  const auto sii = ethercat::read_sii(bytes);
+  if (!sii) {
+    return fmt::format("{}: this is no EEPROM of a slave: {}", base::path_in_quotes(file.string()), sii.error());
+  }
+  return terminal_of(Terminal::slave(*sii, std::move(bytes)));
+}
+
+}  // namespace
+
+Result<SlaveModel, std::string> read_slave_word(const std::string& word) {
+  if (word == kDrive || word.starts_with("drive:")) {
+    return drive_of(std::string_view(word).substr(std::min(kDrive.size() + 1, word.size())));
+  }
+  const std::size_t end = word.find(".xml");
+  if (end == std::string::npos) {
+    return device_of_eeprom(word);
+  }
+  const std::size_t colon = word.find(':', end);
+  return device_of_esi(word.substr(0, colon), colon == std::string::npos ? "" : word.substr(colon + 1));
+}
+
+}  // namespace indurop::io::ecsim
