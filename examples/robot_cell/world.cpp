@@ -7,32 +7,15 @@
 
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <string_view>
 
 #include "modbus_server.h"
-#include "surroundings.h"
-#include "tour.h"
+#include "people.h"
 
 namespace {
 
 using Seconds = std::chrono::duration<double>;
 using Steady = std::chrono::steady_clock;
-
-// What is pressed by hand, and by the visitor of the tour `time` seconds after its beginning; less than 0: there is
-// none.
-Panel pressed(double time, std::string_view& doing) {
-  const auto by_hand = INDUROP_TYPEOF(CELL::panel)(CELL::panel);
-  Panel panel{by_hand.start, by_hand.stop, by_hand.reset, by_hand.emergency_stop, by_hand.curtain};
-  doing = "";
-  for (const TourStep& step : kTour) {
-    if (time >= step.from && time < step.to) {
-      panel.*step.what = true;
-      doing = step.text;
-    }
-  }
-  return panel;
-}
 
 void wire(ModbusServer& station, const Panel& panel, const Surroundings& cell) {
   station.set_input(0, panel.start);
@@ -45,21 +28,6 @@ void wire(ModbusServer& station, const Panel& panel, const Surroundings& cell) {
   station.set_input(7, true);
   station.set_input(14, !panel.emergency_stop);
   station.set_input(15, !panel.curtain);
-}
-
-void show(const Surroundings& cell, std::string_view doing, std::uint32_t requests) {
-  INDUROP_TYPEOF(CELL::world) now = CELL::world;
-  now.belt = cell.belt();
-  now.opening = 100 * cell.opening();
-  now.holds = cell.holds();
-  now.on_pallet = cell.on_pallet();
-  now.placed = cell.placed();
-  now.lost = cell.lost();
-  now.dots = cell.dots();
-  now.spilled = cell.spilled();
-  now.requests = requests;
-  now.doing = doing;
-  CELL::world = now;
 }
 
 }  // namespace
