@@ -9,6 +9,7 @@
 
 #include "config/check/csv_table.h"
 #include "config/check/io_binding.h"
+#include "config/check/io_mapping.h"
 #include "config/xml/io_reader.h"
 #include "core/base/text.h"
 
@@ -73,6 +74,10 @@ std::vector<std::filesystem::path> io_files_of(const Module& module, const std::
     if (!device.csv.as_written.empty() && !std::filesystem::path(device.csv.as_written).is_absolute()) {
       files.push_back(device.csv.file);
     }
+    const std::string& description = device.slave.description_as_written;
+    if (!description.empty() && !std::filesystem::path(description).is_absolute()) {
+      files.push_back(device.slave.description);
+    }
   }
   return files;
 }
@@ -104,6 +109,10 @@ IoAccess io_access_of(const Module& module, CheckContext& context) {
   for (const BoundDevice& device : devices) {
     if (word != "outputs") {
       check_csv(device, context);
+    }
+    const std::filesystem::path& description = device.device.slave.description;
+    if (!description.empty() && (context.options.machine || std::filesystem::exists(description))) {
+      check_mapping(device, *file, context.result.diagnostics);
     }
     add(device.quality, access.writes);
     add(device.errors, access.writes);

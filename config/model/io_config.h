@@ -139,6 +139,9 @@ struct IoSlave {
   std::optional<std::uint32_t> revision;
   std::vector<IoObjectValue> values;  // in the order in which they are set
   IoSync sync;
+  std::filesystem::path description;   // the maker's file (ESI); empty: none
+  std::string description_as_written;  // relative names start at the folder of ioconfig.xml
+  base::SourcePlace description_place;
 };
 
 struct IoCsv {

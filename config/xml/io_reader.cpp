@@ -198,6 +198,10 @@ class DeviceReader {
     device_.slave.vendor = read_identity("vendor");
     device_.slave.product = read_identity("product");
     device_.slave.revision = read_identity("revision");
+    if (const auto file = attributes_.text("description", &device_.slave.description_place)) {
+      device_.slave.description = (folder_ / *file).lexically_normal();
+      device_.slave.description_as_written = *file;
+    }
     read_structs();
   }
 

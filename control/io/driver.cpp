@@ -3,6 +3,7 @@
 
 #include "control/io/driver.h"
 
+#include "config/check/io_mapping.h"
 #include "control/io/cia402_driver.h"
 #include "control/io/csv_driver.h"
 #include "control/io/ethercat_driver.h"
@@ -10,6 +11,28 @@
 #include "control/io/modbus_server.h"
 
 namespace indurop::io {
+
+namespace {
+
+// Of the maker's description, if the device names one.
+Result<Excludes, std::vector<base::Diagnostic>> excludes_of(const config::IoDevice& device) {
+  Excludes excludes;
+  if (device.slave.description.empty()) {
+    return excludes;
+  }
+  auto described = config::described_slave(device, {});
+  if (!described) {
+    return std::move(described).error();
+  }
+  for (const auto* const pdos : {&described->sii.outputs, &described->sii.inputs}) {
+    for (const ethercat::Pdo& pdo : *pdos) {
+      excludes[pdo.index] = pdo.excludes;
+    }
+  }
+  return excludes;
+}
+
+}  // namespace
 
 Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const config::IoDevice& device,
                                                                            std::span<const config::IoPoint> outputs,
@@ -26,7 +49,12 @@ Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const
     case config::IoDriver::Ethercat: {
       auto& bus = buses[device.address];
       bus = bus != nullptr ? bus : std::make_shared<EthercatBus>(device.address);
-      return std::unique_ptr<Driver>(std::make_unique<EthercatDriver>(device, outputs, inputs, bus));
+      auto excludes = excludes_of(device);
+      if (!excludes) {
+        return std::move(excludes).error();
+      }
+      return std::unique_ptr<Driver>(
+          std::make_unique<EthercatDriver>(device, outputs, inputs, std::move(*excludes), bus));
     }
     case config::IoDriver::Csv:
       break;

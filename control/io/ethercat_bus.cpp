@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "config/check/io_mapping.h"
 #include "control/io/ethercat/master/mapping.h"
 #include "core/rt/clock.h"
 #include "store/runtime/host.h"
@@ -44,18 +45,14 @@ std::string objects_of(const std::vector<ethercat::Pdo>& pdos) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-ethercat::WantedObject wanted(config::IoObject object) {
-  // CoE numbers signed types of 1, 2 and 4 bytes from 2 on, unsigned ones from 5 on.
-  const unsigned type = (object.is_signed ? 2U : 5U) + object.bytes / 2U;
-  return {object.index, object.subindex, static_cast<std::uint8_t>(8U * object.bytes), static_cast<std::uint8_t>(type)};
-}
-
-std::vector<ethercat::WantedObject> wanted(const std::vector<config::IoPoint>& points) {
-  std::vector<ethercat::WantedObject> objects;
-  for (const config::IoPoint& point : points) {
-    objects.push_back(wanted(point.object));
+// What the EEPROM does not say of its PDOs.
+void add_excludes(const Excludes& excludes, ethercat::Sii& sii) {
+  for (auto* const pdos : {&sii.outputs, &sii.inputs}) {
+    for (ethercat::Pdo& pdo : *pdos) {
+      const auto found = excludes.find(pdo.index);
+      pdo.excludes = found == excludes.end() ? pdo.excludes : found->second;
+    }
   }
-  return objects;
 }
 
 // Which point cannot be exchanged, and why.
@@ -288,7 +285,9 @@ std::string EthercatBus::check(const std::vector<ethercat::FoundSlave>& found) c
 std::string EthercatBus::map(std::vector<ethercat::FoundSlave>& found) const {
   for (const EthercatMember& member : members_) {
     ethercat::Sii& sii = found[static_cast<std::size_t>(member.slave.position)].sii;
-    auto mapped = ethercat::map_objects(sii, wanted(member.outputs), wanted(member.inputs));
+    add_excludes(member.excludes, sii);
+    auto mapped =
+        ethercat::map_objects(sii, config::wanted_objects(member.outputs), config::wanted_objects(member.inputs));
     if (!mapped) {
       return refusal_of(member, mapped.error(), sii);
     }

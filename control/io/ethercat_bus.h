@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -21,12 +22,16 @@
 
 namespace indurop::io {
 
+// PDOs that cannot be assigned with one, by its index.
+using Excludes = std::map<std::uint16_t, std::vector<std::uint16_t>>;
+
 // What a device wants of its slave.
 struct EthercatMember {
   std::string device;
   config::IoSlave slave;
   std::vector<config::IoPoint> outputs;
   std::vector<config::IoPoint> inputs;
+  Excludes excludes;  // as the maker's description says
 };
 
 class EthercatBus {

@@ -7,9 +7,14 @@
 namespace indurop::io {
 
 EthercatDriver::EthercatDriver(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
-                               std::span<const config::IoPoint> inputs, std::shared_ptr<EthercatBus> bus)
+                               std::span<const config::IoPoint> inputs, Excludes excludes,
+                               std::shared_ptr<EthercatBus> bus)
     : bus_(std::move(bus)),
-      member_(bus_->add({device.name, device.slave, {outputs.begin(), outputs.end()}, {inputs.begin(), inputs.end()}})),
+      member_(bus_->add({device.name,
+                         device.slave,
+                         {outputs.begin(), outputs.end()},
+                         {inputs.begin(), inputs.end()},
+                         std::move(excludes)})),
       place_(static_cast<std::size_t>(device.slave.position)) {}
 
 Driver::Outcome EthercatDriver::exchange(std::span<Sample> outputs, std::span<Sample> inputs,

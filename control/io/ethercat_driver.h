@@ -13,7 +13,7 @@ namespace indurop::io {
 class EthercatDriver final : public Driver {
  public:
   EthercatDriver(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
-                 std::span<const config::IoPoint> inputs, std::shared_ptr<EthercatBus> bus);
+                 std::span<const config::IoPoint> inputs, Excludes excludes, std::shared_ptr<EthercatBus> bus);
 
   [[nodiscard]] bool in_tick() const noexcept override { return true; }
   bool open() override { return bus_->start(); }

@@ -10,12 +10,15 @@ namespace indurop::test {
 namespace {
 
 class EsiImport : public NodeTest {
+ public:
+  static std::string bytes_of(const std::string& file) {
+    std::ifstream bytes(file);
+    return {std::istreambuf_iterator<char>(bytes), {}};
+  }
+
  protected:
   [[nodiscard]] std::string file() const { return (folder() / "ioconfig.xml").string(); }
-  [[nodiscard]] std::string text() const {
-    std::ifstream written(file());
-    return {std::istreambuf_iterator<char>(written), {}};
-  }
+  [[nodiscard]] std::string text() const { return bytes_of(file()); }
 };
 
 TEST_F(EsiImport, Lists_what_the_files_describe) {
@@ -102,6 +105,73 @@ TEST_F(EsiImport, What_is_wrong_is_said) {
   EXPECT_EQ(unknown.code, 1);
   EXPECT_CONTAINS(unknown.err, "the files have no device 'SAMPLE-SERVA'; did you mean 'SAMPLE-SERVO'?");
   EXPECT_EQ(indurop({"io", "import", ESI_SERVO, "--cycle", "fast"}).code, 2);
+}
+
+// The description says what the slave can exchange before it is there.
+TEST_F(EsiImport, Points_are_checked_with_the_description) {
+  write("servo.xml", bytes_of(ESI_SERVO));
+  write("terminals.xml", bytes_of(ESI_TERMINALS));
+  write("module.xml",
+        xml({{.file = IO_MODULE, .name = "io", .period = "2ms", .properties = {{"config", "ioconfig.xml"}}},
+             {.file = std::string(IO_FOLDER) + "/axis_user.so", .name = "axis_user", .period = "2ms"}}));
+  const auto checked = [this](const std::string& devices) {
+    write("ioconfig.xml", "<ioconfig>\n" + devices + "\n</ioconfig>\n");
+    return indurop({"check", (folder() / "module.xml").string(), "-q"});
+  };
+  const std::string servo = "<device name='a' driver='ethercat' address='e' slave='0' description='servo.xml' ";
+  const Outcome good = checked(servo +
+                               "in='TEST_CELL::AXIS1_IN'>\n"
+                               "  <input variable='speeds[1]' at='torque'/><output variable='speeds[2]' at='torque'/>\n"
+                               "</device>");
+  EXPECT_EQ(good.code, 0) << good.out << good.err;
+  const Outcome sut = checked(servo +
+                              "out='TEST_CELL::AXIS1_OUT'>\n"
+                              "  <input variable='speeds[1]' at='2000:1'/>\n"
+                              "  <output variable='speeds[2]' at='torque'/>\n"
+                              "</device>");
+  EXPECT_EQ(sut.code, 4) << sut.out << sut.err;
+  EXPECT_CONTAINS(sut.out,
+                  "ioconfig.xml:2:87: error: device a: SAMPLE-SERVO cannot exchange output mode: no PDO of the "
+                  "slave has it, and what they contain is fixed");
+  EXPECT_CONTAINS(sut.out,
+                  "ioconfig.xml:4:36: error: device a: SAMPLE-SERVO cannot exchange output torque: no set of "
+                  "PDOs that may be assigned together has it and the others");
+  EXPECT_CONTAINS(sut.out,
+                  "ioconfig.xml:3:35: error: device a: SAMPLE-SERVO cannot exchange input 2000:1: no PDO of the "
+                  "slave has it, and its type is not known; give it: type=\"int16\"");
+  EXPECT_CONTAINS(checked("<device name='a' driver='ethercat' address='e' slave='0' description='terminals.xml'\n"
+                          "  in='TEST_CELL::AXIS1_IN'/>")
+                      .out,
+                  "description: 'terminals.xml' has 2 devices; give vendor and product; `indurop io import "
+                  "terminals.xml` lists its devices");
+  EXPECT_CONTAINS(checked("<device name='a' driver='ethercat' address='e' slave='0' product='0x1' "
+                          "description='terminals.xml'\n  in='TEST_CELL::AXIS1_IN'/>")
+                      .out,
+                  "ioconfig.xml:2:85: error: description: 'terminals.xml' has no device with this vendor and product");
+  EXPECT_CONTAINS(checked("<device name='a' driver='ethercat' address='e' slave='0' description='none.xml'\n"
+                          "  in='TEST_CELL::AXIS1_IN'/>")
+                      .out,
+                  "none.xml: No such file");
+}
+
+// Two PDOs of one object each: an EEPROM does not say that they exclude each other, the slave would refuse them.
+TEST_F(EthercatNode, Exclusions_of_the_description_count) {
+  write("servo.xml", EsiImport::bytes_of(ESI_SERVO));
+  drives_ = std::make_unique<Program>(std::vector<std::string>{ECSIM_PROGRAM, "ec1", ESI_SERVO, "--script", "-"});
+  ASSERT_TRUE(drives_->prints("slaves at")) << drives_->err();
+  const std::string device =
+      "<device name='servo' driver='ethercat' address='ec0' slave='0' product='0x49520101' "
+      "quality='TEST_CELL::link_good'";
+  const std::string outputs =
+      ">\n  <output variable='speeds[2]' at='position'/><output variable='speeds[3]' at='torque'/>\n</device>";
+  Program& sut = run_node(device + outputs);
+  EXPECT_TRUE(sut.prints("slave 0 (Sample servo drive): operates"))
+      << "the EEPROM says nothing against it" << sut.out();
+  sut.signal(SIGTERM);
+  sut.wait();
+  Program& described = start_node(device + " description='servo.xml'" + outputs);
+  EXPECT_NE(described.wait(), 0);
+  EXPECT_CONTAINS(described.err() + described.out(), "SAMPLE-SERVO cannot exchange output position");
 }
 
 // From the maker's file to moving data: slaves are simulated from it, found on the cable, and exchanged.

@@ -26,11 +26,19 @@ class EthercatNode : public NodeTest {
     drives_ = io::ethercat::start_drives(drives, (folder() / "frames.pcap").string());
   }
 
-  Program& run_node(const std::string& devices) {
+  Program& start_node(const std::string& devices) {
     write("ioconfig.xml", "<ioconfig>\n" + devices + "\n</ioconfig>\n");
-    return start_and_wait(
-        {{.file = IO_MODULE, .name = "io", .period = "2ms", .priority = 1, .properties = {{"config", "ioconfig.xml"}}},
-         {.file = std::string(IO_FOLDER) + "/axis_user.so", .name = "axis_user", .period = "2ms", .priority = 2}});
+    return start(modules());
+  }
+  Program& run_node(const std::string& devices) {
+    Program& node = start_node(devices);
+    EXPECT_TRUE(wait_until_running(node)) << node.err();
+    return node;
+  }
+  static std::vector<Module> modules() {
+    return {
+        {.file = IO_MODULE, .name = "io", .period = "2ms", .priority = 1, .properties = {{"config", "ioconfig.xml"}}},
+        {.file = std::string(IO_FOLDER) + "/axis_user.so", .name = "axis_user", .period = "2ms", .priority = 2}};
   }
   Program& run_node_with_two_drives() {
     return run_node(
