@@ -238,12 +238,12 @@ void EdgeNode::tick(std::int64_t now_ns) {
     backlog_->sync();
     note_lost();
   }
-  if (state_ != State::Born || receipt_.id != 0) {
-    return;
-  }
-  if (sent_metrics_ > kMostSentMetrics) {
-    log_.warning("the broker does not take data fast enough; the connection is made again");
+  if (state_ == State::Born && sent_metrics_ > kMostSentMetrics) {
+    log_.warning("the broker does not confirm what it receives; the connection is made again");
+    die();
     outlet_->reconnect();
+  }
+  if (state_ != State::Born || receipt_.id != 0) {
     return;
   }
   receipt_.stored.reset();

@@ -221,6 +221,27 @@ def test_nothing_is_lost_while_the_broker_is_away(setting):
     assert [one[1] for one in everything] == sorted(one[1] for one in everything)
 
 
+def test_nothing_is_lost_by_a_broker_that_hangs(setting):
+    """What was sent to it, but not received, is sent again."""
+    server, host = begin(setting, "--variables", "gain")
+    host.wait_birth()
+    set_gain(setting, server, 2)
+    wait_for(lambda: 2 in [one[0] for one in host.values("knu/Robot/gain")], "a value")
+    setting.broker.send_signal(signal.SIGSTOP)
+    values = [3.5, 4.5, 5.5]
+    for value in values:
+        set_gain(setting, server, value)
+        stream = f"{API}/boards/{setting.node}/variables/gain"
+        before = server.get(API + "/status").json()["clients"][0]["sent"]
+        wait_for(lambda: server.get(API + "/status").json()["clients"][0]["sent"] > before + 3, "the value to be sent on")
+        assert server.get(stream).json()["value"] == value
+    setting.end(setting.broker, signal.SIGKILL)
+    setting.log_has("was lost")
+    host = restart_broker(setting, host.judge)
+    host.wait_birth()
+    wait_for(lambda: [one for one, _, historical in host.values("knu/Robot/gain") if historical and one > 2] == values, "all values")
+
+
 def test_data_are_kept_for_the_primary_host(setting):
     server, host = begin(setting, "--variables", "gain", "--primary-host", "scada")
     kept = lambda: sum(file.stat().st_size for file in (setting.folder / "mqtt" / "store").glob("*"))
