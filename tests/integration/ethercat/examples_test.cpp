@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The example ethercat_arm in a network of its own: a tour of the arm on simulated drives to its end, then a drive
-// without power, which is named, stops all, and comes back.
+// The examples of EtherCAT in a network of their own. ethercat_arm: a tour of the arm on simulated drives to its end,
+// then a drive without power, which is named, stops all, and comes back. ethercat_33: all of its axes move.
 #include <string>
 
 #include "tests/support/program.h"
@@ -10,15 +10,15 @@
 namespace indurop::io::ethercat {
 namespace {
 
-test::Environment environment() {
+test::Environment environment(const std::string& folder) {
   test::Environment made;
-  made.variables = {std::string("PATH=") + ARM_PROGRAMS + ":" + std::getenv("PATH"),
-                    std::string("INDUROP_DEMO_DIR=") + ARM_FOLDER, "INDUROP_DEMO_NODE=arm_test"};
+  made.variables = {std::string("PATH=") + PROGRAMS + ":" + std::getenv("PATH"), "INDUROP_DEMO_DIR=" + folder,
+                    "INDUROP_DEMO_NODE=ethercat_example_" + std::to_string(::getpid())};
   made.one_output = true;
   return made;
 }
 
-class EthercatArm : public testing::Test {
+class EthercatExamples : public testing::Test {
  protected:
   void SetUp() override {
     if (!test::own_network() || test::Program({kEnv, "ip", "link", "set", "lo", "up"}).wait() != 0) {
@@ -27,8 +27,8 @@ class EthercatArm : public testing::Test {
   }
 };
 
-TEST_F(EthercatArm, Works_to_the_end_of_a_tour_and_stops_while_a_drive_is_away) {
-  test::Program sut({ARM_DEMO}, environment());
+TEST_F(EthercatExamples, Works_to_the_end_of_a_tour_and_stops_while_a_drive_is_away) {
+  test::Program sut({ARM_DEMO}, environment(ARM_FOLDER));
   ASSERT_EQ(sut.wait(std::chrono::seconds(150)), 0) << sut.out();
   const std::string out = sut.out();
   EXPECT_THAT(out, testing::HasSubstr("visitor \"hits the emergency stop\""));
@@ -43,8 +43,14 @@ TEST_F(EthercatArm, Works_to_the_end_of_a_tour_and_stops_while_a_drive_is_away) 
   EXPECT_THAT(after, testing::HasSubstr("ROBOT_GROUP_MOVING"));
 }
 
-TEST_F(EthercatArm, Says_what_it_lacks) {
-  test::Environment unprivileged = environment();
+TEST_F(EthercatExamples, Thirty_three_axes_move) {
+  test::Program sut({AXES_DEMO, "3"}, environment(AXES_FOLDER));
+  ASSERT_EQ(sut.wait(std::chrono::seconds(100)), 0) << sut.out();
+  EXPECT_THAT(sut.out(), testing::HasSubstr("enabled 33 axes, largest deviation 0"));
+}
+
+TEST_F(EthercatExamples, Says_what_it_lacks) {
+  test::Environment unprivileged = environment(ARM_FOLDER);
   unprivileged.user = test::kUnprivileged;
   const auto outcome = test::Program({ARM_DEMO}, unprivileged).finish();
   if (outcome.code == test::Program::kNotPrepared) {
