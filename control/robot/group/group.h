@@ -59,6 +59,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   bool run_job(Signals& signals) noexcept;
   void begin_next(bool more) noexcept;
   void take_plan() noexcept;
+  void note_lines(const Plan& plan) noexcept;
   void follow_path() noexcept;
   void motion_failed(const Fault& fault, int source, std::uint32_t ticket) noexcept;
   void end_motions() noexcept;

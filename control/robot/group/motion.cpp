@@ -101,22 +101,38 @@ void Group::begin_next(bool more) noexcept {
   }
   const Joints from = conveyor_.planned_end();
   const ReadAhead::Next next = plans_.begin_next(from, more);
-  if (next.chain != nullptr) {
+  if (next.chain != nullptr && next.lines == nullptr) {
     resuming_.forget_steps();
-  } else if (next.command != nullptr) {
+  } else if (next.chain == nullptr && next.command != nullptr) {
     resuming_.note(*next.command, from);
   }
 }
 
 void Group::take_plan() noexcept {
-  const Plan* failed = plans_.take();
-  if (failed == nullptr) {
+  const Plan* plan = plans_.take();
+  if (plan == nullptr) {
     return;
   }
-  if (failed->fault.code == ErrorCode::Planner) {
+  if (plan->fault.code == ErrorCode::Planner) {
     break_down("the thread that plans motions", plans_.desk().crash());
+  } else if (!plan->fault.ok()) {
+    motion_failed(plan->fault, plan->segment.source, plan->segment.ticket);
   } else {
-    motion_failed(failed->fault, failed->segment.source, failed->segment.ticket);
+    note_lines(*plan);
+  }
+}
+
+// How lines with zones are followed is known when they have been planned.
+void Group::note_lines(const Plan& plan) noexcept {
+  const PlanRequest& asked = plans_.request();
+  if (plan.parts) {
+    resuming_.note(asked.command, asked.from);
+  } else if (plan.segment.chain != nullptr && plan.segment.chain == asked.lines) {
+    if (asked.lines->crowded()) {
+      resuming_.forget_steps();
+    } else {
+      resuming_.note(*asked.lines, asked.command.acceleration, asked.from);
+    }
   }
 }
 

@@ -12,6 +12,11 @@ int source_of(int ticket) noexcept {
   return -ticket - 1;
 }
 
+// Returns whether the target of a motion is known before the motion in front of it has been planned.
+bool is_known_ahead(const Command& command) noexcept {
+  return command.coords != CoordSystem::Axes || group_service_of(command) == Service::DirectAbsolute;
+}
+
 }  // namespace
 
 void MotionQueue::take(int ticket) noexcept {
@@ -128,7 +133,7 @@ void MotionQueue::feed() noexcept {
     ahead.add(move);
     start_ = move.target.is_pose ? move.target.pose : robot_.tip(move.target.joints);
     ++fed_;
-    goes_on = move.zone > 0 && fed_ < count_ && command(fed_).coords != CoordSystem::Axes;
+    goes_on = move.zone > 0 && fed_ < count_ && is_known_ahead(command(fed_));
   }
 }
 

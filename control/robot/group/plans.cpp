@@ -19,13 +19,22 @@ ReadAhead::Next Plans::begin_next(const Joints& from, bool more) noexcept {
   const bool follows = !robot_.follower.idle();
   if (next.chain != nullptr) {
     source_ = next.chain->source_at(0);
-    PlanRequest request{{}, next.chain, from, follows};
+    PlanRequest request{{}, next.chain, from, follows, next.lines};
     request.command.ticket = next.ticket;
+    if (next.lines != nullptr) {
+      request.command = *next.command;
+      request.command.zone = 0;
+    }
     request.command.acceleration = next.acceleration;
     ask(request);
   } else if (next.command != nullptr) {
     source_ = next.command->source;
-    ask({*next.command, nullptr, from, follows});
+    PlanRequest request{*next.command, nullptr, from, follows};
+    request.leads = next.then != nullptr;
+    if (request.leads) {
+      request.then = *next.then;
+    }
+    ask(request);
   }
   return next;
 }
@@ -36,7 +45,12 @@ const Plan* Plans::take() noexcept {
     return plan;
   }
   robot_.follower.add(plan->segment, plan->blend);
-  return nullptr;
+  if (plan->parts) {
+    ahead_.parted();
+  } else if (plan->segment.chain != nullptr) {
+    ahead_.joined();
+  }
+  return plan;
 }
 
 }  // namespace indurop::robot

@@ -34,7 +34,7 @@ class Plans {
   // Requests the next motion that waits, which begins at `from`; requires can_plan(). `more`: others may be added in
   // this period. Returns what is being planned now.
   ReadAhead::Next begin_next(const Joints& from, bool more) noexcept;
-  // Gives a plan that is ready to the follower. Returns a plan that failed; null: none did.
+  // Gives a plan that is ready to the follower, unless it failed. Returns it; null: none is ready.
   const Plan* take() noexcept;
   // Abandons the plan in progress.
   void forget() noexcept { desk_.forget(); }

@@ -133,8 +133,7 @@ ErrorCode Resuming::step_back() noexcept {
     return ErrorCode::State;
   }
   MoveCommand back = last.command;
-  back.target = {};
-  back.target.joints = last.from;
+  back.target = last.from;
   back.zone = 0;
   back.source = 0;
   return_ = Return::Back;
@@ -167,9 +166,26 @@ void Resuming::continue_on_path(bool asked) noexcept {
   }
 }
 
+void Resuming::note(const Passed& passed) noexcept {
+  passed_[passed_count_++ % passed_.size()] = passed;
+  passed_known_ = passed.command.source < 0 ? 0 : std::min(passed_known_ + 1, passed_.size());
+}
+
 void Resuming::note(const MoveCommand& command, const Joints& from) noexcept {
-  passed_[passed_count_++ % passed_.size()] = {command, from};
-  passed_known_ = command.source < 0 ? 0 : std::min(passed_known_ + 1, passed_.size());
+  Passed passed{command, {}};
+  passed.from.joints = from;
+  note(passed);
+}
+
+void Resuming::note(const Chain& lines, double acceleration, const Joints& from) noexcept {
+  Passed passed;
+  passed.from.joints = from;
+  for (int i = 0; i < lines.count(); ++i) {
+    passed.command = lines.line(i);
+    passed.command.acceleration = acceleration;
+    note(passed);
+    passed.from = passed.command.target;
+  }
 }
 
 }  // namespace indurop::robot

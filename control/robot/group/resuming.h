@@ -44,13 +44,16 @@ class Resuming {
 
   // Remembers a motion that is being planned, for steps back; forgets all of them: none is possible across it.
   void note(const MoveCommand& command, const Joints& from) noexcept;
+  // The same for lines that are followed as one path: back it goes from one to the next.
+  void note(const Chain& lines, double acceleration, const Joints& from) noexcept;
   void forget_steps() noexcept { passed_known_ = 0; }
 
  private:
   struct Passed {
     MoveCommand command;
-    Joints from = Joints::Zero();
+    Target from;
   };
+  void note(const Passed& passed) noexcept;
   [[nodiscard]] double speed_to(const Joints& to) const noexcept;
   void ask_for_way_back(const Joints& to) noexcept;
   void say_how_far(const Joints& to) noexcept;

@@ -28,6 +28,10 @@ JointLimits Segment::slowed(const JointLimits& joints) const noexcept {
   return {part.velocity / slowness, part.acceleration / square, part.jerk / (square * slowness)};
 }
 
+double Segment::duration() const noexcept {
+  return timing.known() ? timing.duration() : Profile::to_position({}, length, 0, limits).duration();
+}
+
 void Segment::take_timing() noexcept {
   stretch = length;
   length = timing.duration();

@@ -97,14 +97,14 @@ struct Segment {
   [[nodiscard]] Pose pose_on_path(double along) const noexcept;
   // A joint motion to `to`, at part of full speed, whose axes arrive together.
   static Segment together_to(const Joints& to, double speed) noexcept;
-  // Limits of the speed at a place set by the tool and the command, whether the timing is in use or not.
-  [[nodiscard]] LineLimits most_at(double place) const noexcept { return chain ? chain->limits_at(place) : most; }
   // The part of the joints' limits that a joint motion may use.
   [[nodiscard]] JointLimits slowed(const JointLimits& joints) const noexcept;
   // Switches to the timing; only from rest at the start of the segment.
   void take_timing() noexcept;
   // Makes the timing of a joint motion, from any state. The limits are those of the joints.
   void take_joint_timing(const JointState& state, const JointLimits& joints, double pace) noexcept;
+  // s that it takes from rest to rest, for lines and circles.
+  [[nodiscard]] double duration() const noexcept;
   // m per s at full speed
   [[nodiscard]] double pace() const noexcept { return length > 0 ? way / length : 0; }
 };

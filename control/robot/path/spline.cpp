@@ -136,7 +136,7 @@ Vec3 Spline::turning_at(double place) const noexcept {
   return 2 * (Quat(unit).conjugate() * Quat(change)).vec();
 }
 
-LineLimits Spline::limits_at(double place) const noexcept {
+Spline::Shape Spline::shape_at(double place) const noexcept {
   place = std::clamp(place, 0.0, length());
   const Place here = look(place);
   Shape shape;
@@ -154,10 +154,10 @@ LineLimits Spline::limits_at(double place) const noexcept {
   shape.turn_twist = (behind - 2 * turning_at(middle) + before) / (step * step);
   const Knot& to = knots_[k + 1];
   const double part = to.tool_speed > 0 ? 1 : to.speed;
-  const double speed = std::min({part, shared(part * tool_.velocity, shape.moving.norm()),
-                                 shared(part * tool_.turn_velocity, shape.turning.norm()),
-                                 to.tool_speed > 0 ? shared(to.tool_speed, shape.moving.norm()) : HUGE_VAL});
-  return limits_for(shape, speed, tool_);
+  shape.speed = std::min({part, shared(part * tool_.velocity, shape.moving.norm()),
+                          shared(part * tool_.turn_velocity, shape.turning.norm()),
+                          to.tool_speed > 0 ? shared(to.tool_speed, shape.moving.norm()) : HUGE_VAL});
+  return shape;
 }
 
 }  // namespace indurop::robot

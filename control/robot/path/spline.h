@@ -36,7 +36,7 @@ class Spline final : public ToolPath {
   [[nodiscard]] double place_of(int i) const noexcept { return at_[static_cast<std::size_t>(i)]; }
 
   [[nodiscard]] Pose pose_at(double place) const noexcept override;
-  [[nodiscard]] LineLimits limits_at(double place) const noexcept override;
+  [[nodiscard]] Shape shape_at(double place) const noexcept override;
   [[nodiscard]] int source_at(double place) const noexcept override { return knots_[piece_at(place) + 1].source; }
   [[nodiscard]] const Pose& end() const noexcept override { return knots_[static_cast<std::size_t>(count_)].pose; }
   [[nodiscard]] double length() const noexcept override { return at_[static_cast<std::size_t>(count_)]; }
@@ -54,7 +54,6 @@ class Spline final : public ToolPath {
   [[nodiscard]] Place look(double place) const noexcept;
   [[nodiscard]] Vec3 turning_at(double place) const noexcept;
 
-  ToolLimits tool_;
   int count_ = 0;  // pieces
   double way_ = 0;
   double at_speed_ = 0;

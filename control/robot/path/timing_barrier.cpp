@@ -13,19 +13,31 @@ constexpr double kEnough = 1e-3;  // of the duration: what the barrier may still
 // Places that are derived in the time of checking one place including its inverse kinematics.
 constexpr int kDerivedPerLook = 8;
 constexpr int kWeighedPerLook = 16;
+
+// The first row of vector `v`.
+constexpr std::size_t row_of(int v) noexcept {
+  return at(TimingPlace::kRows + 3 * v);
+}
+
 }  // namespace
 
 // Starts at a constant speed that keeps all limits.
-void TimingBarrier::begin(int count, int per_knot) noexcept {
+void TimingBarrier::begin(int count, int per_knot, int vectors) noexcept {
   count_ = count;
   per_knot_ = per_knot;
+  vectors_ = vectors;
   double most = 1e12;
   for (int i = 0; i <= last(); ++i) {
     const TimingPlace& k = places_[at(i)];
     most = std::min(most, k.fastest);
+    const auto keep = [&most](double bend, double third) {
+      most = std::min({most, 1 / std::max(bend, 1e-12), std::pow(std::max(third, 1e-12), -2.0 / 3)});
+    };
     for (std::size_t r = 0; r < kRows; ++r) {
-      most = std::min(
-          {most, 1 / std::max(std::abs(k.bend[r]), 1e-12), std::pow(std::max(std::abs(k.third[r]), 1e-12), -2.0 / 3)});
+      keep(std::abs(k.bend[r]), std::abs(k.third[r]));
+    }
+    for (int v = 0; v < vectors_; ++v) {
+      keep(Eigen::Map<const Vec3>(&k.bend[row_of(v)]).norm(), Eigen::Map<const Vec3>(&k.third[row_of(v)]).norm());
     }
   }
   std::fill_n(z_.begin(), count_ + 3, 0.7 * most);
@@ -64,11 +76,23 @@ double TimingBarrier::height(const double* z) const noexcept {
       least = std::min({least, 1 - a, 1 + a, 1 - j, 1 + j});
       product *= (1 - a * a) * (1 - j * j);
     }
+    for (int v = 0; v < vectors_; ++v) {
+      double a = 1;
+      double j = 1;
+      for (std::size_t r = row_of(v); r < row_of(v + 1); ++r) {
+        const double one = k.bend[r] * m.w + k.drive[r] * m.d;
+        const double other = (k.third[r] * m.w + k.mixed[r] * m.d + k.last[r] * m.dd) / root;
+        a -= one * one;
+        j -= other * other;
+      }
+      least = std::min({least, a, j});
+      product *= a * j;
+    }
     if (!(least > 0)) {
       return HUGE_VAL;
     }
     time += share(i) * root;
-    logs += std::log(product) + 2 * kRows * std::log(root);
+    logs += std::log(product) + 2 * (kRows + vectors_) * std::log(root);
   }
   const double first = z[2] - z[0];
   const double last = z[count_ + 2] - z[count_];
@@ -87,55 +111,91 @@ void TimingBarrier::hold_ends() noexcept {
   }
 }
 
+void TimingBarrier::add_row(const TimingPlace& k, std::size_t r, const Local& m, double root,
+                            Curve& curve) const noexcept {
+  const double fall = -0.5 * root / m.w;  // derivative of the root
+  auto& [g, h] = curve;
+  const double p = k.bend[r];
+  const double d = k.drive[r];
+  const double a = p * m.w + d * m.d;
+  const double up = 1 / (1 - a);
+  const double down = 1 / (1 + a);
+  const double slope = weight_ * (up - down);
+  const double bend = weight_ * (up * up + down * down);
+  g[0] += slope * p;
+  g[1] += slope * d;
+  h[0][0] += bend * p * p;
+  h[0][1] += bend * p * d;
+  h[1][1] += bend * d * d;
+  const double j = k.third[r] * m.w + k.mixed[r] * m.d + k.last[r] * m.dd;
+  for (const double sign : {1.0, -1.0}) {
+    const double one = weight_ / (root - sign * j);
+    const double two = one * one / weight_;
+    const double by[3] = {sign * k.third[r] - fall, sign * k.mixed[r], sign * k.last[r]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      g[i] += one * by[i];
+      for (std::size_t n = i; n < 3; ++n) {
+        h[i][n] += two * by[i] * by[n];
+      }
+    }
+  }
+}
+
+// What is left of the square of the greatest length is the argument of the logarithm.
+void TimingBarrier::add_vector(const TimingPlace& k, std::size_t first, const Local& m, Curve& curve) const noexcept {
+  using Derivative = Vec3;  // by w, w' and w''
+  auto& [g, h] = curve;
+  const double square = 1 / m.w;  // of the root, by which jerk is divided
+  double a = 1;
+  double j = square;
+  Derivative da = Derivative::Zero();
+  Derivative dj(-square * square, 0, 0);
+  Mat3 squares_of_a = Mat3::Zero();
+  Mat3 squares_of_j = Mat3::Zero();
+  for (std::size_t r = first; r < first + 3; ++r) {
+    const Derivative by_a(k.bend[r], k.drive[r], 0);
+    const Derivative by_j(k.third[r], k.mixed[r], k.last[r]);
+    const double one = by_a[0] * m.w + by_a[1] * m.d;
+    const double other = by_j[0] * m.w + by_j[1] * m.d + by_j[2] * m.dd;
+    a -= one * one;
+    j -= other * other;
+    da -= 2 * one * by_a;
+    dj -= 2 * other * by_j;
+    squares_of_a += by_a * by_a.transpose();
+    squares_of_j += by_j * by_j.transpose();
+  }
+  const Derivative slope = -weight_ * (da / a + dj / j);
+  const Mat3 bend = weight_ * (da * da.transpose() / (a * a) + dj * dj.transpose() / (j * j) + 2 * squares_of_a / a +
+                               2 * squares_of_j / j);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    g[i] += slope[row];
+    for (std::size_t n = i; n < 3; ++n) {
+      h[i][n] += bend(row, static_cast<Eigen::Index>(n));
+    }
+  }
+}
+
 // Adds the contribution of this place to gradient and curvature.
 void TimingBarrier::derive(int place) noexcept {
   const TimingPlace& k = places_[at(place)];
   const Local m = local(z_.data(), place);
   const double root = 1 / std::sqrt(m.w);
-  // With respect to w, w' and w''.
-  double g[3] = {-0.5 * share(place) * root / m.w, 0, 0};
-  double h00 = 0.75 * share(place) * root / (m.w * m.w);
-  double h01 = 0;
-  double h02 = 0;
-  double h11 = 0;
-  double h12 = 0;
-  double h22 = 0;
   const double left = weight_ / (k.fastest - m.w);
-  g[0] += left;
-  h00 += left * left / weight_;
-  const double fall = -0.5 * root / m.w;  // derivative of the root
+  Curve curve;
+  auto& [g, h] = curve;
+  g[0] = left - 0.5 * share(place) * root / m.w;
+  h[0][0] = left * left / weight_ + 0.75 * share(place) * root / (m.w * m.w);
   for (std::size_t r = 0; r < kRows; ++r) {
-    const double p = k.bend[r];
-    const double d = k.drive[r];
-    const double a = p * m.w + d * m.d;
-    const double up = 1 / (1 - a);
-    const double down = 1 / (1 + a);
-    const double slope = weight_ * (up - down);
-    const double curve = weight_ * (up * up + down * down);
-    g[0] += slope * p;
-    g[1] += slope * d;
-    h00 += curve * p * p;
-    h01 += curve * p * d;
-    h11 += curve * d * d;
-    const double j = k.third[r] * m.w + k.mixed[r] * m.d + k.last[r] * m.dd;
-    for (const double sign : {1.0, -1.0}) {
-      const double one = weight_ / (root - sign * j);
-      const double x = sign * k.third[r] - fall;
-      const double y = sign * k.mixed[r];
-      const double z = sign * k.last[r];
-      g[0] += one * x;
-      g[1] += one * y;
-      g[2] += one * z;
-      const double two = one * one / weight_;
-      h00 += two * x * x;
-      h01 += two * x * y;
-      h02 += two * x * z;
-      h11 += two * y * y;
-      h12 += two * y * z;
-      h22 += two * z * z;
-    }
+    add_row(k, r, m, root, curve);
   }
-  add(place, {{g[0], g[1], g[2]}, {{{h00, h01, h02}, {h01, h11, h12}, {h02, h12, h22}}}});
+  for (int v = 0; v < vectors_; ++v) {
+    add_vector(k, row_of(v), m, curve);
+  }
+  h[1][0] = h[0][1];
+  h[2][0] = h[0][2];
+  h[2][1] = h[1][2];
+  add(place, curve);
 }
 
 // Converts to derivatives with respect to the coefficients.

@@ -14,11 +14,14 @@ namespace indurop::robot {
 
 // Limits of the motion at one place, with respect to the parameter, as parts of the limits.
 struct TimingPlace {
-  static constexpr int kRows = kAxes + 1;      // the joints, and the place on the path itself for the tool
-  double fastest = 0;                          // maximum square of the parameter's speed
-  std::array<double, kRows> bend{}, drive{};   // acceleration = bend * w + drive * w'
-  std::array<double, kRows> third{}, mixed{};  // jerk * w^-1/2 = third * w + mixed * w' + last * w''
-  std::array<double, kRows> last{};
+  static constexpr int kRows = kAxes + 1;  // the joints, and the place on the path itself for the tool
+  // Rows of vectors, whose length is limited: the movement of the tool, and its rotation.
+  static constexpr int kVectors = 2;
+  static constexpr int kMoving = kRows, kTurning = kRows + 3;
+  using Rows = std::array<double, kRows + 3 * kVectors>;
+  double fastest = 0;             // maximum square of the parameter's speed
+  Rows bend{}, drive{};           // acceleration = bend * w + drive * w'
+  Rows third{}, mixed{}, last{};  // jerk * w^-1/2 = third * w + mixed * w' + last * w''
 };
 
 class TimingBarrier {
@@ -27,8 +30,9 @@ class TimingBarrier {
   // Access to the limits at the knots, or alternately at the knots and half way between them; filled in before begin().
   // Real-time safe, like all functions of this class.
   TimingPlace& place(int i) noexcept { return places_[static_cast<std::size_t>(i)]; }
-  // Begins with knots 0 to `count`; `per_knot`: places from one knot to the next, 1 or 2.
-  void begin(int count, int per_knot) noexcept;
+  // Begins with knots 0 to `count`; `per_knot`: places from one knot to the next, 1 or 2. `vectors`: how many of them
+  // count, all or none.
+  void begin(int count, int per_knot, int vectors) noexcept;
   // Does a part of a step; returns the work done, as the number of places whose inverse kinematics take as long.
   int work() noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
@@ -54,6 +58,9 @@ class TimingBarrier {
     std::array<double, 3> slope{};
     std::array<std::array<double, 3>, 3> bend{};
   };
+  // Adds the barrier of a row, or of a vector whose rows begin there, at a place with these values; `root`: w^-1/2.
+  void add_row(const TimingPlace& k, std::size_t r, const Local& m, double root, Curve& curve) const noexcept;
+  void add_vector(const TimingPlace& k, std::size_t first, const Local& m, Curve& curve) const noexcept;
   void derive(int place) noexcept;
   void add(int place, const Curve& curve) noexcept;
   void hold_ends() noexcept;
@@ -66,6 +73,7 @@ class TimingBarrier {
   Stage stage_ = Stage::Done;
   int count_ = 0;
   int per_knot_ = 1;
+  int vectors_ = 0;
   int next_ = 0;
   int steps_ = 0;
   double weight_ = 0;  // of the barrier

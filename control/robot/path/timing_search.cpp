@@ -44,11 +44,45 @@ void TimingSearch::refine() noexcept {
   stage_ = Stage::Look;
 }
 
+// Reduces the times that knots are spread over, where there are not enough of them: those during which the speed
+// remains the same need few.
+void TimingSearch::count_calm_less(const PartTimes& square, PartTimes& time) noexcept {
+  constexpr double kAround = 0.15;  // s before and after a change of the speed, and after rest
+  constexpr double kLeast = 0.02;
+  constexpr double kEnough = kPerKnot * PathTiming::kMaxPieces;  // s
+  constexpr int kParts = PathBounds::kParts;
+  if (time[kParts] <= kEnough) {
+    return;
+  }
+  const double unchanged = 1e-6 * *std::max_element(square.begin(), square.end());
+  std::array<bool, kParts> calm{};
+  const auto changes = [&](int i) { return std::abs(square[at(i + 1)] - square[at(i)]) > unchanged; };
+  double last = 0;
+  for (int i = 0; i < kParts; ++i) {
+    last = changes(i) ? time[at(i + 1)] : last;
+    calm[at(i)] = time[at(i)] > last + kAround;
+  }
+  double next = time[kParts];
+  double all = 0;
+  for (int i = kParts - 1; i >= 0; --i) {
+    next = changes(i) ? time[at(i)] : next;
+    calm[at(i)] = calm[at(i)] && time[at(i + 1)] < next - kAround;
+    all += calm[at(i)] ? time[at(i + 1)] - time[at(i)] : 0;
+  }
+  const double part = all > 0 ? std::clamp(1 - (time[kParts] - kEnough) / all, kLeast, 1.0) : 1;
+  double before = time[0];
+  for (int i = 0; i < kParts; ++i) {
+    const double here = time[at(i + 1)];
+    time[at(i + 1)] = time[at(i)] + (here - before) * (calm[at(i)] ? part : 1);
+    before = here;
+  }
+}
+
 // Places knots at equal times of a motion without jerk limits, so that they are dense where it is slow.
 bool TimingSearch::guess(const PathBounds& bounds) noexcept {
   constexpr int kParts = PathBounds::kParts;
   const double step = segment_.length / kParts;
-  std::array<double, kParts + 1> square{};
+  PartTimes square{};
   square[0] = square[kParts] = 0;
   for (int i = 1; i < kParts; ++i) {
     const double v = std::min(bounds.speed[at(i - 1)], bounds.speed[at(i)]);
@@ -57,11 +91,11 @@ bool TimingSearch::guess(const PathBounds& bounds) noexcept {
   for (int i = kParts - 1; i > 0; --i) {
     square[at(i)] = std::min(square[at(i)], square[at(i + 1)] + 2 * step * bounds.acceleration[at(i)]);
   }
-  std::array<double, kParts + 1> time{};
-  time[0] = 0;
+  PartTimes time{};
   for (int i = 0; i < kParts; ++i) {
     time[at(i + 1)] = time[at(i)] + 2 * step / (std::sqrt(square[at(i)]) + std::sqrt(square[at(i + 1)]));
   }
+  count_calm_less(square, time);
   const double duration = time[kParts] + 0.1;  // jerk limits cost time at both ends
   if (!std::isfinite(duration)) {
     return false;
@@ -158,7 +192,19 @@ bool TimingSearch::look(int index) noexcept {
   for (int i = 0; i < kAxes; ++i) {
     row(i, first[i], second[i], third[i], {joints_.velocity[i], joints_.acceleration[i], joints_.jerk[i]});
   }
-  row(kAxes, 1, 0, 0, segment_.most_at(g.value));
+  if (segment_.chain == nullptr) {
+    row(kAxes, 1, 0, 0, segment_.most);
+    return true;
+  }
+  const ToolPath::Shape tool = segment_.chain->shape_at(g.value);
+  const ToolLimits& most = segment_.chain->tool();
+  row(kAxes, 1, 0, 0, {tool.speed, HUGE_VAL, HUGE_VAL});
+  for (int i = 0; i < 3; ++i) {
+    row(TimingPlace::kMoving + i, tool.moving[i], tool.bend[i], tool.twist[i],
+        {HUGE_VAL, most.acceleration, most.jerk});
+    row(TimingPlace::kTurning + i, tool.turning[i], tool.turn_bend[i], tool.turn_twist[i],
+        {HUGE_VAL, most.turn_acceleration, most.turn_jerk});
+  }
   return true;
 }
 
@@ -167,7 +213,7 @@ int TimingSearch::work() noexcept {
     if (!look(next_)) {
       stage_ = Stage::Done;
     } else if (++next_ > count_ * per_knot_) {
-      barrier_.begin(count_, per_knot_);
+      barrier_.begin(count_, per_knot_, segment_.chain != nullptr ? TimingPlace::kVectors : 0);
       stage_ = Stage::Search;
     }
     return 5;

@@ -42,7 +42,9 @@ class TimingSearch {
  private:
   enum class Stage { Look, Search, Done };
 
+  using PartTimes = std::array<double, PathBounds::kParts + 1>;
   bool guess(const PathBounds& bounds) noexcept;
+  static void count_calm_less(const PartTimes& square, PartTimes& time) noexcept;
   void smooth_ends() noexcept;
   bool look(int index) noexcept;
   [[nodiscard]] PathTiming::Value place_at(int index) const noexcept;

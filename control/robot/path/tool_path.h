@@ -31,10 +31,20 @@ class ToolPath {
  public:
   virtual ~ToolPath() = default;
 
+  // Movement and rotation of the tool at a place, per second at full speed, and their derivatives.
+  struct Shape {
+    Vec3 moving = Vec3::Zero(), turning = Vec3::Zero();
+    Vec3 bend = Vec3::Zero(), turn_bend = Vec3::Zero();
+    Vec3 twist = Vec3::Zero(), turn_twist = Vec3::Zero();
+    double speed = 1;  // along the path, that the commands allow
+  };
+
   // Real-time safe, like all functions of this class.
   [[nodiscard]] virtual Pose pose_at(double place) const noexcept = 0;
-  // Limits of the speed along the path.
-  [[nodiscard]] virtual LineLimits limits_at(double place) const noexcept = 0;
+  [[nodiscard]] virtual Shape shape_at(double place) const noexcept = 0;
+  // Limits of the speed along the path, with fixed shares for bends and for changes of the speed.
+  [[nodiscard]] LineLimits limits_at(double place) const noexcept;
+  [[nodiscard]] const ToolLimits& tool() const noexcept { return tool_; }
   [[nodiscard]] virtual int source_at(double place) const noexcept = 0;
   [[nodiscard]] virtual const Pose& end() const noexcept = 0;
   // s at full speed, as for all paths.
@@ -49,14 +59,7 @@ class ToolPath {
   ToolPath(const ToolPath&) = default;
   ToolPath& operator=(const ToolPath&) = default;
 
-  // Movement and rotation of the tool at a place, per second at full speed, and their derivatives.
-  struct Shape {
-    Vec3 moving = Vec3::Zero(), turning = Vec3::Zero();
-    Vec3 bend = Vec3::Zero(), turn_bend = Vec3::Zero();
-    Vec3 twist = Vec3::Zero(), turn_twist = Vec3::Zero();
-  };
-  // `speed`: the speed that the commands allow.
-  static LineLimits limits_for(const Shape& shape, double speed, const ToolLimits& tool) noexcept;
+  ToolLimits tool_;
 };
 
 }  // namespace indurop::robot

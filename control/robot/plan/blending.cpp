@@ -15,14 +15,9 @@ constexpr int kBlendPlaces = 64;  // its jerk is greatest at its ends, where dif
 
 // Returns whether rounding the corner is at least as fast as stopping there.
 bool faster(const Segment& first, const Blend& blend, const Segment& second) noexcept {
-  const double speed = blend.limits.velocity;
-  if (!(speed > 0)) {
-    return false;
-  }
-  const double to = Profile::to_position({}, first.length - blend.zone, speed, first.limits).duration();
-  const double from = Profile::to_position({0, speed, 0}, second.length - blend.zone, 0, second.limits).duration();
-  return to + blend.length() / speed + from < Profile::to_position({}, first.length, 0, first.limits).duration() +
-                                                  Profile::to_position({}, second.length, 0, second.limits).duration();
+  return blend.limits.velocity > 0 &&
+         duration(first, blend, second) < Profile::to_position({}, first.length, 0, first.limits).duration() +
+                                              Profile::to_position({}, second.length, 0, second.limits).duration();
 }
 
 // The velocity and rotation of the tool at full speed, in the base's frame.
@@ -41,6 +36,13 @@ Heading heading(const Segment& s, bool at_end) noexcept {
 }
 
 }  // namespace
+
+double duration(const Segment& first, const Blend& blend, const Segment& second) noexcept {
+  const double speed = blend.limits.velocity;
+  const double to = Profile::to_position({}, first.length - blend.zone, speed, first.limits).duration();
+  const double from = Profile::to_position({0, speed, 0}, second.length - blend.zone, 0, second.limits).duration();
+  return to + blend.length() / speed + from;
+}
 
 // The tool's speed at the corner, at full speed, determines the length of the zone.
 double Blending::zone(const Segment& first, const Segment& second) const noexcept {

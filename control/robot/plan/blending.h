@@ -7,6 +7,9 @@
 
 namespace indurop::robot {
 
+// s that two segments and the blend between them take from rest to rest. Real-time safe.
+[[nodiscard]] double duration(const Segment& first, const Blend& blend, const Segment& second) noexcept;
+
 class Blending {
  public:
   // The limits are the arm's and the tool's own.

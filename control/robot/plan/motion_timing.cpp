@@ -188,17 +188,11 @@ double MotionTiming::least() const noexcept {
   return s.chain != nullptr ? s.chain->at_speed() : Profile::to_position({}, s.length, 0, s.most).duration();
 }
 
-// s, the planned duration.
-double MotionTiming::taken() const noexcept {
-  const Segment& s = draft_.segment;
-  return s.timing.known() ? s.timing.duration() : profile().duration();
-}
-
 // Returns whether the whole motion takes unacceptably longer than the tool's speed would allow. A singular position
 // that is nearly met affects only a few places, so it shows in the rehearsal, or not at all, however slow the motion
 // is.
 bool MotionTiming::crawls() const noexcept {
-  return taken() * kSlowestPace > least();
+  return draft_.segment.duration() * kSlowestPace > least();
 }
 
 }  // namespace indurop::robot

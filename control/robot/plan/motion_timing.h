@@ -38,7 +38,6 @@ class MotionTiming {
   [[nodiscard]] bool begins_narrow() const noexcept { return searches_ == 1 && rehearsals_ == 0; }
   [[nodiscard]] Profile profile() const noexcept;
   [[nodiscard]] double least() const noexcept;
-  [[nodiscard]] double taken() const noexcept;
   [[nodiscard]] bool crawls() const noexcept;
 
   Draft& draft_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/robot/path/arc.h"
 #include "control/robot/path/rates.h"
 
 namespace indurop::robot {
@@ -68,23 +69,15 @@ Fault resolve(const Places& places, const MoveCommand& command, Draft& draft) no
 }
 
 Fault make_circle(const Vec3& mid, Segment& s) noexcept {
-  const Vec3 a = mid - s.start.position;
-  const Vec3 b = s.end.position - s.start.position;
-  const Vec3 normal = a.cross(b);
-  const double area = normal.squaredNorm();
-  if (area < 1e-6 * a.squaredNorm() * b.squaredNorm() || area <= 0) {
+  Arc arc;
+  if (!arc.through(s.start.position, mid, s.end.position)) {
     return {ErrorCode::Circle};
   }
-  s.center = s.start.position + (a.squaredNorm() * b.cross(normal) - b.squaredNorm() * a.cross(normal)) / (2 * area);
-  s.radius_x = s.start.position - s.center;
-  // The normal is such that the path from start through mid to end turns left about it.
-  s.radius_y = normal.normalized().cross(s.radius_x);
-  const Vec3 last = s.end.position - s.center;
-  s.angle = std::atan2(s.radius_y.dot(last), s.radius_x.dot(last));
-  if (s.angle <= 0) {
-    s.angle += 2 * kPi;
-  }
-  s.way = s.angle * s.radius_x.norm();
+  s.center = arc.center;
+  s.radius_x = arc.radius_x;
+  s.radius_y = arc.radius_y;
+  s.angle = arc.angle;
+  s.way = arc.way();
   return {};
 }
 

@@ -11,7 +11,6 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr int kPortion = 64;  // places, between two checks whether the plan is still needed
 constexpr std::chrono::milliseconds kSoon{1}, kLater{10};
 constexpr std::size_t kStack = std::size_t{256} * 1024;
 constexpr double kPerSecond = 1;     // additional planning time per second of a path, as part of the time for all of it
@@ -27,7 +26,7 @@ PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, cons
       in_tick_(settings.plan_in_tick),
       learned_(settings.learned),
       guarded_(settings.guarded),
-      planner_(places, joints, tool) {
+      planning_(places, joints, tool) {
   in_tick_ = in_tick_ || !begin_ordinary_thread(thread_, "robot-plan", kStack, enter, this);  // else the tick plans
 }
 
@@ -74,25 +73,12 @@ void PlanningDesk::look_for_work() noexcept {
 }
 
 void PlanningDesk::work() noexcept {
-  plan_.blend = {};
   if (crashed_) {
+    plan_ = {};
     plan_.fault = {ErrorCode::Planner};
     return;
   }
-  plan_.fault = request_.chain != nullptr
-                    ? planner_.begin(*request_.chain, request_.from, request_.command.acceleration)
-                    : planner_.begin(request_.command, request_.from);
-  while (plan_.fault.ok() && !planner_.done() && !dropped_.load(std::memory_order_relaxed)) {
-    plan_.fault = planner_.check(kPortion);
-  }
-  plan_.segment = planner_.segment();
-  plan_.segment.ticket = request_.command.ticket;
-  if (plan_.fault.ok() && planner_.done()) {
-    if (request_.follows) {
-      plan_.blend = planner_.blend(before_, plan_.segment);
-    }
-    before_ = plan_.segment;
-  }
+  planning_.plan(request_, dropped_, plan_);
 }
 
 // The approximate minimum duration of the motion: lines and circles are checked in time steps, so it determines the

@@ -11,22 +11,9 @@
 #include <atomic>
 #include <chrono>
 
-#include "control/robot/plan/planner.h"
+#include "control/robot/plan/motion_planning.h"
 
 namespace indurop::robot {
-
-struct PlanRequest {
-  MoveCommand command;
-  const ToolPath* chain = nullptr;  // instead of `command`; is not changed until the motion has ended
-  Joints from = Joints::Zero();
-  bool follows = false;  // continues the motion that was planned before, without a stop
-};
-
-struct Plan {
-  Fault fault;
-  Segment segment;  // if planning failed only its source is valid
-  Blend blend;      // from the motion before into this one
-};
 
 class PlanningDesk {
  public:
@@ -52,7 +39,7 @@ class PlanningDesk {
   // Called once per period. Returns the plan if it is due and ready; it remains valid until the next request.
   const Plan* take() noexcept;
   // The planner, for replacing its bodies; requires free() and no abandoned request in use.
-  [[nodiscard]] Planner& planner() noexcept { return planner_; }
+  [[nodiscard]] Planner& planner() noexcept { return planning_.planner(); }
   // Announces that plans will soon be requested.
   void expect_work(bool soon) noexcept { soon_.store(soon, std::memory_order_relaxed); }
   // For a plan with ErrorCode::Planner: how the thread crashed.
@@ -90,8 +77,7 @@ class PlanningDesk {
   Plan plan_;
 
   // Used by the planning thread only.
-  Planner planner_;
-  Segment before_;
+  MotionPlanning planning_;
   bool crashed_ = false;  // it plans no more motions
   char crash_[96] = "";
   pthread_t thread_{};

@@ -8,7 +8,6 @@ namespace indurop::robot {
 namespace {
 
 constexpr int kPerPeriod = 16;      // lines that are checked
-constexpr double kLongest = 10;     // s that a chain may take: as long as a timing has knots for
 constexpr std::size_t kLiving = 6;  // chains: one being built, one being planned, and those being followed
 
 }  // namespace
@@ -17,7 +16,7 @@ ReadAhead::ReadAhead(const Places& places, const ToolLimits& tool)
     : places_(places), tool_(tool), commands_(Chain::kMaxLines), chains_(kLiving), splines_(kLiving) {}
 
 void ReadAhead::clear() noexcept {
-  count_ = scanned_ = single_ = 0;
+  count_ = scanned_ = single_ = given_ = 0;
 }
 
 void ReadAhead::swap(ReadAhead& other) noexcept {
@@ -26,6 +25,7 @@ void ReadAhead::swap(ReadAhead& other) noexcept {
   std::swap(count_, other.count_);
   std::swap(scanned_, other.scanned_);
   std::swap(single_, other.single_);
+  std::swap(given_, other.given_);
   std::swap(closed_, other.closed_);
   chains_.swap(other.chains_);
   std::swap(chain_, other.chain_);
@@ -38,12 +38,16 @@ const MoveCommand& ReadAhead::command(int i) const noexcept {
 }
 
 bool ReadAhead::has_room() const noexcept {
+  if (count_ + given_ >= Chain::kMaxLines) {
+    return false;
+  }
   if (count_ < kAhead) {
     return true;
   }
   const MoveCommand& last = command(count_ - 1);
-  const bool goes_on = (last.move == Move::Line && last.zone > 0) || (last.move == Move::Spline && last.more);
-  return count_ < Chain::kMaxLines && goes_on;
+  const bool goes_on = (last.move != Move::Joint && last.move != Move::Spline && last.zone > 0) ||
+                       (last.move == Move::Spline && last.more);
+  return goes_on;
 }
 
 void ReadAhead::add(const MoveCommand& command) noexcept {
@@ -58,8 +62,8 @@ const MoveCommand& ReadAhead::take() noexcept {
 }
 
 bool ReadAhead::belongs(const MoveCommand& command) const noexcept {
-  return command.move == Move::Line && !command.alone && command.speed > 0 && command.speed <= 1 &&
-         command.acceleration == this->command(0).acceleration;
+  return (command.move == Move::Line || command.move == Move::Circle) && !command.alone && command.speed > 0 &&
+         command.speed <= 1 && command.acceleration == this->command(0).acceleration;
 }
 
 void ReadAhead::begin_scan(const Joints& from) noexcept {
@@ -71,13 +75,21 @@ void ReadAhead::scan() noexcept {
   Chain& chain = chains_[chain_];
   for (int i = 0; i < kPerPeriod && !closed_ && scanned_ < count_; ++i) {
     const MoveCommand& line = command(scanned_);
-    if (!belongs(line)) {
+    const bool bent = line.move == Move::Circle;
+    const Chain::Line piece{pose_of(line.target),
+                            line.zone,
+                            line.speed,
+                            line.tool_speed,
+                            line.source,
+                            bent,
+                            bent ? pose_of(line.mid).position : Vec3(Vec3::Zero())};
+    if (!belongs(line) || !chain.takes(piece)) {
       closed_ = true;
       return;
     }
-    chain.add({pose_of(line.target), line.zone, line.speed, line.tool_speed, line.source});
+    chain.add(piece);
     ++scanned_;
-    closed_ = line.zone <= 0 || scanned_ == Chain::kMaxLines || !(chain.at_speed() < kLongest);
+    closed_ = line.zone <= 0 || chain.full();
   }
 }
 
@@ -112,6 +124,39 @@ ReadAhead::Next ReadAhead::next_spline(const Joints& from) noexcept {
   return {&spline, nullptr, last.ticket, acceleration};
 }
 
+// The scanned lines are a chain, and stay where they are until it is known how they are followed.
+ReadAhead::Next ReadAhead::next_chain() noexcept {
+  Chain& chain = chains_[chain_];
+  chain.finish();
+  chain_ = (chain_ + 1) % chains_.size();
+  const MoveCommand& first = command(0);
+  first_ = (first_ + scanned_) % Chain::kMaxLines;
+  count_ -= scanned_;
+  given_ = scanned_;
+  scanned_ = 0;
+  return {&chain, &first, 0, first.acceleration, &chain};
+}
+
+ReadAhead::Next ReadAhead::next_single() noexcept {
+  const MoveCommand& taken = take();
+  const bool chain = count_ > 1 && single_ == 0 && command(0).zone > 0 && belongs(command(0)) && belongs(command(1));
+  const bool leads = count_ > 0 && command(0).move != Move::Spline && !chain;
+  return {nullptr, &taken, 0, 1, nullptr, leads ? &command(0) : nullptr};
+}
+
+void ReadAhead::parted() noexcept {
+  if (given_ == 0) {
+    return;
+  }
+  single_ = given_ - 1;
+  first_ = (first_ + Chain::kMaxLines - single_) % Chain::kMaxLines;
+  count_ += single_;
+  given_ = 0;
+  for (int i = 0; i + 1 < single_; ++i) {
+    commands_[static_cast<std::size_t>(first_ + i) % commands_.size()].zone = 0;
+  }
+}
+
 ReadAhead::Next ReadAhead::next(const Joints& from, bool more) noexcept {
   if (empty()) {
     return {};
@@ -127,21 +172,17 @@ ReadAhead::Next ReadAhead::next(const Joints& from, bool more) noexcept {
     if (!closed_ && (scanned_ < count_ || more)) {
       return {};
     }
-    Chain& chain = chains_[chain_];
-    if (chain.crowded()) {
-      chain.finish();
-      chain_ = (chain_ + 1) % chains_.size();
-      const double acceleration = command(0).acceleration;
-      first_ = (first_ + scanned_) % Chain::kMaxLines;
-      count_ -= scanned_;
-      scanned_ = 0;
-      return {&chain, nullptr, 0, acceleration};
+    if (chains_[chain_].count() > 1) {
+      return next_chain();
     }
     single_ = scanned_ > 0 ? scanned_ : 1;
     scanned_ = 0;
   }
+  if (command(0).zone > 0 && count_ == 1 && more) {
+    return {};
+  }
   --single_;
-  return {nullptr, &take()};
+  return next_single();
 }
 
 }  // namespace indurop::robot

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motions of a job that wait to be planned. Lines whose zones meet become one chain: as many as the job gives before
-// another kind of step. The points of a spline become one chain too.
+// Motions of a job that wait to be planned. Lines with zones become one chain: as many as the job gives before another
+// kind of step. The points of a spline become one chain too.
 
 #pragma once
 
@@ -38,13 +38,19 @@ class ReadAhead {
 
   // The next motion to plan: a chain or a command, or neither while it may still become longer.
   struct Next {
-    const ToolPath* chain = nullptr;  // is not changed while five others are taken
-    const MoveCommand* command = nullptr;
-    std::uint32_t ticket = 0;  // of a spline
-    double acceleration = 1;   // of a chain, as MoveCommand::acceleration
+    const ToolPath* chain = nullptr;       // is not changed while five others are taken
+    const MoveCommand* command = nullptr;  // with a chain of lines: the first of them
+    std::uint32_t ticket = 0;              // of a spline
+    double acceleration = 1;               // of a chain, as MoveCommand::acceleration
+    const Chain* lines = nullptr;          // the chain, if it consists of lines
+    const MoveCommand* then = nullptr;     // the motion after a command, if it is known and begins no chain
   };
   // Returns the next motion, which begins at `from`. `more`: other motions may follow at once.
   Next next(const Joints& from, bool more) noexcept;
+  // Records that the lines of the last chain are followed as it; or one by one, with stops, of which the first one has
+  // been planned.
+  void joined() noexcept { given_ = 0; }
+  void parted() noexcept;
 
  private:
   static constexpr int kAhead = 3;
@@ -54,6 +60,8 @@ class ReadAhead {
   [[nodiscard]] bool belongs(const MoveCommand& command) const noexcept;
   const MoveCommand& take() noexcept;
   Next next_spline(const Joints& from) noexcept;
+  Next next_chain() noexcept;
+  Next next_single() noexcept;
   [[nodiscard]] Pose pose_of(const Target& target) const noexcept;
 
   const Places& places_;
@@ -63,6 +71,7 @@ class ReadAhead {
   int count_ = 0;
   int scanned_ = 0;  // motions from the first on that are in the present chain
   int single_ = 0;   // motions from the first on that form no chain
+  int given_ = 0;    // motions before the first that are planned as a chain, and may still be parted
   bool closed_ = false;
   std::vector<Chain, Zeroed<Chain>> chains_;
   std::size_t chain_ = 0;
