@@ -53,7 +53,7 @@ class Agent {
             [this](const std::string& id) { return verify(id); }, log),
         recorder_(options.board, base::program_folder() / "indurop", {}, log),
         alarms_(options.board, log),
-        board_commands_(options.board, self_, keys_, process_, recorder_, log),
+        board_commands_(options.board, self_, keys_, state, process_, recorder_, log),
         values_(options.board),
         verify_(state),
         server_(self_,
@@ -189,7 +189,7 @@ class Agent {
   }
 
   void work(rt::MonoTime now) {
-    if (board_commands_.step(*net_.commands(), state_.committed().plant,
+    if (board_commands_.step(*net_.commands(), *net_.link(), state_.committed().plant,
                              platform_.under_way()                   ? "its platform is being updated"
                              : transaction_.phase() == Phase::Steady ? ""
                                                                      : "a deployment is under way",

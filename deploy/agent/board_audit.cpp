@@ -53,6 +53,8 @@ const char* word_of(Action action) noexcept {
       return "record";
     case Action::SetUsers:
       return "set users";
+    case Action::ReloadModule:
+      return "reload";
     case Action::RestartModule:
     case Action::RestartNode:
       break;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/rt/clock.h"
+#include "deploy/agent/action_kinds.h"
 #include "deploy/agent/board_alarms.h"
 #include "deploy/agent/board_audit.h"
 #include "store/operate/journal.h"
@@ -17,33 +18,10 @@ namespace indurop::deploy {
 namespace {
 
 using scheduler::CommandResult;
-using scheduler::ModuleCommand;
 
 constexpr std::chrono::seconds kNonce{30};     // validity of an issued number
 constexpr std::chrono::seconds kPatience{20};  // timeout of one command
 constexpr std::size_t kMaxCommanders = 64;
-
-ModuleCommand module_command_of(Action action) {
-  return action == Action::StopModule    ? ModuleCommand::Stop
-         : action == Action::StartModule ? ModuleCommand::Start
-                                         : ModuleCommand::Restart;
-}
-
-bool is_write(Action action) noexcept {
-  return action == Action::Force || action == Action::Unforce || action == Action::Set || action == Action::SetLock;
-}
-
-bool is_about_node(Action action) noexcept {
-  return action == Action::StopNode || action == Action::StartNode || action == Action::RestartNode;
-}
-
-bool is_about_alarms(Action action) noexcept {
-  return action == Action::AckAlarms || action == Action::ShelveAlarms || action == Action::UnshelveAlarms;
-}
-
-bool is_recording(Action action) noexcept {
-  return action == Action::Record || action == Action::EndRecord || action == Action::DropRecord;
-}
 
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -71,21 +49,23 @@ std::string by(const Command& command, const WriteOrder& words) {
 
 }  // namespace
 
-BoardCommands::BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, BoardProcess& process,
-                             BoardRecorder& recorder, const base::Log& log)
+BoardCommands::BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, AgentState& state,
+                             BoardProcess& process, BoardRecorder& recorder, const base::Log& log)
     : board_(std::move(board)),
       forces_(board_),
       self_(self),
       users_(board_, keys),
       process_(process),
       recorder_(recorder),
+      reload_(state, self, board_),
       log_(log) {}
 
 CommandReply BoardCommands::reply(const Command& command, Outcome outcome, const std::string& text) const {
   return {command.commander, board_, self_, command.nonce, outcome, text};
 }
 
-bool BoardCommands::step(CommandLink& link, const std::string& plant, const std::string& busy, rt::MonoTime now) {
+bool BoardCommands::step(CommandLink& link, DeployLink& files, const std::string& plant, const std::string& busy,
+                         rt::MonoTime now) {
   bool any = false;
   for (const Command& command : link.take_commands()) {
     if (command.board == board_ && command.agent == self_) {
@@ -96,7 +76,7 @@ bool BoardCommands::step(CommandLink& link, const std::string& plant, const std:
   if (!command_) {
     return any;
   }
-  if (const auto done = poll(now)) {
+  if (const auto done = poll(files, now)) {
     if (!is_recording(command_->action)) {  // the recorder reports its own actions
       send_reply(*done);
     }
@@ -215,7 +195,7 @@ CommandReply BoardCommands::perform(const Command& command, const WriteOrder& wo
   if (is_recording(command.action)) {
     return begin_recording(command, now);
   }
-  return is_about_node(command.action) ? begin_node(command, words) : begin_module(command, words);
+  return is_about_node(command.action) ? begin_node(command, words) : begin_module(command, words, now);
 }
 
 bool BoardCommands::open_run() {
@@ -287,7 +267,7 @@ std::optional<CommandReply> BoardCommands::poll_recording() {
   return answer ? std::optional(reply(*command_, answer->outcome, answer->text)) : std::nullopt;
 }
 
-CommandReply BoardCommands::begin_module(const Command& command, const WriteOrder& words) {
+CommandReply BoardCommands::begin_module(const Command& command, const WriteOrder& words, rt::MonoTime now) {
   const std::string name = words.lines.empty() ? "" : words.lines.front();
   if (process_.condition() != NodeCondition::Running || !open_run()) {
     return reply(command, Outcome::Refused, "its node is not running");
@@ -311,12 +291,32 @@ CommandReply BoardCommands::begin_module(const Command& command, const WriteOrde
       return reply(command, Outcome::Refused, "its files are not what was deployed: " + damage);
     }
   }
+  if (command.action == Action::ReloadModule) {
+    return begin_reload(command, words, now);
+  }
   const auto ticket = scheduler::place_command(*module_, module_command_of(command.action));
   if (!ticket) {
     return reply(command, Outcome::Refused, "an earlier command about this module is not done yet; try again");
   }
   ticket_ = *ticket;
   return reply(command, Outcome::UnderWay);
+}
+
+CommandReply BoardCommands::begin_reload(const Command& command, const WriteOrder& words, rt::MonoTime now) {
+  const std::string why =
+      reload_.begin(command.commander, words.lines.size() == 2 ? words.lines.back() : std::string(), *module_);
+  deadline_ = now + reload_.patience();
+  return why.empty() ? reply(command, Outcome::UnderWay) : reply(command, Outcome::Refused, why);
+}
+
+std::optional<CommandReply> BoardCommands::poll_reload(DeployLink& files, rt::MonoTime now) {
+  const bool ended = process_.condition() != NodeCondition::Running;
+  const auto answer =
+      ended ? std::optional(BoardReload::Answer{Outcome::Failed, "the node has ended"}) : reload_.poll(files, now);
+  if (ended || (!answer && now > deadline_)) {
+    reload_.cancel();
+  }
+  return answer ? std::optional(reply(*command_, answer->outcome, answer->text)) : std::nullopt;
 }
 
 CommandReply BoardCommands::begin_node(const Command& command, const WriteOrder& words) {
@@ -335,12 +335,17 @@ CommandReply BoardCommands::begin_node(const Command& command, const WriteOrder&
   return reply(command, Outcome::UnderWay);
 }
 
-std::optional<CommandReply> BoardCommands::poll(rt::MonoTime now) {
-  auto done = is_recording(command_->action)    ? poll_recording()
-              : is_about_node(command_->action) ? poll_node()
-                                                : poll_module();
+std::optional<CommandReply> BoardCommands::poll(DeployLink& files, rt::MonoTime now) {
+  std::optional<CommandReply> done;
+  if (command_->action == Action::ReloadModule) {
+    done = poll_reload(files, now);
+  } else if (is_recording(command_->action)) {
+    done = poll_recording();
+  } else {
+    done = is_about_node(command_->action) ? poll_node() : poll_module();
+  }
   if (!done && now > deadline_) {
-    done = reply(*command_, Outcome::Failed, fmt::format("not done after {} s; it continues", kPatience.count()));
+    done = reply(*command_, Outcome::Failed, "not done in time; it continues");
   }
   return done;
 }

@@ -14,6 +14,7 @@
 #include "deploy/agent/board_forces.h"
 #include "deploy/agent/board_process.h"
 #include "deploy/agent/board_recorder.h"
+#include "deploy/agent/board_reload.h"
 #include "deploy/agent/board_users.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/link/command_link.h"
@@ -25,12 +26,13 @@ namespace indurop::deploy {
 
 class BoardCommands {
  public:
-  BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, BoardProcess& process,
+  BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, AgentState& state, BoardProcess& process,
                 BoardRecorder& recorder, const base::Log& log);
 
   // Receives new commands and continues the one under way. `plant`: what is committed on this board; `busy`: why no
   // command is accepted now, empty: commands are accepted. Returns true if a command was received.
-  bool step(CommandLink& link, const std::string& plant, const std::string& busy, rt::MonoTime now);
+  // `files`: new versions of modules come over it.
+  bool step(CommandLink& link, DeployLink& files, const std::string& plant, const std::string& busy, rt::MonoTime now);
 
  private:
   struct Known {
@@ -43,7 +45,8 @@ class BoardCommands {
   CommandReply begin(Command command, const std::string& plant, const std::string& busy, rt::MonoTime now);
   CommandReply carry_out(const Command& command, const std::string& plant, const BoardUsers::Verdict& verdict,
                          const std::string& busy, rt::MonoTime now);
-  CommandReply begin_module(const Command& command, const WriteOrder& words);
+  CommandReply begin_module(const Command& command, const WriteOrder& words, rt::MonoTime now);
+  CommandReply begin_reload(const Command& command, const WriteOrder& words, rt::MonoTime now);
   CommandReply begin_node(const Command& command, const WriteOrder& words);
   void send_reply(const CommandReply& done) const;
   CommandReply perform(const Command& command, const WriteOrder& words, rt::MonoTime now);
@@ -52,10 +55,11 @@ class BoardCommands {
   [[nodiscard]] CommandReply about_alarms(const Command& command) const;
   CommandReply begin_recording(const Command& command, rt::MonoTime now);
   // Returns the reply; empty while the command is under way.
-  std::optional<deploy::CommandReply> poll(rt::MonoTime now);
+  std::optional<deploy::CommandReply> poll(DeployLink& files, rt::MonoTime now);
   std::optional<deploy::CommandReply> poll_module();
   std::optional<deploy::CommandReply> poll_node();
   std::optional<deploy::CommandReply> poll_recording();
+  std::optional<deploy::CommandReply> poll_reload(DeployLink& files, rt::MonoTime now);
   bool open_run();  // false: the node is not running
   scheduler::ModuleRecord* find(const std::string& module);
   [[nodiscard]] CommandReply reply(const Command& command, Outcome outcome, const std::string& text = {}) const;
@@ -66,6 +70,7 @@ class BoardCommands {
   BoardUsers users_;
   BoardProcess& process_;
   BoardRecorder& recorder_;
+  BoardReload reload_;
   const base::Log& log_;
   base::NoteLimit refusals_;                // a flood of refused commands pushes no entry out of the audit log
   std::map<std::uint64_t, Known> known_;    // by commander

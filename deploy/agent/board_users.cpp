@@ -83,6 +83,7 @@ UserRole needed_role(Action action) noexcept {
     case Action::SetLock:
       return UserRole::Program;
     case Action::SetUsers:
+    case Action::ReloadModule:  // beyond_role() refuses it to all users
       break;
   }
   return UserRole::Administer;
@@ -116,6 +117,9 @@ std::string beyond_role(const config::PlantUsers& users, const std::string& name
   const config::PlantUser* user = users.find(name);
   if (user == nullptr) {
     return fmt::format("{} is not in this board's list of users; indurop users send brings it", name);
+  }
+  if (action == Action::ReloadModule) {
+    return fmt::format("{} cannot bring code to a board; deployers do that, as for deployments", name);
   }
   if (user->role < needed_role(action)) {
     return fmt::format("{} has the role {}, and this needs {}", name, config::name_of(user->role),

@@ -44,7 +44,15 @@ void Fetcher::close_part() {
   digest_.reset();
 }
 
-void Fetcher::begin(std::vector<std::uint64_t> sources, const std::string& id, std::uint64_t size) {
+void Fetcher::begin_file(std::uint64_t source, Wanted file) {
+  begin_with({source}, file.digest);
+  planned_ = true;
+  if (!state_.has_sound(file.digest, file.name)) {
+    wanted_.push_back(std::move(file));
+  }
+}
+
+void Fetcher::begin_with(std::vector<std::uint64_t> sources, const std::string& id) {
   cancel();
   sources_ = std::move(sources);
   source_ = 0;
@@ -58,6 +66,10 @@ void Fetcher::begin(std::vector<std::uint64_t> sources, const std::string& id, s
   progress_ = {};
   at_ = 0;
   wanted_.clear();
+}
+
+void Fetcher::begin(std::vector<std::uint64_t> sources, const std::string& id, std::uint64_t size) {
+  begin_with(std::move(sources), id);
   if (!keys::is_digest(id) || size > kLargestPackage) {
     problem_ = "the deployment offered has no valid id or size";
   } else if (const bool here = state_.has_sound(id, "the package"); !here && size == 0) {

@@ -34,6 +34,13 @@ class Fetcher {
   // `sources`: sessions that may have its files, at least one; the next is asked if one does not have a file, or is
   // silent. `size`: of the package's text.
   void begin(std::vector<std::uint64_t> sources, const std::string& id, std::uint64_t size);
+  struct Wanted {
+    std::string digest;
+    std::uint64_t size = 0;
+    std::string name;  // for people
+  };
+  // Fetches one file that belongs to no deployment.
+  void begin_file(std::uint64_t source, Wanted file);
   void cancel();
   enum class State { Working, Done, Failed };
   // Processes what has arrived and requests more. Failed: problem() returns why.
@@ -44,12 +51,8 @@ class Fetcher {
   [[nodiscard]] FetchProgress progress() const noexcept;
 
  private:
-  struct Wanted {
-    std::string digest;
-    std::uint64_t size = 0;
-    std::string name;  // for people
-  };
   using Attempt = Result<void, base::Problem>;
+  void begin_with(std::vector<std::uint64_t> sources, const std::string& id);
   Attempt advance(DeployLink& link, rt::MonoTime now);
   Attempt open_next();
   Attempt open_part(const Wanted& wanted);

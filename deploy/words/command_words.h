@@ -37,6 +37,10 @@ enum class Action : std::uint8_t {
   ShelveAlarms,  // for the given duration
   UnshelveAlarms,
   SetUsers,  // target: the plant's list of users as XML (config/users_reader.h), without passwords
+  // Exchanges the code of a module. Target: transaction/write_words.h with two lines, its name and the text of an
+  // operate::RemoteReload; the file is fetched from the commander, a deployer. The answer is that of an
+  // operate::RemoteReloadReply.
+  ReloadModule,
 };
 
 struct Command {

@@ -56,12 +56,26 @@ ReloadPlan plan_of(const Json& json) {
 
 }  // namespace
 
+Json json_of(const ReloadRequest& request) {
+  return {{"file", request.file},
+          {"lossy", request.lossy},
+          {"dry_run", request.dry_run},
+          {"health_ns", request.health_ns},
+          {"guard", request.guard}};
+}
+
+ReloadRequest request_of(const Json& json) {
+  ReloadRequest request;
+  base::read(json, "file", request.file);
+  base::read(json, "lossy", request.lossy);
+  base::read(json, "dry_run", request.dry_run);
+  base::read(json, "health_ns", request.health_ns);
+  base::read(json, "guard", request.guard);
+  return request;
+}
+
 Status write_request(const std::string& node, const ReloadRequest& request) {
-  return write_json(file_of_reload(node, "reload.request"), {{"file", request.file},
-                                                             {"lossy", request.lossy},
-                                                             {"dry_run", request.dry_run},
-                                                             {"health_ns", request.health_ns},
-                                                             {"guard", request.guard}});
+  return write_json(file_of_reload(node, "reload.request"), json_of(request));
 }
 
 std::optional<ReloadRequest> take_reload_request(const std::string& node) {
@@ -69,16 +83,7 @@ std::optional<ReloadRequest> take_reload_request(const std::string& node) {
   const auto json = read_json(file);
   std::error_code ignored;
   std::filesystem::remove(file, ignored);
-  if (!json) {
-    return std::nullopt;
-  }
-  ReloadRequest request;
-  base::read(*json, "file", request.file);
-  base::read(*json, "lossy", request.lossy);
-  base::read(*json, "dry_run", request.dry_run);
-  base::read(*json, "health_ns", request.health_ns);
-  base::read(*json, "guard", request.guard);
-  return request;
+  return json ? std::optional(request_of(*json)) : std::nullopt;
 }
 
 Status write_report(const std::string& node, const ReloadReport& report) {
@@ -87,21 +92,22 @@ Status write_report(const std::string& node, const ReloadReport& report) {
 
 std::optional<ReloadReport> read_report(const std::string& node) {
   const auto json = read_json(file_of_reload(node, "reload.report"));
-  if (!json) {
-    return std::nullopt;
-  }
+  return json ? std::optional(report_of(*json)) : std::nullopt;
+}
+
+ReloadReport report_of(const Json& json) {
   ReloadReport report;
-  base::read(*json, "module", report.module);
-  base::read(*json, "text", report.text);
-  base::read(*json, "errors", report.errors);
-  report.plan = plan_of((*json)["plan"]);
-  base::read(*json, "from", report.from);
-  base::read(*json, "to", report.to);
-  base::read(*json, "version", report.version);
-  base::read(*json, "tick", report.tick);
-  base::read(*json, "left_out", report.left_out);
-  base::read(*json, "copying_ns", report.copying_ns);
-  base::read(*json, "response_ns", report.response_ns);
+  base::read(json, "module", report.module);
+  base::read(json, "text", report.text);
+  base::read(json, "errors", report.errors);
+  report.plan = plan_of(json["plan"]);
+  base::read(json, "from", report.from);
+  base::read(json, "to", report.to);
+  base::read(json, "version", report.version);
+  base::read(json, "tick", report.tick);
+  base::read(json, "left_out", report.left_out);
+  base::read(json, "copying_ns", report.copying_ns);
+  base::read(json, "response_ns", report.response_ns);
   return report;
 }
 

@@ -60,6 +60,9 @@ Status write_report(const std::string& node, const ReloadReport& report);
 std::optional<ReloadReport> read_report(const std::string& node);
 
 base::Json json_of(const ReloadReport& report);
+ReloadReport report_of(const base::Json& json);  // what is missing in it is empty
+base::Json json_of(const ReloadRequest& request);
+ReloadRequest request_of(const base::Json& json);
 
 // Held by the process that commands an exchange, until it has read the report. Errors: Busy (another process holds it),
 // System.

@@ -44,6 +44,54 @@ TEST_F(Commands, Stop_and_start_a_module_of_one_board_only) {
   EXPECT_EQ(module_state("b"), "running");
 }
 
+// These modules do not declare what they keep, so that each exchange needs consent.
+TEST_F(Commands, A_module_of_one_board_is_exchanged_with_a_file_from_here) {
+  start_plant();
+  const auto reload = [&](const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"reload", "steady", std::string(MODULE_FOLDER) + "/" + file, "--board",
+                                      board("a")};
+    words.insert(words.end(), more.begin(), more.end());
+    return indurop(words);
+  };
+  const auto version = [&](const std::string& name) {
+    return indurop_here({"status", "--node", board(name), "-o", "json"}).json()["modules"][0]["version"].get<int>();
+  };
+  EXPECT_EQ(reload("other.so", {}).code, 4) << "values would be lost";
+  EXPECT_EQ(reload("absent.so", {}).code, 1);
+  EXPECT_EQ(reload("other.so", {"--lossy", "--dry-run"}).code, 0);
+  EXPECT_EQ(version("a"), 1);
+  const Outcome done = reload("other.so", {"--lossy", "--health", "300ms"});
+  EXPECT_EQ(done.code, 0) << done.out << done.err;
+  EXPECT_THAT(done.out, HasSubstr("version 2 runs since tick"));
+  EXPECT_EQ(version("a"), 2);
+  EXPECT_EQ(version("b"), 1);
+  const Outcome faulty = reload("faulty.so", {"--lossy", "--health", "20s"});
+  EXPECT_EQ(faulty.code, 5) << faulty.out << faulty.err;
+  EXPECT_THAT(faulty.err, HasSubstr("the previous version runs again: the new one faulted"));
+  EXPECT_EQ(module_state("a"), "running");
+  ASSERT_EQ(reload("steady.so", {"--lossy", "--health", "0s"}).code, 0);
+  const Outcome back = indurop({"reload", "steady", "--back", "--board", board("a")});
+  EXPECT_EQ(back.code, 0) << back.err;
+  EXPECT_THAT(back.err, HasSubstr("the previous version runs again"));
+  EXPECT_TRUE(runs("a", id_)) << "the deployment is what it was";
+  ASSERT_EQ(indurop({"restart", "@" + board("a")}).code, 0);
+  EXPECT_EQ(version("a"), 1) << "a node starts with what was deployed";
+}
+
+TEST_F(Commands, An_agent_refuses_an_exchange_that_it_cannot_begin) {
+  start_plant();
+  const std::string file = std::string(MODULE_FOLDER) + "/other.so";
+  const Outcome module = indurop({"reload", "stedy", file, "--board", board("a")});
+  EXPECT_EQ(module.code, 1);
+  EXPECT_THAT(module.err, HasSubstr("it has no module stedy; it has steady"));
+  const Outcome health = indurop({"reload", "steady", file, "--board", board("a"), "--health", "1h"});
+  EXPECT_EQ(health.code, 1);
+  EXPECT_THAT(health.err, HasSubstr("is 60 s at most"));
+  EXPECT_EQ(indurop({"reload", "steady", file, "--board", "missing", "--timeout", "1s"}).code, 6);
+  EXPECT_EQ(indurop({"reload", "steady", "--board", board("a")}).code, 2) << "no file";
+  EXPECT_EQ(indurop({"reload", "steady", file, "--board", board("a"), "--shadow", "1s"}).code, 2);
+}
+
 TEST_F(Commands, The_node_tells_what_was_deployed) {
   start_plant();
   EXPECT_EQ(indurop_here({"status", "--node", board("a"), "-o", "json"}).json()["deployment"], id_);
@@ -134,6 +182,14 @@ TEST_F(Commands, A_board_with_a_key_takes_signed_commands_only) {
   EXPECT_EQ(refused.code, 1) << refused.err;
   EXPECT_THAT(refused.err, HasSubstr("it is not signed with the key of plant " + plant));
   EXPECT_EQ(module_state("a"), "running");
+  const std::string other = std::string(MODULE_FOLDER) + "/other.so";
+  const std::vector<std::string> reload = {"reload",   "steady",  other,      "--board",
+                                           board("a"), "--lossy", "--health", "0s"};
+  std::vector<std::string> as_thief = reload;
+  as_thief.insert(as_thief.end(), {"--keys", thief.string()});
+  EXPECT_EQ(indurop(as_thief).code, 1);
+  const Outcome exchanged = indurop(reload);
+  EXPECT_EQ(exchanged.code, 0) << exchanged.err;
   const Outcome good = indurop({"stop", "steady@" + board("a")});
   EXPECT_EQ(good.code, 0) << good.err;
   EXPECT_EQ(module_state("a"), "stopped");

@@ -147,7 +147,13 @@ TEST(UserRoles, Of_each_command) {
       EXPECT_EQ(beyond_role(users, "anna", action, "a").empty(), own >= role);
     }
   }
-  EXPECT_EQ(static_cast<std::size_t>(Action::SetUsers) + 1, kNeeded.size()) << "an action without a decision";
+  EXPECT_EQ(static_cast<std::size_t>(Action::ReloadModule), kNeeded.size()) << "an action without a decision";
+}
+
+TEST(UserRoles, Do_not_bring_code) {
+  config::PlantUsers users;
+  users.users = {{"anna", UserRole::Administer, {}, {}, {}, {}}};
+  EXPECT_THAT(beyond_role(users, "anna", Action::ReloadModule, "a"), HasSubstr("deployers do that"));
 }
 
 TEST(UserRoles, Are_those_of_the_list_and_of_no_other_name) {

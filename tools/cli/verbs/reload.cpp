@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/rt/clock.h"
+#include "tools/cli/plant/reload_remote.h"
 #include "tools/cli/shadow/shadow_run.h"
 #include "tools/cli/values/forcing.h"
 #include "tools/cli/verbs/verbs.h"
@@ -22,6 +23,7 @@ namespace {
 using scheduler::CommandResult;
 using scheduler::ModuleCommand;
 using scheduler::VersionState;
+using ReloadResult = operate::RemoteReloadReply::Result;
 
 constexpr std::int64_t kHealthPollNs = 10'000'000;
 
@@ -29,6 +31,8 @@ struct ReloadOptions {
   std::string module;
   std::string file;
   operate::ReloadRequest request;
+  std::string board;  // empty: a node of this machine
+  deploy::LinkSettings link;
   bool back = false;
   std::int64_t shadow_ns = 0;  // 0: no shadow
   AcceptedDifferences accepted;
@@ -116,43 +120,47 @@ std::optional<int> compare_as_shadow(Context& context, ReloadOptions& options, c
   return kCheckFailed;
 }
 
-int conclude(Context& context, const ReloadOptions& options, const Reloaded& done) {
-  const operate::ReloadReport& report = done.report;
+ReloadResult result_of(CommandResult result) {
+  switch (result) {
+    case CommandResult::Done:
+      return ReloadResult::Done;
+    case CommandResult::Unchanged:
+      return ReloadResult::Unchanged;
+    case CommandResult::Refused:
+      return ReloadResult::Refused;
+    case CommandResult::None:
+    case CommandResult::OldCode:
+    case CommandResult::Failed:
+    case CommandResult::Ending:
+      break;
+  }
+  return ReloadResult::Failed;
+}
+
+// Prints the report of a node. Returns the exit code.
+int print_result(Context& context, const ReloadOptions& options, const operate::ReloadReport& report,
+                 ReloadResult result) {
   for (const std::string& error : report.errors) {
-    context.out.message_line(error);
+    context.out.message_line(printable(error));
   }
   if (context.format == Format::Json) {
     print_json(context, options, report);
   } else if (report.errors.empty() && !report.to.empty()) {
     print_plan(context, report.plan);
   }
-  const std::string text = fmt::format("module '{}': {}", report.module, report.text);
-  switch (done.answer.result) {
-    case CommandResult::Refused:
-      context.out.error(text);
-      return kCheckFailed;
-    case CommandResult::Done:
-    case CommandResult::Unchanged:
-      context.out.note(text);
-      break;
-    default:
-      context.out.error(text);
-      return kFailed;
+  const std::string text = fmt::format("module '{}': {}", options.module, printable(report.text));
+  if (result != ReloadResult::Done && result != ReloadResult::Unchanged) {
+    context.out.error(text);
+    return result == ReloadResult::Refused ? kCheckFailed : result == ReloadResult::Returned ? kRolledBack : kFailed;
   }
-  if (done.answer.result == CommandResult::Unchanged || options.request.dry_run) {
-    return kOk;
-  }
-  if (context.format != Format::Json) {
+  context.out.note(text);
+  if (result == ReloadResult::Done && !options.request.dry_run && context.format != Format::Json) {
     print_exchange(context, report);
   }
-  return options.back ? kOk : await_health(context, done);
+  return kOk;
 }
 
-int reload(Context& context, ReloadOptions& options) {
-  if (options.back && (!options.file.empty() || options.request.dry_run || options.shadow_ns > 0)) {
-    context.out.error("--back takes a module only: the previous version is in memory");
-    return kUsage;
-  }
+int reload_here(Context& context, ReloadOptions& options) {
   const auto node = choose_node(context.node);
   if (!node) {
     return report(context.out, node.error());
@@ -174,7 +182,32 @@ int reload(Context& context, ReloadOptions& options) {
   if (done->answer.result == CommandResult::Done && !options.request.dry_run) {
     note_for_audit(context, *node, verb_of(command), options.module + " sha256:" + done->report.to);
   }
-  return conclude(context, options, *done);
+  const int code = print_result(context, options, done->report, result_of(done->answer.result));
+  const bool exchanged = done->answer.result == CommandResult::Done && !options.request.dry_run && !options.back;
+  return code == kOk && exchanged ? await_health(context, *done) : code;
+}
+
+int reload_there(Context& context, ReloadOptions& options) {
+  if (options.shadow_ns > 0) {
+    context.out.error("--shadow is for a node of this machine: its runs are taken from its memory");
+    return kUsage;
+  }
+  if (!options.back && options.file.empty()) {
+    context.out.error("name the file that the board is to get: indurop reload MODULE FILE --board NAME");
+    return kUsage;
+  }
+  RemoteReloadOrder order{options.board,   options.module,     options.file,
+                          options.request, options.timeout_ns, options.link};
+  const auto done = reload_on_board(context, order);
+  return done ? print_result(context, options, done->report, done->result) : report(context.out, done.error());
+}
+
+int reload(Context& context, ReloadOptions& options) {
+  if (options.back && (!options.file.empty() || options.request.dry_run || options.shadow_ns > 0)) {
+    context.out.error("--back takes a module only: the previous version is in memory");
+    return kUsage;
+  }
+  return options.board.empty() ? reload_here(context, options) : reload_there(context, options);
 }
 
 Action declare_reload(base::Options& app, Context& context) {
@@ -205,6 +238,9 @@ Action declare_reload(base::Options& app, Context& context) {
   app.add("--guard", "CONDITION", options->request.guard,
           "A number must be so in that time, else the previous version runs again: \"O0 == 0\"");
   add_time_option(app, "--timeout", options->timeout_ns, "How long to wait for the exchange (default 30 s)");
+  app.add("--board", "NAME", options->board, "Exchange it on this board, through its agent, which gets FILE from here")
+      .completes(base::Completion::Node);
+  deploy::add_link_options(app, options->link);
   add_reason_option(app, context);
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json});
@@ -230,7 +266,8 @@ const Verb kReloadVerb{
     "  indurop reload press --shadow 5s --accept \"heat <= 0.5\"\n"
     "  indurop reload press --health 10s --guard \"pressure < 80\"\n"
     "  indurop reload press build/press.so --reason \"faster ramp\"\n"
-    "  indurop reload press --back\n",
+    "  indurop reload press --back\n"
+    "  indurop reload press build/press.so --board cell\n",
     &declare_reload};
 
 }  // namespace indurop::tools

@@ -12,6 +12,11 @@
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
+namespace {
+
+constexpr std::int64_t kBusyPollNs = 1'000'000;
+
+}  // namespace
 
 Result<BoardCommander, Failure> BoardCommander::make(Messages& messages, const std::filesystem::path& keys) {
   if (keys.empty()) {
@@ -26,7 +31,8 @@ Result<BoardCommander, Failure> BoardCommander::make(Messages& messages, const s
 
 Result<Answered, Failure> BoardCommander::send(deploy::DeployLink& link, std::uint64_t self,
                                                const deploy::BoardReport& board, deploy::Action action,
-                                               const std::string& target, std::int64_t timeout_ns) {
+                                               const std::string& target, std::int64_t timeout_ns,
+                                               const std::function<bool()>& meanwhile) {
   if (commands_ == nullptr) {
     auto opened = deploy::CommandLink::open(link, deploy::CommandSide::Commander);
     if (!opened) {
@@ -37,12 +43,15 @@ Result<Answered, Failure> BoardCommander::send(deploy::DeployLink& link, std::ui
   CommandExchange exchange({self, deploy::host_name(), board.board, board.agent, board.plant, action, target, 0, {}},
                            key_);
   const std::int64_t begin = rt::now_ns();
+  bool busy = false;
   while (!interrupted() && rt::now_ns() < begin + timeout_ns) {
     if (rt::now_ns() >= exchange.due_ns()) {
       commands_->send(exchange.command());
       exchange.sent(rt::now_ns());
     }
-    link.wait(rt::mono_time(std::min(exchange.due_ns(), begin + timeout_ns)));
+    const std::int64_t next = busy ? rt::now_ns() + kBusyPollNs : begin + timeout_ns;
+    link.wait(rt::mono_time(std::min(exchange.due_ns(), next)));
+    busy = meanwhile && meanwhile();
     for (const deploy::CommandReply& reply : commands_->take_replies()) {
       if (exchange.take(reply)) {
         return Answered{reply, rt::now_ns() - begin};

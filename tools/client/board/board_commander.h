@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -28,9 +29,11 @@ class BoardCommander {
   // Signs with the key in this folder of the plant's keys; empty: unsigned, which boards without keys accept.
   static Result<BoardCommander, Failure> make(Messages& messages, const std::filesystem::path& keys);
 
-  // `self`: session of the link. Fails if no final answer comes in time, or the user interrupts.
+  // `self`: session of the link. `meanwhile` is called whenever something may have arrived, and at once again if it
+  // returns true. Fails if no final answer comes in time, or the user interrupts.
   Result<Answered, Failure> send(deploy::DeployLink& link, std::uint64_t self, const deploy::BoardReport& board,
-                                 deploy::Action action, const std::string& target, std::int64_t timeout_ns);
+                                 deploy::Action action, const std::string& target, std::int64_t timeout_ns,
+                                 const std::function<bool()>& meanwhile = {});
 
  private:
   explicit BoardCommander(CommandKey key) : key_(std::move(key)) {}

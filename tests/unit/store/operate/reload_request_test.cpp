@@ -11,6 +11,7 @@
 #include <fstream>
 #include <string>
 
+#include "store/operate/remote_reload.h"
 #include "store/vars/retain.h"
 
 namespace indurop::operate {
@@ -84,6 +85,35 @@ TEST_F(ReloadFiles, One_process_commands_an_exchange_at_a_time) {
     EXPECT_EQ(ReloadLock::acquire("n").error().code, Errc::Busy);
   }
   EXPECT_TRUE(ReloadLock::acquire("n").ok());
+}
+
+TEST(RemoteReload, Order_and_reply_come_as_they_were_sent) {
+  const RemoteReload order{false, "ab12", 4711, {"", true, false, 5, "x > 1"}};
+  const auto sent = parse_remote_reload(text_of(order));
+  ASSERT_TRUE(sent);
+  EXPECT_FALSE(sent->back);
+  EXPECT_EQ(sent->digest, "ab12");
+  EXPECT_EQ(sent->size, 4711U);
+  EXPECT_TRUE(sent->request.lossy);
+  EXPECT_FALSE(sent->request.dry_run);
+  EXPECT_EQ(sent->request.health_ns, 5);
+  EXPECT_EQ(sent->request.guard, "x > 1");
+  RemoteReloadReply reply;
+  reply.result = RemoteReloadReply::Result::Returned;
+  reply.report.text = "the previous version runs again";
+  reply.report.plan.kept = {"counted"};
+  const auto answered = parse_remote_reload_reply(text_of(reply));
+  ASSERT_TRUE(answered);
+  EXPECT_EQ(answered->result, RemoteReloadReply::Result::Returned);
+  EXPECT_EQ(answered->report.text, reply.report.text);
+  EXPECT_THAT(answered->report.plan.kept, ElementsAre("counted"));
+}
+
+TEST(RemoteReload, Other_text_is_refused) {
+  for (const char* text : {"", "{}", "[]", R"({"back": 1})", R"({"result": "perhaps"})"}) {
+    EXPECT_FALSE(parse_remote_reload(text)) << text;
+    EXPECT_FALSE(parse_remote_reload_reply(text)) << text;
+  }
 }
 
 }  // namespace
