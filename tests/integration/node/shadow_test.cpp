@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "node_fixture.h"
+#include "store/vars/node_lock.h"
 
 namespace indurop::test {
 namespace {
@@ -149,6 +150,19 @@ TEST_F(Shadow, A_version_that_faults_crashes_or_never_returns_does_no_harm) {
     EXPECT_CONTAINS(done.err, one.text);
     expect_untouched();
   }
+}
+
+TEST_F(Shadow, What_a_killed_client_has_started_ends_with_it) {
+  SKIP_CRASHES_UNDER_TSAN();
+  start_counting();
+  const auto shadow_runs = [&] { return vars::running_node(node() + "-shadow") != 0; };
+  Program client({INDUROP_PROGRAM, "reload", "counter", built("reload_loops"), "--node", node(), "--shadow", "1s"},
+                 environment());
+  ASSERT_TRUE(wait_until(shadow_runs));
+  client.kill();
+  EXPECT_TRUE(wait_until([&] { return !shadow_runs(); }));
+  EXPECT_EQ(shadow(built("reload_same")).code, 0);
+  expect_untouched();
 }
 
 TEST_F(Shadow, Initial_values_need_consent) {

@@ -106,9 +106,7 @@ Result<int, Failure> repeat(Context& context, const std::filesystem::path& progr
   launch.words.insert(launch.words.begin(), "indurop-node");
   const auto code = run_expendable(launch, kPatienceNs);
   show_messages(context, messages);
-  if (!code || *code != kOk) {
-    (void)vars::remove_node(options.node);
-  }
+  (void)vars::remove_node(options.node);  // left by it if it was killed, or by an earlier one
   return code;
 }
 
