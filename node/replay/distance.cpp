@@ -59,8 +59,8 @@ class Measurement {
   static double between_numbers(Base base, const std::uint8_t* a, const std::uint8_t* b) noexcept {
     const auto x = schema::as_number<long double>(base, a);
     const auto y = schema::as_number<long double>(base, b);
-    const long double apart = x && y ? std::fabs(*x - *y) : kInfinite;
-    return std::isnan(apart) ? kInfinite : static_cast<double>(apart);
+    const double apart = x && y ? static_cast<double>(std::fabs(*x - *y)) : kInfinite;
+    return std::isnan(apart) ? kInfinite : apart;
   }
 
   void note(double apart, const std::uint8_t* at) noexcept {

@@ -40,7 +40,7 @@ std::optional<RemoteReload> parse_remote_reload(std::string_view text) {
 }
 
 std::string text_of(const RemoteReloadReply& reply) {
-  const auto found =
+  const auto* const found =
       std::find_if(kWords.begin(), kWords.end(), [&](const ResultWord& one) { return one.result == reply.result; });
   return Json{{"result", found->word}, {"report", json_of(reply.report)}}.dump();
 }
@@ -51,7 +51,7 @@ std::optional<RemoteReloadReply> parse_remote_reload_reply(std::string_view text
   if (!json || !base::read(*json, "result", word)) {
     return std::nullopt;
   }
-  const auto found =
+  const auto* const found =
       std::find_if(kWords.begin(), kWords.end(), [&](const ResultWord& one) { return one.word == word; });
   return found == kWords.end() ? std::nullopt
                                : std::optional(RemoteReloadReply{found->result, report_of((*json)["report"])});

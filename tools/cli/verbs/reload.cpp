@@ -225,10 +225,11 @@ Action declare_reload(base::Options& app, Context& context) {
       "First compare it with the running version: repeat the runs of this time, and exchange it if nothing differs");
   const auto accept = [&accepted = options->accepted](const std::string& text) {
     auto rules = AcceptedDifferences::parse(text);
-    if (rules) {
-      accepted = std::move(rules).value();
+    if (!rules) {
+      return rules.error().text;
     }
-    return rules ? std::string() : rules.error().text;
+    accepted = std::move(rules).value();
+    return std::string();
   };
   app.add("--accept", "RULES", accept, "With --shadow: differences that do not matter: \"O* == 0, joint < 0.01\"")
       .needs(shadow);
