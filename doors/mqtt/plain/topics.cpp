@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doors/mqtt/plain/topics.h"
 
+#include <algorithm>
+
 namespace indurop::mqtt {
 namespace {
 

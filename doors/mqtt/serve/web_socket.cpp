@@ -91,7 +91,7 @@ bool FrameParser::take(std::vector<Message>& to, bool& complete) {
   for (std::size_t i = 0; i < length_bytes; ++i) {
     size = (size << kByteBits) | byte_of(pending_, 2 + i);
   }
-  if (size + message_.size() > kMostMessageBytes) {
+  if (size > kMostMessageBytes - message_.size()) {
     return false;
   }
   const std::size_t begin = 2 + length_bytes;

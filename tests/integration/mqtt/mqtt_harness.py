@@ -80,9 +80,9 @@ class Setting(harness.Setting):
         with socket.socket() as one:
             return one.connect_ex(("127.0.0.1", self.port)) == 0
 
-    def start_door(self, server, *options, scheme="mqtt", host="127.0.0.1"):
+    def start_door(self, server, *options, scheme="mqtt", host="127.0.0.1", serve="http://127.0.0.1"):
         with self.log.open("a") as log:
-            return self.start(self.programs / "indurop-mqtt", "--serve", f"http://127.0.0.1:{server.port}", "--broker",
+            return self.start(self.programs / "indurop-mqtt", "--serve", f"{serve}:{server.port}", "--broker",
                               f"{scheme}://{host}:{self.port}", "--state", self.folder / "mqtt", *options, stderr=log)
 
     def subscribe(self, *filters, options=()):

@@ -173,6 +173,52 @@ def test_tls(setting):
     assert "plain topics are published" not in setting.log.read_text()
 
 
+def test_a_broker_that_asks_for_a_certificate(setting):
+    setting.start_node()
+    server = setting.start_server()
+    setting.make_authority("ca")
+    setting.make_certificate("broker", "ca", "IP:127.0.0.1")
+    setting.make_certificate("door", "ca", "DNS:door")
+    setting.broker_lines += [f"cafile {setting.folder}/ca.pem", f"certfile {setting.folder}/broker.pem", f"keyfile {setting.folder}/broker.key",
+                             "require_certificate true"]
+    setting.start_broker()
+    ca = ["--broker-ca", setting.folder / "ca.pem"]
+    without = setting.start_door(server, *ca, scheme="mqtts")
+    setting.log_has("warning: plain topics: ")
+    assert "plain topics are published" not in setting.log.read_text()
+    setting.end(without)
+    setting.start_door(server, *ca, "--broker-cert", setting.folder / "door.pem", "--broker-key", setting.folder / "door.key", scheme="mqtts")
+    setting.log_has("plain topics are published")
+
+
+def test_a_server_with_tls_and_tokens(setting):
+    setting.start_node()
+    setting.make_authority("ca")
+    setting.make_certificate("server", "ca", "DNS:localhost")
+    setting.tokens.write_text(f"reader {TOKEN} look\nben {BEN} operate\n")
+    server = setting.start_server("--write", "--bind", "0.0.0.0", "--cert", setting.folder / "server.pem", "--key", setting.folder / "server.key",
+                                  "--token-file", setting.tokens)
+    setting.start_broker()
+    base = f"indurop/{setting.node}"
+    client = setting.subscribe("indurop/#")
+    wrong = setting.folder / "wrong"
+    wrong.write_text(f"reader {TOKEN[1:]}x\n")
+    wrong.chmod(0o600)
+    ca = ["--serve-ca", setting.folder / "ca.pem"]
+    for options, host, why in (((*ca, "--token-file", wrong), "https://localhost", "does not offer its stream"),
+                               ((*ca, "--token-file", setting.tokens), "https://127.0.0.1", "cannot be reached: "),
+                               (("--token-file", setting.tokens), "https://localhost", "cannot be reached: ")):
+        refused = setting.start_door(server, *options, serve=host)
+        setting.log_has(why)
+        setting.end(refused)
+        assert "the boards of" not in setting.log.read_text(), setting.log.read_text()
+        setting.log.write_text("")
+    setting.start_door(server, *ca, "--token-file", setting.tokens, serve="https://localhost")
+    client.becomes(base + "/values/knu/Robot/gain", lambda one: one["value"] == 1, "a value")
+    setting.publish(f"{base}/set/ben/knu/Robot/gain", "2")
+    client.becomes(base + "/values/knu/Robot/gain", lambda one: one["value"] == 2, "the value")
+
+
 def test_is_not_open_by_mistake(setting):
     (setting.folder / "open").write_text(f"a {TOKEN}\n")
     (setting.folder / "open").chmod(0o644)

@@ -41,8 +41,9 @@ TEST(WebSocketFrames, Are_those_of_the_standard_in_whatever_pieces) {
 }
 
 TEST(WebSocketFrames, Of_a_server_have_no_mask_and_a_known_kind) {
-  for (const std::string& wrong : {"\x81\x85\x37\xfa\x21\x3d\x7f\x9f\x4d\x51\x58"s, "\x83\x01x"s, "\x80\x01x"s,
-                                   "\x01\x01x\x81\x01x"s, "\x82\x7f\x7f\xff\xff\xff\xff\xff\xff\xff"s}) {
+  for (const std::string& wrong :
+       {"\x81\x85\x37\xfa\x21\x3d\x7f\x9f\x4d\x51\x58"s, "\x83\x01x"s, "\x80\x01x"s, "\x01\x01x\x81\x01x"s,
+        "\x82\x7f\x7f\xff\xff\xff\xff\xff\xff\xff"s, "\x02\x01x\x80\x7f\xff\xff\xff\xff\xff\xff\xff\xff"s}) {
     FrameParser sut;
     std::vector<FrameParser::Message> all;
     EXPECT_FALSE(sut.feed(wrong, all)) << testing::PrintToString(wrong);
