@@ -301,6 +301,14 @@ void EthercatBus::make_fields(const std::vector<ethercat::FoundSlave>& found, Ru
     const ethercat::Sii& sii = found[static_cast<std::size_t>(member.slave.position)].sii;
     running.outputs.push_back(fields_of(member, member.outputs, sii.outputs));
     running.inputs.push_back(fields_of(member, member.inputs, sii.inputs));
+    // What the file sets stays set although the object is exchanged, unless a point writes it.
+    const auto outputs = running.master.outputs(static_cast<std::size_t>(member.slave.position));
+    for (const config::IoObjectValue& value : member.slave.values) {
+      const auto field = find_field(sii.outputs, value.object);
+      if (field && field->bits == 8 * value.bytes.size()) {
+        ethercat::copy_bits(value.bytes, 0, outputs, field->bit, field->bits);
+      }
+    }
   }
 }
 

@@ -98,6 +98,19 @@ TEST_F(EthercatNode, Objects_are_set_before_the_exchange_begins) {
   EXPECT_TRUE(moves()) << sut.out() << sut.err();
 }
 
+// The drive exchanges its mode, which no point writes.
+TEST_F(EthercatNode, What_is_set_stays_set_although_it_is_exchanged) {
+  simulate(1);
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0' slave='0'>\n"
+      "  <set at='6060' type='int8' value='8'/>\n"
+      "  <input variable='speeds[1]' at='mode' quality='TEST_CELL::I0_quality'/>\n"
+      "  <output variable='speeds[2]' at='control'/>\n"
+      "</device>");
+  EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 1; })) << sut.out();
+  EXPECT_TRUE(wait_until([&] { return indurop({"get", "speeds[1]"}).out == "8\n"; })) << indurop({"get", "speeds"}).out;
+}
+
 TEST_F(EthercatNode, An_object_that_the_slave_refuses_is_named) {
   simulate(1);
   Program& sut = run_node(

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <random>
 
 #include "control/io/ecsim/slave_word.h"
 #include "control/io/ethercat/master/mapping.h"
@@ -140,6 +142,28 @@ TEST(Esi, What_is_wrong_is_named_with_its_place) {
   }
   EXPECT_THAT(said("<EtherCATInfo><Vendor>"), testing::StartsWith("a.xml:1:"));
   EXPECT_THAT(base::to_text(read_esi("/nowhere.xml").diagnostics), testing::HasSubstr("No such file"));
+}
+
+TEST(Esi, Whatever_the_bytes_are_they_are_read_or_refused) {
+  std::ifstream file(kServo);
+  const std::string whole{std::istreambuf_iterator<char>(file), {}};
+  ASSERT_FALSE(whole.empty());
+  std::mt19937 random(1);
+  std::size_t refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::string xml = whole;
+    for (std::size_t k = 0; k < 1 + random() % 4; ++k) {
+      xml[random() % xml.size()] = static_cast<char>(random());
+    }
+    xml.resize(random() % 4 == 0 ? random() % xml.size() : xml.size());
+    const EsiFile sut = read_esi_text(xml, "a.xml");
+    refused += sut.ok() ? 0U : 1U;
+    for (const Device& device : sut.devices) {
+      static_cast<void>(read_sii(sii_image(device.sii)));
+    }
+  }
+  EXPECT_GT(refused, 500U);
+  EXPECT_LT(refused, 2000U);
 }
 
 TEST(Esi, The_newest_revision_of_a_type_is_found) {
