@@ -183,8 +183,8 @@ struct IoConfig {
 
 // An object of a CiA 402 drive by the name that a point uses.
 struct AxisObject {
-  const char* name;
-  bool output;
+  const char* name = "";
+  bool output = false;
   IoObject object;  // index 0: of the simulated drive only
 };
 inline constexpr std::array<AxisObject, 23> kAxisObjects{{{"error", false, {0x603F, 0, 2, false}},

@@ -158,10 +158,7 @@ class LineReader {
       has_value_ = true;
     } else if (name == "at" && form_->value == "to" && object_of(value)) {
       fault_.object = *object_of(value);
-    } else if (name == "to" && form_->value == "to" && number) {
-      fault_.value = *number;
-      has_value_ = true;
-    } else if (name == "code" && form_->value == "code" && number) {
+    } else if (name == form_->value && (name == "to" || name == "code") && number) {
       fault_.value = *number;
       has_value_ = true;
     } else {
