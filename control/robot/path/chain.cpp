@@ -65,7 +65,7 @@ bool Chain::add(const Line& line) noexcept {
   arc_of_[i] = 0;
   if (bent) {
     arcs_[at(arc_count_)] = arc;
-    arc_of_[i] = static_cast<std::int8_t>(++arc_count_);
+    arc_of_[i] = static_cast<std::uint8_t>(++arc_count_);
   }
   poses_[i + 1] = line.end;
   at_[i + 1] = at_[i] + length;

@@ -90,7 +90,7 @@ class Chain final : public ToolPath {
   // For each line: its velocity, of arcs at the beginning, and turn rate (base frame), and its rotation (frame of its
   // beginning).
   Corners moving_{}, turning_{}, turns_{};
-  std::array<std::int8_t, kMaxLines> arc_of_{};  // number of its arc, from 1; 0: it is straight
+  std::array<std::uint8_t, kMaxLines> arc_of_{};  // number of its arc, from 1; 0: it is straight
   int arc_count_ = 0;
   std::array<Arc, kMaxArcs> arcs_{};
   std::array<double, kMaxLines> speeds_{}, zones_{};
