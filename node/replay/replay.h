@@ -46,7 +46,7 @@ class Replay {
   Repeater repeater_;
   Comparison comparison_;
   Repeated repeated_;
-  bool stopped_ = false;  // at the tick where it was to stop
+  bool stopped_ = false;        // at the tick where it was to stop
   std::optional<Alone> alone_;  // only this module is repeated
   bool started_ = false;
 };

@@ -8,15 +8,15 @@ namespace indurop::operate {
 namespace {
 
 using base::Json;
-using Result = RemoteReloadReply::Result;
+using Reply = RemoteReloadReply::Result;
 
 struct ResultWord {
-  Result result;
+  Reply result;
   std::string_view word;
 };
-constexpr std::array kWords{ResultWord{Result::Done, "done"}, ResultWord{Result::Unchanged, "unchanged"},
-                            ResultWord{Result::Refused, "refused"}, ResultWord{Result::Failed, "failed"},
-                            ResultWord{Result::Returned, "returned"}};
+constexpr std::array kWords{ResultWord{Reply::Done, "done"}, ResultWord{Reply::Unchanged, "unchanged"},
+                            ResultWord{Reply::Refused, "refused"}, ResultWord{Reply::Failed, "failed"},
+                            ResultWord{Reply::Returned, "returned"}};
 
 }  // namespace
 
