@@ -111,8 +111,8 @@ TEST(KilledNodes, Every_start_works_and_values_survive) {
     test::wait_a_random_moment(random, 3000);
     starting.kill_and_wait();
   }
-  Forked final_node([&] { return run_node(node, *score, other); });
   const std::uint64_t before = score->starts;
+  Forked final_node([&] { return run_node(node, *score, other); });
   EXPECT_TRUE(indurop::test::wait_until([&] { return score->starts > before; }));
   const std::uint64_t attached = score->writes;
   EXPECT_TRUE(indurop::test::wait_until([&] { return score->writes > attached; })) << "the module goes on writing";
