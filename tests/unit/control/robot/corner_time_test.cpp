@@ -97,8 +97,8 @@ struct RandomCorners {
   // Lines of a job with one or two corners, and the same with this zone.
   struct Job {
     std::string points, moves;
-    double zone;
-    int speed;
+    double zone = 0;
+    int speed = 0;
     [[nodiscard]] std::string with(double zone_of_it) const {
       std::string text = moves;
       for (std::size_t at = text.find("$Z"); at != std::string::npos; at = text.find("$Z")) {
