@@ -44,7 +44,8 @@ class Shadow : public NodeTest {
     EXPECT_EQ(module("counter").version.load(), 1U);
     EXPECT_EQ(module("counter").faults.load(), 0U);
     EXPECT_EQ(module("counter").state.load(), ModuleState::Running);
-    EXPECT_EQ(indurop({"nodes", "-o", "json"}).out.find(node() + "-shadow"), std::string::npos) << "its node is removed";
+    EXPECT_EQ(indurop({"nodes", "-o", "json"}).out.find(node() + "-shadow"), std::string::npos)
+        << "its node is removed";
   }
 };
 
