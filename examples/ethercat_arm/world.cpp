@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <string_view>
 #include <thread>
 
@@ -20,20 +21,6 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 using Steady = std::chrono::steady_clock;
-
-void wire(TerminalWires& wires, const Panel& panel, const Surroundings& cell) {
-  wires.set(0, panel.start);
-  wires.set(1, !panel.stop);
-  wires.set(2, panel.reset);
-  wires.set(3, cell.part_at_end());
-  wires.set(4, cell.holds());
-  wires.set(5, cell.open());
-  wires.set(6, cell.pallet_has_room());
-  wires.set(7, true);
-  wires.set(14, !panel.emergency_stop);
-  wires.set(15, !panel.curtain);
-  wires.send();
-}
 
 }  // namespace
 
@@ -57,7 +44,8 @@ int main() {
               {PLC_ROBOT::O0 != 0, PLC_ROBOT::O1 != 0, PLC_ROBOT::O5 != 0, PLC_ROBOT::O10 != 0},
               {arm.position[0], arm.position[1], arm.position[2]});
     last = now;
-    wire(wires, panel, cell);
+    wire(panel, cell, [&wires](std::size_t input, bool value) { wires.set(input, value); });
+    wires.send();
     show(cell, doing, 0);
     std::this_thread::sleep_until(now + std::chrono::milliseconds(5));
   }

@@ -27,6 +27,21 @@ inline Panel pressed(double time, std::string_view& doing) {
   return panel;
 }
 
+// Calls set(number, value) for each input that is wired, I0 to I15 of the cell.
+template <class Set>
+void wire(const Panel& panel, const Surroundings& cell, const Set& set) {
+  set(0, panel.start);
+  set(1, !panel.stop);
+  set(2, panel.reset);
+  set(3, cell.part_at_end());
+  set(4, cell.holds());
+  set(5, cell.open());
+  set(6, cell.pallet_has_room());
+  set(7, true);
+  set(14, !panel.emergency_stop);
+  set(15, !panel.curtain);
+}
+
 inline void show(const Surroundings& cell, std::string_view doing, std::uint32_t requests) {
   INDUROP_TYPEOF(CELL::world) now = CELL::world;
   now.belt = cell.belt();

@@ -17,19 +17,6 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 using Steady = std::chrono::steady_clock;
 
-void wire(ModbusServer& station, const Panel& panel, const Surroundings& cell) {
-  station.set_input(0, panel.start);
-  station.set_input(1, !panel.stop);
-  station.set_input(2, panel.reset);
-  station.set_input(3, cell.part_at_end());
-  station.set_input(4, cell.holds());
-  station.set_input(5, cell.open());
-  station.set_input(6, cell.pallet_has_room());
-  station.set_input(7, true);
-  station.set_input(14, !panel.emergency_stop);
-  station.set_input(15, !panel.curtain);
-}
-
 }  // namespace
 
 int main() {
@@ -51,7 +38,7 @@ int main() {
     cell.step(Seconds(now - last).count(), {station.coil(0), station.coil(1), station.coil(5), station.coil(10)},
               {arm.position[0], arm.position[1], arm.position[2]});
     last = now;
-    wire(station, panel, cell);
+    wire(panel, cell, [&station](int input, bool value) { station.set_input(input, value); });
     show(cell, doing, station.requests());
     const auto next = now + std::chrono::milliseconds(5);
     while (Steady::now() < next) {
