@@ -22,6 +22,13 @@ def enter_namespace():
     subprocess.run(["ip", "link", "set", "lo", "up"], check=True)
 
 
+def published_topics(file, port):
+    """The topics of the messages captured so far: frames reach the file some time after they were sent."""
+    read = subprocess.run(["tshark", "-r", file, "-d", f"tcp.port=={port},mqtt", "-Y", "mqtt.msgtype == 3", "-T", "fields", "-e", "mqtt.topic"],
+                          capture_output=True, check=False)
+    return read.stdout
+
+
 def test_every_message_is_well_formed(setting):
     setting.start_node()
     server = setting.start_server("--write", "--token-file", setting.tokens)
@@ -37,6 +44,7 @@ def test_every_message_is_well_formed(setting):
     client.becomes(gain, lambda one: one["value"] == 3, "the value")
     setting.end(door)
     client.becomes("indurop/online", lambda one: one is False, "its end")
+    wait_for(lambda: b"/NDEATH/edge" in published_topics(file, setting.port), "the last message in the capture")
     setting.end(capture, how=2)
     read = subprocess.run(["tshark", "-r", file, "-d", f"tcp.port=={setting.port},mqtt", "-Y", "mqtt", "-T", "json", "-e", "mqtt.topic", "-e",
                            "mqtt.msgtype", "-e", "mqtt.willtopic", "-e", "sparkplugb.messagetype", "-e", "sparkplugb.groupid", "-e", "sparkplugb.edgenodeid", "-e",
