@@ -175,7 +175,7 @@ void Clocks::take(Bytes data) noexcept {
       return;
     case Step::Ports:
       for (std::size_t port = 0; port < kPorts; ++port) {
-        ports_[place_].is_open[port] = (load<std::uint16_t>(data, 0) >> (kLinkBit + port) & 1U) != 0;
+        ports_[place_].is_open[port] = (unsigned{load<std::uint16_t>(data, 0)} >> (kLinkBit + port) & 1U) != 0;
       }
       return;
     case Step::Watch: {
