@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/problem.h"
+#include "core/base/web_socket_frames.h"
 #include "doors/mqtt/serve/connection.h"
 #include "doors/mqtt/serve/http.h"
 
@@ -21,30 +22,6 @@ struct WebSocketMessage {
   bool binary = false;
   std::string bytes;
 };
-
-// Takes frames of a server apart. Pings and the end of the connection are messages of their own.
-class FrameParser {
- public:
-  enum class Kind { Text, Binary, Ping, Close };
-  struct Message {
-    Kind kind;
-    std::string bytes;
-  };
-  // Returns the complete messages; false: the bytes are no frames that a server may send.
-  bool feed(std::string_view bytes, std::vector<Message>& to);
-
- private:
-  // Handles the first frame in `pending_` if it is complete. Returns its size, 0: it is not; or no value.
-  bool take(std::vector<Message>& to, bool& complete);
-
-  std::string pending_;
-  std::string message_;  // of fragments so far
-  Kind kind_ = Kind::Text;
-  bool in_message_ = false;
-};
-
-// A frame of a client: with the mask, which is random.
-std::string client_frame(unsigned opcode, std::string_view payload);
 
 // Used by one thread.
 class WebSocket {
@@ -59,10 +36,15 @@ class WebSocket {
   [[nodiscard]] int descriptor() const noexcept { return connection_.descriptor(); }
 
  private:
+  // Sends a frame with a mask of its own.
+  Result<void, base::Problem> send(base::FrameKind kind, std::string_view payload);
+
+  static constexpr std::size_t kMostMessageBytes = std::size_t{64} << 20U;
+
   explicit WebSocket(Connection connection) : connection_(std::move(connection)) {}
 
   Connection connection_;
-  FrameParser frames_;
+  base::FrameReader frames_{base::FrameSender::Server, kMostMessageBytes};
   std::string first_;  // what arrived with the answer to the handshake
 };
 

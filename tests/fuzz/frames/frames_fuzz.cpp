@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "tools/serve/door/frames.h"
+#include "core/base/web_socket_frames.h"
 
 namespace {
 
-using indurop::serve::FrameKind;
+using indurop::base::FrameKind;
 using Message = std::pair<FrameKind, std::string>;
 
 struct Heard {
@@ -109,7 +109,7 @@ Heard read_whole(std::string_view bytes, std::size_t most) {
 }
 
 Heard read_in_parts(std::string_view bytes, std::size_t most, std::size_t part) {
-  indurop::serve::FrameReader reader(most);
+  indurop::base::FrameReader reader(indurop::base::FrameSender::Client, most);
   Heard heard;
   while (!bytes.empty() && heard.code == 0) {
     heard.code = reader.feed(bytes.substr(0, part), [&heard](FrameKind kind, const std::string& data) {
@@ -135,7 +135,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::abort();
   }
   for (const auto& [kind, text] : expected.messages) {  // a client reads the server's own header in the same way
-    const std::string header = indurop::serve::frame_header(kind, text.size());
+    const std::string header = indurop::base::frame_header(kind, text.size());
     if (header.size() != (text.size() < 126 ? 2U : 4U) || (static_cast<unsigned char>(header[1]) & 0x80U) != 0) {
       std::abort();
     }

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "core/base/note_limit.h"
+#include "core/base/web_socket_frames.h"
 #include "tools/serve/door/connection_limits.h"
 #include "tools/serve/door/door.h"
-#include "tools/serve/door/frames.h"
 #include "tools/serve/door/house.h"
 #include "tools/serve/door/http_head.h"
 #include "tools/serve/door/wire.h"
@@ -77,7 +77,7 @@ class Connection final : public Line {
   bool upgrade(const Head& head, Request request, std::int64_t now_ns);
   bool open_stream(const std::string& accept, std::int64_t now_ns);
   bool read_frames(std::int64_t now_ns);
-  int take_frame(FrameKind kind, const std::string& data);
+  int take_frame(base::FrameKind kind, const std::string& data);
   bool next_message();
   [[nodiscard]] std::string_view rest_of_message() const;
   bool close_stream(int code, std::int64_t now_ns);
@@ -105,7 +105,7 @@ class Connection final : public Line {
 
   // Members of a WebSocket.
   std::unique_ptr<Visitor> visitor_;
-  FrameReader frames_{kMostMessage};
+  base::FrameReader frames_{base::FrameSender::Client, kMostMessage};
   SharedMessage message_;
   std::size_t message_begin_ = 0;  // index in the frame
   std::size_t message_sent_ = 0;   // bytes of that

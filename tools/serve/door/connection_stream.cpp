@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/keys/web_socket_key.h"
 #include "tools/serve/door/connection.h"
 
 namespace indurop::serve {
@@ -26,7 +27,7 @@ bool Connection::upgrade(const Head& head, Request request, std::int64_t now_ns)
       !head.has_word("connection", "upgrade") || request.method != Method::Get || request.close || !body || *body > 0) {
     return bad("the only upgrade is a GET that asks for 'websocket'");
   }
-  const std::string accept = websocket_accept(head.field("sec-websocket-key"));
+  const std::string accept = keys::web_socket_accept(head.field("sec-websocket-key"));
   if (head.field("sec-websocket-version") != "13" || accept.empty()) {
     return bad("a WebSocket needs Sec-WebSocket-Version: 13 and a key of 16 bytes");
   }
@@ -72,21 +73,21 @@ bool Connection::read_frames(std::int64_t now_ns) {
   }
   const std::string bytes = std::exchange(input_, {});
   const int code =
-      frames_.feed(bytes, [this](FrameKind kind, const std::string& data) { return take_frame(kind, data); });
+      frames_.feed(bytes, [this](base::FrameKind kind, const std::string& data) { return take_frame(kind, data); });
   if (output_.size() > kMostOutput) {
     return false;  // it keeps sending pings without reading the answers
   }
   return code == 0 || close_stream(code, now_ns);
 }
 
-int Connection::take_frame(FrameKind kind, const std::string& data) {
+int Connection::take_frame(base::FrameKind kind, const std::string& data) {
   switch (kind) {
-    case FrameKind::Text:
+    case base::FrameKind::Text:
       return visitor_->receive(data);
-    case FrameKind::Ping:
-      output_ += frame_header(FrameKind::Pong, data.size()) + data;
+    case base::FrameKind::Ping:
+      output_ += base::frame_header(base::FrameKind::Pong, data.size()) + data;
       return 0;
-    case FrameKind::Close: {
+    case base::FrameKind::Close: {
       constexpr unsigned kByteBits = 8;
       constexpr int kNormal = 1000;
       if (data.empty()) {
@@ -95,7 +96,7 @@ int Connection::take_frame(FrameKind kind, const std::string& data) {
       const int code = data.size() < 2 ? 0
                                        : static_cast<int>(static_cast<unsigned char>(data[0]) << kByteBits |
                                                           static_cast<unsigned char>(data[1]));
-      return is_close_code(code) ? code : close_code::kProtocol;
+      return base::is_close_code(code) ? code : base::close_code::kProtocol;
     }
     default:
       return 0;
@@ -113,7 +114,8 @@ bool Connection::next_message() {
     asked_ = false;
     return false;
   }
-  const std::string header = frame_header(message_->binary ? FrameKind::Binary : FrameKind::Text, message_->size());
+  const std::string header =
+      base::frame_header(message_->binary ? base::FrameKind::Binary : base::FrameKind::Text, message_->size());
   std::copy(header.begin(), header.end(),
             message_->bytes.begin() + static_cast<std::ptrdiff_t>(Message::kRoom - header.size()));
   message_begin_ = Message::kRoom - header.size();
@@ -127,7 +129,7 @@ std::string_view Connection::rest_of_message() const {
 
 // Discards waiting messages; a frame that was begun is completed first.
 bool Connection::close_stream(int code, std::int64_t now_ns) {
-  output_ += close_frame(code);
+  output_ += base::close_frame(code);
   if (message_ != nullptr && message_sent_ == 0) {
     message_.reset();
   }
@@ -144,9 +146,9 @@ bool Connection::stream_on_time(std::int64_t now_ns) {
   // The token or certificate that was valid at the beginning may have been revoked.
   read_certificate();
   if (common_.house->refuse(request_)) {
-    return close_stream(close_code::kNotAllowed, now_ns);
+    return close_stream(base::close_code::kNotAllowed, now_ns);
   }
-  output_ += frame_header(FrameKind::Ping, 0);
+  output_ += base::frame_header(base::FrameKind::Ping, 0);
   return true;
 }
 

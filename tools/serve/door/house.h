@@ -29,15 +29,6 @@ struct Message {
 };
 using SharedMessage = std::shared_ptr<Message>;
 
-// The WebSocket close codes in use.
-namespace close_code {
-inline constexpr int kProtocol = 1002;
-inline constexpr int kNotUnderstood = 1003;
-inline constexpr int kBadText = 1007;
-inline constexpr int kNotAllowed = 1008;
-inline constexpr int kTooLarge = 1009;
-}  // namespace close_code
-
 // The subprotocol of InduRoP.
 inline constexpr const char* kStream = "indurop.v1";
 // Subprotocols of https://github.com/foxglove/ws-protocol, under two names: that of third-party servers and that of

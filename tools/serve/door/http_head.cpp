@@ -2,7 +2,6 @@
 #include "tools/serve/door/http_head.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <algorithm>
 #include <array>
@@ -259,23 +258,6 @@ Request request_of(const Head& head) {
   request.content_type = head.field("content-type");
   request.close = !head.keeps_open;
   return request;
-}
-
-std::string websocket_accept(std::string_view key) {
-  constexpr std::string_view kGuid = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";
-  constexpr std::size_t kKeyLength = 24;  // 16 bytes
-  if (key.size() != kKeyLength || !key.ends_with("==")) {
-    return {};
-  }
-  const std::string text = std::string(key) + std::string(kGuid);
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned size = 0;
-  if (EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha1(), nullptr) != 1) {
-    return {};
-  }
-  std::array<unsigned char, 2 * EVP_MAX_MD_SIZE> coded{};
-  const int length = EVP_EncodeBlock(coded.data(), digest.data(), static_cast<int>(size));
-  return {reinterpret_cast<const char*>(coded.data()), static_cast<std::size_t>(std::max(length, 0))};
 }
 
 std::string head_of(const Reply& reply) {

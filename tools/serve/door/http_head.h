@@ -42,9 +42,6 @@ Result<std::size_t, Reply> body_length(const Head& head);
 // Returns the parts of the head that the rest of the server uses.
 Request request_of(const Head& head);
 
-// Returns the key of a WebSocket's answer; empty: `key` is invalid.
-std::string websocket_accept(std::string_view key);
-
 // Returns status line and fields of a reply.
 std::string head_of(const Reply& reply);
 

@@ -6,7 +6,10 @@
 
 #include <utility>
 
+#include "core/base/web_socket_frames.h"
+
 namespace indurop::serve {
+
 StreamClient::StreamClient(Hub& hub, Line& line, std::uint64_t id, std::string address)
     : hub_(&hub), outbox_(line, id, std::move(address)) {
   send_word(hub.hello());
@@ -28,7 +31,7 @@ int StreamClient::receive(std::string_view text) {
   const auto word = read_word(text);
   if (!word) {
     if (word.error().garbage) {
-      return close_code::kBadText;
+      return base::close_code::kBadText;
     }
     send_word(error_word(word.error().id, "bad_request", word.error().message).dump());
     return 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/web_socket_frames.h"
 #include "core/rt/clock.h"
 #include "history/recording/cdr.h"
 #include "tools/serve/stream/foxglove_words.h"
@@ -110,7 +111,7 @@ int FoxgloveClient::receive(std::string_view text) {
   }
   const auto word = read_foxglove_word(text);
   if (!word) {
-    return close_code::kBadText;
+    return base::close_code::kBadText;
   }
   if (word->op != "subscribe" && word->op != "unsubscribe") {
     send(foxglove::warning(fmt::format("'{}' is not served: variables can only be followed", word->op)));

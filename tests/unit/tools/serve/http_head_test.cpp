@@ -101,13 +101,6 @@ TEST(HttpBody, Has_one_length) {
   EXPECT_EQ(length("Content-Length: 0\r\n", "GET"), 0);
 }
 
-// The example of RFC 6455.
-TEST(WebSocketKey, Is_answered_as_the_standard_says) {
-  EXPECT_EQ(websocket_accept("dGhlIHNhbXBsZSBub25jZQ=="), "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
-  EXPECT_EQ(websocket_accept("dGhlIHNhbXBsZSBub25jZQ"), "");
-  EXPECT_EQ(websocket_accept(""), "");
-}
-
 TEST(HttpHead, Any_bytes_are_survived) {
   std::mt19937 random(2);  // NOLINT: the same each time
   const std::string good = "POST /a%41?b=c HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\n\r\n";

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/serve/door/frames.h"
+#include "core/base/web_socket_frames.h"
 
 #include <algorithm>
 
-#include "tools/serve/door/house.h"
-
-namespace indurop::serve {
+namespace indurop::base {
 namespace {
 
 constexpr unsigned kFinal = 0x80;
@@ -15,7 +13,6 @@ constexpr unsigned kMasked = 0x80;
 constexpr unsigned kLength = 0x7f;
 constexpr unsigned kLength16 = 126;  // the length follows in 2 bytes
 constexpr unsigned kLength64 = 127;  // the length follows in 8 bytes
-constexpr std::size_t kMaskSize = 4;
 constexpr std::uint64_t kMost16 = 0xffff;
 constexpr unsigned kByteBits = 8;
 
@@ -49,9 +46,14 @@ int FrameReader::feed(std::string_view bytes, const Take& take) {
     }
     std::string& into = is_control() ? control_ : message_;
     const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(left_, bytes.size()));
-    const std::size_t mask = header_.size() - kMaskSize;
-    for (std::size_t i = 0; i < size; ++i) {
-      into += static_cast<char>(byte_of(header_, mask + (at_ + i) % kMaskSize) ^ static_cast<unsigned char>(bytes[i]));
+    if (mask_size() == 0) {
+      into += bytes.substr(0, size);
+    } else {
+      const std::size_t mask = header_.size() - kMaskSize;
+      for (std::size_t i = 0; i < size; ++i) {
+        into +=
+            static_cast<char>(byte_of(header_, mask + (at_ + i) % kMaskSize) ^ static_cast<unsigned char>(bytes[i]));
+      }
     }
     bytes.remove_prefix(size);
     at_ += size;
@@ -77,7 +79,7 @@ int FrameReader::read_header() {
     }
   }
   const std::size_t more = length_size(second);
-  if (header_.size() < 2 + more + kMaskSize) {
+  if (header_.size() < 2 + more + mask_size()) {
     return 0;
   }
   left_ = more == 0 ? second & kLength : big_endian(header_, 2, more);
@@ -99,8 +101,8 @@ int FrameReader::begin_frame(unsigned first, unsigned second) {
       opcode <= static_cast<unsigned>(FrameKind::Binary) ||
       (opcode >= static_cast<unsigned>(FrameKind::Close) && opcode <= static_cast<unsigned>(FrameKind::Pong));
   final_ = (first & kFinal) != 0;
-  // A client has to mask what it sends, so that no proxy mistakes it for a request.
-  if (!known || (first & kReserved) != 0 || (second & kMasked) == 0) {
+  const bool masked = (second & kMasked) != 0;
+  if (!known || (first & kReserved) != 0 || masked != (sender_ == FrameSender::Client)) {
     return close_code::kProtocol;
   }
   kind_ = static_cast<FrameKind>(opcode);
@@ -111,8 +113,8 @@ int FrameReader::begin_frame(unsigned first, unsigned second) {
   if ((kind_ == FrameKind::More) != in_message_) {
     return close_code::kProtocol;
   }
-  if (kind_ == FrameKind::Binary) {
-    return close_code::kNotUnderstood;  // clients send text only
+  if (kind_ == FrameKind::Binary && sender_ == FrameSender::Client) {
+    return close_code::kNotUnderstood;
   }
   message_kind_ = kind_ == FrameKind::More ? message_kind_ : kind_;
   in_message_ = true;
@@ -144,6 +146,16 @@ std::string frame_header(FrameKind kind, std::size_t size) {
   return header;
 }
 
+std::string masked_frame(FrameKind kind, std::string_view payload, std::array<unsigned char, 4> mask) {
+  std::string frame = frame_header(kind, payload.size());
+  frame[1] = static_cast<char>(byte_of(frame, 1) | kMasked);
+  frame.append(mask.begin(), mask.end());
+  for (std::size_t i = 0; i < payload.size(); ++i) {
+    frame += static_cast<char>(static_cast<unsigned char>(payload[i]) ^ mask.at(i % mask.size()));
+  }
+  return frame;
+}
+
 std::string close_frame(int code) {
   if (code == 0) {
     return frame_header(FrameKind::Close, 0);
@@ -161,4 +173,4 @@ bool is_close_code(int code) noexcept {
   return (code >= kFirst && code <= kLastOwn && !never) || (code >= kFirstFree && code <= kLastFree);
 }
 
-}  // namespace indurop::serve
+}  // namespace indurop::base

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/serve/door/frames.h"
+#include "core/base/web_socket_frames.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "tools/serve/door/house.h"
-
-namespace indurop::serve {
+namespace indurop::base {
 namespace {
 
+using std::string_literals::operator""s;
 using Message = std::pair<FrameKind, std::string>;
 
 // A frame of a client, written another way than the server's own are.
@@ -49,7 +48,7 @@ int feed(FrameReader& reader, const std::string& bytes, std::vector<Message>& ta
 }
 
 int code_of(const std::string& bytes, std::size_t most = 1000) {
-  FrameReader reader(most);
+  FrameReader reader(FrameSender::Client, most);
   std::vector<Message> taken;
   return feed(reader, bytes, taken, bytes.size());
 }
@@ -68,7 +67,7 @@ TEST(Frames, Give_the_same_messages_in_whatever_parts_they_come) {
                                       {FrameKind::Text, std::string(126, 'y')},
                                       {FrameKind::Close, "\x03\xe8"}};
   for (const std::size_t piece : {std::size_t{1}, std::size_t{2}, std::size_t{7}, std::size_t{4096}, bytes.size()}) {
-    FrameReader reader(100000);
+    FrameReader reader(FrameSender::Client, 100000);
     std::vector<Message> taken;
     EXPECT_EQ(feed(reader, bytes, taken, piece), 0);
     EXPECT_EQ(taken, expected) << piece;
@@ -109,6 +108,48 @@ TEST(Frames, Of_the_server_are_read_back_by_a_client) {
   EXPECT_EQ(close_frame(0), frame(0x88, "", false));
 }
 
+std::vector<Message> from_server(const std::string& bytes, std::size_t piece, int& code) {
+  FrameReader reader(FrameSender::Server, std::size_t{64} << 20U);
+  std::vector<Message> taken;
+  code = feed(reader, bytes, taken, piece);
+  return taken;
+}
+
+// The examples of RFC 6455, 5.7.
+TEST(FramesOfServers, Are_those_of_the_standard_in_whatever_pieces) {
+  const std::string bytes = "\x81\x05Hello"s + "\x01\x03Hel"s + "\x89\x05Hello"s + "\x80\x02lo"s + "\x82\x7e\x01\x00"s +
+                            std::string(256, 'x') + "\x82\x7f\0\0\0\0\0\x01\0\0"s + std::string(65536, 'y') +
+                            "\x88\x02\x03\xe8"s;
+  const std::vector<Message> expected{{FrameKind::Text, "Hello"},
+                                      {FrameKind::Ping, "Hello"},  // between two fragments
+                                      {FrameKind::Text, "Hello"},
+                                      {FrameKind::Binary, std::string(256, 'x')},
+                                      {FrameKind::Binary, std::string(65536, 'y')},
+                                      {FrameKind::Close, "\x03\xe8"}};
+  for (const std::size_t piece : {std::size_t{1}, std::size_t{3}, std::size_t{1000}, bytes.size()}) {
+    int code = 0;
+    EXPECT_EQ(from_server(bytes, piece, code), expected) << piece;
+    EXPECT_EQ(code, 0);
+  }
+}
+
+TEST(FramesOfServers, Have_no_mask_and_a_known_kind) {
+  for (const std::string& wrong :
+       {"\x81\x85\x37\xfa\x21\x3d\x7f\x9f\x4d\x51\x58"s, "\x83\x01x"s, "\x80\x01x"s, "\x01\x01x\x81\x01x"s,
+        "\x82\x7f\x7f\xff\xff\xff\xff\xff\xff\xff"s, "\x02\x01x\x80\x7f\xff\xff\xff\xff\xff\xff\xff\xff"s}) {
+    int code = 0;
+    (void)from_server(wrong, wrong.size(), code);
+    EXPECT_NE(code, 0) << testing::PrintToString(wrong);
+  }
+}
+
+TEST(Frames, Of_a_client_are_masked) {
+  EXPECT_EQ(masked_frame(FrameKind::Text, "Hello", {0x37, 0xfa, 0x21, 0x3d}),
+            "\x81\x85\x37\xfa\x21\x3d\x7f\x9f\x4d\x51\x58"s);
+  EXPECT_EQ(masked_frame(FrameKind::Text, std::string(126, 'x'), {}).substr(0, 4), "\x81\xfe\x00\x7e"s);
+  EXPECT_EQ(masked_frame(FrameKind::Text, std::string(65536, 'x'), {}).substr(0, 10), "\x81\xff\0\0\0\0\0\x01\0\0"s);
+}
+
 TEST(Frames, Any_bytes_are_survived) {
   std::mt19937 random(1);  // NOLINT: the same each time
   for (int i = 0; i < 20000; ++i) {
@@ -116,10 +157,12 @@ TEST(Frames, Any_bytes_are_survived) {
     for (auto length = random() % 60; length > 0; --length) {
       bytes += static_cast<char>(random() % 3 == 0 ? 0x80 | random() % 3 : random());
     }
-    const int code = code_of(bytes, 20);
+    int code = 0;
+    EXPECT_LE(from_server(bytes, bytes.size(), code).size(), bytes.size());
+    code = code_of(bytes, 20);
     EXPECT_TRUE(code == 0 || code == 1002 || code == 1003 || code == 1009) << code;
   }
 }
 
 }  // namespace
-}  // namespace indurop::serve
+}  // namespace indurop::base
