@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "scheduler/execution_order.h"
-#include "scheduler/work_time.h"
+#include "scheduler/late_ticks.h"
 
 namespace indurop::scheduler {
 namespace {
@@ -276,30 +276,25 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
     wait.wait_until(rt::mono_time(t));
   }
   std::uint64_t missed = 0;  // ticks since the last one that was run
-  WorkTime work;
+  LateTicks late_ticks(basic);
   for (std::uint64_t tick = 0; !stop_.load(std::memory_order_acquire); ++tick) {
     const std::int64_t planned = epoch_ns() + static_cast<std::int64_t>(tick) * basic;
     const std::int64_t begin = rt::to_ns(wait.wait_until(rt::mono_time(planned)));
     const std::int64_t late = begin - planned;
-    const std::uint64_t first = tick;
-    tick += static_cast<std::uint64_t>(late / basic);
-    const bool in_vain = work.does_not_fit(late % basic, basic);
-    const std::uint64_t lost = tick - first + (in_vain ? 1 : 0);
-    if (ticks != 0 && first + lost >= ticks) {
-      end_run(core, ticks, ticks - first);
+    const LateTicks::Start start = late_ticks.start(late);
+    if (ticks != 0 && tick + start.lost() >= ticks) {
+      end_run(core, ticks, ticks - tick);
       break;
     }
-    missed += lost;
+    tick += start.passed;
+    missed += start.lost();
     if (core.primary) {
-      add_sample(block_.tick_lateness, late);
-      if (lost > 0) {
-        block_.lost_ticks.fetch_add(lost, std::memory_order_relaxed);
-      }
+      LateTicks::count(block_, late, start);
       block_.spin_margin_ns.store(wait.margin_ns(), std::memory_order_relaxed);
     }
-    if (!in_vain) {
+    if (!start.in_vain) {
       do_tick(core, tick, std::exchange(missed, 0));
-      work.add(rt::to_ns(kernel_.now()) - begin);
+      late_ticks.add_work(rt::to_ns(kernel_.now()) - begin);
     }
   }
   for (Band* band : core.here) {
