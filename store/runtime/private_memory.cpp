@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "store/vars/ring.h"
+#include "store/vars/tear_free_ring.h"
 
 namespace indurop::runtime {
 

@@ -14,7 +14,7 @@
 #include "store/runtime/process.h"
 #include "store/runtime/ref_tables.h"
 #include "store/vars/forces.h"
-#include "store/vars/ring.h"
+#include "store/vars/tear_free_ring.h"
 #include "store/vars/together.h"
 
 namespace {

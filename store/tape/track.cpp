@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "store/vars/ring.h"
+#include "store/vars/tear_free_ring.h"
 
 namespace indurop::tape {
 namespace {

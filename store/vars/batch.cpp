@@ -11,8 +11,8 @@
 
 #include "core/rt/clock.h"
 #include "core/rt/shared_mutex.h"
-#include "store/vars/ring.h"
 #include "store/vars/scalar.h"
+#include "store/vars/tear_free_ring.h"
 
 namespace indurop::vars {
 namespace {

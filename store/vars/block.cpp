@@ -12,7 +12,7 @@
 #include "core/rt/shared_mutex.h"
 #include "store/vars/call_layout.h"
 #include "store/vars/forces.h"
-#include "store/vars/ring.h"
+#include "store/vars/tear_free_ring.h"
 
 namespace indurop::vars {
 

@@ -14,7 +14,7 @@
 #include "core/rt/barrier.h"
 #include "core/rt/clock.h"
 #include "core/rt/shared_mutex.h"
-#include "store/vars/ring.h"
+#include "store/vars/tear_free_ring.h"
 
 namespace indurop::vars {
 namespace {

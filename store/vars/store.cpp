@@ -19,8 +19,8 @@
 #include "store/vars/block.h"
 #include "store/vars/node_lock.h"
 #include "store/vars/process.h"
-#include "store/vars/ring.h"
 #include "store/vars/scalar.h"
+#include "store/vars/tear_free_ring.h"
 
 namespace indurop::vars {
 

@@ -13,8 +13,8 @@
 #include <cstdint>
 
 #include "core/rt/relax.h"
-#include "store/vars/ring.h"
 #include "store/vars/scalar.h"
+#include "store/vars/tear_free_ring.h"
 
 namespace indurop::vars {
 namespace {

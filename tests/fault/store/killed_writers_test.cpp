@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fault.h"
-#include "store/vars/ring.h"
 #include "store/vars/store.h"
+#include "store/vars/tear_free_ring.h"
 
 namespace indurop::vars {
 namespace {

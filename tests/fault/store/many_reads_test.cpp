@@ -11,8 +11,8 @@
 
 #include "core/rt/thread.h"
 #include "fault.h"
-#include "store/vars/ring.h"
 #include "store/vars/store.h"
+#include "store/vars/tear_free_ring.h"
 
 // What libindurop provides to modules.
 extern "C" void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint32_t offset,

@@ -8,8 +8,8 @@
 
 #include "core/rt/shared_mutex.h"
 #include "fault.h"
-#include "store/vars/ring.h"
 #include "store/vars/store.h"
+#include "store/vars/tear_free_ring.h"
 #include "tests/support/wait_until.h"
 
 namespace indurop::vars {

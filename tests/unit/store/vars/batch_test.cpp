@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "core/rt/clock.h"
-#include "store/vars/ring.h"
+#include "store/vars/tear_free_ring.h"
 #include "test_schema.h"
 
 namespace indurop::vars {

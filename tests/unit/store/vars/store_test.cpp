@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "store/vars/ring.h"
+#include "store/vars/tear_free_ring.h"
 #include "test_schema.h"
 
 namespace indurop::vars {

@@ -7,8 +7,8 @@
 #include <atomic>
 #include <thread>
 
-#include "store/vars/ring.h"
 #include "store/vars/store.h"
+#include "store/vars/tear_free_ring.h"
 #include "test_schema.h"
 
 namespace indurop::vars {

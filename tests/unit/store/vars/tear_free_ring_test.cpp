@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include "store/vars/ring.h"
+#include "store/vars/tear_free_ring.h"
 
 #include <gtest/gtest.h>
 #include <indurop/detail/variable_access.h>

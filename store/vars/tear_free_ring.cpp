@@ -2,7 +2,7 @@
 // Reason for four slots and no undo: a reader of version v fails only if version v + 4 is begun before it is done, and
 // a writer that dies has changed nothing but a slot that was never published.
 
-#include "store/vars/ring.h"
+#include "store/vars/tear_free_ring.h"
 
 #include <indurop/detail/variable_access.h>
 
