@@ -20,7 +20,7 @@ CheckResult check_config(Config& config, const CheckOptions& options) {
   if (options.files) {
     check_machine(context);
     check_files(context);
-    check_access(context);
+    check_data_flow(context);
     check_load(context);
     if (options.simulation) {
       check_determinism(context);
@@ -31,7 +31,7 @@ CheckResult check_config(Config& config, const CheckOptions& options) {
     const std::array<BoardView, 1> alone{BoardView{"", config, result}};
     check_agreement(alone, context.report);
     const Uses uses(alone);
-    check_use(uses, check_external(context, uses), context.report);
+    check_writers(uses, check_external(context, uses), context.report);
   }
   if (!options.files) {
     check_load(context);

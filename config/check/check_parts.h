@@ -40,7 +40,7 @@ struct CheckContext {
 // Checks the basic and macro period; applies --adjust. Fills table, periodic, sporadic, non_real.
 void check_schedule(CheckContext& context);
 // Checks cores of modules, number of bands, and whether modules with a known execution time end in time. Call it after
-// check_schedule(), and after check_access() if files are checked. Fills sharing, spreading, timings.
+// check_schedule(), and after check_data_flow() if files are checked. Fills sharing, spreading, timings.
 void check_load(CheckContext& context);
 // Returns the tasks from which bands are made: one for each of CheckResult::periodic, in its order.
 std::vector<scheduler::Task> periodic_tasks(const CheckContext& context);
@@ -57,9 +57,9 @@ void check_machine(CheckContext& context);
 void check_files(CheckContext& context);
 // Checks which modules read and write which variable, order and age of data, and fail-safe values. Fills uses and
 // unknown_*. Call it after the three checks above.
-void check_access(CheckContext& context);
+void check_data_flow(CheckContext& context);
 
-// Reports modules whose runs may differ in a simulation. Call it after check_access().
+// Reports modules whose runs may differ in a simulation. Call it after check_data_flow().
 void check_determinism(CheckContext& context);
 
 // Reports modules that do not declare what they keep. Fills undeclared. Call it after check_files().
@@ -69,7 +69,7 @@ void check_kept(CheckContext& context);
 void check_agreement(std::span<const BoardView> boards, base::Diagnostics& report);
 // Reports variables that several modules write, that none writes, or that none reads. Variables in `set_by_hand` need
 // no writer.
-void check_use(const Uses& uses, const std::set<std::string>& set_by_hand, base::Diagnostics& report);
+void check_writers(const Uses& uses, const std::set<std::string>& set_by_hand, base::Diagnostics& report);
 
 // Checks that the files exist and are libraries.
 void check_type_libraries(const TypeFiles& named, base::Diagnostics& report);

@@ -83,7 +83,7 @@ class PlantCheckRun {
     const schema::PlaceIndex index(schema_);
     for (CheckContext& context : contexts_) {
       add_named_variables(context.config.modules, index, context.result.schema);
-      check_access(context);
+      check_data_flow(context);
       if (options_.kept) {
         check_kept(context);
       }
@@ -110,7 +110,7 @@ class PlantCheckRun {
         set_by_hand.insert(rule.name);
       }
     }
-    check_use(uses, set_by_hand, report);
+    check_writers(uses, set_by_hand, report);
     check_ages(context, result_.routes);
     check_security(plant_, options_, report);
     report.add_summary(between_);

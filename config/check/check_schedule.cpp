@@ -302,7 +302,7 @@ void check_load(CheckContext& context) {
     CheckContext looking{context.config, context.options, context.result,
                          base::Diagnostics(context.config.file.string(), ignored), context.texts};
     check_files(looking);
-    check_access(looking);
+    check_data_flow(looking);
     find_sharing(context);
   }
   take_measured_times(context);

@@ -17,7 +17,7 @@ namespace indurop::config {
 struct BoardView {
   std::string name;
   const Config& config;
-  const CheckResult& result;  // after check_access
+  const CheckResult& result;  // after check_data_flow
 };
 
 struct Plant;

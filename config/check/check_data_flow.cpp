@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the data of one board with its access map: readers that run too early, age.
+// Checks the data flow of one board with its access map: readers that run too early, age.
 
 #include <algorithm>
 #include <string>
@@ -191,7 +191,7 @@ class AccessCheck {
 
 }  // namespace
 
-void check_access(CheckContext& context) {
+void check_data_flow(CheckContext& context) {
   AccessCheck(context).run();
 }
 
