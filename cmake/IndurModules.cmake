@@ -104,6 +104,21 @@ function(indurop_add_module name)
   target_link_libraries(${name} PRIVATE indurop::indurop ${arg_GLB} ${arg_LIBRARIES})
 endfunction()
 
+# indurop_add_io_module(<target>)
+# The I/O module, which comes with InduRoP, in the project's top build directory, where module.xml finds it as
+# ./libiodispat.so. <target> puts it there.
+function(indurop_add_io_module target)
+  if(TARGET iodispat)
+    set(module $<TARGET_FILE:iodispat>)
+  else()
+    get_target_property(libindurop indurop::indurop LOCATION)
+    cmake_path(GET libindurop PARENT_PATH folder)
+    set(module ${folder}/libiodispat.so)
+  endif()
+  add_custom_target(${target} ALL
+    COMMAND ${CMAKE_COMMAND} -E create_symlink ${module} ${PROJECT_BINARY_DIR}/libiodispat.so VERBATIM)
+endfunction()
+
 # indurop_add_plc(<name> SOURCES prog.st ... [GLB <target>] [NAMESPACE <name>] [DIALECT iec|codesys]
 #   [REAL_DIVISION fault|infinity] [TASKS <task> ...] [SHOW_LOCALS] [WATCH] [COVERAGE])
 # A PLC program (IEC 61131-3) as thread module <name>.so. A program with several tasks names them: each becomes a module
