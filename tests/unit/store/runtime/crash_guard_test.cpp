@@ -22,6 +22,13 @@ std::string crash_of(void (*work)(void*) noexcept, void* with = nullptr) {
   return text;
 }
 
+TEST(Guarded, Comes_back_when_it_is_done) {
+  int done = 0;
+  EXPECT_EQ(crash_of([](void* with) noexcept { ++*static_cast<int*>(with); }, &done), "");
+  EXPECT_EQ(done, 1);
+}
+
+#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 volatile int* nowhere = nullptr;
 
 void deepen(volatile int* left) noexcept {  // NOLINT(misc-no-recursion): until the stack ends
@@ -34,13 +41,6 @@ void deepen(volatile int* left) noexcept {  // NOLINT(misc-no-recursion): until 
   here[1] = here[0];
 }
 
-TEST(Guarded, Comes_back_when_it_is_done) {
-  int done = 0;
-  EXPECT_EQ(crash_of([](void* with) noexcept { ++*static_cast<int*>(with); }, &done), "");
-  EXPECT_EQ(done, 1);
-}
-
-#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 TEST(Guarded, Says_how_it_crashed) {
   for (int i = 0; i < 100; ++i) {
     EXPECT_EQ(crash_of([](void*) noexcept { *nowhere = 1; }), "SIGSEGV (invalid memory access) at address (nil)");
