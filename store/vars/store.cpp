@@ -104,7 +104,9 @@ void retire(const Previous& previous) noexcept {
 
 void fill_slot(unsigned char* slot, std::size_t size, std::span<const std::uint8_t> initial) noexcept {
   static constexpr std::array<unsigned char, 4096> kZero{};
-  detail::copy_to_shared(slot, initial.data(), initial.size());
+  if (!initial.empty()) {  // else data() may be null, which memcpy must not get
+    detail::copy_to_shared(slot, initial.data(), initial.size());
+  }
   for (std::size_t at = initial.size(); at < size; at += kZero.size()) {
     detail::copy_to_shared(slot + at, kZero.data(), std::min(kZero.size(), size - at));
   }
