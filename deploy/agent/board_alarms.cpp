@@ -12,7 +12,7 @@
 #include "deploy/transaction/write_words.h"
 #include "history/alarms/alarm_list.h"
 #include "history/alarms/alarm_orders.h"
-#include "scheduler/module_health.h"
+#include "scheduler/module_state_text.h"
 #include "store/vars/run_file.h"
 #include "store/vars/store.h"
 

@@ -269,31 +269,13 @@ std::string ExpressionEmitter::one_index(const Expression& expression, Bounds bo
     return to_string(Constant(std::get<Integer>(*known) - Integer{bounds.low}));
   }
   const std::string text = value(expression);
-  if (!stays_within(expression, bounds)) {
+  if (index_check_.is_needed(expression, bounds)) {
     return fmt::format("iec::index({}, {}, {}, {})", place(expression.at), text, bounds.low, bounds.high);
   }
   return bounds.low == 0
              ? text
              : fmt::format("{} - {}", text,
                            bounds.low < 0 ? fmt::format("({})", bounds.low) : fmt::format("{}", bounds.low));
-}
-
-// Returns true for the variable of a surrounding FOR, plus or minus a constant: its values are known.
-bool ExpressionEmitter::stays_within(const Expression& expression, Bounds bounds) const {
-  if (expression.kind == Expression::Kind::Name) {
-    const auto loop = loops_.find(expression.resolved->variable);
-    return loop != loops_.end() && loop->second.low >= bounds.low && loop->second.high <= bounds.high;
-  }
-  const bool sum = expression.kind == Expression::Kind::Binary &&
-                   (expression.op == Operator::Add || expression.op == Operator::Subtract);
-  const Constant* offset = sum ? constant_of(expression.operands[1]) : nullptr;
-  const auto number = offset != nullptr ? as_int64(*offset) : std::nullopt;
-  constexpr std::int64_t kMaxOffset = 1'000'000'000;
-  if (!number || *number > kMaxOffset || *number < -kMaxOffset) {
-    return false;
-  }
-  const std::int64_t by = expression.op == Operator::Add ? *number : -*number;
-  return stays_within(expression.operands[0], {bounds.low - by, bounds.high - by});
 }
 
 std::string ExpressionEmitter::unary(const Expression& expression) const {

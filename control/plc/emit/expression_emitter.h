@@ -3,10 +3,10 @@
 
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "control/plc/emit/cpp_text.h"
+#include "control/plc/emit/index_check.h"
 
 namespace indurop::plc {
 
@@ -32,9 +32,8 @@ class ExpressionEmitter {
   // Returns target = text, for bits too. Without ';'.
   [[nodiscard]] std::string assign(const ast::Expression& target, const std::string& text) const;
 
-  // The variable of a loop stays within these values while the loop runs.
-  void enter_loop(const Variable& variable, Bounds values) { loops_[&variable] = values; }
-  void leave_loop(const Variable& variable) { loops_.erase(&variable); }
+  // What is known of indices at the place that is emitted.
+  [[nodiscard]] IndexCheck& index_check() noexcept { return index_check_; }
 
   [[nodiscard]] static std::string result_name(const Pou& pou);
   [[nodiscard]] std::string place(const Place& at) const { return cpp_place(at, pou_.title()); }
@@ -51,7 +50,6 @@ class ExpressionEmitter {
   [[nodiscard]] std::string index_through_pointer(const ast::Expression& expression) const;
   [[nodiscard]] std::string index(const ast::Expression& expression) const;
   [[nodiscard]] std::string one_index(const ast::Expression& expression, Bounds bounds) const;
-  [[nodiscard]] bool stays_within(const ast::Expression& expression, Bounds bounds) const;
   [[nodiscard]] std::string unary(const ast::Expression& expression) const;
   [[nodiscard]] std::string binary(const ast::Expression& expression) const;
   [[nodiscard]] std::string comparison(const ast::Expression& expression) const;
@@ -61,7 +59,7 @@ class ExpressionEmitter {
   [[nodiscard]] std::string user_call(const ast::Expression& expression) const;
 
   const Pou& pou_;
-  std::map<const Variable*, Bounds> loops_;
+  IndexCheck index_check_;
 };
 
 }  // namespace indurop::plc

@@ -355,10 +355,10 @@ void StatementEmitter::counted_loop(const Statement& one, std::int64_t step) {
   if (first != nullptr && last != nullptr) {
     const std::int64_t a = *as_int64(*first);
     const std::int64_t b = *as_int64(*last);
-    expressions_.enter_loop(variable, {std::min(a, b), std::max(a, b)});
+    expressions_.index_check().enter_loop(variable, {std::min(a, b), std::max(a, b)});
   }
   list(one.body);
-  expressions_.leave_loop(variable);
+  expressions_.index_check().leave_loop(variable);
   out_.close();
   out_.line(fmt::format("{} = static_cast<{}>({});", name, cpp_type(type), counter));
   out_.close();

@@ -16,7 +16,7 @@
 #include "network/dds/endpoint.h"
 #include "network/mirror/external/external_block.h"
 #include "network/mirror/external/external_settings.h"
-#include "network/mirror/external/lead.h"
+#include "network/mirror/external/own_lead.h"
 #include "network/mirror/external/topic_events.h"
 #include "store/vars/custody.h"
 #include "store/vars/store.h"

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "network/mirror/frames/leading_board.h"
+
 namespace indurop::mirror {
 
 Landing::Landing(vars::Store& store, const vars::DirectoryEntry& entry, std::int64_t patient_until_ns)
@@ -46,7 +48,7 @@ std::size_t Landing::add_source() {
 std::size_t Landing::leader() const noexcept {
   std::size_t best = kNone;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    if (sources_[i].session != 0 && (best == kNone || sources_[i].session < sources_[best].session)) {
+    if (sources_[i].session != 0 && (best == kNone || leads(sources_[i].session, sources_[best].session))) {
       best = i;
     }
   }

@@ -36,8 +36,7 @@ class Landing {
     UpdateWord* word = nullptr;  // the value is part of an update; null: it is sent on its own
     std::int64_t now_ns = 0;
   };
-  // A value arrived: it is written if its source leads and the store's value differs. The source with the longest
-  // service leads; a restarted one does not take the lead back, so outputs do not jump.
+  // A value arrived: it is written if its source leads (leading_board.h) and the store's value differs.
   void deliver(const Arrival& arrival, std::span<const std::uint8_t> value, PeerRecord& record) noexcept;
   // The source's board is gone. If there is another source, its last value counts from now on.
   void silent(std::size_t source, std::int64_t now_ns, PeerRecord& record) noexcept;

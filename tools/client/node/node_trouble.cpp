@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "scheduler/module_health.h"
+#include "scheduler/module_state_text.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {

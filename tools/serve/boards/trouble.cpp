@@ -7,7 +7,7 @@
 #include <array>
 
 #include "history/alarms/alarm_list.h"
-#include "scheduler/module_health.h"
+#include "scheduler/module_state_text.h"
 #include "tools/client/node/mirror_view.h"
 #include "tools/client/text/units.h"
 #include "tools/client/values/force_view.h"

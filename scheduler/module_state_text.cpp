@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scheduler/module_health.h"
+#include "scheduler/module_state_text.h"
 
 namespace indurop::scheduler {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "network/mirror/external/lead.h"
+#include "network/mirror/external/own_lead.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides whether this board's value of a variable that several boards have (<standby>) is the one that counts. The
-// board that has served longest leads, by the same rule as the plant's readers (landing.h), so each board can decide on
-// its own.
+// Decides whether this board's value of a variable that several boards have (<standby>) is the one that third-party
+// programs see.
 
 #pragma once
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "network/mirror/external/lead.h"
+#include "network/mirror/external/own_lead.h"
 
 #include <algorithm>
 #include <utility>
+
+#include "network/mirror/frames/leading_board.h"
 
 namespace indurop::mirror {
 
@@ -19,7 +21,7 @@ bool Lead::longest() const noexcept {
   const std::uint64_t own = plant_->session.load(std::memory_order_relaxed);
   return std::none_of(rivals_.begin(), rivals_.end(), [own](const PeerRecord* rival) {
     return rival->state.load(std::memory_order_acquire) == PeerState::Alive &&
-           rival->session.load(std::memory_order_relaxed) < own;
+           leads(rival->session.load(std::memory_order_relaxed), own);
   });
 }
 
