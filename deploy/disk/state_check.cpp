@@ -30,15 +30,29 @@ base::Json json_of(const StateReport& report) {
   return {{"files", report.files},
           {"bytes", report.bytes},
           {"deployments", report.deployments},
+          {"releases", report.releases},
           {"damaged", std::move(damaged)}};
 }
 
-StateCheck::StateCheck(const fs::path& folder) : files_(folder) {
-  plan();
+// What one of the two parts of the folder keeps.
+struct StateCheck::Kept {
+  DeploymentFiles files;
+  std::size_t most;
+  const char* kind;
+  std::vector<std::string>& ids;
+};
+
+StateCheck::StateCheck(const fs::path& folder) {
+  plan({DeploymentFiles(folder), kDeploymentsKept, "deployment", report_.deployments});
+  std::error_code error;
+  if (const fs::path platform = platform_folder(folder); fs::is_directory(platform, error)) {
+    plan({DeploymentFiles(platform), kReleasesKept, "release", report_.releases});
+  }
 }
 
-void StateCheck::plan() {
-  const fs::path committed_file = files_.folder() / kCommittedFile;
+void StateCheck::plan(const Kept& kept) {
+  const DeploymentFiles& files = kept.files;
+  const fs::path committed_file = files.folder() / kCommittedFile;
   Committed committed;
   if (const auto text = base::read_file(committed_file); text || text.error().sys_errno != ENOENT) {
     ++report_.files;
@@ -51,39 +65,39 @@ void StateCheck::plan() {
     }
   }
   std::map<std::string, std::string> names;  // names of files in files/, by digest
-  for (const std::string& id : kept_deployments(committed)) {
+  for (const std::string& id : kept_deployments(committed, kept.most)) {
     const bool needed = id == committed.current || id == committed.previous;
-    if (!needed && !files_.has(id)) {
+    if (!needed && !files.has(id)) {
       continue;  // this board was absent then
     }
-    report_.deployments.push_back(id);
-    names.emplace(id, fmt::format("the package of deployment {}", shown_id(id)));
-    plan_deployment(id);
-    if (const auto package = files_.package(id)) {
+    kept.ids.push_back(id);
+    names.emplace(id, fmt::format("the package of {} {}", kept.kind, shown_id(id)));
+    plan_folder(files, id);
+    if (const auto package = files.package(id)) {
       for (const PackageFile& entry : package->files) {
         names.emplace(entry.digest, entry.path);
       }
     }
   }
   std::error_code error;
-  for (fs::directory_iterator at(files_.folder() / "files", error), end; at != end; at.increment(error)) {
+  for (fs::directory_iterator at(files.folder() / "files", error), end; at != end; at.increment(error)) {
     if (const std::string digest = at->path().filename(); keys::is_digest(digest)) {
-      names.emplace(digest, "a file of a deployment before");
+      names.emplace(digest, fmt::format("a file of a {} before", kept.kind));
     }
   }
   for (const auto& [digest, name] : names) {
-    wanted_.push_back({files_.file(digest), name, digest, {}});
+    wanted_.push_back({files.file(digest), name, digest, {}});
   }
 }
 
-void StateCheck::plan_deployment(const std::string& id) {
-  const auto package = files_.package(id);
+void StateCheck::plan_folder(const DeploymentFiles& files, const std::string& id) {
+  const auto package = files.package(id);
   std::error_code error;
-  if (!package || !fs::is_directory(files_.deployment(id), error)) {
+  if (!package || !fs::is_directory(files.deployment(id), error)) {
     return;  // a damaged package is reported for files/; a missing folder is created before it is run
   }
   for (const PackageFile& entry : package->files) {
-    wanted_.push_back({files_.deployment(id) / entry.path, entry.path, entry.digest, {}});
+    wanted_.push_back({files.deployment(id) / entry.path, entry.path, entry.digest, {}});
   }
 }
 

@@ -50,6 +50,7 @@ def test_shows_boards_and_reports_those_that_die(setting):
     seen = plant()
     assert seen["domain"] == domain and seen["problem"] == "" and seen["trouble"] == [], seen
     assert seen["boards"][0]["state"] == "empty" and seen["boards"][0]["deployment"] == "", seen
+    assert len({board["release"] for board in seen["boards"]}) == 1 and seen["boards"][0]["release"][0].isdigit(), seen
     setting.end(dying, signal.SIGKILL)
     wait_for(lambda: names(plant()) == {left: True, right: False}, "the board to be missed")
     assert plant()["trouble"][0].startswith(f"board {right} no longer reports, last "), plant()

@@ -205,6 +205,24 @@ TEST_F(AgentDamage, A_changed_bit_is_never_run_never_called_committed_and_repair
   EXPECT_GT(refused, 0) << "a package has no second copy on the board";
 }
 
+// The folder of releases has the same form.
+TEST_F(AgentDamage, Of_a_release_of_the_platform_is_found_as_that_of_a_deployment) {
+  const std::string id = deploy(version("1"));
+  const fs::path platform = platform_folder(state_->folder());
+  fs::copy(state_->folder(), root_ / "copy", fs::copy_options::recursive);
+  fs::rename(root_ / "copy", platform);
+  const StateReport sound = verified();
+  EXPECT_TRUE(sound.damaged.empty());
+  EXPECT_EQ(sound.deployments, std::vector{id});
+  EXPECT_EQ(sound.releases, std::vector{id});
+  std::vector<fs::path> of_platform = all_files();
+  std::erase_if(of_platform, [&](const fs::path& file) { return !file.string().starts_with(platform.string()); });
+  ASSERT_EQ(of_platform.size() * 2, all_files().size());
+  const fs::path file = flip_a_bit(of_platform);
+  ASSERT_EQ(verified().damaged.size(), 1U);
+  EXPECT_EQ(verified().damaged[0].file, file);
+}
+
 TEST_F(AgentDamage, In_both_copies_is_refused_with_file_and_digest_until_it_is_fetched_again) {
   const std::string id = deploy(version("1"));
   const std::string digest = keys::digest_of(contents_[id]["mods/main.so"]);

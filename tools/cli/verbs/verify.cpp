@@ -122,6 +122,7 @@ int verify(Context& context, VerifyOptions& options) {
   }
   Table table({{"BOARD", "board"},
                {"DEPLOYMENTS", "deployments", Align::Right},
+               {"RELEASES", "releases", Align::Right},
                {"FILES", "files", Align::Right},
                {"SIZE", "bytes", Align::Right},
                {"DAMAGED", "damaged", Align::Right}});
@@ -134,6 +135,7 @@ int verify(Context& context, VerifyOptions& options) {
     sound = sound && damaged == 0;
     table.add({Cell(printable(board), Style::Bold),
                {std::to_string(finding["deployments"].values().size()), finding["deployments"]},
+               {std::to_string(finding["releases"].values().size()), finding["releases"]},
                {std::to_string(files), files},
                {human_bytes(bytes), bytes},
                {std::to_string(damaged), finding["damaged"], damaged > 0 ? Style::Bad : Style::Good}});
@@ -167,11 +169,12 @@ Action declare_verify(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kVerifyVerb{
-    "verify", "Plants", "Compare the files of deployments on the boards with their digests",
-    "Reads everything a board keeps of its deployments: what is committed, its files and their copies that run. "
-    "Without\n"
-    "--plant or --board it reads those of the boards of this machine and changes nothing. An agent that is asked also\n"
-    "deletes what is damaged and restores it from other copies on the board.\n"
+    "verify", "Plants", "Compare the files of deployments and releases on the boards with their digests",
+    "Reads everything a board keeps of its deployments and of releases of InduRoP: what is committed, its files and\n"
+    "their copies that run. Without --plant or --board it reads those of the boards of this machine and changes\n"
+    "nothing. An agent that is asked also deletes what is damaged of a deployment and restores it from other copies "
+    "on\n"
+    "the board.\n"
     "Exit codes: 0 all is as it was deployed, 4 something is not, 6 a board is not there or does not answer.\n"
     "Examples:\n"
     "  indurop verify\n"

@@ -122,6 +122,7 @@ export interface RemoteBoard {
   phase: string;
   plant: string;
   deployment: string;
+  release: string;
   tick: number;
   lost_ticks: number;
   overruns: number;

@@ -12,7 +12,8 @@ import { type Requested, useRequest, useStore } from "../ui/store";
 const EVERY_MS = 1000;
 export const SHOWN_ID = 12;  // letters of a deployment's id that are shown
 
-function Row({ row }: { row: RemoteBoard }) {
+// `releases`: how many different ones of InduRoP the boards run.
+function Row({ row, releases }: { row: RemoteBoard; releases: number }) {
   const { boards } = useStore(here);
   const local = boards?.some(({ board }) => board === row.board);
   return (
@@ -24,6 +25,7 @@ function Row({ row }: { row: RemoteBoard }) {
       <td>{row.host}</td>
       <td>{row.plant || "-"}</td>
       <td title={row.deployment}>{row.deployment ? row.deployment.slice(0, SHOWN_ID) : "-"}</td>
+      <td class={releases > 1 ? "warn" : ""}>{row.release || "-"}</td>
       <td class="number">{count(row.tick)}</td>
       <td class={`number ${row.lost_ticks ? "warn" : ""}`}>{count(row.lost_ticks)}</td>
       <td class={`number ${row.overruns ? "warn" : ""}`}>{count(row.overruns)}</td>
@@ -49,6 +51,7 @@ export function usePlant(): Requested<PlantNow> {
 export function PlantPanel({ value, error }: { value: PlantNow | null; error: string }) {
   if (!value) return <Panel title="Plant">{error ? <p class="bad">{error}</p> : <Waiting />}</Panel>;
   const [state, good] = state_of(value);
+  const releases = new Set(value.boards.map(({ release }) => release)).size;
   return (
     <Panel title="Plant" state={state} good={good}>
       {error && <p class="bad">{error}</p>}
@@ -58,9 +61,10 @@ export function PlantPanel({ value, error }: { value: PlantNow | null; error: st
       {value.boards.length > 0 && (
         <DataTable label="Boards of the plant">
             <thead><tr><th scope="col">Board</th><th scope="col">State</th><th scope="col">Host</th><th scope="col">Plant</th><th scope="col">Deployment</th>
+              <th scope="col">Release</th>
               <th scope="col" class="number">Tick</th><th scope="col" class="number">Lost ticks</th><th scope="col" class="number">Overruns</th>
               <th scope="col" class="number">Faults</th><th scope="col" class="number">Last report</th></tr></thead>
-            <tbody>{value.boards.map((row) => <Row key={row.board} row={row} />)}</tbody>
+            <tbody>{value.boards.map((row) => <Row key={row.board} row={row} releases={releases} />)}</tbody>
         </DataTable>)}
       <p><a href={address("deployments")}>Compare deployments, roll back</a></p>
     </Panel>);
