@@ -8,8 +8,10 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE RelWithDebInfo)
 endif()
 
-# Places in backtraces cost little, full debug information a quarter of the compile time (the preset dev has it).
-set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1 -DNDEBUG")
+# Places in backtraces cost little, full debug information a quarter of the compile time (the preset dev has it). What a
+# program does not use of a library is left out: a third of libindurop.so, which every process module has in memory.
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1 -DNDEBUG -ffunction-sections -fdata-sections")
+add_link_options(-Wl,--gc-sections)
 
 find_program(INDUROP_CCACHE ccache)
 if(INDUROP_CCACHE)
@@ -63,6 +65,25 @@ function(indurop_unity target)
   if(INDUROP_UNITY)  # it takes our files for headers
     target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
   endif()
+endfunction()
+
+# The same, but only files of one line meet: a program that needs one of them takes all of these, and the libraries that
+# they need, and no others. indurop_unity_groups(<target> "a.cpp b.cpp" "c.cpp d.cpp")
+function(indurop_unity_groups target)
+  indurop_unity(${target})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  foreach(line IN LISTS ARGN)
+    string(REPLACE " " ";" files "${line}")
+    list(GET files 0 group)
+    cmake_path(GET group STEM group)
+    set_source_files_properties(${files} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+endfunction()
+
+# Code that waits for people, files and other hosts more than for the processor, and is not called in ticks: -O1 takes
+# 0.8 of the compile time of -O2.
+function(indurop_not_timed target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
 endfunction()
 
 # A room: static library indurop_<name> of the given sources.
