@@ -3,10 +3,12 @@
 
 #include <csignal>
 
+#include "core/rt/relaxed.h"
+
 namespace indurop::scheduler {
 namespace {
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
+using rt::kRelaxed;
 constexpr std::chrono::microseconds kPoll{50};  // how often a process that must finish first is polled
 
 }  // namespace

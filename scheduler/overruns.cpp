@@ -4,13 +4,14 @@
 
 #include <cstdio>
 
+#include "core/rt/relaxed.h"
 #include "scheduler/band.h"
 #include "scheduler/statistics.h"
 
 namespace indurop::scheduler {
 namespace {
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
+using rt::kRelaxed;
 
 }  // namespace
 

@@ -7,11 +7,12 @@
 #include <utility>
 
 #include "core/rt/relax.h"
+#include "core/rt/relaxed.h"
 
 namespace indurop::scheduler {
 namespace {
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
+using rt::kRelaxed;
 constexpr int kAnyCore = -1;
 constexpr int kPollsBeforeSleep = 2000;          // polls of a running process: some 20 us
 constexpr std::chrono::microseconds kPause{50};  // between two polls after that

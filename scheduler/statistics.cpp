@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/rt/relaxed.h"
+
 namespace indurop::scheduler {
 namespace {
 
@@ -45,7 +47,7 @@ void JitterReference::flush(Distribution& jitter) noexcept {
 }
 
 void account_run(ModuleRecord& record, JitterReference& reference, const RunTimes& times) noexcept {
-  constexpr auto kRelaxed = std::memory_order_relaxed;
+  using rt::kRelaxed;
   const std::int64_t latency = times.start_ns - times.release_ns;
   const std::int64_t response = times.end_ns - times.release_ns;
   const std::int64_t exec = times.end_ns - times.start_ns;

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "core/rt/relaxed.h"
 #include "scheduler/run_block.h"
 
 namespace indurop::scheduler {
@@ -18,7 +19,7 @@ inline void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noe
 }
 
 inline void add_sample(Distribution& to, std::int64_t value) noexcept {
-  constexpr auto kRelaxed = std::memory_order_relaxed;
+  using rt::kRelaxed;
   const std::int64_t positive = value < 0 ? 0 : value;
   const std::uint64_t counted = to.count.load(kRelaxed);
   if (counted == 0 || positive < to.min.load(kRelaxed)) {

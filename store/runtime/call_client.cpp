@@ -23,7 +23,7 @@ using vars::CallFunction;
 using vars::CallSlot;
 using vars::CallState;
 
-constexpr std::int64_t kCheckIntervalNs =
+constexpr std::int64_t kServerCheckNs =
     5'000'000;  // interval at which a waiting caller checks that the server is alive
 
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): what a thread keeps from call to call
@@ -103,7 +103,7 @@ bool give_up(CallSlot& slot, std::uint64_t sequence) noexcept {
 // Waits for the answer to `sequence`. Returns Ok if it has arrived.
 Errc wait_for_answer(CallFunction& function, CallSlot& slot, std::uint64_t sequence, std::int64_t deadline) noexcept {
   for (;;) {
-    (void)slot.reply.wait_until(rt::mono_time(std::min(deadline, rt::now_ns() + kCheckIntervalNs)));
+    (void)slot.reply.wait_until(rt::mono_time(std::min(deadline, rt::now_ns() + kServerCheckNs)));
     if (slot.state.load(std::memory_order_acquire) == word_of(sequence, CallState::Done)) {
       return Errc::Ok;
     }

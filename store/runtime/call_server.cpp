@@ -30,7 +30,7 @@ using vars::CallFunction;
 using vars::CallSlot;
 using vars::CallState;
 
-constexpr std::int64_t kCheckIntervalNs = 100'000'000;  // interval at which an idle server checks for a new store
+constexpr std::int64_t kStoreCheckNs = 100'000'000;  // interval at which an idle server checks for a new store
 constexpr int kTriesBeforeComplaint = 5;
 
 // A function offered by a module; modules are distinguished by the file they were loaded from.
@@ -130,7 +130,7 @@ class FunctionServers::Server {
     while (!stop_.load(std::memory_order_acquire)) {
       const std::int64_t now = rt::now_ns();
       if (now >= next_check) {
-        next_check = now + kCheckIntervalNs;
+        next_check = now + kStoreCheckNs;
         Process::get().refresh();
         enter();
       }

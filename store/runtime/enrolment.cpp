@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "core/base/exit_code.h"
 #include "core/rt/clock.h"
 #include "core/rt/lost_pages.h"
 #include "core/rt/machine.h"
@@ -31,8 +32,6 @@ using scheduler::RunBlock;
 
 constexpr std::int64_t kIdleNs = 100'000'000;  // interval at which a waiting process checks its node
 constexpr unsigned kIdlesPerFullCheck = 10;
-constexpr int kExitFailed = 1;
-constexpr int kExitSchemaMismatch = 8;
 
 // The memory of this process's node was lost; the process ends too. Called in a signal handler.
 void end_without_memory(void* /*context*/, const char* file) {
@@ -40,7 +39,7 @@ void end_without_memory(void* /*context*/, const char* file) {
   (void)!::write(STDERR_FILENO, "indurop: error: ", 16);
   (void)!::write(STDERR_FILENO, file, std::strlen(file));
   (void)!::write(STDERR_FILENO, kSaid.data(), kSaid.size());
-  ::_exit(kExitFailed);
+  ::_exit(kFailed);
 }
 
 bool process_exists(std::int32_t pid) noexcept {
@@ -71,7 +70,7 @@ std::uint32_t find_module(const RunBlock& run) {
 }
 
 int exit_code_of(Errc code) noexcept {
-  return code == Errc::TypeMismatch || code == Errc::VersionMismatch ? kExitSchemaMismatch : EXIT_FAILURE;
+  return code == Errc::TypeMismatch || code == Errc::VersionMismatch ? kSchemaMismatch : EXIT_FAILURE;
 }
 
 // With a limit on locked memory, locking future memory would make later allocations fail.

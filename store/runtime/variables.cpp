@@ -10,18 +10,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base/exit_code.h"
 #include "store/runtime/host.h"
 #include "store/runtime/process.h"
 #include "store/runtime/ref_tables.h"
 #include "store/vars/forces.h"
 #include "store/vars/tear_free_ring.h"
 #include "store/vars/together.h"
-
-namespace {
-
-constexpr int kExitSchemaMismatch = 8;
-
-}  // namespace
 
 extern "C" {
 
@@ -32,7 +27,7 @@ void indurop_register_refs(indurop::abi::Ref* refs, std::uint32_t count, std::ui
         stderr,
         "indurop: this program was built for version %u of the variables' layout, libindurop.so has %u: rebuild it\n",
         abi_version, indurop::abi::kVersion);
-    std::_Exit(kExitSchemaMismatch);
+    std::_Exit(indurop::kSchemaMismatch);
   }
   indurop::runtime::Process::get().register_refs(refs, count);
 }

@@ -6,12 +6,13 @@
 #include <bit>
 #include <utility>
 
+#include "core/rt/relaxed.h"
 #include "store/tape/check.h"
 
 namespace indurop::tape {
 namespace {
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
+using rt::kRelaxed;
 
 EntryHead head_of(std::uint64_t word) noexcept {
   return std::bit_cast<EntryHead>(word);

@@ -7,12 +7,13 @@
 #include <cstring>
 #include <utility>
 
+#include "core/rt/relaxed.h"
 #include "store/vars/tear_free_ring.h"
 
 namespace indurop::tape {
 namespace {
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
+using rt::kRelaxed;
 constexpr std::uint64_t kAhead = 64;  // words claimed in advance, so that not each entry has to claim
 constexpr std::uint64_t kStepsPerClockReading =
     16;  // variables checked and words written in the time of a clock reading

@@ -20,10 +20,6 @@ namespace {
 
 constexpr std::uint64_t kPage = 4096;
 
-constexpr std::uint64_t round_up(std::uint64_t value, std::uint64_t to) noexcept {
-  return (value + to - 1) / to * to;
-}
-
 bool scalar_size(std::uint64_t size) noexcept {
   return size == 1 || size == 2 || size == 4 || size == 8;
 }

@@ -7,15 +7,13 @@
 #include <vector>
 
 #include "core/rt/shared_mutex.h"
+#include "store/vars/layout.h"
 
 namespace indurop::vars {
 
 namespace {
 
 constexpr std::uint64_t kLine = 64;
-constexpr std::uint64_t round_up(std::uint64_t value, std::uint64_t to) noexcept {
-  return (value + to - 1) / to * to;
-}
 
 struct Shape {
   std::uint32_t args_size;

@@ -13,13 +13,14 @@
 
 #include "core/rt/barrier.h"
 #include "core/rt/clock.h"
+#include "core/rt/relaxed.h"
 #include "core/rt/shared_mutex.h"
 #include "store/vars/tear_free_ring.h"
 
 namespace indurop::vars {
 namespace {
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
+using rt::kRelaxed;
 
 std::byte* entry_of(const BlockHeader& header, const DirectoryEntry& variable) noexcept {
   return reinterpret_cast<std::byte*>(const_cast<BlockHeader*>(&header)) + variable.offset;  // NOLINT: one mapping

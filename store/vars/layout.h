@@ -17,6 +17,10 @@ namespace indurop::vars {
 inline constexpr std::uint64_t kMagic = 0x31504f5255444e49ULL;  // "INDUROP1"
 inline constexpr std::size_t kMaxNodeName = 48;
 
+constexpr std::uint64_t round_up(std::uint64_t value, std::uint64_t to) noexcept {
+  return (value + to - 1) / to * to;
+}
+
 enum class BlockState : std::uint32_t { Building = 0, Ready = 1, Retired = 2 };
 
 // A forced part of a variable, whose writers are ignored; see store/vars/forces.h.

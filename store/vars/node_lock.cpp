@@ -35,7 +35,7 @@ namespace {
 
 // Other users cannot open it: a process that can open a file can lock it, and so prevent a node from starting.
 constexpr mode_t kLockMode = 0660;
-constexpr int kTries = 100;
+constexpr int kLockTries = 100;
 constexpr std::chrono::milliseconds kPause{1};
 
 std::string path_of(const std::string& node) {
@@ -192,7 +192,7 @@ Result<NodeLock> NodeLock::acquire(const std::string& node, pid_t& holder) {
     return Error{Errc::InvalidArgument, 0, "node name: 1 to 40 letters, digits, '_' or '-'"};
   }
   const std::string path = path_of(node);
-  for (int i = 0; i < kTries && holder == 0; ++i) {
+  for (int i = 0; i < kLockTries && holder == 0; ++i) {
     const int number = open_lock(path);
     if (number < 0) {
       if (errno == EEXIST || errno == ENOENT) {  // created or removed by another process at this moment
@@ -213,7 +213,7 @@ Result<NodeLock> NodeLock::acquire(const std::string& node, pid_t& holder) {
         return lock;
       }
       // The files of a running node were removed, or it is just ending.
-      if (i + 1 == kTries) {
+      if (i + 1 == kLockTries) {
         holder = holder_by_socket(node);
       }
       std::this_thread::sleep_for(kPause);

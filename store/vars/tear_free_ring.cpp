@@ -102,7 +102,7 @@ void catch_up(RingHeader& ring, std::uint64_t now, unsigned char* to, const unsi
 // Kept out of the common path: whole writes of small values need none of this.
 [[gnu::noinline]] void bring_up_to_date(RingHeader& ring, unsigned char* to, Span hole) noexcept {
   const std::uint64_t now = ring.seq.load(std::memory_order_relaxed);
-  const unsigned char* from = detail::slot(&ring, now, ring.slot_stride);
+  const unsigned char* from = indurop::detail::slot(&ring, now, ring.slot_stride);
   if (ring.value_size <= kWholeCopyLimit) {
     copy_around(to, from, {0, ring.value_size}, hole);
   } else {
@@ -115,7 +115,7 @@ inline unsigned char* open_slot(RingHeader& ring, std::uint32_t offset, std::uin
   const std::uint64_t now = ring.seq.load(std::memory_order_relaxed);
   // A reader that sees any byte of the new version must see `seq` as it is now, or a later one.
   std::atomic_thread_fence(std::memory_order_release);
-  unsigned char* to = detail::slot(&ring, now + 1, ring.slot_stride);
+  unsigned char* to = indurop::detail::slot(&ring, now + 1, ring.slot_stride);
   if (length != ring.value_size || length > kWholeCopyLimit) {
     bring_up_to_date(ring, to, {offset, std::uint64_t{offset} + length});
   }
@@ -139,7 +139,7 @@ bool init_ring(void* memory, std::uint32_t value_size, const void* initial) noex
   ring->value_size = value_size;
   ring->slot_stride = static_cast<std::uint32_t>(abi::slot_stride(value_size));
   if (initial != nullptr) {
-    std::memcpy(detail::slot(ring, 0, ring->slot_stride), initial, value_size);
+    std::memcpy(indurop::detail::slot(ring, 0, ring->slot_stride), initial, value_size);
   }
   mark_all_dirty(*ring);
   return rt::init_shared_mutex(ring->lock);
@@ -174,7 +174,7 @@ void* try_begin_edit(RingHeader& ring) noexcept {
 
 void commit(RingHeader& ring) noexcept {
   if (ring.forces_offset.load(std::memory_order_relaxed) != 0) [[unlikely]] {
-    hold_parts(ring, detail::slot(&ring, ring.seq.load(std::memory_order_relaxed) + 1, ring.slot_stride));
+    hold_parts(ring, indurop::detail::slot(&ring, ring.seq.load(std::memory_order_relaxed) + 1, ring.slot_stride));
   }
   ring.seq.store(ring.seq.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   rt::unlock(ring.lock);
@@ -192,7 +192,7 @@ void release_if_mine(RingHeader& ring, rt::ThreadId thread) noexcept {
 
 bool try_read(const RingHeader& ring, std::uint32_t value_size, std::uint32_t offset, void* to,
               std::uint32_t length) noexcept {
-  return detail::try_copies(&ring, abi::slot_stride(value_size), to, offset, length);
+  return indurop::detail::try_copies(&ring, abi::slot_stride(value_size), to, offset, length);
 }
 
 bool check_ring(RingHeader& ring, std::uint32_t value_size) noexcept {
@@ -225,7 +225,8 @@ void read_slow(RingHeader& ring, std::uint32_t value_size, void* to, std::uint32
     }
     if (rt::is_locked(result)) {
       const std::uint64_t now = ring.seq.load(std::memory_order_relaxed);
-      detail::copy_from_shared(to, detail::slot(&ring, now, abi::slot_stride(value_size)) + offset, length);
+      indurop::detail::copy_from_shared(to, indurop::detail::slot(&ring, now, abi::slot_stride(value_size)) + offset,
+                                        length);
       rt::unlock(ring.lock);
       return;
     }

@@ -13,13 +13,14 @@
 #include <cstdint>
 
 #include "core/rt/relax.h"
+#include "core/rt/relaxed.h"
 #include "store/vars/scalar.h"
 #include "store/vars/tear_free_ring.h"
 
 namespace indurop::vars {
 namespace {
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
+using rt::kRelaxed;
 constexpr int kTries = 64;      // attempts to copy everything
 constexpr int kPauses = 2'000;  // while an update is being applied: some 50 us
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/rt/relaxed.h"
 #include "core/schema/ros_name.h"
 #include "network/dds/descriptor.h"
 #include "network/dds/guid.h"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr std::int64_t kUnreadNs = 100'000'000;    // maximum age of the value that a late joiner gets first
 constexpr std::int64_t kRepeatNs = 1'000'000'000;  // for readers that missed the first value during matching
-constexpr auto kRelaxed = std::memory_order_relaxed;
+using rt::kRelaxed;
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/rt/relaxed.h"
 #include "network/mirror/frames/board_time.h"
 
 namespace indurop::mirror {
@@ -142,7 +143,7 @@ void Receiver::frame_came(const indurop_wire_Frame& frame, Stream stream) noexce
 }
 
 void Receiver::accept(const indurop_wire_Frame& frame, Port& port) noexcept {
-  constexpr auto kRelaxed = std::memory_order_relaxed;
+  using rt::kRelaxed;
   if (frame.session != session_ || frame.layout != static_cast<std::uint32_t>(layout_) ||
       frame.part >= inboxes_.size() || frame.data._length < inboxes_[frame.part].size) {
     record_.refused.fetch_add(1, kRelaxed);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/rt/clock.h"
+#include "core/rt/relaxed.h"
 #include "history/alarms/alarm_journal.h"
 #include "history/alarms/alarm_list.h"
 #include "history/alarms/alarm_watch.h"
@@ -17,7 +18,7 @@
 namespace indurop::tools {
 namespace {
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
+using rt::kRelaxed;
 constexpr std::size_t kEvents = 5;
 constexpr std::size_t kMessages = 2;  // maximum messages among these: a module that prints all the time hides nothing
 constexpr std::size_t kTroubles = 3;

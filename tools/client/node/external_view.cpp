@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/rt/relaxed.h"
 #include "network/mirror/external/external_block.h"
 #include "store/vars/shm_file.h"
 #include "tools/client/node/run_view.h"
@@ -11,7 +12,7 @@
 namespace indurop::tools {
 
 std::optional<ExternalView> view_external(const std::string& node) {
-  constexpr auto kRelaxed = std::memory_order_relaxed;
+  using rt::kRelaxed;
   const auto file = vars::ShmCopy::of(vars::external_file(node));
   if (!file || file.value().size() < sizeof(mirror::ExternalBlock)) {
     return std::nullopt;

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/rt/clock.h"
+#include "core/rt/relaxed.h"
 #include "network/mirror/frames/mirror_block.h"
 #include "store/vars/shm_file.h"
 #include "tools/client/node/run_view.h"
@@ -19,7 +20,7 @@ namespace {
 constexpr std::int64_t kJustNowNs = 250'000'000;  // running boards confirm their values more often
 
 PeerView view_peer(const mirror::PeerRecord& record, std::int64_t now) {
-  constexpr auto kRelaxed = std::memory_order_relaxed;
+  using rt::kRelaxed;
   const std::int64_t heard = record.heard_ns.load(kRelaxed);
   return {.name = fixed_text(record.name),
           .state = mirror::to_text(record.state.load(kRelaxed)),
@@ -49,7 +50,7 @@ std::optional<MirrorView> view_mirror(const std::string& node) {
     return std::nullopt;
   }
   const std::int64_t now = rt::now_ns();
-  constexpr auto kRelaxed = std::memory_order_relaxed;
+  using rt::kRelaxed;
   const std::uint32_t peers = block->peer_count;
   MirrorView view{.plant = fixed_text(block->plant),
                   .board = fixed_text(block->board),

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "config/xml/reader.h"
+#include "core/rt/relaxed.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
@@ -34,7 +35,7 @@ Cell duration(std::int64_t ns, bool known = true) {
 }
 
 std::vector<Cell> module_row(const scheduler::ModuleRecord& module, bool alive) {
-  constexpr auto kRelaxed = std::memory_order_relaxed;
+  using rt::kRelaxed;
   const auto state = module.state.load(kRelaxed);
   const auto exec = scheduler::summarize(module.exec);
   const auto jitter = scheduler::summarize(module.jitter);

@@ -9,6 +9,7 @@
 
 #include "config/xml/reader.h"
 #include "core/rt/clock.h"
+#include "core/rt/relaxed.h"
 #include "deploy/words/deployment_words.h"
 #include "store/vars/node_lock.h"
 #include "store/vars/store.h"
@@ -46,7 +47,7 @@ void set_owner(NodeReport& report) {
 }
 
 NodeReport report_of(const std::string& node, const RunView& run) {
-  constexpr auto kRelaxed = std::memory_order_relaxed;
+  using rt::kRelaxed;
   const auto& block = run.block();
   NodeReport report;
   report.node = node;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/rt/relaxed.h"
 #include "history/alarms/alarm_list.h"
 #include "scheduler/module_state_text.h"
 #include "tools/client/node/mirror_view.h"
@@ -15,7 +16,7 @@
 namespace indurop::serve {
 namespace {
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
+using rt::kRelaxed;
 
 // `runs`: the node runs; if it has ended, only earlier problems count.
 void add_module(std::vector<Trouble>& all, const scheduler::ModuleRecord& module, bool runs) {
