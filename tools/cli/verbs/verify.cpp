@@ -172,9 +172,8 @@ const Verb kVerifyVerb{
     "verify", "Plants", "Compare the files of deployments and releases on the boards with their digests",
     "Reads everything a board keeps of its deployments and of releases of InduRoP: what is committed, its files and\n"
     "their copies that run. Without --plant or --board it reads those of the boards of this machine and changes\n"
-    "nothing. An agent that is asked also deletes what is damaged of a deployment and restores it from other copies "
-    "on\n"
-    "the board.\n"
+    "nothing. An agent that is asked also deletes what is damaged of a deployment and restores it from other copies\n"
+    "on the board.\n"
     "Exit codes: 0 all is as it was deployed, 4 something is not, 6 a board is not there or does not answer.\n"
     "Examples:\n"
     "  indurop verify\n"
