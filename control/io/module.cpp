@@ -6,17 +6,15 @@
 #include <indurop/indurop.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "control/io/dispatcher.h"
-#include "scheduler/run_block.h"
+#include "core/schema/schema.h"
 #include "store/runtime/host.h"
-#include "store/vars/run_file.h"
-#include "store/vars/store.h"
 
 namespace {
 
@@ -33,25 +31,13 @@ Module& self() {
   return module;
 }
 
-std::string node_name() {
-  const char* node = std::getenv("INDUROP_NODE");  // NOLINT(concurrency-mt-unsafe): the node has set it
-  return node != nullptr ? node : "local";
-}
-
 std::filesystem::path config_file() {
   std::filesystem::path named = irp::property("config", "");
   if (named.empty()) {
     throw std::runtime_error(
         "no ioconfig.xml named; add <property><value name=\"config\">ioconfig.xml</value></property>");
   }
-  const auto run =
-      vars::RunFile::open(node_name(), vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
-  if (!run) {
-    return named;
-  }
-  const std::filesystem::path config_file_of_node =
-      static_cast<const scheduler::RunBlock*>(run.value().data())->config_file;
-  return (config_file_of_node.parent_path() / named).lexically_normal();
+  return (std::filesystem::path(runtime::config_file()).parent_path() / named).lexically_normal();
 }
 
 io::Phase phase() {
@@ -67,12 +53,12 @@ io::Phase phase() {
 
 void on_start() {
   self().last_release = 0;
-  const auto store = vars::Store::attach(node_name(), vars::Mode::ReadOnly);
-  if (!store) {
-    throw std::runtime_error("the node's variables cannot be read: " + std::string(to_string(store.error().code)));
+  const auto schema = schema::from_json(runtime::schema_text());
+  if (!schema) {
+    throw std::runtime_error("the node's variables cannot be read: " + std::string(to_string(schema.error().code)));
   }
   const std::filesystem::path file = config_file();
-  io::Dispatcher::Made made = io::Dispatcher::make(file, store.value().schema(), phase());
+  io::Dispatcher::Made made = io::Dispatcher::make(file, schema.value(), phase());
   for (const base::Diagnostic& diagnostic : made.diagnostics) {
     irp::printf("%s\n", base::to_string(diagnostic));
   }

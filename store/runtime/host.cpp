@@ -89,6 +89,16 @@ std::uint32_t current_module() noexcept {
   return t_module != kNoModule ? t_module : hot.process_module.load(std::memory_order_relaxed);
 }
 
+std::string schema_text() {
+  const Attachment* attachment = hot.attachment.load(std::memory_order_acquire);
+  return attachment != nullptr ? schema::to_json(attachment->store().schema()) : std::string{};
+}
+
+std::string config_file() {
+  const scheduler::RunBlock* run = hot.run.load(std::memory_order_acquire);
+  return run != nullptr ? std::string(run->config_file) : std::string{};
+}
+
 std::vector<std::string> attach_process(vars::Store& store, scheduler::RunBlock& run) {
   return Process::get().host(store, run);
 }

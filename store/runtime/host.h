@@ -90,6 +90,12 @@ std::vector<std::string> attach_process(vars::Store& store, scheduler::RunBlock&
 // Requires that no module is running. Variables are bound to private memory with initial values again.
 void detach_process();
 
+// For modules of the platform itself: the schema of the variables that this process is bound to, as schema::to_json()
+// writes it, and the configuration file of its node. Empty: it has none. Such a module must not attach on its own: what
+// it links guards its mappings by a signal handler, which would stay when the module is unloaded. Not real-time safe.
+std::string schema_text();
+std::string config_file();
+
 // Returns the lines that could not be bound since the last call (a module was loaded, a function could not be served).
 // Not real-time safe.
 std::vector<std::string> take_binding_errors();
