@@ -12,6 +12,12 @@
 #include "core/rt/fault_handler.h"
 #include "core/rt/lost_pages.h"
 
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+
+#include "core/rt/fiber.h"
+#endif
+
 namespace indurop::rt {
 namespace {
 
@@ -108,6 +114,12 @@ void Guard::on_signal(int number, void* address) noexcept {
   armed_.store(false, std::memory_order_release);
   signal_ = number;
   address_ = address;
+#if defined(__SANITIZE_ADDRESS__)
+  // It forgets what is left of frames on the thread's stack when a handler jumps, but not on a fiber's.
+  if (const Fiber* const fiber = Fiber::current()) {
+    __asan_unpoison_memory_region(fiber->stack().lowest, fiber->stack().bytes);
+  }
+#endif
   ::siglongjmp(target_, 1);
 }
 
