@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <string_view>
 
 namespace indurop::rt {
@@ -14,7 +13,7 @@ namespace indurop::rt {
 template <std::size_t N>
 void copy_text(char (&to)[N], std::string_view from) noexcept {
   const std::size_t length = std::min(from.size(), N - 1);
-  std::memcpy(to, from.data(), length);
+  from.copy(to, length);  // unlike memcpy, also of nothing
   to[length] = '\0';
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstring>
 #include <string_view>
 
 namespace indurop::c {
@@ -17,7 +16,7 @@ thread_local std::array<char, kMaxText> last_error{};  // NOLINT(cppcoreguidelin
 
 void keep(std::string_view text) noexcept {
   const std::size_t length = std::min(text.size(), kMaxText - 1);
-  std::memcpy(last_error.data(), text.data(), length);
+  text.copy(last_error.data(), length);
   last_error[length] = '\0';
 }
 

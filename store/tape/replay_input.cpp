@@ -55,7 +55,7 @@ void ReplayInputWriter::give(std::span<const std::int64_t> readings, std::span<c
   Header& header = header_of(file_);
   header.readings = std::min<std::size_t>(readings.size(), kMaxReadings);
   std::size_t at = kFirst;
-  std::memcpy(words + at, readings.data(), header.readings * sizeof(std::int64_t));
+  std::copy_n(readings.begin(), header.readings, words + at);
   at += header.readings;
   header.answers = 0;
   for (const ReplayedAnswer& answer : answers) {

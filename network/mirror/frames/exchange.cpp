@@ -2,10 +2,10 @@
 #include "network/mirror/frames/exchange.h"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 #include <utility>
 
+#include "core/rt/copy_text.h"
 #include "network/mirror/frames/board_time.h"
 
 namespace indurop::mirror {
@@ -14,12 +14,6 @@ namespace {
 constexpr std::int64_t kPollNs = 10'000'000;  // without a notification: another process may have written
 constexpr std::int64_t kBulkLookNs = 20'000'000;
 constexpr std::int64_t kPollAgainNs = 100'000;  // for the end of a run that is not notified
-
-void copy_name(char (&to)[kBoardName], const std::string& from) noexcept {
-  const std::size_t length = std::min(from.size(), sizeof to - 1);
-  std::memcpy(to, from.data(), length);
-  to[length] = '\0';
-}
 
 }  // namespace
 
@@ -54,12 +48,12 @@ Result<std::unique_ptr<Exchange>> Exchange::make(Settings settings, const std::s
 void Exchange::fill_block() {
   block_.abi = kMirrorAbi;
   block_.peer_count = static_cast<std::uint32_t>(settings_.boards.size());
-  copy_name(block_.plant, settings_.plant);
-  copy_name(block_.board, settings_.network.board);
+  rt::copy_text(block_.plant, settings_.plant);
+  rt::copy_text(block_.board, settings_.network.board);
   block_.domain = settings_.network.domain;
   block_.session.store(session_, std::memory_order_relaxed);
   for (std::size_t i = 0; i < settings_.boards.size(); ++i) {
-    copy_name(block_.peers()[i].name, settings_.boards[i]);
+    rt::copy_text(block_.peers()[i].name, settings_.boards[i]);
   }
 }
 
