@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
   dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
   if (reader < 0 || dds_waitset_attach(waiting, reader, 0) < 0) {
     fprintf(stderr, "cannot read station/state\n");
+    dds_delete(participant);  // its threads must not outlive the libraries that they use
     return 1;
   }
   while (left != 0) {
