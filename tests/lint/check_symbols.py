@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """libindurop.so exports exactly what exported_symbols.txt lists: what it exports is what users' modules can depend on.
-check_symbols.py LIBRARY LIST [--update]"""
+A module that comes with the platform installs no signal handler: it would stay when the module is unloaded.
+check_symbols.py LIBRARY LIST [--update] | check_symbols.py --module LIBRARY"""
 
 import pathlib
 import subprocess
@@ -26,7 +27,15 @@ def check(library, listing):
             + [f"{listing}: listed but no longer exported: {name}" for name in sorted(wanted - found)])
 
 
+def handlers(module):
+    lines = subprocess.run(["nm", "-D", "--undefined-only", module], capture_output=True, text=True, check=True).stdout.splitlines()
+    names = {line.split()[-1].split("@")[0] for line in lines}
+    return [f"{module}: imports {name}: its handler would outlive the module" for name in sorted(names & {"sigaction", "signal"})]
+
+
 if __name__ == "__main__":
+    if sys.argv[1] == "--module":
+        common.report(handlers(sys.argv[2]))
     if "--update" in sys.argv:
         pathlib.Path(sys.argv[2]).write_text(HEAD + "".join(name + "\n" for name in sorted(exported(sys.argv[1]))))
     common.report(check(sys.argv[1], sys.argv[2]))
