@@ -47,10 +47,8 @@ Result<vars::Store, Failure> attach(const std::string& name, irp_access access) 
 }
 
 Found described(indurop::operate::Item item) {
-  Found found{std::move(item), {}, {}};
-  found.type = schema::display_name(found.item.place.type);
-  found.layout = schema::canonical(found.item.place.type);
-  return found;
+  indurop::c::Texts texts = indurop::c::texts_of(item.name, item.place.type);
+  return {std::move(item), std::move(texts)};
 }
 
 }  // namespace
@@ -94,7 +92,7 @@ Result<const Found*, Failure> irp_node::found(std::uint32_t id) const {
   const Found& one = found_[id];
   if (one.item.entry == nullptr) {
     return Failure{IRP_NOT_FOUND, fmt::format("node '{}' has no variable '{}' of type {} any more; call irp_find()",
-                                              name_, one.item.name, one.type)};
+                                              name_, one.item.name, one.texts.type)};
   }
   return &one;
 }
@@ -126,7 +124,7 @@ Result<void, Failure> irp_node::refresh() {
   }
   for (Found& one : found_) {
     auto item = indurop::operate::find(*store, one.item.name);
-    if (item && item->name == one.item.name && schema::canonical(item->place.type) == one.layout) {
+    if (item && item->name == one.item.name && schema::canonical(item->place.type) == one.texts.layout) {
       one.item = std::move(item).value();
     } else {
       one.item.entry = nullptr;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "doors/c/describe.h"
 #include "doors/c/failure.h"
 #include "store/operate/item.h"
 #include "store/vars/store.h"
@@ -21,8 +22,7 @@ namespace indurop::c {
 // A variable that was found. Its texts are what irp_describe() points to.
 struct Found {
   operate::Item item;  // its entry is null if the variable is gone
-  std::string type;
-  std::string layout;
+  Texts texts;
 };
 
 }  // namespace indurop::c

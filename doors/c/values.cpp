@@ -9,6 +9,7 @@
 
 #include "core/rt/clock.h"
 #include "core/schema/schema.h"
+#include "doors/c/describe.h"
 #include "doors/c/failure.h"
 #include "doors/c/node.h"
 #include "store/operate/hold.h"
@@ -73,7 +74,8 @@ Result<operate::Assignment, Failure> assignment(const irp_node& node, const Foun
   const schema::Type& type = found.item.place.type;
   auto made = assignment(node, found, schema::format_value(type, bytes));
   if (made && schema::format_value(type, made->bytes) != made->text) {
-    return Failure{IRP_RANGE, fmt::format("{}: {} is not a value of {}", found.item.name, made->text, found.type)};
+    return Failure{IRP_RANGE,
+                   fmt::format("{}: {} is not a value of {}", found.item.name, made->text, found.texts.type)};
   }
   return made;
 }
@@ -113,31 +115,16 @@ irp_code irp_find(irp_node* node, const char* name, uint32_t* id) {
 
 irp_code irp_describe(const irp_node* node, uint32_t id, irp_variable* variable) {
   return guarded([&]() -> Result<void, Failure> {
-    if (node == nullptr || variable == nullptr || variable->struct_size < sizeof variable->struct_size) {
-      return Failure{IRP_INVALID, "irp_describe: an argument is null, or struct_size is not set"};
+    if (node == nullptr || variable == nullptr) {
+      return null_argument("irp_describe");
     }
     const auto found = node->found(id);
     if (!found) {
       return found.error();
     }
-    const schema::Place& place = (*found)->item.place;
-    irp_variable full{};
-    full.struct_size = variable->struct_size;
-    full.name = (*found)->item.name.c_str();
-    full.type = (*found)->type.c_str();
-    full.layout = (*found)->layout.c_str();
-    full.unit = place.unit.c_str();
-    full.description = place.variable->description.c_str();
-    full.source = place.variable->source.c_str();
-    full.size = place.type.size();
-    if (place.range) {
-      full.min = place.range->min;
-      full.max = place.range->max;
-      full.flags |= IRP_HAS_RANGE;
-    }
-    full.flags |= flag(place.variable->retain, IRP_RETAIN) | flag(place.variable->given, IRP_PARAMETER);
-    std::memcpy(variable, &full, std::min(variable->struct_size, sizeof full));
-    return {};
+    return indurop::c::describe((*found)->texts, (*found)->item.place, variable)
+               ? Result<void, Failure>()
+               : Failure{IRP_INVALID, "irp_describe: struct_size is not set"};
   });
 }
 

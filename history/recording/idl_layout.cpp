@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <optional>
 #include <type_traits>
 #include <utility>
+
+#include "history/recording/idl_reader.h"
 
 namespace indurop::recording {
 namespace {
@@ -20,16 +20,6 @@ using base::Problem;
 using Kind = IdlLeaf::Kind;
 
 constexpr int kMaxDepth = 32;
-
-struct Member {
-  std::string type;  // "string" for all texts
-  std::string name;
-  std::vector<std::uint64_t> dims;
-};
-struct Definition {
-  bool is_enum = false;
-  std::vector<Member> members;
-};
 
 std::optional<Kind> kind_of(std::string_view type) {
   constexpr std::array<std::pair<std::string_view, Kind>, 13> kKinds{{{"boolean", Kind::Bool},
@@ -53,135 +43,9 @@ std::optional<Kind> kind_of(std::string_view type) {
   return std::nullopt;
 }
 
-class IdlReader {
- public:
-  explicit IdlReader(std::string_view text) : text_(text) {}
-
-  bool read() {
-    while (next()) {
-      if (token_ == "module") {
-        next();
-        scopes_.push_back(token_);
-        next();  // {
-      } else if (token_ == "}") {
-        if (scopes_.empty()) {
-          return false;
-        }
-        scopes_.pop_back();
-      } else if (token_ == "struct") {
-        if (!structure()) {
-          return false;
-        }
-      } else if (token_ == "enum") {
-        if (!enumeration()) {
-          return false;
-        }
-      } else if (token_ == "@") {
-        next();  // its name
-      } else if (token_ != ";") {
-        return false;
-      }
-    }
-    return scopes_.empty();
-  }
-  [[nodiscard]] const std::map<std::string, Definition>& definitions() const noexcept { return definitions_; }
-
- private:
-  static bool is_word(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  }
-
-  // Reads the next token: a word with its "::", else one character.
-  bool next() {
-    while (at_ < text_.size() &&
-           (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\t' || text_[at_] == '\r')) {
-      ++at_;
-    }
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && (is_word(text_[at_]) || text_.substr(at_, 2) == "::")) {
-      at_ += is_word(text_[at_]) ? 1U : 2U;
-    }
-    at_ += at_ == begin && at_ < text_.size() ? 1U : 0U;
-    token_ = std::string(text_.substr(begin, at_ - begin));
-    return !token_.empty();
-  }
-
-  std::string full_name() const {
-    std::string out;
-    for (const std::string& scope : scopes_) {
-      out += scope + "::";
-    }
-    return out + token_;
-  }
-  static std::string plain(const std::string& name) { return name.starts_with('_') ? name.substr(1) : name; }
-
-  std::optional<std::uint64_t> number() {
-    next();
-    std::uint64_t value = 0;
-    const auto [end, code] = std::from_chars(token_.data(), token_.data() + token_.size(), value);
-    return code == std::errc() && end == token_.data() + token_.size() ? std::optional(value) : std::nullopt;
-  }
-
-  bool structure() {
-    next();
-    Definition& made = definitions_[full_name()];
-    next();
-    while (token_ == "{" && next()) {
-      while (token_ != "}") {
-        if (!member(made) || !next()) {
-          return false;
-        }
-      }
-      return true;
-    }
-    return false;
-  }
-
-  bool member(Definition& to) {
-    Member one;
-    one.type = token_;
-    next();
-    if (one.type == "string" && token_ == "<") {
-      if (!number() || !next() || token_ != ">") {
-        return false;
-      }
-      next();
-    }
-    one.name = plain(token_);
-    next();
-    while (token_ == "[") {
-      const auto size = number();
-      if (!size || !next() || token_ != "]") {
-        return false;
-      }
-      one.dims.push_back(*size);
-      next();
-    }
-    to.members.push_back(std::move(one));
-    return token_ == ";";
-  }
-
-  bool enumeration() {
-    next();
-    definitions_[full_name()].is_enum = true;
-    while (next()) {
-      if (token_ == "}") {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-  std::string token_;
-  std::vector<std::string> scopes_;
-  std::map<std::string, Definition> definitions_;
-};
-
 class Flattener {
  public:
-  explicit Flattener(const std::map<std::string, Definition>& definitions) : definitions_(definitions) {}
+  explicit Flattener(const IdlDefinitions& definitions) : definitions_(definitions) {}
 
   bool add(const std::string& type, const std::string& name, int depth) {
     // Structs without members add no leaves, so the steps are limited too.
@@ -201,9 +65,8 @@ class Flattener {
       return leaves.size() <= kMaxLeaves;
     }
     const auto& members = found->second.members;
-    // A struct that only wraps its member adds no name.
-    const bool wraps = type.starts_with("indurop::value_") && members.size() == 1 && members[0].name == "value";
-    return std::all_of(members.begin(), members.end(), [&](const Member& member) {
+    const bool wraps = is_wrapper(type, found->second);  // it adds no name
+    return std::all_of(members.begin(), members.end(), [&](const IdlMember& member) {
       return add_elements(member, 0, wraps ? name : name + "." + member.name, depth + 1);
     });
   }
@@ -211,7 +74,7 @@ class Flattener {
   std::vector<IdlLeaf> leaves;
 
  private:
-  bool add_elements(const Member& member, std::size_t dim, const std::string& name, int depth) {
+  bool add_elements(const IdlMember& member, std::size_t dim, const std::string& name, int depth) {
     if (dim == member.dims.size()) {
       return add(member.type, name, depth);
     }
@@ -225,7 +88,7 @@ class Flattener {
 
   static constexpr std::size_t kMaxSteps = 4 * kMaxLeaves;
 
-  const std::map<std::string, Definition>& definitions_;
+  const IdlDefinitions& definitions_;
   std::size_t steps_ = 0;
 };
 
@@ -321,11 +184,11 @@ bool for_each_leaf(const std::vector<IdlLeaf>& layout, std::span<const std::uint
 }  // namespace
 
 Result<std::vector<IdlLeaf>, Problem> idl_layout(std::string_view text, std::string_view name) {
-  IdlReader reader(text);
-  if (!reader.read()) {
+  const auto definitions = read_idl(text);
+  if (!definitions) {
     return Problem{fmt::format("the definition of {} is not understood", name)};
   }
-  Flattener flat(reader.definitions());
+  Flattener flat(*definitions);
   if (!flat.add(std::string(name), "", 0)) {
     return Problem{fmt::format("{} is too large, or not defined", name)};
   }

@@ -175,6 +175,45 @@ IRP_API irp_code irp_stream_read(irp_stream* stream, void* rows, size_t row_size
 /* Returns the number of runs that were overwritten before they were read; 0: the rows have no gap. */
 IRP_API uint64_t irp_stream_lost(const irp_stream* stream);
 
+/* ---- Recordings: values over time, of an MCAP file that `indurop record` or `indurop run --record` wrote ---- */
+
+typedef struct irp_recording irp_recording; /* a file, its variables with their ids, and a place in it */
+
+/* Opens a file with its present content. What is damaged in it is left out: irp_recording_damage(). Errors:
+ * IRP_NOT_FOUND, IRP_DENIED, IRP_CORRUPT (it is no recording); `*recording` is null then. */
+IRP_API irp_code irp_recording_open(const char* path, irp_recording** recording);
+IRP_API void irp_recording_close(irp_recording* recording); /* null: no effect */
+
+/* Number of variables, and their full names in alphabetical order, of a file of several boards with the board in front:
+ * "sensor/cell::encoder". Null outside. */
+IRP_API size_t irp_recording_count(const irp_recording* recording);
+IRP_API const char* irp_recording_name(const irp_recording* recording, size_t index);
+
+/* As irp_find() and irp_describe(). A recording has units and descriptions of whole variables, and no ranges. Texts are
+ * valid until it is closed. */
+IRP_API irp_code irp_recording_find(irp_recording* recording, const char* name, uint32_t* id);
+IRP_API irp_code irp_recording_describe(const irp_recording* recording, uint32_t id, irp_variable* variable);
+
+/* Times of the first and the last sample of the file: ns since 1970, of a simulation its virtual time. Both are 0 if
+ * there is none. */
+IRP_API irp_code irp_recording_span(const irp_recording* recording, int64_t* begin_ns, int64_t* end_ns);
+
+/* Chooses what irp_recording_read() returns from now on: samples of these variables from `from_ns` to `to_ns`, both
+ * included. A sample is recorded when a run begins with a new value and when it ends with one, so each module that uses
+ * a variable adds some. `repeats` 0: those with the value that the variable had before are left out. */
+IRP_API irp_code irp_recording_select(irp_recording* recording, const uint32_t* ids, size_t count, int64_t from_ns,
+                                      int64_t to_ns, int repeats);
+
+/* Copies the next samples, at most `max`, in the order of their times: the time of sample i to `times[i]`, the place of
+ * its variable in the `ids` of irp_recording_select() to `which[i]`, its value to byte `i * stride` of `values`.
+ * `*taken` is their number; less than `max`: there are no more. Errors: IRP_SIZE (a value is longer than `stride`). */
+IRP_API irp_code irp_recording_read(irp_recording* recording, int64_t* times, uint32_t* which, void* values,
+                                    size_t stride, size_t max, size_t* taken);
+
+/* Returns what is missing or damaged in the file as far as it was read, one text for each part; null after the last.
+ * Valid until the recording is closed. */
+IRP_API const char* irp_recording_damage(const irp_recording* recording, size_t index);
+
 /* ---- Changes. Each is noted in the node's journal with user and reason (`reason` may be null) ---- */
 
 /* Sets a value once, exactly these bytes (of a NaN, some NaN). Errors: IRP_DENIED, IRP_LOCKED, IRP_FORCED, IRP_RANGE,

@@ -17,24 +17,6 @@ namespace {
 
 using base::Problem;
 
-// Full name of a part that was given without its leading namespaces.
-std::string full_name(const std::string& text, const schema::Place& place) {
-  const std::string& variable = place.variable->name;
-  // The variable's last part ends where an index or a field begins.
-  const auto last = variable.rfind("::");
-  const std::string base = last == std::string::npos ? variable : variable.substr(last + 2);
-  std::size_t at = text.find(base);
-  while (at != std::string::npos) {
-    const std::size_t end = at + base.size();
-    const bool starts = at == 0 || text[at - 1] == ':' || text[at - 1] == '.';
-    if (starts && (end == text.size() || text[end] == '[' || text[end] == '.')) {
-      return variable + text.substr(end);
-    }
-    at = text.find(base, at + 1);
-  }
-  return variable;
-}
-
 // Keeps the errors of wrong names, no more than users read.
 class Wrong {
  public:
@@ -97,6 +79,23 @@ Result<void, schema::Failure> read_text(const Assignment& one, std::span<std::ui
 }
 
 }  // namespace
+
+std::string full_name(const std::string& text, const schema::Place& place) {
+  const std::string& variable = place.variable->name;
+  // The variable's last part ends where an index or a field begins.
+  const auto last = variable.rfind("::");
+  const std::string base = last == std::string::npos ? variable : variable.substr(last + 2);
+  std::size_t at = text.find(base);
+  while (at != std::string::npos) {
+    const std::size_t end = at + base.size();
+    const bool starts = at == 0 || text[at - 1] == ':' || text[at - 1] == '.';
+    if (starts && (end == text.size() || text[end] == '[' || text[end] == '.')) {
+      return variable + text.substr(end);
+    }
+    at = text.find(base, at + 1);
+  }
+  return variable;
+}
 
 Result<Item, Problem> find(const vars::Store& store, const std::string& name) {
   return item_of(store, name, schema::find_place(store.schema(), name));

@@ -24,6 +24,9 @@ struct Item {
   const vars::DirectoryEntry* entry = nullptr;
 };
 
+// Returns the full name of the part at `place`, which was found by `text`.
+std::string full_name(const std::string& text, const schema::Place& place);
+
 // Returns the item of a name, whose leading namespaces may be left out; or why there is none, with the nearest name.
 Result<Item, base::Problem> find(const vars::Store& store, const std::string& name);
 // Returns the items of exact names (parts too) and of globs, each once; or the errors of all that match nothing.

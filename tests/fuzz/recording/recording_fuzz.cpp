@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "history/recording/idl_layout.h"
+#include "history/recording/idl_type.h"
 #include "history/recording/mcap_reader.h"
 
 namespace {
@@ -29,6 +30,9 @@ Layouts layouts_of(const Contents& contents) {
     const auto schema = contents.schemas.find(channel.schema);
     if (schema == contents.schemas.end()) {
       continue;
+    }
+    if (const auto type = idl_type(schema->second.data, schema->second.name); type && type->size() > kMaxMessageBytes) {
+      std::abort();
     }
     if (auto layout = idl_layout(schema->second.data, schema->second.name)) {
       if (layout->size() > kMaxLeaves) {

@@ -19,6 +19,9 @@ int main(void) {
   irp_variable variable = IRP_VARIABLE_INIT;
   irp_quality quality = IRP_QUALITY_INIT;
   irp_stream* stream = NULL;
+  irp_recording* recording = (irp_recording*)&failures;
+  int64_t time = 0;
+  size_t taken = 0;
   uint64_t seen = 0;
   uint32_t id = 0;
   if (strlen(irp_version()) < 5 || irp_error()[0] != '\0' || irp_node_name(NULL)[0] != '\0') {
@@ -53,6 +56,23 @@ int main(void) {
     printf("lost runs of no stream\n");
     ++failures;
   }
+  irp_recording_close(NULL);
+  expect("irp_recording_open", irp_recording_open(NULL, &recording), IRP_INVALID);
+  expect("irp_recording_open", irp_recording_open("/dev/null", NULL), IRP_INVALID);
+  expect("irp_recording_open", irp_recording_open("/there/is/no/such.mcap", &recording), IRP_NOT_FOUND);
+  if (recording != NULL) {
+    printf("a recording in spite of an error\n");
+    ++failures;
+  }
+  if (irp_recording_count(NULL) != 0 || irp_recording_name(NULL, 0) != NULL || irp_recording_damage(NULL, 0) != NULL) {
+    printf("what is in no recording\n");
+    ++failures;
+  }
+  expect("irp_recording_find", irp_recording_find(NULL, "a", &id), IRP_INVALID);
+  expect("irp_recording_describe", irp_recording_describe(NULL, id, &variable), IRP_INVALID);
+  expect("irp_recording_span", irp_recording_span(NULL, &time, &time), IRP_INVALID);
+  expect("irp_recording_select", irp_recording_select(NULL, &id, 1, 0, 0, 0), IRP_INVALID);
+  expect("irp_recording_read", irp_recording_read(NULL, &time, &id, &id, sizeof id, 1, &taken), IRP_INVALID);
   expect("irp_write", irp_write(NULL, id, &id, sizeof id, NULL), IRP_INVALID);
   expect("irp_set_text", irp_set_text(NULL, id, "1", NULL), IRP_INVALID);
   expect("irp_force", irp_force(NULL, id, &id, sizeof id, 0, NULL), IRP_INVALID);
