@@ -71,6 +71,10 @@ class SystemFailure(Error):
     """Out of memory, or an error of the operating system."""
 
 
+class Unreachable(Error, ConnectionError):
+    """A server does not answer, or its certificate is not trusted."""
+
+
 # By irp_code.
 BY_CODE: list[type[Error]] = [Error, Invalid, NotFound, Denied, WrongSize, OutOfRange, Forced, Locked, Busy, Changed,
                               Timeout, Gone, OtherVersion, Corrupt, Apart, SystemFailure]

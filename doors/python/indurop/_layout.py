@@ -8,7 +8,7 @@ import enum
 import math
 import struct
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any, Iterator, cast
 
 from indurop._errors import OutOfRange
 
@@ -129,6 +129,22 @@ class Layout:
             struct.pack_into(code, data, offset, value)
         except (struct.error, TypeError, OverflowError) as error:
             raise OutOfRange(f"{value!r} is not a value of type {self.base}: {error}") from error
+
+    def columns(self, name: str, values: Any) -> Iterator[tuple[str, Any]]:
+        """The numbers and texts of a numpy array of such values, each with its name: "joints[1].y". Texts are str."""
+        if self.dims:
+            inner = Layout(self.base, self.element_size, self.dims[1:], self.fields, self.names)
+            for i in range(self.dims[0]):
+                yield from inner.columns(f"{name}[{i}]", values[:, i])
+        elif self.base == "struct":
+            for f in self.fields:
+                yield from f.layout.columns(f"{name}.{f.name}", values[f.name])
+        elif self.base in ("text", "char"):
+            import numpy
+
+            yield name, numpy.char.decode(values, "utf-8" if self.base == "text" else "latin-1", "replace")
+        else:
+            yield name, values
 
     def dtype(self) -> Any:
         """The numpy type with the same bytes. Needs numpy."""

@@ -10,23 +10,11 @@ from typing import Any, AsyncIterator, Iterator, Mapping
 
 from indurop import _layout
 from indurop._binding import ffi, lib
-from indurop._errors import BY_CODE, Changed, Error, Gone, Timeout
+from indurop._described import Described
+from indurop._errors import Error, Gone, Timeout
+from indurop._library import CHANGED, check, error, text
 
-_CHANGED = 9
 _ASYNC_POLL_S = 0.001  # between two reads of an asyncio watch
-
-
-def version() -> str:
-    """Returns the version of the library, "0.2.0"."""
-    return str(ffi.string(lib.irp_version()).decode())
-
-
-def _error(code: int) -> Error:
-    return BY_CODE[code](ffi.string(lib.irp_error()).decode("utf-8", "replace"))
-
-
-def _text(chars: Any) -> str:
-    return str(ffi.string(chars).decode("utf-8", "replace"))
 
 
 @dataclass
@@ -44,7 +32,7 @@ class Quality:
         return not (self.forced or self.silent or self.never)
 
 
-class Variable:
+class Variable(Described):
     """A variable or a part of one. It stays valid when a deployment gives the node other variables, as long as its name
     and type are the same."""
 
@@ -56,17 +44,8 @@ class Variable:
     def _describe(self) -> None:
         about = ffi.new("irp_variable*")
         about.struct_size = ffi.sizeof("irp_variable")
-        self._node._check(lib.irp_describe(self._node._handle, self._id, about))
-        self.name = _text(about.name)
-        self.type = _text(about.type)
-        self.unit = _text(about.unit)
-        self.description = _text(about.description)
-        self.source = _text(about.source)
-        self.size = int(about.size)
-        self.range = (float(about.min), float(about.max)) if about.flags & 1 else None
-        self.retain = bool(about.flags & 2)
-        self.parameter = bool(about.flags & 4)
-        self.layout = _layout.parse(_text(about.layout))
+        check(lib.irp_describe(self._node._handle, self._id, about))
+        self._take(about)
         self._bytes = bytearray(self.size)
         self._buffer = ffi.from_buffer(self._bytes)
         self._reading = ffi.new("reading*", (self._node._handle, self._id, self._buffer, self.size))
@@ -80,7 +59,7 @@ class Variable:
         code = lib.read_again(self._reading)
         if code != 0:
             self._node._recover(code)
-            self._node._check(lib.read_again(self._reading))
+            check(lib.read_again(self._reading))
         return memoryview(self._bytes)
 
     @property
@@ -123,23 +102,23 @@ class Variable:
 
     def write(self, value: Any, reason: str = "") -> None:
         """Sets the value once. Fields that a dict leaves out keep their values."""
-        self._node._check(
+        check(
             lib.irp_write(self._node._handle, self._id, self._packed(value), self.size, reason.encode()))
 
     def force(self, value: Any, seconds: float = 0, reason: str = "") -> None:
         """Holds the value against all writers, for `seconds` or, 0, until it is released."""
-        self._node._check(
+        check(
             lib.irp_force(self._node._handle, self._id, self._packed(value), self.size, int(seconds * 1e9),
                           reason.encode()))
 
     def release(self, reason: str = "") -> None:
-        self._node._check(lib.irp_release(self._node._handle, self._id, reason.encode()))
+        check(lib.irp_release(self._node._handle, self._id, reason.encode()))
 
     @property
     def quality(self) -> Quality:
         found = ffi.new("irp_quality*")
         found.struct_size = ffi.sizeof("irp_quality")
-        self._node._check(lib.irp_get_quality(self._node._handle, self._id, found))
+        check(lib.irp_get_quality(self._node._handle, self._id, found))
         flags = found.flags
         return Quality(bool(flags & 1), bool(flags & 2), bool(flags & 4), bool(flags & 8), found.confirmed_ns / 1e9)
 
@@ -176,17 +155,14 @@ class Variable:
 
     def _changed(self, seen: Any, timeout: float) -> bool:
         code = lib.irp_wait_change(self._node._handle, self._id, seen, int(timeout * 1e9))
-        if code == _CHANGED:
+        if code == CHANGED:
             self._node.refresh()
             return True
         try:
-            self._node._check(code)
+            check(code)
         except Timeout:
             return False
         return True
-
-    def __repr__(self) -> str:
-        return f"<{self.name}: {self.type}>"
 
 
 class Stream:
@@ -206,7 +182,7 @@ class Stream:
         self._taken = ffi.new("size_t*")
         stream = ffi.new("irp_stream**")
         ids = ffi.new("uint32_t[]", [one._id for one in variables])
-        node._check(lib.irp_stream_open(node._handle, ids, len(names), 1 if past else 0, stream))
+        check(lib.irp_stream_open(node._handle, ids, len(names), 1 if past else 0, stream))
         self._stream = ffi.gc(stream[0], lib.irp_stream_close)
 
     def read(self, most: int = 4096, timeout: float = 1.0) -> Any:
@@ -215,7 +191,7 @@ class Stream:
         import numpy
 
         rows = numpy.empty(most, self.dtype)
-        self._node._check(lib.irp_stream_read(self._stream, ffi.from_buffer(rows), self.dtype.itemsize, self._offsets,
+        check(lib.irp_stream_read(self._stream, ffi.from_buffer(rows), self.dtype.itemsize, self._offsets,
                                               most, int(timeout * 1e9), self._taken))
         return rows[:self._taken[0]]
 
@@ -250,18 +226,14 @@ class Node:
     def __init__(self, name: str = "", write: bool = False) -> None:
         handle = ffi.new("irp_node**")
         self._handle: Any = ffi.NULL
-        self._check(lib.irp_open(name.encode(), 1 if write else 0, handle))
+        check(lib.irp_open(name.encode(), 1 if write else 0, handle))
         self._handle = ffi.gc(handle[0], lib.irp_close)
         self._known: dict[str, Variable] = {}
-        self.name = _text(lib.irp_node_name(self._handle))
-
-    def _check(self, code: int) -> None:
-        if code != 0:
-            raise _error(code)
+        self.name = text(lib.irp_node_name(self._handle))
 
     def _recover(self, code: int) -> None:
-        if code != _CHANGED:
-            raise _error(code)
+        if code != CHANGED:
+            raise error(code)
         self.refresh()
 
     def close(self) -> None:
@@ -279,7 +251,7 @@ class Node:
     @property
     def running(self) -> bool:
         code = lib.irp_running(self._handle)
-        if code == _CHANGED:
+        if code == CHANGED:
             self.refresh()
             code = lib.irp_running(self._handle)
         return bool(code == 0)
@@ -292,7 +264,7 @@ class Node:
             if code == 0:
                 break
             if time.monotonic() > deadline:
-                raise _error(code)
+                raise error(code)
             time.sleep(0.01)
         self._known = {name: one for name, one in self._known.items() if self._still(one)}
 
@@ -306,10 +278,10 @@ class Node:
         if known is None:
             id_ = ffi.new("uint32_t*")
             code = lib.irp_find(self._handle, name.encode(), id_)
-            if code == _CHANGED:
+            if code == CHANGED:
                 self.refresh()
                 code = lib.irp_find(self._handle, name.encode(), id_)
-            self._check(code)
+            check(code)
             known = self._known[name] = Variable(self, id_[0])
         return known
 
@@ -327,7 +299,7 @@ class Node:
         return True
 
     def __iter__(self) -> Iterator[str]:
-        return (_text(lib.irp_name(self._handle, i)) for i in range(len(self)))
+        return (text(lib.irp_name(self._handle, i)) for i in range(len(self)))
 
     def __len__(self) -> int:
         return int(lib.irp_count(self._handle))
@@ -343,10 +315,10 @@ class Node:
         ids = ffi.new("uint32_t[]", [one._id for one in variables])
         sizes = ffi.new("size_t[]", [one.size for one in variables])
         code = lib.irp_read_together(self._handle, ids, len(names), to, sizes)
-        if code == _CHANGED:
+        if code == CHANGED:
             self.refresh()
             return self.snapshot(*names)
-        self._check(code)
+        check(code)
         return {name: one.layout.value(one._bytes) for name, one in zip(names, variables)}
 
     def stream(self, *names: str, past: bool = False) -> Stream:

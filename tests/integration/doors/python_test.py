@@ -3,73 +3,13 @@
 """The Python package on a node that runs: values of every kind, changes, forces, snapshots, watching, and a node that
 comes back with other variables. What it reads is compared with what the command line says."""
 
-import argparse
 import asyncio
-import json
-import os
-import pathlib
-import shutil
-import subprocess
-import sys
-import tempfile
-import time
 import unittest
 
-OPTIONS = argparse.Namespace()
-PATIENCE = 60
-XML = """<root><module><filename>{file}</filename><moduletype>thread</moduletype>
-<operationtype>periodic</operationtype><period>1ms</period><priority>1</priority></module></root>
-"""
+from doors_node import PATIENCE, NodeTest, indurop, wait_until
 
 
-def wait_until(what, condition):
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"waited in vain until {what}")
-        time.sleep(0.01)
-
-
-class Python(unittest.TestCase):
-    def setUp(self):
-        self.work = pathlib.Path(tempfile.mkdtemp(prefix="python_test_"))
-        os.environ["INDUROP_STATE_DIR"] = str(self.work / "state")
-        shutil.copy(OPTIONS.module, self.work)
-        (self.work / "module.xml").write_text(XML.format(file=pathlib.Path(OPTIONS.module).name))
-        self.name = f"python{os.getpid()}"
-        self.process = None
-        self.start()
-        self.node = indurop.node(self.name, write=True)
-
-    def tearDown(self):
-        self.node.close()
-        self.stop()
-        subprocess.run([OPTIONS.indurop, "clean", "--node", self.name], capture_output=True, check=False)
-        shutil.rmtree(self.work)
-
-    def start(self):
-        self.process = subprocess.Popen([OPTIONS.indurop, "run", "module.xml", "--node", self.name, "-q"], cwd=self.work,
-                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        wait_until("the node counts", self.counts)
-
-    def counts(self):
-        try:
-            with indurop.node(self.name) as node:
-                return node.running and node["count"] > 0
-        except indurop.Error:
-            return False
-
-    def stop(self):
-        if self.process is not None:
-            self.process.terminate()
-            self.process.wait(PATIENCE)
-
-    def shown_value(self, name):
-        """The value as the command line has it."""
-        done = subprocess.run([OPTIONS.indurop, "get", "--node", self.name, "-o", "json", name], capture_output=True,
-                              text=True, check=True)
-        return json.loads(done.stdout)["values"][0]["value"]
-
+class Python(NodeTest):
     def test_values_of_every_kind(self):
         node = self.node
         self.assertEqual(node["text"], "home")
@@ -221,18 +161,5 @@ class Python(unittest.TestCase):
         self.assertGreater(before, 0)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    for option in ("indurop", "module", "package"):
-        parser.add_argument("--" + option, required=True)
-    parser.parse_known_args(namespace=OPTIONS)
-    sys.path.insert(0, OPTIONS.package)
-    unittest.main(argv=[sys.argv[0]], verbosity=2)
-
-
 if __name__ == "__main__":
-    if "--package" in sys.argv:
-        sys.path.insert(0, sys.argv[sys.argv.index("--package") + 1])
-    import indurop
-
-    main()
+    unittest.main(verbosity=2)
