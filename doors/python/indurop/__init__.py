@@ -6,17 +6,22 @@
     node["gain"] = 1.5
     print(node["knu::Robot::joints"][0].x)
 
+Recordings: indurop.recording(). Boards elsewhere: indurop.remote(). Tests in virtual time: indurop.Plant.
+
 A handle is for one thread at a time. Reading never disturbs the node. See docs/python.md."""
 
+from indurop._deploy import deploy
 from indurop._errors import (Apart, Busy, Changed, Corrupt, Denied, Error, Forced, Gone, Invalid, Locked, NotFound,
-                             OtherVersion, OutOfRange, SystemFailure, Timeout, Unreachable, WrongSize)
+                             OtherVersion, OutOfRange, RolledBack, SystemFailure, Timeout, Unreachable, WrongSize)
 from indurop._layout import Record
 from indurop._library import version
 from indurop._node import Node, Quality, Stream, Variable, node
+from indurop._plant import Module, Plant
 from indurop._recording import RecordedVariable, Recording, Samples, recording
 from indurop._remote import RemoteNode, RemoteVariable, remote
 
-__all__ = ["Apart", "Busy", "Changed", "Corrupt", "Denied", "Error", "Forced", "Gone", "Invalid", "Locked", "Node",
-           "NotFound", "OtherVersion", "OutOfRange", "Quality", "Record", "RecordedVariable", "Recording",
-           "RemoteNode", "RemoteVariable", "Samples", "Stream", "SystemFailure", "Timeout", "Unreachable", "Variable",
-           "WrongSize", "node", "recording", "remote", "version"]
+__all__ = ["Apart", "Busy", "Changed", "Corrupt", "Denied", "Error", "Forced", "Gone", "Invalid", "Locked", "Module",
+           "Node", "NotFound", "OtherVersion", "OutOfRange", "Plant", "Quality", "Record", "RecordedVariable",
+           "Recording", "RemoteNode", "RemoteVariable", "RolledBack", "Samples", "Stream", "SystemFailure", "Timeout",
+           "Unreachable", "Variable", "WrongSize", "deploy", "node", "recording", "remote",
+           "version"]

@@ -72,7 +72,11 @@ class SystemFailure(Error):
 
 
 class Unreachable(Error, ConnectionError):
-    """A server does not answer, or its certificate is not trusted."""
+    """A server does not answer or its certificate is not trusted; boards of a plant are missing."""
+
+
+class RolledBack(Error):
+    """A deployment was not healthy on all boards: they run what they ran before."""
 
 
 # By irp_code.

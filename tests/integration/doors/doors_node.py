@@ -17,6 +17,8 @@ def _options():
     parser = argparse.ArgumentParser()
     for option in ("indurop", "module", "package"):
         parser.add_argument("--" + option, required=True)
+    for option in ("glb2idl", "two-boards"):
+        parser.add_argument("--" + option)
     found, sys.argv[1:] = parser.parse_known_args()
     sys.path.insert(0, found.package)
     return found
