@@ -42,6 +42,9 @@ struct RosPackages {
 };
 [[nodiscard]] RosPackages emit_ros2(const Program& program);
 
+// Returns a Python module with the types of all variables, for type checkers.
+[[nodiscard]] std::string emit_python(const Program& program);
+
 // Returns a value of `type` at `bytes` as a C++ initialiser: 5, 0.5, {{1, 2}}, enum values by name.
 [[nodiscard]] std::string initializer_text(const schema::Type& type, const std::uint8_t* bytes);
 // Returns the C++ type of values: std::uint32_t, ::knu::Robot::joints_t, std::array<double, 6>.

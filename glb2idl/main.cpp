@@ -22,6 +22,7 @@ struct Request {
   std::string folder = ".";
   std::string depfile;
   std::string ros2;
+  std::string python;
   bool check = false;
   std::vector<std::string> files;
 };
@@ -39,6 +40,8 @@ std::optional<int> parse(int argc, char** argv, Request& request) {
   line.add("--depfile", "FILE", request.depfile, "Also write a Makefile rule with all files that were read")
       .check(not_empty);
   line.add("--ros2", "DIR", request.ros2, "Also write packages of ROS 2 messages into DIR").check(not_empty);
+  line.add("--python", "FILE", request.python, "Also write a Python module with the types of all variables into FILE")
+      .check(not_empty);
   line.flag("--check", request.check, "Only report errors, write nothing");
   line.details(
       "Writes DIR/<name>.idl, DIR/<name>.glb.h, DIR/<name>.layout.txt for each file and the files it includes, and\n"
@@ -80,6 +83,9 @@ int run(const Request& request) {
   }
   if (error.empty()) {
     error = write_all(request.folder, outputs);
+  }
+  if (error.empty() && !request.python.empty()) {
+    error = write_file(request.python, emit_python(compilation.program));
   }
   if (error.empty()) {
     error = write_all(request.ros2, ros2.outputs);

@@ -19,9 +19,10 @@ from indurop._node import Node, Quality, Stream, Variable, node
 from indurop._plant import Module, Plant
 from indurop._recording import RecordedVariable, Recording, Samples, recording
 from indurop._remote import RemoteNode, RemoteVariable, remote
+from indurop._typed import TypedVariable
 
 __all__ = ["Apart", "Busy", "Changed", "Corrupt", "Denied", "Error", "Forced", "Gone", "Invalid", "Locked", "Module",
            "Node", "NotFound", "OtherVersion", "OutOfRange", "Plant", "Quality", "Record", "RecordedVariable",
            "Recording", "RemoteNode", "RemoteVariable", "RolledBack", "Samples", "Stream", "SystemFailure", "Timeout",
-           "Unreachable", "Variable", "WrongSize", "deploy", "node", "recording", "remote",
+           "TypedVariable", "Unreachable", "Variable", "WrongSize", "deploy", "node", "recording", "remote",
            "version"]

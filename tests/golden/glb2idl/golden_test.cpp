@@ -47,6 +47,9 @@ TEST_P(Golden, Output_is_as_expected) {
     if (GetParam().starts_with("ros2")) {
       expect_ros2(folder, emit_ros2(sut.program));
     }
+    if (GetParam().starts_with("python")) {
+      expect_file(folder / "expected.py", emit_python(sut.program));
+    }
     ASSERT_FALSE(sut.program.units.empty());
     const std::size_t last = sut.program.units.size() - 1;
     idl = emit_idl(sut.program, sut.program.units[last]);

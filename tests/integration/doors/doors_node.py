@@ -17,7 +17,7 @@ def _options():
     parser = argparse.ArgumentParser()
     for option in ("indurop", "module", "package"):
         parser.add_argument("--" + option, required=True)
-    for option in ("glb2idl", "two-boards"):
+    for option in ("glb2idl", "mypy", "two-boards"):
         parser.add_argument("--" + option)
     found, sys.argv[1:] = parser.parse_known_args()
     sys.path.insert(0, found.package)
