@@ -37,7 +37,7 @@ class TypeMaker {
     if (++made_ > kMaxTypes || depth > kMaxDepth) {
       return false;
     }
-    if (const auto number = std::find(kNumbers.begin(), kNumbers.end(), name); number != kNumbers.end()) {
+    if (const auto* const number = std::find(kNumbers.begin(), kNumbers.end(), name); number != kNumbers.end()) {
       return of_size(static_cast<Base>(number - kNumbers.begin()), type);
     }
     if (name == "string") {
