@@ -10,7 +10,7 @@ from typing import Any, Iterator, NamedTuple, Sequence
 from indurop import _layout
 from indurop._binding import ffi, lib
 from indurop._described import Described
-from indurop._errors import Error, Invalid
+from indurop._errors import Invalid, NotFound
 from indurop._library import check, text
 
 _MOST_BYTES = 4 << 20  # of the values that are taken at a time
@@ -85,7 +85,7 @@ class Recording:
     def __contains__(self, name: str) -> bool:
         try:
             self.variable(name)
-        except Error:
+        except NotFound:
             return False
         return True
 

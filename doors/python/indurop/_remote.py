@@ -169,7 +169,7 @@ class RemoteNode:
     def __contains__(self, name: str) -> bool:
         try:
             self.variable(name)
-        except Error:
+        except NotFound:
             return False
         return True
 

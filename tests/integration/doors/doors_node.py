@@ -46,11 +46,14 @@ class NodeTest(unittest.TestCase):
         self.work = pathlib.Path(tempfile.mkdtemp(prefix="python_test_"))
         os.environ["INDUROP_STATE_DIR"] = str(self.work / "state")
         shutil.copy(OPTIONS.module, self.work)
-        (self.work / "module.xml").write_text(XML.format(file=pathlib.Path(OPTIONS.module).name))
+        (self.work / "module.xml").write_text(self.configuration())
         self.name = f"python{os.getpid()}"
         self.process = None
         self.start()
         self.node = indurop.node(self.name, write=True)
+
+    def configuration(self):
+        return XML.format(file=pathlib.Path(OPTIONS.module).name)
 
     def tearDown(self):
         self.node.close()
