@@ -107,7 +107,7 @@ void irp_recording::add_channel(std::uint16_t id, const recording::McapChannel& 
     damages_.push_back(fmt::format("{} has another type in a part of the recording, which is left out", about.topic));
     return;
   }
-  channels_[id] = {known, std::vector<std::uint8_t>(known->type.size()), {}};
+  channels_[id] = {known, {}};
 }
 
 Result<std::uint32_t, Failure> irp_recording::find(const std::string& name) {
@@ -192,9 +192,10 @@ bool irp_recording::next_message() {
     if (channel == channels_.end() || channel->second.selected.empty()) {
       continue;
     }
-    Channel& to = channel->second;
+    const Channel& to = channel->second;
     time_ns_ = static_cast<std::int64_t>((*next)->log_time_ns);
-    if (!recording::from_cdr(to.variable->type, (*next)->data.view, to.value)) {
+    value_.resize(to.variable->type.size());
+    if (!recording::from_cdr(to.variable->type, (*next)->data.view, value_)) {
       add_damage(fmt::format("a value of {} is not of its type", to.variable->name));
       continue;
     }
@@ -213,7 +214,7 @@ bool irp_recording::next(indurop::c::Sample& to) {
       const std::uint32_t which = message_->selected[next_column_++];
       Column& column = columns_[which];
       const schema::Place& place = column.item->place;
-      const auto value = std::span(message_->value).subspan(place.offset, place.type.size());
+      const auto value = std::span(value_).subspan(place.offset, place.type.size());
       if (!repeats_ && std::ranges::equal(column.value, value)) {
         continue;
       }

@@ -55,10 +55,9 @@ struct irp_recording {
   bool next(indurop::c::Sample& to);
 
  private:
-  // A channel of the file, its variable and the bytes of its last message.
+  // A channel of the file.
   struct Channel {
     const indurop::schema::Variable* variable = nullptr;
-    std::vector<std::uint8_t> value;
     std::vector<std::uint32_t> selected;  // indices of the columns that are parts of it
   };
   struct Column {
@@ -85,4 +84,5 @@ struct irp_recording {
   const Channel* message_ = nullptr;  // the channel of the message that is being given out
   std::size_t next_column_ = 0;       // of that channel
   std::int64_t time_ns_ = 0;
+  std::vector<std::uint8_t> value_;  // the variable of that message
 };
