@@ -212,6 +212,28 @@ class Remote(NodeTest):
         with self.assertRaisesRegex(indurop.Unreachable, "certificate"):
             indurop.remote(self.address.replace("127.0.0.1", "localhost"), token=TOKEN, ca=str(keys / "ca.pem"))
 
+    def test_a_certificate_of_the_plant_is_a_right(self):
+        self.stop_server()
+        (self.work / "plant.xml").write_text('<plant name="cell"><board name="drive"></board></plant>')
+        self.indurop("keys", "init", "plant.xml", "--dir", "keys")
+        self.indurop("keys", "server", "desk", "--dir", "keys", "--host", "127.0.0.1")
+        keys = self.work / "keys"
+        self.address = self.serve("--write", "--cert", keys / "servers/desk/server.pem", "--key",
+                                  keys / "servers/desk/server.key", "--client-ca", keys / "ca.pem")
+
+        def remote(who):
+            identity = (str(keys / who / "identity.pem"), str(keys / who / "identity.key"))
+            return indurop.remote(self.address, ca=str(keys / "ca.pem"), certificate=identity)
+
+        with remote("deployer") as deployer:
+            deployer["gain"] = 6
+            self.assertEqual(self.node["gain"], 6)
+            self.assertGreater(next(deployer.variable("count").watch(timeout=PATIENCE)), 0)
+        with remote("viewer") as viewer:
+            self.assertEqual(viewer["gain"], 6)
+            with self.assertRaises(indurop.Denied):
+                viewer["gain"] = 7
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
