@@ -13,6 +13,8 @@ import unittest
 
 from doors_node import OPTIONS, PATIENCE, XML, indurop, wait_until
 
+BROKEN = """<module><filename>./broken.py</filename><moduletype>process</moduletype>
+<operationtype>non-real</operationtype><restart max="0" escalate="stop-node"/></module>"""
 DOMAIN = 100 + os.getpid() % 100
 
 
@@ -135,10 +137,10 @@ class Deployment(InWorkFolder):
         subprocess.run([OPTIONS.indurop, "clean", "--node", self.board], capture_output=True, check=False)
         super().tearDown()
 
-    def manifest(self, module):
+    def manifest(self, module, more=""):
         file = self.work / "plant.xml"
         file.write_text(f'<plant name="doors"><board name="{self.board}">'
-                        + XML.format(file=module).replace("<root>", "").replace("</root>", "") + "</board></plant>")
+                        + XML.format(file=module).replace("<root>", "").replace("</root>", "") + more + "</board></plant>")
         return file
 
     def deploy(self, file, **options):
@@ -150,6 +152,13 @@ class Deployment(InWorkFolder):
         self.assertEqual([one["board"] for one in report["boards"]], [self.board])
         with indurop.node(self.board) as node:
             wait_until("its module runs", lambda: node["count"] > 0)
+        broken = self.work / "broken.py"
+        broken.write_text("#!/bin/sh\nexit 3\n")
+        broken.chmod(0o755)
+        with self.assertRaises(indurop.RolledBack):
+            self.deploy(self.manifest(module, BROKEN))
+        with indurop.node(self.board) as node:
+            wait_until("what ran before runs again", lambda: node.running and node["count"] > 0)
         with self.assertRaisesRegex(indurop.Invalid, "none.so"):
             self.deploy(self.manifest("none.so"))
         file = self.manifest(module)
