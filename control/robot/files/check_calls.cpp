@@ -9,7 +9,8 @@ namespace {
 
 // Returns whether the step may branch: after it, the next step is not certain.
 bool parts_ways(Op op) noexcept {
-  return op == Op::If || op == Op::Unless || op == Op::Goto || op == Op::Return || op == Op::Try || op == Op::Again;
+  return op == Op::If || op == Op::Unless || op == Op::Goto || op == Op::Return || op == Op::Raise || op == Op::Try ||
+         op == Op::Again;
 }
 
 // Returns the calls that every run of the job reaches.

@@ -11,7 +11,7 @@ std::vector<base::Diagnostic> check_splines(const JobBook& book, const Inverse& 
         continue;
       }
       const Point& point = book.points[static_cast<std::size_t>(step.index)];
-      if (!point.target.is_pose) {
+      if (!point.target.is_pose || book.is_computed(point)) {
         continue;
       }
       const Solutions found = inverse.all(point.target.pose, Joints::Zero());

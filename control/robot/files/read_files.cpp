@@ -114,6 +114,8 @@ Diagnostics check_workspace(const FileNames& names, const JobBook& book, const A
       text << "point '" << point.name << "': the tool is at " << (1000 * place).transpose()
            << " mm, outside of the workspace (" << box.text() << ")";
       errors.push_back(error(point.file, point.place, text.str()));
+      const bool may_move = book.is_computed(point);
+      errors.back().severity = may_move ? base::Diagnostic::Severity::Warning : base::Diagnostic::Severity::Error;
     }
   }
   return errors;
@@ -224,7 +226,8 @@ Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
     }
     if (!possible) {
       errors.push_back(error(point.file, point.place, "point '" + point.name + "': " + wrong));
-      errors.back().severity = closed ? base::Diagnostic::Severity::Warning : base::Diagnostic::Severity::Error;
+      const bool may_move = closed || book.is_computed(point);
+      errors.back().severity = may_move ? base::Diagnostic::Severity::Warning : base::Diagnostic::Severity::Error;
     }
   }
   return errors;
@@ -234,13 +237,20 @@ Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
 Diagnostics check_speeds(const JobBook& book, double most) {
   Diagnostics warnings;
   for (const Job& job : book.jobs) {
-    for (const Step& step : job.steps) {
-      if (const double asked = 1000 * step.value; step.op == Op::Speed && step.index == 1 && most > 0 && asked > most) {
+    const auto check = [&](const Step& step) {
+      if (const double asked = 1000 * step.value;
+          step.op == Op::Speed && step.formula < 0 && step.index == 1 && most > 0 && asked > most) {
         std::ostringstream text;
         text << "SPEED " << asked << " mm/s is beyond full speed, " << most
              << " mm/s (property tool_speed): lines run at that";
         warnings.push_back(error(job.file, {static_cast<int>(step.line), 1}, text.str()));
         warnings.back().severity = base::Diagnostic::Severity::Warning;
+      }
+    };
+    for (const Step& step : job.steps) {
+      check(step);
+      if (const MotionExtras* const extras = step.op == Op::Move ? book.extras_of(step) : nullptr; extras != nullptr) {
+        std::for_each(extras->settings.begin(), extras->settings.end(), check);
       }
     }
   }
@@ -315,7 +325,7 @@ ReadFiles read_files(const FileNames& names) {
       sort_out(std::move(bodies.found), read);
       sort_out(check_clear(read.book, read.model->arm, read.clearance), read);
     }
-    take_over(check_workspace(names, read.book, read.model->arm, placed), read.errors);
+    sort_out(check_workspace(names, read.book, read.model->arm, placed), read);
     if (read.book.tools.size() == 1) {
       take_over(check_splines(read.book, inverse), read.errors);
     }

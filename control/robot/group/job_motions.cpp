@@ -3,6 +3,15 @@
 
 namespace indurop::robot {
 
+// A hard stop keeps the limits of the joints, and not those of torques.
+void JobMotions::halt() noexcept {
+  if (robot_.tool.places().dynamics() == nullptr) {
+    robot_.follower.stop_hard(1);
+  } else {
+    robot_.follower.stop();
+  }
+}
+
 bool JobMotions::take_tool(int tool) noexcept {
   if (!settled() || plans_.holds_forgotten()) {
     return false;

@@ -25,10 +25,13 @@ class JobMotions final : public MotionPort {
     plans_.ahead().add(command);
     return {};
   }
+  void halt() noexcept override;
   bool take_tool(int tool) noexcept override;
   bool take_load(int load) noexcept override;
   [[nodiscard]] PathPlace place() const noexcept override { return robot_.follower.path_place(); }
 
+  [[nodiscard]] Joints commanded() const noexcept override { return robot_.commanded(); }
+  [[nodiscard]] Joints measured() const noexcept override { return robot_.axes.measured(); }
   bool step_aside() noexcept override { return shelf_.step_aside(); }
   [[nodiscard]] const Joints* left_at() const noexcept override { return shelf_.left_at(); }
   [[nodiscard]] Pose tip_at(const Joints& q) const noexcept override { return robot_.tip(q); }

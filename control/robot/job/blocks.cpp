@@ -4,10 +4,61 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace indurop::robot {
+
+const char* BlockReader::word_of(Kind kind) noexcept {
+  switch (kind) {
+    case Kind::If:
+      return "IF";
+    case Kind::While:
+      return "WHILE";
+    case Kind::For:
+      return "FOR";
+    case Kind::Loop:
+      return "LOOP";
+    case Kind::Switch:
+      return "SWITCH";
+    case Kind::Wait:
+      return "WAIT ... ELSE";
+    case Kind::Try:
+      break;
+  }
+  return "TRY";
+}
+
+bool BlockReader::repeats(Kind kind) noexcept {
+  return kind == Kind::While || kind == Kind::For || kind == Kind::Loop;
+}
+
+BlockReader::Block& BlockReader::open(Kind kind, std::size_t start, std::size_t pending) {
+  Block block;
+  block.kind = kind;
+  block.line = line_.number();
+  block.start = start;
+  block.pending = pending;
+  blocks_.push_back(std::move(block));
+  return blocks_.back();
+}
+
+// The part before ends; where it does not run, the next step does.
+void BlockReader::begin_part(Block& block) {
+  block.ends.push_back(draft_.next());
+  draft_.add(Op::Again);
+  if (block.pending != kNone) {
+    draft_.step(block.pending).index = static_cast<int>(draft_.next());
+  }
+  block.pending = kNone;
+}
+
+int BlockReader::hidden_variable(const JobToken& at) {
+  if (draft_.job().variables.size() >= kMaxVariables) {
+    line_.error(at, "more than " + std::to_string(kMaxVariables) + " variables; split the job and use CALL");
+    return -1;
+  }
+  return draft_.add_hidden();
+}
 
 // Parses "IF ... GOTO label" in one line, or the beginning of a block.
 void BlockReader::if_goto() {
@@ -21,19 +72,16 @@ void BlockReader::if_goto() {
     names_.refer(JobNames::To::Label, "label");
     return;
   }
-  blocks_.push_back({"IF", line_.number(), draft_.next() - 1, draft_.next() - 1, {}, -1, 1, false});
+  open(Kind::If, draft_.next() - 1, draft_.next() - 1);
 }
 
 void BlockReader::otherwise(bool condition) {
-  if (blocks_.empty() || std::string_view(blocks_.back().word) != "IF" || blocks_.back().has_else) {
+  if (!is_in(Kind::If) || blocks_.back().has_else) {
     line_.error(line_.first(), std::string(condition ? "ELSEIF" : "ELSE") + " without IF");
     return;
   }
   Block& block = blocks_.back();
-  block.ends.push_back(draft_.next());
-  draft_.add(Op::Again);
-  draft_.step(block.pending).index = static_cast<int>(draft_.next());
-  block.pending = kNone;
+  begin_part(block);
   block.has_else = !condition;
   if (condition) {
     const int formula = expressions_.read("a condition");
@@ -46,7 +94,7 @@ void BlockReader::while_block() {
   const int formula = expressions_.read("a condition");
   const std::size_t start = draft_.next();
   draft_.add(Op::Unless).formula = formula;
-  blocks_.push_back({"WHILE", line_.number(), start, start, {}, -1, 1, false});
+  open(Kind::While, start, start);
 }
 
 // Parses FOR i = first TO last STEP by
@@ -68,12 +116,10 @@ void BlockReader::for_block() {
     line_.error(step, "a FOR with STEP 0 would never end");
   }
   const int counter = line_.failed() ? -1 : known >= 0 ? known : expressions_.declare(name);
-  if (line_.failed() || draft_.job().variables.size() >= kMaxVariables) {
-    line_.error(name, "more than " + std::to_string(kMaxVariables) + " variables; split the job and use CALL");
+  const int limit = line_.failed() ? -1 : hidden_variable(name);
+  if (limit < 0) {
     return;
   }
-  const int limit = static_cast<int>(draft_.job().variables.size());
-  draft_.job().variables.emplace_back();
   Step& begins = draft_.add(Op::Assign);
   begins.index = counter;
   begins.formula = first;
@@ -84,7 +130,9 @@ void BlockReader::for_block() {
   const FormulaOp goes_on = by > 0 ? FormulaOp::LessEqual : FormulaOp::GreaterEqual;
   draft_.add(Op::Unless).formula =
       draft_.keep(Formula::joined(Formula::variable(counter), Formula::variable(limit), goes_on));
-  blocks_.push_back({"FOR", line_.number(), start, start, {}, counter, by, false});
+  Block& block = open(Kind::For, start, start);
+  block.counter = counter;
+  block.by = by;
 }
 
 void BlockReader::loop() {
@@ -96,22 +144,89 @@ void BlockReader::loop() {
       line_.error(times, "a LOOP runs a whole number of times, from 1; without a number it runs for ever");
     }
   }
-  const auto loops = std::count_if(blocks_.begin(), blocks_.end(),
-                                   [](const Block& block) { return std::string_view(block.word) == "LOOP"; });
+  const auto loops =
+      std::count_if(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.kind == Kind::Loop; });
   if (static_cast<std::size_t>(loops) >= kMaxLoops) {
     line_.error(line_.first(), "at most " + std::to_string(kMaxLoops) + " LOOPs inside each other; use CALL");
   }
-  blocks_.push_back({"LOOP", line_.number(), draft_.next() - 1, kNone, {}, -1, 1, false});
+  open(Kind::Loop, draft_.next() - 1, kNone);
+}
+
+void BlockReader::exit() {
+  const auto loop =
+      std::find_if(blocks_.rbegin(), blocks_.rend(), [](const Block& block) { return repeats(block.kind); });
+  if (loop == blocks_.rend()) {
+    line_.error(line_.first(), "EXIT without LOOP, WHILE or FOR; RETURN leaves the job");
+    return;
+  }
+  loop->ends.push_back(draft_.next());
+  draft_.add(Op::Goto);
+}
+
+// Parses "SWITCH n", which CASE, DEFAULT and END follow.
+void BlockReader::switch_block() {
+  const int formula = expressions_.read("the value to choose by");
+  const int value = line_.failed() ? -1 : hidden_variable(line_.first());
+  Step& step = draft_.add(Op::Assign);
+  step.index = value;
+  step.formula = formula;
+  open(Kind::Switch, draft_.next(), kNone).counter = value;
+}
+
+// Parses "CASE 1, 2"
+void BlockReader::case_of() {
+  if (!is_in(Kind::Switch) || blocks_.back().has_else) {
+    line_.error(line_.first(),
+                is_in(Kind::Switch) ? "CASE after DEFAULT, which is the last one" : "CASE without SWITCH");
+    return;
+  }
+  Block& block = blocks_.back();
+  if (block.pending != kNone) {
+    begin_part(block);
+  } else if (draft_.next() != block.start) {
+    line_.error(line_.first(), "a statement between SWITCH and the first CASE is never executed; put it elsewhere");
+  }
+  Formula matches;
+  for (bool first = true; !line_.failed() && (first || line_.accept(",")); first = false) {
+    Formula one = Formula::joined(Formula::variable(block.counter), expressions_.formula("a value"), FormulaOp::Equal);
+    matches = first ? std::move(one) : Formula::joined(std::move(matches), one, FormulaOp::Or);
+  }
+  if (!line_.failed() && !matches.fits()) {
+    line_.error(line_.first(), "too many values in one CASE; use several");
+  }
+  block.pending = draft_.next();
+  draft_.add(Op::Unless).formula = draft_.keep(std::move(matches));
+}
+
+void BlockReader::case_default() {
+  if (!is_in(Kind::Switch) || blocks_.back().has_else || blocks_.back().pending == kNone) {
+    line_.error(line_.first(), "DEFAULT comes once, after the CASEs of a SWITCH");
+    return;
+  }
+  begin_part(blocks_.back());
+  blocks_.back().has_else = true;
+}
+
+void BlockReader::wait_else() {
+  if (line_.failed() || !line_.accept("ELSE")) {
+    return;
+  }
+  const std::size_t wait = draft_.next() - 1;
+  if (draft_.last().op != Op::WaitUntil || !(draft_.last().timeout > 0)) {
+    line_.error(line_.before(), "ELSE follows a time, WAIT I4 TIMEOUT 2s ELSE; a WAIT without one waits for ever");
+    return;
+  }
+  begin_part(open(Kind::Wait, wait, wait));
 }
 
 void BlockReader::try_block() {
   const std::size_t start = draft_.next();
   draft_.add(Op::Try);
-  blocks_.push_back({"TRY", line_.number(), start, start, {}, -1, 1, false});
+  open(Kind::Try, start, start);
 }
 
 void BlockReader::recover() {
-  if (blocks_.empty() || std::string_view(blocks_.back().word) != "TRY" || blocks_.back().has_else) {
+  if (!is_in(Kind::Try) || blocks_.back().has_else) {
     line_.error(line_.first(), "RECOVER without TRY");
     return;
   }
@@ -135,29 +250,26 @@ void BlockReader::recover() {
 
 void BlockReader::end_block() {
   if (blocks_.empty()) {
-    line_.error(line_.first(), "END without LOOP, IF, WHILE, FOR or TRY");
+    line_.error(line_.first(), "END without LOOP, IF, WHILE, FOR, SWITCH or TRY");
     return;
   }
   const Block block = std::move(blocks_.back());
   blocks_.pop_back();
-  const std::string_view word = block.word;
-  if (word == "TRY" && !block.has_else) {
+  if (block.kind == Kind::Try && !block.has_else) {
     line_.error_in(line_.file(), block.line, 1, "TRY without RECOVER");
     return;
   }
-  if (word == "LOOP") {
+  if (block.kind == Kind::Loop) {
     draft_.add(Op::End).index = static_cast<int>(block.start);
     draft_.step(block.start).index = static_cast<int>(draft_.next());
-    return;
-  }
-  if (word == "FOR") {
+  } else if (block.kind == Kind::For) {
     const int next =
         draft_.keep(Formula::joined(Formula::variable(block.counter), Formula::number(block.by), FormulaOp::Add));
     Step& step = draft_.add(Op::Assign);
     step.index = block.counter;
     step.formula = next;
   }
-  if (word != "IF" && word != "TRY") {
+  if (block.kind == Kind::While || block.kind == Kind::For) {
     draft_.add(Op::Again).index = static_cast<int>(block.start);
   }
   const auto behind = static_cast<int>(draft_.next());
@@ -171,7 +283,7 @@ void BlockReader::end_block() {
 
 void BlockReader::end() {
   for (const Block& block : blocks_) {
-    line_.error_in(line_.file(), block.line, 1, std::string(block.word) + " without END");
+    line_.error_in(line_.file(), block.line, 1, std::string(word_of(block.kind)) + " without END");
   }
 }
 

@@ -9,11 +9,21 @@ void CallStack::reset(int job) noexcept {
   frames_[0].job = job;
 }
 
-void CallStack::call(int job, const Variables& variables) noexcept {
+void CallStack::call(int job, const Variables& variables, int result) noexcept {
   ++depth_;
   frame() = {};
   frame().job = job;
   frame().variables = variables;
+  frame().result = result;
+}
+
+void CallStack::finish() noexcept {
+  const int result = frame().result;
+  const double value = frame().value;
+  --depth_;
+  if (result >= 0) {
+    variables()[static_cast<std::size_t>(result)] = value;
+  }
 }
 
 const Step* CallStack::step_at(int depth) const noexcept {

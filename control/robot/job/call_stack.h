@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "control/robot/job/job.h"
 
@@ -22,8 +24,14 @@ class CallStack {
   [[nodiscard]] bool is_full() const noexcept { return depth_ + 1 >= kMaxJobs; }
   // Number of jobs that wait for the called one.
   [[nodiscard]] int depth() const noexcept { return depth_; }
-  // Calls a job; not if the stack is full.
-  void call(int job, const Variables& variables) noexcept;
+  // Calls a job; not if the stack is full. `result`: variable of the present job that gets its value; -1: none.
+  void call(int job, const Variables& variables, int result = -1) noexcept;
+  // The value that the present job gives to its caller.
+  void set_value(double value) noexcept { frame().value = value; }
+  // Returns whether the caller waits for a value and the present job has none.
+  [[nodiscard]] bool lacks_value() const noexcept { return frame().result >= 0 && std::isnan(frame().value); }
+  // Returns to the caller, which gets the value.
+  void finish() noexcept;
   // Returns to the job of this depth, at the step where it was left.
   void return_to(int depth) noexcept { depth_ = depth; }
 
@@ -55,6 +63,8 @@ class CallStack {
     int loops = 0;
     std::array<double, kMaxLoops> left{};  // times the open loops still run
     Variables variables{};
+    int result = -1;  // variable of the caller
+    double value = std::numeric_limits<double>::quiet_NaN();
   };
   [[nodiscard]] Frame& frame() noexcept { return frames_[static_cast<std::size_t>(depth_)]; }
   [[nodiscard]] const Frame& frame() const noexcept { return frames_[static_cast<std::size_t>(depth_)]; }

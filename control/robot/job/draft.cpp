@@ -2,6 +2,7 @@
 #include "control/robot/job/draft.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +20,10 @@ std::string name_of(const std::string& path) {
 }  // namespace
 
 void JobDraft::begin(const JobFile& file) {
-  book_.jobs.push_back({name_of(file.path), file.path, {}, {}, 0});
+  Job job;
+  job.name = name_of(file.path);
+  job.file = file.path;
+  book_.jobs.push_back(std::move(job));
 }
 
 Step& JobDraft::add(Op op) {
@@ -33,6 +37,24 @@ Step& JobDraft::add(Op op) {
 int JobDraft::keep(Formula formula) const {
   book_.formulas.push_back(std::move(formula));
   return static_cast<int>(book_.formulas.size()) - 1;
+}
+
+int JobDraft::keep(std::vector<Formula> formulas) const {
+  const int first = formulas.empty() ? -1 : static_cast<int>(book_.formulas.size());
+  std::move(formulas.begin(), formulas.end(), std::back_inserter(book_.formulas));
+  return first;
+}
+
+int JobDraft::add_hidden(std::size_t count) const {
+  const int first = static_cast<int>(job().variables.size());
+  job().variables.resize(job().variables.size() + count);
+  return first;
+}
+
+int JobDraft::array_at(int variable) const noexcept {
+  const auto found = std::find_if(job().arrays.begin(), job().arrays.end(),
+                                  [&](const Job::Array& each) { return each.first == variable; });
+  return found == job().arrays.end() ? 0 : found->size;
 }
 
 int JobDraft::variable_called(std::string_view name) const noexcept {

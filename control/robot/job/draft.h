@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "control/robot/job/job.h"
 #include "control/robot/job/line.h"
@@ -29,8 +30,14 @@ class JobDraft {
 
   // Returns the index of the formula in the book.
   int keep(Formula formula) const;
-  // Returns the index of a variable of the job; -1: there is none.
+  // Keeps formulas next to each other. Returns the index of the first one; -1 if there are none.
+  int keep(std::vector<Formula> formulas) const;
+  // Adds a variable of the job that has no name, or the elements of an array after its first one.
+  int add_hidden(std::size_t count = 1) const;
+  // Returns the index of a variable of the job, for an array that of its first element; -1: there is none.
   [[nodiscard]] int variable_called(std::string_view name) const noexcept;
+  // Returns the size of the array that begins at this variable; 0: it is none.
+  [[nodiscard]] int array_at(int variable) const noexcept;
 
  private:
   JobBook& book_;

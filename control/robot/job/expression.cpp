@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <string>
 #include <utility>
+
+#include "control/robot/job/place_formulas.h"
 
 namespace indurop::robot {
 
@@ -25,8 +28,50 @@ constexpr std::array<Sign, 8> kComparisons{{{"=", FormulaOp::Equal},
                                             {">=", FormulaOp::GreaterEqual}}};
 constexpr std::array<Sign, 3> kProducts{
     {{"*", FormulaOp::Multiply}, {"/", FormulaOp::Divide}, {"MOD", FormulaOp::Modulo}}};
+struct Function {
+  const char* name;
+  FormulaOp op;
+  int values;  // that it takes; 0: two or more
+};
+constexpr std::array<Function, 13> kFunctions{{{"ABS", FormulaOp::Abs, 1},
+                                               {"SQRT", FormulaOp::Sqrt, 1},
+                                               {"SIN", FormulaOp::Sin, 1},
+                                               {"COS", FormulaOp::Cos, 1},
+                                               {"TAN", FormulaOp::Tan, 1},
+                                               {"ASIN", FormulaOp::Asin, 1},
+                                               {"ACOS", FormulaOp::Acos, 1},
+                                               {"ATAN", FormulaOp::Atan, 1},
+                                               {"ATAN2", FormulaOp::Atan2, 2},
+                                               {"ROUND", FormulaOp::Round, 1},
+                                               {"TRUNC", FormulaOp::Trunc, 1},
+                                               {"MIN", FormulaOp::Min, 0},
+                                               {"MAX", FormulaOp::Max, 0}}};
+struct PlaceFunction {
+  const char* name;
+  Coordinate which;
+};
+constexpr std::array<PlaceFunction, 7> kPlaceFunctions{{{"X", Coordinate::X},
+                                                        {"Y", Coordinate::Y},
+                                                        {"Z", Coordinate::Z},
+                                                        {"ROLL", Coordinate::Roll},
+                                                        {"PITCH", Coordinate::Pitch},
+                                                        {"YAW", Coordinate::Yaw},
+                                                        {"DIST", Coordinate::Distance}}};
 constexpr std::array<const char*, 16> kReserved{"BEFORE", "AFTER", "AND",     "OR",   "NOT",  "MOD", "ON",    "OFF",
                                                 "TO",     "STEP",  "TIMEOUT", "GOTO", "ELSE", "END", "PARAM", "VAR"};
+
+// The name of "a[3]".
+std::string_view without_index(std::string_view name) noexcept {
+  return name.substr(0, name.find('['));
+}
+
+// The number in "a[3]"; -1: it has none.
+int index_in(std::string_view name) noexcept {
+  const std::string_view digits = name.substr(std::min(name.find('[') + 1, name.size()));
+  int index = -1;
+  std::from_chars(digits.data(), digits.data() + digits.size(), index);
+  return name.find('[') == std::string_view::npos ? -1 : index;
+}
 
 }  // namespace
 
@@ -34,13 +79,27 @@ bool ExpressionReader::is_reserved(std::string_view word) noexcept {
   return std::any_of(kReserved.begin(), kReserved.end(), [&](const char* each) { return same_word(word, each); });
 }
 
-int ExpressionReader::read(const char* what) {
+Formula ExpressionReader::formula(const char* what) {
   const JobToken start = line_.peek();
   Formula formula = disjunction(what, 0);
   if (!line_.failed() && !formula.fits()) {
     line_.error(start, "this expression is too long; compute a part of it before, in a VAR");
   }
-  return draft_.keep(std::move(formula));
+  formula.begin_at(start.column);
+  return formula;
+}
+
+std::vector<Formula> ExpressionReader::list(int count, const char* what, const char* example) {
+  std::vector<Formula> formulas;
+  for (int i = 0; i < count && !line_.failed(); ++i) {
+    // Without the comma "0 -50" would be one number.
+    if (i > 0 && !line_.accept(",")) {
+      line_.error(line_.peek(), "expected ',', found " + JobLine::shown(line_.peek()) + "; " + example);
+      break;
+    }
+    formulas.push_back(formula(what));
+  }
+  return formulas;
 }
 
 int ExpressionReader::signal(const char* what) {
@@ -76,6 +135,62 @@ int ExpressionReader::declare(const JobToken& name) {
   return static_cast<int>(draft_.job().variables.size()) - 1;
 }
 
+int ExpressionReader::declare_array(const JobToken& name, int& size) {
+  size = index_in(name.text);
+  JobToken plain = name;
+  plain.text = without_index(name.text);
+  const int first = declare(plain);
+  if (line_.failed()) {
+    return -1;
+  }
+  const std::size_t free = kMaxVariables - static_cast<std::size_t>(first);
+  if (size < 1 || static_cast<std::size_t>(size) > free) {
+    line_.error(name, "an array has 1 element or more, and all variables of a job together are at most " +
+                          std::to_string(kMaxVariables) + ", so there is room for " + std::to_string(free));
+    return -1;
+  }
+  draft_.add_hidden(static_cast<std::size_t>(size) - 1);
+  draft_.job().arrays.push_back({first, size});
+  return first;
+}
+
+bool ExpressionReader::at_variable() const {
+  return line_.peek().kind == JobToken::Kind::Word && draft_.variable_called(without_index(line_.peek().text)) >= 0;
+}
+
+ExpressionReader::Place ExpressionReader::place() {
+  return place(0);
+}
+
+// Parses "n", "a[3]", "a[i + 1]"; the name is known.
+ExpressionReader::Place ExpressionReader::place(int depth) {
+  const JobToken name = line_.take();
+  Place place;
+  place.variable = draft_.variable_called(without_index(name.text));
+  const int size = draft_.array_at(place.variable);
+  const int index = index_in(name.text);
+  const std::string known(without_index(name.text));
+  if (size == 0 && (index >= 0 || line_.peek().text == "[")) {
+    line_.error(name, in_quotes(known) + " is no array; declare it, VAR " + known + "[10]");
+  } else if (size > 0 && index >= size) {
+    line_.error(name,
+                "the last element of " + in_quotes(known) + " is " + known + "[" + std::to_string(size - 1) + "]");
+  } else if (index >= 0) {
+    place.variable += index;
+  } else if (size > 0 && !line_.accept("[")) {
+    line_.error(name, "which element of " + in_quotes(known) + "? The first one is " + known + "[0]");
+  } else if (size > 0) {
+    place.size = size;
+    const JobToken start = line_.peek();
+    place.element = sum("the number of an element", depth + 1);
+    place.element.begin_at(start.column);
+    if (!line_.failed() && !line_.accept("]")) {
+      line_.error(line_.peek(), "expected ']', found " + JobLine::shown(line_.peek()));
+    }
+  }
+  return place;
+}
+
 Formula ExpressionReader::disjunction(const char* what, int depth) {
   Formula left = conjunction(what, depth);
   while (!line_.failed() && line_.accept("OR")) {
@@ -93,13 +208,13 @@ Formula ExpressionReader::conjunction(const char* what, int depth) {
 }
 
 Formula ExpressionReader::negation(const char* what, int depth) {
-  bool negated = false;
-  while (line_.accept("NOT")) {
-    negated = !negated;
+  int negations = 0;
+  for (; line_.accept("NOT"); ++negations) {
     what = "a condition";
   }
   Formula formula = comparison(what, depth);
-  if (negated) {
+  // Two of them give 1 for every value except 0.
+  for (int left = negations > 0 ? 2 - negations % 2 : 0; left > 0; --left) {
     formula.push({FormulaOp::Not, -1, 0});
   }
   return formula;
@@ -159,11 +274,7 @@ Formula ExpressionReader::operand(const char* what, int depth) {
     return formula;
   }
   if (line_.accept("(")) {
-    Formula formula = disjunction("a value", depth + 1);
-    if (!line_.failed() && !line_.accept(")")) {
-      line_.error(line_.peek(), "expected ')', found " + JobLine::shown(line_.peek()));
-    }
-    return formula;
+    return in_brackets(depth);
   }
   if (line_.peek().kind == JobToken::Kind::Number) {
     double value = 0;
@@ -180,18 +291,100 @@ Formula ExpressionReader::operand(const char* what, int depth) {
     line_.error(line_.peek(), std::string("expected ") + what + ", found " + JobLine::shown(line_.peek()));
     return {};
   }
-  return named();
+  return line_.after().text == "(" ? function(depth) : named(depth);
 }
 
-// Parses "n", "I4", "I4 ON", "I4 OFF"
-Formula ExpressionReader::named() {
-  const int variable = draft_.variable_called(line_.peek().text);
+// Parses the rest of "(...)".
+Formula ExpressionReader::in_brackets(int depth) {
+  Formula formula = disjunction("a value", depth + 1);
+  if (!line_.failed() && !line_.accept(")")) {
+    line_.error(line_.peek(), "expected ')', found " + JobLine::shown(line_.peek()));
+  }
+  return formula;
+}
+
+// Parses "SQRT(x)", "MAX(a, b, c)".
+Formula ExpressionReader::function(int depth) {
+  const JobToken name = line_.take();
+  line_.take();
+  for (const PlaceFunction& each : kPlaceFunctions) {
+    if (same_word(each.name, name.text)) {
+      return coordinate(each.which);
+    }
+  }
+  const auto* const found = std::find_if(kFunctions.begin(), kFunctions.end(),
+                                         [&](const Function& each) { return same_word(each.name, name.text); });
+  if (found == kFunctions.end()) {
+    std::string names;
+    for (const Function& each : kFunctions) {
+      names += std::string(each.name) + ", ";
+    }
+    for (const PlaceFunction& each : kPlaceFunctions) {
+      names += std::string(each.which == Coordinate::X ? "" : ", ") + each.name;
+    }
+    line_.error(name, "there is no function " + in_quotes(name.text) + "; known are " + names);
+    return {};
+  }
+  Formula formula = disjunction("a value", depth + 1);
+  int values = 1;
+  for (; !line_.failed() && line_.accept(","); ++values) {
+    formula = Formula::joined(std::move(formula), disjunction("a value", depth + 1), found->op);
+  }
+  if (found->values == 1) {
+    formula.push({found->op, -1, 0});
+  }
+  if (!line_.failed() && !line_.accept(")")) {
+    line_.error(line_.peek(), "expected ')', found " + JobLine::shown(line_.peek()));
+  } else if (!line_.failed() && (found->values == 0 ? values < 2 : values != found->values)) {
+    const char* const wanted = found->values == 0   ? "two values or more"
+                               : found->values == 1 ? "one value"
+                                                    : "two values";
+    line_.error(name, std::string(found->name) + " takes " + wanted + ", here " +
+                          (values == 1 ? "is 1" : "are " + std::to_string(values)));
+  }
+  return formula;
+}
+
+// Parses the rest of "X(P)", "DIST(P, HERE)".
+Formula ExpressionReader::coordinate(Coordinate which) {
+  const int place = which == Coordinate::Distance ? places_->read_difference() : places_->read();
+  if (!line_.failed() && !line_.accept(")")) {
+    line_.error(line_.peek(), "expected ')', found " + JobLine::shown(line_.peek()));
+  }
+  if (line_.failed()) {
+    return {};
+  }
   Formula formula;
-  if (variable >= 0) {
-    line_.take();
-    formula = Formula::variable(variable);
+  formula.push({FormulaOp::Coordinate, place, static_cast<double>(which)});
+  formula.also_reads(draft_.book().places[static_cast<std::size_t>(place)].reads);
+  return formula;
+}
+
+// Parses "n", "a[i]", "TIME", "FOUND", "I4", "I4 ON", "I4 OFF"
+Formula ExpressionReader::named(int depth) {
+  Formula formula;
+  if (at_variable()) {
+    Place known = place(depth);
+    if (known.size > 0) {
+      formula = std::move(known.element);
+      formula.push({FormulaOp::Element, known.variable, static_cast<double>(known.size)});
+    } else {
+      formula = Formula::variable(known.variable);
+    }
+  } else if (line_.accept("TIME")) {
+    formula.push({FormulaOp::Time, -1, 0});
+  } else if (line_.accept("FOUND")) {
+    formula.push({FormulaOp::Found, -1, 0});
   } else {
+    const JobToken name = line_.peek();
     formula.push({FormulaOp::Signal, signal("the name of a variable"), 0});
+    if (line_.peek().text == "[") {
+      line_.error(line_.peek(), "the number of an element of a shared variable is written as " +
+                                    std::string(name.text) + "[3], not computed");
+    }
+  }
+  if (line_.failed()) {
+    return {};
   }
   if (line_.accept("ON")) {
     return Formula::joined(std::move(formula), Formula::number(0), FormulaOp::NotEqual);

@@ -2,6 +2,9 @@
 #include "control/robot/job/flow_statements.h"
 
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace indurop::robot {
 
@@ -29,21 +32,57 @@ void FlowReader::wait() {
   step.timeout = timeout;
 }
 
-void FlowReader::call() {
+void FlowReader::call(int result) {
   draft_.add(Op::Call).mid = 0;
+  draft_.last().slot = result;
   names_.refer(JobNames::To::Job, "job");
-  int count = 0;
-  int first = -1;
+  std::vector<Formula> values;
   while (!line_.failed() && !line_.at_end()) {
-    if (count > 0 && !line_.accept(",")) {
+    if (!values.empty() && !line_.accept(",")) {
       line_.error(line_.peek(), "expected ',' and another value, found " + JobLine::shown(line_.peek()));
       break;
     }
-    const int formula = expressions_.read("a value");
-    first = count++ == 0 ? formula : first;
+    values.push_back(expressions_.formula("a value"));
   }
-  draft_.last().formula = first;
-  draft_.last().mid = count;
+  draft_.last().mid = static_cast<int>(values.size());
+  draft_.last().formula = draft_.keep(std::move(values));
+}
+
+// Parses "RETURN", "RETURN n + 1"
+void FlowReader::leave() {
+  draft_.add(Op::Return);
+  if (!line_.at_end()) {
+    draft_.last().formula = expressions_.read("the value that the caller gets");
+    draft_.job().returns_value = true;
+  }
+}
+
+// Parses "RAISE 12", "RAISE 12, "there is no part""
+void FlowReader::raise() {
+  draft_.add(Op::Raise);
+  draft_.last().formula = expressions_.read("the number of the error");
+  if (!line_.failed() && line_.accept(",")) {
+    draft_.last().mid = text();
+  }
+}
+
+void FlowReader::message() {
+  draft_.add(Op::Message);
+  draft_.last().mid = text();
+}
+
+int FlowReader::text() {
+  JobText text;
+  do {
+    if (line_.peek().kind == JobToken::Kind::Text) {
+      const std::string_view quoted = line_.take().text;
+      text.parts.push_back({std::string(quoted.substr(1, quoted.size() - 2)), -1});
+    } else {
+      text.parts.push_back({"", expressions_.read("a text in quotes, or a number")});
+    }
+  } while (!line_.failed() && line_.accept(","));
+  draft_.book().texts.push_back(std::move(text));
+  return static_cast<int>(draft_.book().texts.size()) - 1;
 }
 
 void FlowReader::jump() {
@@ -64,7 +103,8 @@ void FlowReader::arm() {
   const JobToken start = line_.peek();
   const int formula = expressions_.read("a condition");
   const Formula& condition = draft_.book().formulas.back();
-  if (!line_.failed() && (condition.reads_variables() || !condition.reads_signals())) {
+  const bool of_job = condition.reads().variables || condition.reads().robot || condition.reads().places;
+  if (!line_.failed() && (of_job || !condition.reads().signals)) {
     line_.error(start, "an interrupt monitors shared variables, and no variables of the job");
   } else if (!line_.failed() && condition.size() > kMaxParts) {
     line_.error(start, "this condition is too long to be watched; have a PLC program compute it");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements that wait, jump and call: WAIT, GOTO and LABEL, CALL, and interrupts, "ON I4 AND I5 CALL eject", "OFF CALL
-// eject".
+// Statements that wait, jump, call and fail: WAIT, GOTO and LABEL, CALL, RETURN, RAISE, MESSAGE, and interrupts, "ON I4
+// AND I5 CALL eject", "OFF CALL eject".
 
 #pragma once
 
@@ -14,13 +14,20 @@ class FlowReader {
       : line_(parts.line), draft_(parts.draft), names_(parts.names), expressions_(parts.expressions) {}
 
   void wait();
-  void call();
+  // Reads the name of a job and what it gets. `result`: variable that its RETURN sets; -1: none.
+  void call(int result = -1);
+  void leave();
+  void raise();
+  void message();
   void jump();
   void label();
   void arm();
   void disarm();
 
  private:
+  // Reads texts and numbers with commas between them. Returns the index of the text in the book.
+  int text();
+
   JobLine& line_;
   JobDraft& draft_;
   JobNames& names_;

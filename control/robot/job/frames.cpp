@@ -97,8 +97,8 @@ std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm) {
       continue;
     }
     const Pose& frame = book.frames[static_cast<std::size_t>(point.frame)].pose;
-    Pose& pose = point.target.pose;
-    pose = frame * pose;
+    point.in_frame = point.target.pose;
+    point.target.pose = frame * point.in_frame;
     point.axes = frame.orientation;
   }
   return errors;

@@ -12,7 +12,8 @@ void Interrupts::reset() noexcept {
 }
 
 bool Interrupts::is_true(std::size_t interrupt, Signals& signals) const noexcept {
-  const double value = book_.formulas[static_cast<std::size_t>(book_.interrupts[interrupt].formula)].value({}, signals);
+  FormulaInput in{{}, signals};
+  const double value = book_.formulas[static_cast<std::size_t>(book_.interrupts[interrupt].formula)].value(in);
   return !std::isnan(value) && value != 0;
 }
 

@@ -11,6 +11,7 @@
 
 #include "control/robot/collision/solid.h"
 #include "control/robot/job/formula.h"
+#include "control/robot/job/place_formula.h"
 #include "control/robot/kinematics/body.h"
 #include "control/robot/path/segment.h"
 #include "core/base/diagnostic.h"
@@ -19,8 +20,10 @@
 namespace indurop::robot {
 
 enum class Op : std::uint8_t {
-  Move,          // index: point, or kBack; mid: point; value: 1 if a joint motion has to be straight,
-                 // or if more points of a spline follow
+  Move,   // index: point, or kBack and so on; mid: point; value: 1 if a joint motion has to be straight, or if
+          // more points of a spline follow; formula: first one of its offset; slot: extras of the book
+  Place,  // index: computed place of the book; mid: place formula of the book
+  // The next three may have a formula, which `value` is multiplied with.
   Speed,         // value: part of full speed, or m/s if index is 1
   Zone,          // value: m
   Acceleration,  // value: part of the full accelerations and jerks
@@ -29,22 +32,25 @@ enum class Op : std::uint8_t {
   Set,           // index: signal; formula; pulse
   SetOnPath,     // as Set, during the motion before it: value: m before its end, after its start if mid is 1;
                  // timeout above 0: s instead of m
-  Assign,        // index: variable of the job; formula
-  WaitUntil,     // formula; timeout
+  Assign,        // index: variable of the job; formula. An element of an array: index: its first one; mid: its size;
+                 // formula: of the element's number, followed by that of the value
+  WaitUntil,     // formula; timeout; index: step after a timeout, -1: the job fails
   WaitTime,      // value: s
-  Call,          // index: job; formula: its first argument; mid: number of arguments
+  Call,          // index: job; formula: its first argument; mid: number of arguments; slot: variable for its result
   Arm,           // index: job; formula; slot: interrupt of the book
   Disarm,        // index: job
-  Return,
-  Try,      // index: step after RECOVER; mid: variable that receives the error number
-  EndTry,   // index: step after the whole TRY
-  Recover,  // the first step after RECOVER
-  Goto,     // index: step; loops between this step and that one are left or entered
-  If,       // formula; index: step if true, like Goto
-  Unless,   // formula; index: step if false, after a block
-  Again,    // index: step at the beginning of the block
-  Loop,     // value: number of passes, 0: endless; index: step after its End
-  End       // index: step of its Loop
+  Return,        // formula: the result, -1: none
+  Raise,         // formula: number of the error; mid: text of the book, -1: none
+  Message,       // mid: text of the book
+  Try,           // index: step after RECOVER; mid: variable that receives the error number
+  EndTry,        // index: step after the whole TRY
+  Recover,       // the first step after RECOVER
+  Goto,          // index: step; loops between this step and that one are left or entered
+  If,            // formula; index: step if true, like Goto
+  Unless,        // formula; index: step if false, after a block
+  Again,         // index: step at the beginning of the block
+  Loop,          // value: number of passes, 0: endless; index: step after its End
+  End            // index: step of its Loop
 };
 
 struct Step {
@@ -57,13 +63,38 @@ struct Step {
   int slot = -1;
   int guard = -1;        // step of the innermost TRY around it
   bool by_tool = false;  // Move: the offset is along the axes of the tool
+  bool turns = false;    // Move: the offset turns, too; three more formulas
   double value = 0;
   double timeout = 0;  // s; 0: none
   double pulse = 0;    // s that the output is on; 0: it is set permanently
 };
 
-// Stands for a point: the place where an interrupt left the path.
+// Stand for a point: the place where an interrupt left the path, where the robot is, and where UNTIL ended a motion.
 inline constexpr int kBack = -2;
+inline constexpr int kHere = -3;
+inline constexpr int kFound = -4;
+
+// A text for the operator: parts that are written, and numbers.
+struct JobText {
+  struct Part {
+    std::string text{};
+    int formula = -1;  // -1: the text counts
+  };
+  std::vector<Part> parts{};
+};
+
+// What the line of a motion says besides its points.
+struct MotionExtras {
+  std::vector<Step> settings{};  // SPEED, ZONE and ACC of this motion only
+  int until = -1;                // formula: the motion ends where it becomes true
+  bool has_to_find = false;      // it is an error if it does not
+};
+
+// A point or a frame that a job computes.
+struct ComputedPlace {
+  bool is_frame = false;
+  int index = -1;  // in the book
+};
 
 struct Point {
   std::string name;
@@ -72,6 +103,8 @@ struct Point {
   base::SourcePlace place;
   int frame = -1;                // frame of the book in which it was given; -1: the base
   Quat axes = Quat::Identity();  // of that frame
+  Pose in_frame{};               // its pose in that frame
+  int computed = -1;             // computed place of the book; -1: no job computes it
   // Solutions for each tool, if the point is a pose whose solutions have to be searched for; the book owns them.
   std::vector<const Solutions*> known{};
 };
@@ -85,6 +118,7 @@ struct WorkFrame {
   bool is_taught = false;
   std::array<int, 3> points{-1, -1, -1};  // origin, a point on x, a point on the side of y
   int tool = 0;                           // tool that touched the points
+  int computed = -1;                      // computed place of the book; -1: no job computes it
 };
 
 // A tool: its tip seen from the arm's end, either given or taught by joint points at which the tip touches one place.
@@ -113,13 +147,21 @@ struct Job {
   std::string name;  // name of the file, without folder and extension
   std::string file;
   std::vector<Step> steps;
-  std::vector<std::string> variables{};  // its own; parameters first, those without a name hold the limits of FOR
+  // Its own; parameters first. Those without a name hold elements of arrays, limits of FOR and values of SWITCH.
+  std::vector<std::string> variables{};
   std::size_t parameters = 0;
+  struct Array {
+    int first = 0;  // variable
+    int size = 0;
+  };
+  std::vector<Array> arrays{};
+  bool returns_value = false;  // by a RETURN
 };
 
-inline constexpr std::size_t kMaxVariables = 32;  // per job
-inline constexpr std::size_t kMaxInterrupts = 8;  // of all jobs together
-inline constexpr std::size_t kMaxLoops = 8;       // inside each other
+inline constexpr std::size_t kMaxVariables = 128;  // per job, elements of arrays included
+inline constexpr std::size_t kMaxComputed = 32;    // points and frames that jobs compute, of all jobs together
+inline constexpr std::size_t kMaxInterrupts = 8;   // of all jobs together
+inline constexpr std::size_t kMaxLoops = 8;        // inside each other
 
 // A shared variable that jobs use, and the first place where it is used.
 struct NamedVariable {
@@ -138,6 +180,11 @@ struct JobBook {
   std::vector<std::string> signals;
   std::vector<NamedVariable> named{};  // the same signals, with their places
   std::vector<Formula> formulas;
+  std::vector<PlacePart> place_parts{};  // of all place formulas
+  std::vector<PlaceFormula> places{};
+  std::vector<ComputedPlace> computed{};
+  std::vector<MotionExtras> extras{};
+  std::vector<JobText> texts{};
   // An ON statement: its condition, and the job that it calls when the condition becomes true.
   struct Interrupt {
     int formula = -1;
@@ -145,6 +192,15 @@ struct JobBook {
   };
   std::vector<Interrupt> interrupts{};
 
+  [[nodiscard]] const Job& job(int index) const noexcept { return jobs[static_cast<std::size_t>(index)]; }
+  // What the line of this motion says; null: nothing.
+  [[nodiscard]] const MotionExtras* extras_of(const Step& motion) const noexcept {
+    return motion.slot < 0 ? nullptr : &extras[static_cast<std::size_t>(motion.slot)];
+  }
+  // Returns whether jobs compute the point or its frame, so that it need not be where the files say it is.
+  [[nodiscard]] bool is_computed(const Point& point) const noexcept {
+    return point.computed >= 0 || (point.frame >= 0 && frames[static_cast<std::size_t>(point.frame)].computed >= 0);
+  }
   // Returns the index of the point P<number>; -1 if there is none.
   [[nodiscard]] int numbered_point(std::uint32_t number) const noexcept;
   [[nodiscard]] Target target(int point, int tool) const noexcept;

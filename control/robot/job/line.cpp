@@ -47,6 +47,21 @@ bool JobLine::numbers(int count, double* to, const char* what) {
   return true;
 }
 
+bool JobLine::numbers_ahead(int count) const {
+  std::size_t next = at_;
+  for (int i = 0; i < count; ++i, ++next) {
+    if (i > 0 && tokens_[next].text == ",") {
+      ++next;
+    }
+    if (tokens_[next].kind != JobToken::Kind::Number) {
+      return false;
+    }
+  }
+  const JobToken& then = tokens_[next];
+  return then.kind == JobToken::Kind::End || then.text == ":" || then.text == ")" || then.text == "," ||
+         (then.kind == JobToken::Kind::Word && !same_word(then.text, "MOD"));
+}
+
 bool JobLine::duration(double& seconds) {
   const JobToken number = peek();
   if (!numbers(1, &seconds, "a time, 0.5s or 200 ms")) {

@@ -39,6 +39,8 @@ class JobLine {
   bool accept(std::string_view word);
   void expect_end();
 
+  // Returns whether so many numbers come next, with or without commas, and no other part of an expression after them.
+  [[nodiscard]] bool numbers_ahead(int count) const;
   // Parses finite numbers, with or without commas. False: an error says what was expected.
   bool numbers(int count, double* to, const char* what);
   // Parses "0.5s", "200 ms".

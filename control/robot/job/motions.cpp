@@ -1,13 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/motions.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "control/robot/path/spline.h"
 
 namespace indurop::robot {
 
+namespace {
+
+bool begins_extras(std::string_view word) noexcept {
+  return same_word(word, "SPEED") || same_word(word, "ZONE") || same_word(word, "ACC") || same_word(word, "UNTIL");
+}
+
+}  // namespace
+
 void MotionReader::move(Move kind) {
+  const std::size_t first = draft_.next();
   draft_.add(Op::Move).move = kind;
   if (kind == Move::Circle) {
     names_.refer(JobNames::To::Mid, "point on the circle");
@@ -22,13 +38,72 @@ void MotionReader::move(Move kind) {
   if (kind == Move::Joint && !line_.failed() && line_.accept("STRAIGHT")) {
     draft_.last().value = 1;
   }
+  extras(first);
+}
+
+void MotionReader::search() {
+  const JobToken start = line_.before();
+  move(Move::Line);
+  const MotionExtras* const extras = draft_.book().extras_of(draft_.last());
+  if (!line_.failed() && (extras == nullptr || extras->until < 0)) {
+    line_.error(start, "a SEARCH ends by UNTIL and a condition: SEARCH P UNTIL I4 SPEED 20 mm/s");
+  }
+  if (!line_.failed()) {
+    draft_.book().extras.back().has_to_find = true;
+  }
+}
+
+// Parses what may follow the points of a motion, in any order: "UNTIL I4 SPEED 20 mm/s ACC 50%". It belongs to all
+// steps of the motion.
+void MotionReader::extras(std::size_t first_step) {
+  MotionExtras extras;
+  Step setting;
+  for (bool more = true; more && !line_.failed();) {
+    setting = {};
+    setting.line = draft_.last().line;
+    more = true;
+    if (line_.accept("SPEED")) {
+      more = read_speed(setting);
+    } else if (line_.accept("ZONE")) {
+      more = read_zone(setting);
+    } else if (line_.accept("ACC")) {
+      more = read_acceleration(setting);
+    } else if (line_.accept("UNTIL")) {
+      until(extras);
+      continue;
+    } else {
+      break;
+    }
+    extras.settings.push_back(setting);
+  }
+  const bool zone = std::any_of(extras.settings.begin(), extras.settings.end(),
+                                [](const Step& each) { return each.op == Op::Zone && each.value > 0; });
+  if (!line_.failed() && zone && extras.until >= 0) {
+    line_.error(line_.first(), "a motion with UNTIL ends at rest; leave its ZONE out");
+  }
+  if (line_.failed() || (extras.settings.empty() && extras.until < 0)) {
+    return;
+  }
+  draft_.book().extras.push_back(std::move(extras));
+  for (std::size_t i = first_step; i < draft_.next(); ++i) {
+    draft_.step(i).slot = static_cast<int>(draft_.book().extras.size()) - 1;
+  }
+}
+
+void MotionReader::until(MotionExtras& extras) {
+  if (draft_.last().move == Move::Spline || extras.until >= 0) {
+    line_.error(line_.before(), "UNTIL comes once, after the points of a MOVL, MOVJ, MOVC or SEARCH");
+    return;
+  }
+  extras.until = expressions_.read("the condition that ends the motion");
 }
 
 // Adds a step for each point of the spline.
 void MotionReader::spline() {
   const JobToken start = line_.before();
+  const std::size_t first = draft_.next();
   int points = 0;
-  while (!line_.failed() && !line_.at_end()) {
+  while (!line_.failed() && !line_.at_end() && !begins_extras(line_.peek().text)) {
     Step& step = draft_.add(Op::Move);
     step.move = Move::Spline;
     step.value = 1;
@@ -43,81 +118,119 @@ void MotionReader::spline() {
                            " is the most");
   } else {
     draft_.last().value = 0;
+    extras(first);
   }
 }
 
-// Parses "OFFSET 0, 0, 100", "OFFSET TOOL 0, 0, -50"
+// Parses "OFFSET 0, 0, 100", "OFFSET TOOL 0, 0, -50 RPY 0, 0, 90"
 void MotionReader::offset() {
   const bool by_tool = line_.accept("TOOL");
-  int first = -1;
-  for (int i = 0; i < 3 && !line_.failed(); ++i) {
-    // Without the comma "0 -50" would be one number.
-    if (i > 0 && !line_.accept(",")) {
-      line_.error(line_.peek(), "expected ',', found " + JobLine::shown(line_.peek()) + "; OFFSET 0, 0, -50");
-      return;
-    }
-    const int formula = expressions_.read("x, y and z of the offset in mm");
-    first = i == 0 ? formula : first;
+  std::vector<Formula> formulas = expressions_.list(3, "x, y and z of the offset in mm", "OFFSET 0, 0, -50");
+  const bool turns = !line_.failed() && line_.accept("RPY");
+  if (turns) {
+    std::vector<Formula> turn = expressions_.list(3, "roll, pitch and yaw in degrees", "RPY 0, 0, 90");
+    std::move(turn.begin(), turn.end(), std::back_inserter(formulas));
   }
-  draft_.last().formula = first;
+  if (line_.failed()) {
+    return;
+  }
+  draft_.last().formula = draft_.keep(std::move(formulas));
   draft_.last().by_tool = by_tool;
+  draft_.last().turns = turns;
+}
+
+void MotionReader::add(const Step& setting) {
+  Step& step = draft_.add(setting.op);
+  step.index = setting.index;
+  step.value = setting.value;
+  step.formula = setting.formula;
+}
+
+// Reads a number, or an expression, which `value` is then multiplied with.
+bool MotionReader::amount(Step& step, const char* what) {
+  const JobToken& then = line_.after();
+  const bool ends = then.kind == JobToken::Kind::End || then.text == "%" ||
+                    (then.kind == JobToken::Kind::Word && !same_word(then.text, "MOD"));
+  if (line_.peek().kind == JobToken::Kind::Number && ends) {
+    return line_.numbers(1, &step.value, what);
+  }
+  step.formula = expressions_.read(what);
+  step.value = 1;
+  return !line_.failed();
+}
+
+// A number that is written has to be in its range; what is computed is checked when it is known.
+bool MotionReader::in_range(const Step& step, double low, double high, const JobToken& at, const char* wrong) {
+  if (step.formula < 0 && !(step.value >= low && step.value <= high)) {
+    line_.error(at, wrong);
+  }
+  return !line_.failed();
 }
 
 void MotionReader::speed() {
-  const JobToken number = line_.peek();
-  double value = 0;
-  if (!line_.numbers(1, &value, "the speed, 50% or 250 mm/s")) {
-    return;
+  if (Step step; read_speed(step)) {
+    add(step);
   }
-  Step& step = draft_.add(Op::Speed);
+}
+
+bool MotionReader::read_speed(Step& step) {
+  step.op = Op::Speed;
+  const JobToken number = line_.peek();
+  if (!amount(step, "the speed, 50% or 250 mm/s")) {
+    return false;
+  }
+  constexpr double kLeast = std::numeric_limits<double>::min();
   if (line_.accept("%")) {
-    step.value = value / 100;
-    if (!(value > 0 && value <= 100)) {
-      line_.error(number, "a speed is above 0 and at most 100 %");
-    }
-    return;
+    step.value /= 100;
+    return in_range(step, kLeast, 1, number, "a speed is above 0 and at most 100 %");
   }
   // "mm/s" is a word followed by a sign that no other statement has.
   const bool mm = line_.accept("mm");
   const bool per_second = mm && line_.accept("/") && line_.accept("s");
   if (!per_second) {
     line_.error(line_.peek(), "expected % or mm/s, found " + JobLine::shown(line_.peek()));
-    return;
+    return false;
   }
   step.index = 1;
-  step.value = value / 1000;
-  if (!(value > 0)) {
-    line_.error(number, "a speed is above 0");
-  }
+  step.value /= 1000;
+  return in_range(step, kLeast, HUGE_VAL, number, "a speed is above 0");
 }
 
 void MotionReader::zone() {
-  const JobToken number = line_.peek();
-  double value = 0;
-  if (!line_.numbers(1, &value, "the zone, 20 mm")) {
-    return;
-  }
-  line_.accept("mm");
-  draft_.add(Op::Zone).value = value / 1000;
-  if (!(value >= 0 && value <= 1000)) {
-    line_.error(number, "a zone is from 0 (stop at the point) to 1000 mm");
+  if (Step step; read_zone(step)) {
+    add(step);
   }
 }
 
-void MotionReader::acceleration() {
+bool MotionReader::read_zone(Step& step) {
+  step.op = Op::Zone;
   const JobToken number = line_.peek();
-  double value = 0;
-  if (!line_.numbers(1, &value, "the acceleration, 50%")) {
-    return;
+  if (!amount(step, "the zone, 20 mm")) {
+    return false;
+  }
+  line_.accept("mm");
+  step.value /= 1000;
+  return in_range(step, 0, 1, number, "a zone is from 0 (stop at the point) to 1000 mm");
+}
+
+void MotionReader::acceleration() {
+  if (Step step; read_acceleration(step)) {
+    add(step);
+  }
+}
+
+bool MotionReader::read_acceleration(Step& step) {
+  step.op = Op::Acceleration;
+  const JobToken number = line_.peek();
+  if (!amount(step, "the acceleration, 50%")) {
+    return false;
   }
   if (!line_.accept("%")) {
     line_.error(line_.peek(), "expected %, found " + JobLine::shown(line_.peek()));
-    return;
+    return false;
   }
-  draft_.add(Op::Acceleration).value = value / 100;
-  if (!(value >= 1 && value <= 100)) {
-    line_.error(number, "an acceleration is from 1 to 100 % of the full one");
-  }
+  step.value /= 100;
+  return in_range(step, 0.01, 1, number, "an acceleration is from 1 to 100 % of the full one");
 }
 
 }  // namespace indurop::robot

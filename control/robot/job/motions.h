@@ -13,13 +13,24 @@ class MotionReader {
       : line_(parts.line), draft_(parts.draft), names_(parts.names), expressions_(parts.expressions) {}
 
   void move(Move kind);
+  // A line that has to find something on its way.
+  void search();
   void spline();
   void speed();
   void zone();
   void acceleration();
 
  private:
+  // Each reads a setting into a step; nothing is added. Returns false if it is wrong.
+  bool read_speed(Step& step);
+  bool read_zone(Step& step);
+  bool read_acceleration(Step& step);
+  void add(const Step& setting);
+  bool amount(Step& step, const char* what);
+  bool in_range(const Step& step, double low, double high, const JobToken& at, const char* wrong);
   void offset();
+  void extras(std::size_t first_step);
+  void until(MotionExtras& extras);
 
   JobLine& line_;
   JobDraft& draft_;

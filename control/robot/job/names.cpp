@@ -2,6 +2,8 @@
 #include "control/robot/job/names.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "control/robot/job/near_name.h"
 
@@ -28,6 +30,15 @@ int find(const std::unordered_map<std::string_view, int>& names, std::string_vie
 
 std::string count_of(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+// A place that is no point; -1: there is none of this name.
+int special_place(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, int>, 3> kSpecial{
+      {{"BACK", kBack}, {"HERE", kHere}, {"FOUND", kFound}}};
+  const auto* const found =
+      std::find_if(kSpecial.begin(), kSpecial.end(), [&](const auto& each) { return each.first == name; });
+  return found == kSpecial.end() ? -1 : found->second;
 }
 
 }  // namespace
@@ -93,9 +104,11 @@ void JobNames::resolve() {
   resolve_frame_tools();
   resolve_zones();
   resolve_bodies();
+  resolve_places();
   for (const Reference& reference : references_) {
     resolve(reference);
   }
+  keep_zones_in_place();
 }
 
 void JobNames::resolve_point_frames() {
@@ -175,6 +188,22 @@ void JobNames::resolve_bodies() {
   }
 }
 
+void JobNames::resolve_places() {
+  JobBook& book = draft_.book();
+  for (const auto& [owner, at] : of(In::PlaceName)) {
+    PlacePart& part = book.place_parts[owner];
+    part.index = find(known_.frames, at.name);
+    part.is_frame = part.index >= 0;
+    part.index = part.is_frame ? part.index : find(known_.points, at.name);
+    if (part.index < 0) {
+      std::vector<std::string> known = suggested(book.points);
+      const std::vector<std::string> frames = suggested(book.frames);
+      known.insert(known.end(), frames.begin(), frames.end());
+      no_such(at, "point or frame", known);
+    }
+  }
+}
+
 void JobNames::resolve(const Reference& reference) {
   Step& step = draft_.book().jobs[reference.at.job].steps[reference.step];
   switch (reference.to) {
@@ -189,6 +218,9 @@ void JobNames::resolve(const Reference& reference) {
       break;
     case To::Job:
       resolve_job(reference, step);
+      break;
+    case To::Computed:
+      resolve_computed(reference, step);
       break;
     case To::Target:
     case To::Mid:
@@ -220,6 +252,9 @@ void JobNames::resolve_job(const Reference& reference, Step& step) {
   if (step.op == Op::Arm) {
     book.interrupts[static_cast<std::size_t>(step.slot)].job = step.index;
   }
+  if (step.op == Op::Call && step.slot >= 0 && !called.returns_value) {
+    error(reference.at, "job '" + reference.at.name + "' gives no value; end it with RETURN and the value");
+  }
   if (step.op != Op::Disarm && called.parameters != static_cast<std::size_t>(step.mid)) {
     error(reference.at, "job '" + reference.at.name + "' takes " + count_of(called.parameters, "value") + ", here " +
                             (step.mid == 1 ? "is 1" : "are " + std::to_string(step.mid)));
@@ -230,16 +265,56 @@ void JobNames::resolve_point(const Reference& reference, Step& step) {
   const JobBook& book = draft_.book();
   const bool target = reference.to == To::Target;
   const int point = find(known_.points, reference.at.name);
-  const bool back = point < 0 && target && reference.at.name == "BACK";
+  const int special = point < 0 && target ? special_place(reference.at.name) : -1;
   int& place = target ? step.index : step.mid;
-  place = back ? kBack : point;
-  if (point < 0 && !back) {
+  place = special < -1 ? special : point;
+  if (point < 0 && special == -1) {
     no_such(reference.at, "point", suggested(book.points));
   }
   if (point >= 0 && target && step.formula >= 0 && !book.points[static_cast<std::size_t>(point)].target.is_pose) {
     error(reference.at, "an OFFSET goes from a point given as POSE; '" + reference.at.name +
                             "' has joint angles; say it as POSE (indurop robot teach " + reference.at.name +
                             " --pose)");
+  }
+}
+
+void JobNames::resolve_computed(const Reference& reference, Step& step) {
+  JobBook& book = draft_.book();
+  const std::string& name = reference.at.name;
+  const int frame = find(known_.frames, name);
+  const int point = frame >= 0 ? -1 : find(known_.points, name);
+  if (frame < 0 && point < 0) {
+    error(reference.at, "there is no point and no frame '" + name + "' to compute; declare it, POINT " + name +
+                            " = POSE 500 0 300 RPY 180 0 0, or VAR " + name + " for a number");
+    return;
+  }
+  if (point >= 0 && !book.points[static_cast<std::size_t>(point)].target.is_pose) {
+    error(reference.at, "'" + name + "' has joint angles; declare it as POSE to compute it");
+    return;
+  }
+  int& computed = frame >= 0 ? book.frames[static_cast<std::size_t>(frame)].computed
+                             : book.points[static_cast<std::size_t>(point)].computed;
+  if (computed < 0 && book.computed.size() >= kMaxComputed) {
+    error(reference.at, "more than " + std::to_string(kMaxComputed) + " points and frames are computed");
+    return;
+  }
+  if (computed < 0) {
+    computed = static_cast<int>(book.computed.size());
+    book.computed.push_back({frame >= 0, frame >= 0 ? frame : point});
+  }
+  step.index = computed;
+}
+
+// A zone is checked where the files say it is, so it cannot be in a frame that moves.
+void JobNames::keep_zones_in_place() {
+  const JobBook& book = draft_.book();
+  for (const BodyLine& zone : book.keepouts) {
+    if (zone.frame >= 0 && static_cast<std::size_t>(zone.frame) < book.frames.size() &&
+        book.frames[static_cast<std::size_t>(zone.frame)].computed >= 0) {
+      line_.error_in(zone.file, static_cast<std::size_t>(zone.place.line), static_cast<std::size_t>(zone.place.column),
+                     "zone '" + zone.name + "' is in frame '" + book.frames[static_cast<std::size_t>(zone.frame)].name +
+                         "', which jobs compute, and cannot move with it; give it in another frame");
+    }
   }
 }
 

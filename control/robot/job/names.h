@@ -21,9 +21,9 @@ namespace indurop::robot {
 class JobNames {
  public:
   // What the name stands for in a step.
-  enum class To { Target, Mid, Job, Label, Tool };
+  enum class To { Target, Mid, Job, Label, Tool, Computed };
   // What the name stands for in a declaration.
-  enum class In { PointFrame, FramePoint, FrameTool, ToolPoint, ZoneFrame };
+  enum class In { PointFrame, FramePoint, FrameTool, ToolPoint, ZoneFrame, PlaceName };
 
   JobNames(JobLine& line, JobDraft& draft) : line_(line), draft_(draft) {}
 
@@ -81,10 +81,13 @@ class JobNames {
   void resolve_frame_tools();
   void resolve_zones();
   void resolve_bodies();
+  void resolve_places();
   void resolve(const Reference& reference);
   void resolve_label(const Reference& reference, Step& step);
   void resolve_job(const Reference& reference, Step& step);
   void resolve_point(const Reference& reference, Step& step);
+  void resolve_computed(const Reference& reference, Step& step);
+  void keep_zones_in_place();
   [[nodiscard]] std::vector<Declared>& of(In in) { return declared_[static_cast<std::size_t>(in)]; }
 
   template <class List>
@@ -94,7 +97,7 @@ class JobNames {
   JobDraft& draft_;
   Known known_;  // all names, while they are resolved
   std::vector<Reference> references_;
-  std::array<std::vector<Declared>, 5> declared_;                  // by In
+  std::array<std::vector<Declared>, 6> declared_;                  // by In
   std::vector<std::map<std::string, Label, std::less<>>> labels_;  // per job
 };
 

@@ -10,8 +10,11 @@ namespace {
 
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
-    "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, PULSE, WAIT, "
-    "CALL, ON, OFF, RETURN, LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, LOOP, TRY, RECOVER and END";
+    "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, SET, "
+    "PULSE, WAIT, "
+    "CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, LOOP, EXIT, SWITCH, CASE, "
+    "DEFAULT, TRY, "
+    "RECOVER and END";
 
 }  // namespace
 
@@ -20,12 +23,13 @@ JobParser::JobParser(JobBook& book, base::Diagnostics& errors, const ArmShape& s
       draft_(book, line_),
       names_(line_, draft_),
       expressions_(line_, draft_),
+      place_formulas_(line_, draft_, names_, expressions_),
       places_({line_, draft_, names_, expressions_}, shape),
       tools_({line_, draft_, names_, expressions_}),
       bodies_({line_, draft_, names_, expressions_}),
       motions_({line_, draft_, names_, expressions_}),
-      values_({line_, draft_, names_, expressions_}),
       flow_({line_, draft_, names_, expressions_}),
+      values_({line_, draft_, names_, expressions_}, flow_, place_formulas_),
       blocks_({line_, draft_, names_, expressions_}) {}
 
 void JobParser::read(const JobFile& file) {
@@ -52,6 +56,7 @@ void JobParser::read(const JobFile& file) {
   blocks_.end();
 }
 
+// Long: one line for each statement.
 void JobParser::statement() {
   struct Known {
     const char* word;
@@ -71,9 +76,14 @@ void JobParser::statement() {
       {"MOVL", [](JobParser& p) { p.motions_.move(Move::Line); }},
       {"MOVC", [](JobParser& p) { p.motions_.move(Move::Circle); }},
       {"MOVS", [](JobParser& p) { p.motions_.spline(); }},
+      {"SEARCH", [](JobParser& p) { p.motions_.search(); }},
       {"SET", [](JobParser& p) { p.values_.set(); }},
       {"PULSE", [](JobParser& p) { p.values_.pulse(); }},
-      {"WAIT", [](JobParser& p) { p.flow_.wait(); }},
+      {"WAIT",
+       [](JobParser& p) {
+         p.flow_.wait();
+         p.blocks_.wait_else();
+       }},
       {"CALL", [](JobParser& p) { p.flow_.call(); }},
       {"ON", [](JobParser& p) { p.flow_.arm(); }},
       {"OFF", [](JobParser& p) { p.flow_.disarm(); }},
@@ -84,11 +94,17 @@ void JobParser::statement() {
       {"END", [](JobParser& p) { p.blocks_.end_block(); }},
       {"VAR", [](JobParser& p) { p.values_.variable(); }},
       {"PARAM", [](JobParser& p) { p.values_.parameters(); }},
-      {"RETURN", [](JobParser& p) { p.draft_.add(Op::Return); }},
+      {"RETURN", [](JobParser& p) { p.flow_.leave(); }},
+      {"RAISE", [](JobParser& p) { p.flow_.raise(); }},
+      {"MESSAGE", [](JobParser& p) { p.flow_.message(); }},
       {"ELSE", [](JobParser& p) { p.blocks_.otherwise(false); }},
       {"ELSEIF", [](JobParser& p) { p.blocks_.otherwise(true); }},
       {"WHILE", [](JobParser& p) { p.blocks_.while_block(); }},
       {"FOR", [](JobParser& p) { p.blocks_.for_block(); }},
+      {"EXIT", [](JobParser& p) { p.blocks_.exit(); }},
+      {"SWITCH", [](JobParser& p) { p.blocks_.switch_block(); }},
+      {"CASE", [](JobParser& p) { p.blocks_.case_of(); }},
+      {"DEFAULT", [](JobParser& p) { p.blocks_.case_default(); }},
       {"TRY", [](JobParser& p) { p.blocks_.try_block(); }},
       {"RECOVER", [](JobParser& p) { p.blocks_.recover(); }},
   };
@@ -96,7 +112,7 @@ void JobParser::statement() {
       std::find_if(std::begin(kKnown), std::end(kKnown), [this](const Known& each) { return line_.accept(each.word); });
   if (known != std::end(kKnown)) {
     known->parse(*this);
-  } else if (line_.peek().kind == JobToken::Kind::Word && line_.after().text == "=") {
+  } else if (line_.peek().kind == JobToken::Kind::Word && (line_.after().text == "=" || line_.after().text == "[")) {
     values_.assign();
   } else {
     line_.error(line_.peek(), "unknown statement " + JobLine::shown(line_.peek()) + "; known are " + kStatements);

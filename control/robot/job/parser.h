@@ -7,6 +7,7 @@
 #include "control/robot/job/bodies.h"
 #include "control/robot/job/flow_statements.h"
 #include "control/robot/job/motions.h"
+#include "control/robot/job/place_formulas.h"
 #include "control/robot/job/places.h"
 #include "control/robot/job/statement.h"
 #include "control/robot/job/tools.h"
@@ -32,12 +33,13 @@ class JobParser {
   JobDraft draft_;
   JobNames names_;
   ExpressionReader expressions_;
+  PlaceFormulaReader place_formulas_;
   PlaceReader places_;
   ToolReader tools_;
   BodyReader bodies_;
   MotionReader motions_;
-  ValueReader values_;
   FlowReader flow_;
+  ValueReader values_;
   BlockReader blocks_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting continues in the next period
 constexpr int kPartsPerStep = 4;     // of formulas; a longer formula counts as several steps
-constexpr int kOffsets = 3;          // x, y, z
+constexpr int kPartsOfPlace = 16;    // that a computed place counts as
 
 std::span<const Formula> formulas_of(const JobBook& book, const Step& step) noexcept {
   if (step.formula < 0) {
@@ -23,24 +23,59 @@ std::span<const Formula> formulas_of(const JobBook& book, const Step& step) noex
   switch (step.op) {
     case Op::Call:
       return std::span(book.formulas).subspan(first, static_cast<std::size_t>(step.mid));
+    case Op::Assign:
+      return std::span(book.formulas).subspan(first, step.mid > 0 ? 2 : 1);
     case Op::Move:
-      return std::span(book.formulas).subspan(first, kOffsets);
+      return std::span(book.formulas).subspan(first, step.turns ? 6 : 3);
     default:
       return std::span(book.formulas).subspan(first, 1);
   }
 }
 
+bool has_until(const JobBook& book, const Step& step) noexcept {
+  const MotionExtras* const extras = step.op == Op::Move ? book.extras_of(step) : nullptr;
+  return extras != nullptr && extras->until >= 0;
+}
+
+bool settings_read_world(const JobBook& book, const Step& motion) noexcept {
+  const MotionExtras* const extras = book.extras_of(motion);
+  return extras != nullptr && std::any_of(extras->settings.begin(), extras->settings.end(), [&](const Step& each) {
+           return each.formula >= 0 && book.formulas[static_cast<std::size_t>(each.formula)].reads().world();
+         });
+}
+
 // Returns whether the step reads or changes the outside world.
 bool touches_world(const JobBook& book, const Step& step) noexcept {
+  switch (step.op) {
+    case Op::Set:
+    case Op::Message:
+    case Op::Raise:
+    case Op::WaitUntil:
+    case Op::WaitTime:
+    case Op::Tool:
+    case Op::Load:
+    case Op::Arm:
+    case Op::Disarm:
+    case Op::Try:
+    case Op::EndTry:
+    case Op::Recover:
+      return true;
+    case Op::Place:
+      return book.places[static_cast<std::size_t>(step.mid)].reads.world();
+    case Op::Move:
+      if (step.index == kHere || has_until(book, step) || settings_read_world(book, step)) {
+        return true;
+      }
+      break;
+    default:
+      break;
+  }
   const auto formulas = formulas_of(book, step);
-  return step.op == Op::Set || step.op == Op::WaitUntil || step.op == Op::WaitTime || step.op == Op::Tool ||
-         step.op == Op::Load || step.op == Op::Arm || step.op == Op::Disarm || step.op == Op::Try ||
-         step.op == Op::EndTry || step.op == Op::Recover ||
-         std::any_of(formulas.begin(), formulas.end(), [](const Formula& each) { return each.reads_signals(); });
+  return std::any_of(formulas.begin(), formulas.end(), [](const Formula& each) { return each.reads().world(); });
 }
 
 int cost_of(const JobBook& book, const Step& step) noexcept {
-  int parts = 0;
+  int parts = step.op == Op::Place ? kPartsOfPlace : 0;
   for (const Formula& formula : formulas_of(book, step)) {
     parts += static_cast<int>(formula.size());
   }
@@ -49,27 +84,15 @@ int cost_of(const JobBook& book, const Step& step) noexcept {
 
 }  // namespace
 
-bool JobRunner::compute(int formula, Signals& signals, double& value) noexcept {
-  value = book_.formulas[static_cast<std::size_t>(formula)].value(jobs_.variables(), signals);
-  if (std::isnan(value)) {
-    refuse({ErrorCode::Line}, "this has no value; is there a division by 0?");
-  }
-  return !std::isnan(value);
+bool JobRunner::compute(int formula, Signals& signals, const MotionPort& port, double& value) noexcept {
+  return done(values_.number(formula, signals, port, value)) == Next::Go;
 }
 
-void MotionSettings::apply(const Step& step) noexcept {
-  if (step.op == Op::Zone) {
-    zone = step.value;
-  } else if (step.op == Op::Acceleration) {
-    acceleration = step.value;
-  } else if (step.op == Op::Tool) {
-    tool = step.index;
-  } else if (step.op == Op::Speed && step.index == 1) {
-    tool_speed = step.value;
-  } else if (step.op == Op::Speed) {
-    speed = step.value;
-    tool_speed = 0;
+JobRunner::Next JobRunner::done(const StepValues::Flaw& flaw) noexcept {
+  if (!flaw.ok()) {
+    refuse({ErrorCode::Line}, flaw.why, flaw.column);
   }
+  return flaw.ok() ? Next::Go : Next::Wait;
 }
 
 void JobRunner::stop() noexcept {
@@ -95,8 +118,8 @@ JobReport JobRunner::report(int source) const noexcept {
   const MotionLine shown = moves ? MotionLine::of(source) : MotionLine{line_job_, line_};
   report.line = shown.line;
   report.cycles = cycles_;
-  report.name = job_ >= 0 ? job_of(job_).name.c_str() : "";
-  report.called = job_ >= 0 && shown.job >= 0 ? job_of(shown.job).name.c_str() : report.name;
+  report.name = job_ >= 0 ? book_.job(job_).name.c_str() : "";
+  report.called = job_ >= 0 && shown.job >= 0 ? book_.job(shown.job).name.c_str() : report.name;
   report.message = message_;
   return report;
 }
@@ -109,6 +132,7 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
   if (!running() || serve_interrupts(signals, port)) {
     return;
   }
+  values_.pass(seconds);
   bool first = true;
   for (int left = kStepsPerPeriod; left > 0 && running(); first = false) {
     const Step* step = jobs_.step();
@@ -116,14 +140,14 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
     Next next = Next::Wait;
     if (step == nullptr) {
       next = leave(port);
-    } else if (pauses_.before(jobs_)) {
+    } else if (search_.ticket == 0 && pauses_.before(jobs_)) {
       if (port.settled()) {
         state_ = JobState::Paused;
         line_ = step->line;
         line_job_ = jobs_.job();
       }
       return;
-    } else if (!touches_world(book_, *step) || port.settled()) {
+    } else if (search_.ticket != 0 || !touches_world(book_, *step) || port.settled()) {
       line_ = step->line;
       line_job_ = jobs_.job();
       pauses_.note(jobs_);
@@ -143,7 +167,11 @@ JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
     return leave_interrupt(port);
   }
   if (jobs_.depth() > 0) {
-    jobs_.return_to(jobs_.depth() - 1);
+    if (jobs_.lacks_value()) {
+      refuse({ErrorCode::Line}, "this job ends without the value that its caller waits for; end it with RETURN and it");
+      return Next::Wait;
+    }
+    jobs_.finish();
     return Next::Go;
   }
   if (port.settled()) {
@@ -158,37 +186,53 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
   Next next = Next::Go;
   switch (step.op) {
     case Op::Move:
-      return move(step, signals, port);
-    case Op::WaitUntil:
-      next = wait_until(step, seconds, signals);
+      if (has_until(book_, step)) {
+        next = search(step, signals, port);
+      } else {
+        next = command_motion(step, signals, port) ? Next::Go : Next::Wait;
+      }
       break;
+    case Op::Place:
+      next = done(values_.compute_place(step, signals, port));
+      break;
+    case Op::WaitUntil:
     case Op::WaitTime:
-      next = wait_time(step, seconds);
+      next = wait(step, seconds, signals, port);
       break;
     case Op::Call:
-      return call(step, signals);
+      return call(step, signals, port);
     case Op::Arm:
+      interrupts_.arm(step.slot, signals);
+      break;
     case Op::Disarm:
-      arm(step, signals);
+      interrupts_.disarm(step.index);
       break;
     case Op::Return:
-      jobs_.leave();
-      return Next::Go;
+      return done(values_.give_back(step, signals, port));
+    case Op::Message:
+      next = done(values_.text(step.mid, signals, port, message_));
+      break;
+    case Op::Raise:
+      return raise(step, signals, port);
     case Op::Speed:
     case Op::Zone:
     case Op::Acceleration:
-      settings_.apply(step);
+      if (Step with; (next = done(values_.setting(step, signals, port, with))) == Next::Go) {
+        settings_.apply(with);
+      }
       break;
     case Op::SetOnPath:
-      next = set_on_path(step, signals);
+      next = set_on_path(step, signals, port);
       break;
     case Op::Tool:
     case Op::Load:
       next = select(step, port);
       break;
     case Op::Set:
+      next = set(step, signals, port);
+      break;
     case Op::Assign:
-      next = set(step, signals);
+      next = done(values_.assign(step, signals, port));
       break;
     case Op::Try:
     case Op::Recover:
@@ -198,7 +242,7 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
       return Next::Go;
     case Op::If:
     case Op::Unless:
-      return branch(step, signals);
+      return branch(step, signals, port);
     case Op::Again:
     case Op::EndTry:
       jobs_.go_to(step.index);
@@ -224,88 +268,47 @@ JobRunner::Next JobRunner::select(const Step& step, MotionPort& port) noexcept {
   return Next::Go;
 }
 
-bool JobRunner::shift(const Step& step, Signals& signals, Target& target) noexcept {
-  Vec3 offset;
-  for (int i = 0; i < kOffsets; ++i) {
-    if (!compute(step.formula + i, signals, offset[i])) {
-      return false;
-    }
-  }
-  const Quat axes = step.by_tool          ? target.pose.orientation
-                    : step.index == kBack ? Quat::Identity()
-                                          : book_.points[static_cast<std::size_t>(step.index)].axes;
-  target.pose.position += axes * offset / 1000;
-  target.known = nullptr;
-  return true;
-}
-
-JobRunner::Next JobRunner::move(const Step& step, Signals& signals, MotionPort& port) noexcept {
+bool JobRunner::command_motion(const Step& step, Signals& signals, MotionPort& port) noexcept {
   if (!port.ready()) {
-    return Next::Wait;
+    return false;
   }
   if (in_job_ && (step.move == Move::Circle || step.move == Move::Spline)) {
     refuse({ErrorCode::Line}, "a job cannot begin with a circle or a spline; begin with the motion before it");
-    return Next::Wait;
+    return false;
   }
   in_job_ = false;
   MoveCommand command;
-  command.move = step.move;
-  if (step.index == kBack && port.left_at() == nullptr) {
-    refuse({ErrorCode::Line}, "BACK is where an interrupt left the path; there is none, this job was not called by ON");
-    return Next::Wait;
+  if (done(motions_.make(step, settings_, signals, port, command)) == Next::Wait) {
+    return false;
   }
-  if (step.index == kBack) {
-    command.target.joints = *port.left_at();
-    command.target.is_pose = step.formula >= 0;
-    command.target.pose = port.tip_at(command.target.joints);
-  } else {
-    command.target = book_.target(step.index, settings_.tool);
-  }
-  if (step.formula >= 0 && !shift(step, signals, command.target)) {
-    return Next::Wait;
-  }
-  if (step.mid >= 0) {
-    command.mid = book_.target(step.mid, settings_.tool);
-  }
-  command.speed = settings_.speed;
-  command.tool_speed = step.move == Move::Joint ? 0 : settings_.tool_speed;
-  command.zone = settings_.zone;
-  command.acceleration = settings_.acceleration;
-  command.straight = step.move == Move::Joint && step.value != 0;
-  command.more = step.move == Move::Spline && step.value != 0;
   command.source = MotionLine{jobs_.job(), step.line}.source();
   const auto following = static_cast<std::size_t>(jobs_.index()) + 1;
-  command.alone = following < jobs_.steps().size() && jobs_.steps()[following].op == Op::SetOnPath;
+  command.alone = command.alone || (following < jobs_.steps().size() && jobs_.steps()[following].op == Op::SetOnPath);
   command.ticket = ++ticket_;
   if (const Fault fault = port.move(command); !fault.ok()) {
     fail(fault, to_string(fault.code), command.source);
-    return Next::Wait;
+    return false;
   }
-  jobs_.advance();
-  return Next::Go;
+  return true;
 }
 
-JobRunner::Next JobRunner::set(const Step& step, Signals& signals) noexcept {
-  if (step.pulse > 0) {
-    return pulses_.start(static_cast<std::size_t>(step.index), step.pulse, signals) ? Next::Go : Next::Wait;
-  }
-  double value = 0;
-  if (!compute(step.formula, signals, value)) {
-    return Next::Wait;
-  }
+JobRunner::Next JobRunner::set(const Step& step, Signals& signals, const MotionPort& port) noexcept {
   const auto index = static_cast<std::size_t>(step.index);
-  if (step.op == Op::Assign) {
-    jobs_.variables()[index] = value;
-  } else {
-    pulses_.forget(index);
-    signals.write(index, value);
+  if (step.pulse > 0) {
+    return pulses_.start(index, step.pulse, signals) ? Next::Go : Next::Wait;
   }
+  double value = 0;
+  if (!compute(step.formula, signals, port, value)) {
+    return Next::Wait;
+  }
+  pulses_.forget(index);
+  signals.write(index, value);
   return Next::Go;
 }
 
-JobRunner::Next JobRunner::branch(const Step& step, Signals& signals) noexcept {
+JobRunner::Next JobRunner::branch(const Step& step, Signals& signals, const MotionPort& port) noexcept {
   double value = 0;
-  if (!compute(step.formula, signals, value)) {
+  if (!compute(step.formula, signals, port, value)) {
     return Next::Wait;
   }
   if (step.op == Op::If && value != 0) {
@@ -318,9 +321,16 @@ JobRunner::Next JobRunner::branch(const Step& step, Signals& signals) noexcept {
   return Next::Go;
 }
 
-JobRunner::Next JobRunner::wait_until(const Step& step, double seconds, Signals& signals) noexcept {
+JobRunner::Next JobRunner::wait(const Step& step, double seconds, Signals& signals, const MotionPort& port) noexcept {
+  constexpr double kRounding = 1e-9;
+  if (step.op == Op::WaitTime) {
+    // The period in which the wait begins is not counted, so that a wait is never shorter than written.
+    waited_ += state_ == JobState::Waits ? seconds : 0;
+    state_ = JobState::Waits;
+    return waited_ + kRounding >= step.value ? Next::Go : Next::Wait;
+  }
   double value = 0;
-  if (!compute(step.formula, signals, value)) {
+  if (!compute(step.formula, signals, port, value)) {
     return Next::Wait;
   }
   if (value != 0) {
@@ -328,55 +338,43 @@ JobRunner::Next JobRunner::wait_until(const Step& step, double seconds, Signals&
   }
   state_ = JobState::Waits;
   waited_ += seconds;
-  if (step.timeout > 0 && waited_ >= step.timeout) {
-    refuse({ErrorCode::Line}, "waited in vain");
+  if (step.timeout <= 0 || waited_ < step.timeout) {
+    return Next::Wait;
   }
-  return Next::Wait;
+  if (step.index < 0) {
+    refuse({ErrorCode::Line}, "waited in vain");
+    return Next::Wait;
+  }
+  jobs_.go_to(step.index - 1);  // from which run() advances
+  return Next::Go;
 }
 
-JobRunner::Next JobRunner::wait_time(const Step& step, double seconds) noexcept {
-  // The period in which the wait begins is not counted, so that a wait is never shorter than written.
-  waited_ += state_ == JobState::Waits ? seconds : 0;
-  state_ = JobState::Waits;
-  constexpr double kRounding = 1e-9;
-  return waited_ + kRounding >= step.value ? Next::Go : Next::Wait;
-}
-
-JobRunner::Next JobRunner::call(const Step& step, Signals& signals) noexcept {
+JobRunner::Next JobRunner::call(const Step& step, Signals& signals, const MotionPort& port) noexcept {
   if (jobs_.is_full()) {
     refuse({ErrorCode::Line}, "jobs call each other too deep; does one call itself without end?");
     return Next::Wait;
   }
   CallStack::Variables arguments{};
-  for (int i = 0; i < step.mid; ++i) {
-    if (!compute(step.formula + i, signals, arguments[static_cast<std::size_t>(i)])) {
-      return Next::Wait;
-    }
+  const auto count = static_cast<std::size_t>(step.mid);
+  if (done(values_.numbers(step.formula, count, signals, port, arguments.data())) == Next::Wait) {
+    return Next::Wait;
   }
   jobs_.advance();
-  jobs_.call(step.index, arguments);
+  jobs_.call(step.index, arguments, step.slot);
   return Next::Go;
 }
 
-JobRunner::Next JobRunner::set_on_path(const Step& step, Signals& signals) noexcept {
+JobRunner::Next JobRunner::set_on_path(const Step& step, Signals& signals, const MotionPort& port) noexcept {
   if (outputs_.is_full()) {
     return Next::Wait;
   }
   double value = 0;
-  if (step.formula >= 0 && !compute(step.formula, signals, value)) {
+  if (step.formula >= 0 && !compute(step.formula, signals, port, value)) {
     return Next::Wait;
   }
   const bool by_time = step.timeout > 0;
   outputs_.add({step.index, value, ticket_, by_time, step.mid == 1, by_time ? step.timeout : step.value, step.pulse});
   return Next::Go;
-}
-
-void JobRunner::arm(const Step& step, Signals& signals) noexcept {
-  if (step.op == Op::Arm) {
-    interrupts_.arm(step.slot, signals);
-  } else {
-    interrupts_.disarm(step.index);
-  }
 }
 
 }  // namespace indurop::robot

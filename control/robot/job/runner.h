@@ -12,52 +12,27 @@
 #include "control/robot/job/call_stack.h"
 #include "control/robot/job/interrupts.h"
 #include "control/robot/job/job.h"
+#include "control/robot/job/job_places.h"
+#include "control/robot/job/motion_port.h"
 #include "control/robot/job/path_outputs.h"
 #include "control/robot/job/pulses.h"
+#include "control/robot/job/step_motions.h"
+#include "control/robot/job/step_values.h"
 #include "control/robot/kinematics/errors.h"
 
 namespace indurop::robot {
 
-// The services of the group that a job uses.
-class MotionPort {
- public:
-  virtual ~MotionPort() = default;
-  // Returns whether another motion can be accepted now.
-  [[nodiscard]] virtual bool ready() const noexcept = 0;
-  // Returns whether all commanded motions have ended.
-  [[nodiscard]] virtual bool settled() const noexcept = 0;
-  virtual Fault move(const MoveCommand& command) noexcept = 0;
-  // Selects a tool when all motions have ended. Returns false if it is not done yet.
-  virtual bool take_tool(int) noexcept { return true; }
-  // Selects a load when all motions have ended. Returns false if it is not done yet.
-  virtual bool take_load(int) noexcept { return true; }
-  [[nodiscard]] virtual PathPlace place() const noexcept { return {}; }
-  // Begins an interrupt: comes to rest on the path and saves the rest of it. Returns false if it is not done yet.
-  virtual bool step_aside() noexcept { return true; }
-  // Joint values where the path was left; null if no interrupt is being served.
-  [[nodiscard]] virtual const Joints* left_at() const noexcept { return nullptr; }
-  // The tip of the selected tool at these joint values.
-  [[nodiscard]] virtual Pose tip_at(const Joints&) const noexcept { return {}; }
-  // Returns to where the path was left; all motions must have ended. Returns false if it is not done yet. Errors: Away.
-  virtual bool come_back(Fault&) noexcept { return true; }
-  // Returns whether it is back on the path.
-  [[nodiscard]] virtual bool is_back() const noexcept { return true; }
-};
-
-// Settings of motions that apply until a line changes them.
-struct MotionSettings {
-  double speed = 1;       // part of full speed
-  double tool_speed = 0;  // m/s; 0: that of `speed`
-  double zone = 0;        // m
-  double acceleration = 1;
-  int tool = 0;
-
-  void apply(const Step& step) noexcept;
-};
-
 class JobRunner {
  public:
-  explicit JobRunner(const JobBook& book) noexcept : book_(book), jobs_(book), interrupts_(book) {}
+  explicit JobRunner(const JobBook& book) noexcept
+      : book_(book),
+        jobs_(book),
+        places_(book),
+        values_(book, jobs_, places_),
+        motions_(book, places_, values_),
+        interrupts_(book) {}
+  JobRunner(const JobRunner&) = delete;
+  JobRunner& operator=(const JobRunner&) = delete;
 
   // Starts a job. `job` counts from 0 and exists; `line`: where to start, with the settings (speed and so on) of the
   // lines before it. Returns false if there is no step from that line on. Real-time safe, like all functions of this
@@ -102,19 +77,19 @@ class JobRunner {
   enum class Next { Go, Wait };
 
   Next run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept;
-  Next move(const Step& step, Signals& signals, MotionPort& port) noexcept;
-  // Adds the offset of a motion. Returns false if the offset has no value.
-  bool shift(const Step& step, Signals& signals, Target& target) noexcept;
-  // Returns false if the formula has no value; the job has then failed.
-  bool compute(int formula, Signals& signals, double& value) noexcept;
-  Next wait_until(const Step& step, double seconds, Signals& signals) noexcept;
-  Next wait_time(const Step& step, double seconds) noexcept;
-  Next set_on_path(const Step& step, Signals& signals) noexcept;
-  Next set(const Step& step, Signals& signals) noexcept;
+  // Commands a motion. Returns false if it has to wait, or is not possible.
+  bool command_motion(const Step& step, Signals& signals, MotionPort& port) noexcept;
+  // Follows a motion with UNTIL until it is at rest.
+  Next search(const Step& step, Signals& signals, MotionPort& port) noexcept;
+  // Waits, and the job has failed or continues after RECOVER, if there is a flaw.
+  Next done(const StepValues::Flaw& flaw) noexcept;
+  bool compute(int formula, Signals& signals, const MotionPort& port, double& value) noexcept;
+  Next wait(const Step& step, double seconds, Signals& signals, const MotionPort& port) noexcept;
+  Next set_on_path(const Step& step, Signals& signals, const MotionPort& port) noexcept;
+  Next set(const Step& step, Signals& signals, const MotionPort& port) noexcept;
   Next select(const Step& step, MotionPort& port) noexcept;
-  Next branch(const Step& step, Signals& signals) noexcept;
-  Next call(const Step& step, Signals& signals) noexcept;
-  void arm(const Step& step, Signals& signals) noexcept;
+  Next branch(const Step& step, Signals& signals, const MotionPort& port) noexcept;
+  Next call(const Step& step, Signals& signals, const MotionPort& port) noexcept;
   Next leave(MotionPort& port) noexcept;
 
   // Interrupts and errors (runner_interrupts.cpp).
@@ -122,15 +97,27 @@ class JobRunner {
   void begin_interrupt() noexcept;
   Next leave_interrupt(MotionPort& port) noexcept;
   void end_interrupt() noexcept;
-  void describe(const char* why, int source) noexcept;
-  void refuse(Fault fault, const char* why) noexcept;
-
-  [[nodiscard]] const Job& job_of(int index) const noexcept { return book_.jobs[static_cast<std::size_t>(index)]; }
+  Next raise(const Step& step, Signals& signals, const MotionPort& port) noexcept;
+  // Continues after RECOVER, where ERROR is `number`. Returns false if the job is in no TRY.
+  bool continue_after(double number, std::uint32_t ticket) noexcept;
+  // `column`: of the present line; 0: none in particular.
+  void describe(const char* why, int source, unsigned column = 0) noexcept;
+  // Ends the job, or continues after RECOVER, where ERROR is `number`; 0: that of the fault.
+  void refuse(Fault fault, const char* why, unsigned column = 0, double number = 0) noexcept;
 
   const JobBook& book_;
   JobState state_ = JobState::Idle;
   int job_ = -1;  // that was started
   CallStack jobs_;
+  JobPlaces places_;
+  StepValues values_;
+  StepMotions motions_;
+  // The motion with UNTIL that is under way.
+  struct Search {
+    std::uint32_t ticket = 0;  // 0: there is none
+    bool met = false;          // its condition; the robot comes to rest
+  };
+  Search search_;
   double waited_ = 0;  // s in the present step
   MotionSettings settings_;
   int load_ = 0;
@@ -144,6 +131,8 @@ class JobRunner {
     double waited = 0;
     MotionSettings settings;
     PathOutputs outputs;
+    Search search;
+    JobPlaces::Finding found;
     bool in_job = false;
   };
   Interrupted interrupted_;

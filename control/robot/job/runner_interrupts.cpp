@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What breaks the order of the steps: interrupts, which are served between two steps, and errors, which end the job
-// unless it is between TRY and RECOVER.
+// What breaks the order of the steps: interrupts, which are served between two steps, motions that a condition ends,
+// and errors, which end the job unless it is between TRY and RECOVER.
 
 #include <cstdio>
 
@@ -13,8 +13,8 @@ namespace indurop::robot {
 bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
   interrupts_.monitor(signals);
   if (interrupts_.is(Interrupts::Phase::None)) {
-    if (!interrupts_.any_pending()) {
-      return false;
+    if (!interrupts_.any_pending() || search_.met) {
+      return false;  // what comes to rest for UNTIL has no path to come back to
     }
     if (jobs_.is_full()) {
       fail({ErrorCode::Line}, "an interrupt came here, but jobs call each other too deep for another one", 0);
@@ -37,10 +37,11 @@ bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
 }
 
 void JobRunner::begin_interrupt() noexcept {
-  interrupted_ = {state_, jobs_.depth(), waited_, settings_, outputs_, in_job_};
+  interrupted_ = {state_, jobs_.depth(), waited_, settings_, outputs_, search_, places_.found(), in_job_};
   state_ = JobState::Runs;
   waited_ = 0;
   outputs_.clear();
+  search_ = {};
   in_job_ = false;
   jobs_.call(interrupts_.begin(), {});
 }
@@ -63,12 +64,61 @@ void JobRunner::end_interrupt() noexcept {
   waited_ = left.waited;
   settings_ = left.settings;
   outputs_ = left.outputs;
+  search_ = left.search;
+  places_.set_found(left.found);
   in_job_ = left.in_job;
   interrupts_.end();
 }
 
-// The innermost TRY applies, also one around a CALL, but not one of an interrupted job.
+JobRunner::Next JobRunner::search(const Step& step, Signals& signals, MotionPort& port) noexcept {
+  const MotionExtras& extras = *book_.extras_of(step);
+  const bool begins = search_.ticket == 0;
+  const bool settled = port.settled();
+  if (begins) {
+    places_.set_found({});
+  }
+  if (!search_.met) {
+    double met = 0;
+    if (const auto flaw = values_.number(extras.until, signals, port, met); !flaw.ok()) {
+      port.halt();
+      return done(flaw);
+    }
+    // A condition that is true before the robot moves is met where it stands.
+    search_.met = met != 0 && (begins || settled || port.place().ticket == search_.ticket);
+    if (search_.met) {
+      const Joints at = port.measured();
+      places_.set_found({true, at, port.tip_at(at)});
+    } else if (begins) {
+      search_.ticket = command_motion(step, signals, port) ? ticket_ : 0;
+      return Next::Wait;
+    }
+  }
+  if (!settled) {
+    if (search_.met) {
+      port.halt();
+    }
+    return Next::Wait;
+  }
+  const bool found = search_.met;
+  search_ = {};
+  if (!found && extras.has_to_find) {
+    refuse({ErrorCode::Line}, "the search came to its end and found nothing");
+    return Next::Wait;
+  }
+  return Next::Go;
+}
+
 bool JobRunner::recover(Fault fault, const char* why, int source, std::uint32_t ticket) noexcept {
+  const MotionLine shown = source > 0 ? MotionLine::of(source) : MotionLine{jobs_.job(), line_};
+  if (!continue_after(static_cast<double>(fault.code), ticket)) {
+    return false;
+  }
+  describe(why, shown.source());
+  return true;
+}
+
+// The innermost TRY applies, also one around a CALL, but not one of an interrupted job.
+bool JobRunner::continue_after(double number, std::uint32_t ticket) noexcept {
   if (!running() || interrupts_.is(Interrupts::Phase::Leaving) || interrupts_.is(Interrupts::Phase::Returning)) {
     return false;
   }
@@ -78,34 +128,60 @@ bool JobRunner::recover(Fault fault, const char* why, int source, std::uint32_t 
     if (step == nullptr || step->guard < 0) {
       continue;
     }
-    describe(why, source);
     outputs_.discard_from(ticket);
     jobs_.return_to(depth);
     const Step& guard = jobs_.steps()[static_cast<std::size_t>(step->guard)];
-    jobs_.variables()[static_cast<std::size_t>(guard.mid)] = static_cast<double>(fault.code);
+    jobs_.variables()[static_cast<std::size_t>(guard.mid)] = number;
     jobs_.jump(guard.index);
     state_ = JobState::Runs;
     waited_ = 0;
+    search_ = {};
     return true;
   }
   return false;
 }
 
 // Adds file and line: of the motion `source`, or of the present step.
-void JobRunner::describe(const char* why, int source) noexcept {
+void JobRunner::describe(const char* why, int source, unsigned column) noexcept {
   const MotionLine shown = source > 0 ? MotionLine::of(source) : MotionLine{jobs_.job(), line_};
   line_ = shown.line;
   line_job_ = shown.job;
-  const std::string& file = job_of(shown.job).file;
+  const std::string& file = book_.job(shown.job).file;
   const char* name = file.c_str() + (file.find_last_of('/') + 1);
-  std::snprintf(message_, sizeof message_, "%.80s:%u: %s", name, line_, why);
+  if (column > 0) {
+    std::snprintf(message_, sizeof message_, "%.80s:%u:%u: %s", name, line_, column, why);
+  } else {
+    std::snprintf(message_, sizeof message_, "%.80s:%u: %s", name, line_, why);
+  }
 }
 
-void JobRunner::refuse(Fault fault, const char* why) noexcept {
+void JobRunner::refuse(Fault fault, const char* why, unsigned column, double number) noexcept {
   constexpr std::uint32_t kNone = ~0U;  // all commanded motions are possible
-  if (!recover(fault, why, 0, kNone)) {
-    fail(fault, why, 0);
+  if (!running()) {
+    return;
   }
+  describe(why, 0, column);
+  if (!continue_after(number > 0 ? number : static_cast<double>(fault.code), kNone)) {
+    state_ = JobState::Failed;
+    fault_ = fault;
+  }
+}
+
+JobRunner::Next JobRunner::raise(const Step& step, Signals& signals, const MotionPort& port) noexcept {
+  double number = 0;
+  if (!compute(step.formula, signals, port, number)) {
+    return Next::Wait;
+  }
+  if (!(number > 0)) {
+    return done({"RAISE takes the number of an error, above 0", 0});
+  }
+  char why[sizeof message_];
+  std::snprintf(why, sizeof why, "error %g was raised", number);
+  if (step.mid >= 0 && done(values_.text(step.mid, signals, port, why)) == Next::Wait) {
+    return Next::Wait;
+  }
+  refuse({ErrorCode::Line}, why, 0, number);
+  return Next::Wait;
 }
 
 }  // namespace indurop::robot

@@ -10,7 +10,7 @@
 namespace indurop::robot {
 
 bool JobRunner::start(int job, std::uint32_t line) noexcept {
-  const auto& steps = job_of(job).steps;
+  const auto& steps = book_.job(job).steps;
   const auto first = std::find_if(steps.begin(), steps.end(), [&](const Step& each) { return each.line >= line; });
   if (line > 0 && first == steps.end()) {
     return false;
@@ -19,6 +19,9 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   jobs_.reset(job);
   job_ = job;
   waited_ = 0;
+  search_ = {};
+  places_.reset();
+  values_.reset();
   settings_ = {};
   load_ = 0;
   line_ = 0;
@@ -30,7 +33,9 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   pauses_.reset();
   in_job_ = first != steps.begin();
   for (auto before = steps.begin(); before != first; ++before) {
-    settings_.apply(*before);
+    if (before->formula < 0) {
+      settings_.apply(*before);  // what would have to be computed is not known
+    }
     load_ = before->op == Op::Load ? before->index : load_;
   }
   jobs_.jump(static_cast<int>(first - steps.begin()));
@@ -70,6 +75,8 @@ void JobRunner::forget() noexcept {
   job_ = -1;
   waited_ = 0;
   outputs_ = {};
+  search_ = {};
+  places_.reset();
   interrupts_.reset();
   pauses_.reset();
   line_ = 0;

@@ -18,13 +18,26 @@ char small(char c) noexcept {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
 }
 
+// Length of an index that is a number, "[12]"; 0: it is computed, or there is none.
+std::size_t index_length(std::string_view text) noexcept {
+  std::size_t n = 1;
+  while (n < text.size() && is_digit(text[n])) {
+    ++n;
+  }
+  return n > 1 && n < text.size() && text[0] == '[' && text[n] == ']' ? n + 1 : 0;
+}
+
 // Length of a word; names of variables contain dots, colons and indices.
 std::size_t word_length(std::string_view text) noexcept {
   std::size_t n = 0;
-  while (n < text.size() &&
-         (is_letter(text[n]) || is_digit(text[n]) || text[n] == '.' || text[n] == '[' || text[n] == ']' ||
-          text.substr(n).starts_with("::") || (n > 0 && text[n] == ':' && text[n - 1] == ':'))) {
-    ++n;
+  while (n < text.size()) {
+    const std::string_view rest = text.substr(n);
+    std::size_t more = is_letter(rest[0]) || is_digit(rest[0]) || rest[0] == '.' ? 1 : index_length(rest);
+    more = rest.starts_with("::") ? 2 : more;
+    if (more == 0) {
+      break;
+    }
+    n += more;
   }
   return n;
 }
@@ -49,12 +62,15 @@ JobToken next_token(std::string_view text) noexcept {
   } else if (const std::size_t n = number_length(text, token.value); n > 0) {
     token.kind = JobToken::Kind::Number;
     token.text = text.substr(0, n);
-  } else if (std::string_view("=<>!%,/+-*()").find(text.front()) != std::string_view::npos) {
+  } else if (std::string_view("=<>!%,/+-*()[]:").find(text.front()) != std::string_view::npos) {
     const bool two =
         text.size() > 1 && text[1] == '=' && std::string_view("=<>!").find(text[0]) != std::string_view::npos;
     const bool unequal = text.starts_with("<>");
     token.kind = JobToken::Kind::Sign;
     token.text = text.substr(0, two || unequal ? 2 : 1);
+  } else if (const std::size_t end = text.find('"', 1); text.front() == '"' && end != std::string_view::npos) {
+    token.kind = JobToken::Kind::Text;
+    token.text = text.substr(0, end + 1);
   } else {
     token.kind = JobToken::Kind::Junk;
     token.text = text.substr(0, 1);

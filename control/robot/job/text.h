@@ -11,14 +11,14 @@
 namespace indurop::robot {
 
 struct JobToken {
-  enum class Kind { Word, Number, Sign, Junk, End };
+  enum class Kind { Word, Number, Sign, Text, Junk, End };
   Kind kind = Kind::End;
   std::string_view text;
   double value = 0;
   std::size_t column = 1;
 };
 
-// The last token is always an End. Comments begin with # or //.
+// The last token is always an End; a Text has its quotes. Comments begin with # or //.
 std::vector<JobToken> split_job_line(std::string_view line);
 // Compares ASCII letters regardless of case; keywords may be written in lower case.
 bool same_word(std::string_view a, std::string_view b) noexcept;

@@ -142,7 +142,7 @@ TEST(JobLanguage, Mistakes_are_named_where_they_are) {
       {"ELSE\n", "a.job:1:1: error: ELSE without IF"},
       {"IF I4\nELSE\nELSE\nEND\n", "a.job:3:1: error: ELSE without IF"},
       {"WHILE I4\nELSEIF I5\nEND\n", "a.job:2:1: error: ELSEIF without IF"},
-      {"END\n", "a.job:1:1: error: END without LOOP, IF, WHILE, FOR or TRY"},
+      {"END\n", "a.job:1:1: error: END without LOOP, IF, WHILE, FOR, SWITCH or TRY"},
       {"FOR i = 1\nEND\n", "a.job:1:10: error: expected TO and the last value"},
       {"FOR i = 1 TO 2 STEP 0\nEND\n", "a.job:1:16: error: a FOR with STEP 0 would never end"},
       {"SET O1\nPARAM x\n", "a.job:2:1: error: PARAM comes first in a job, once"},

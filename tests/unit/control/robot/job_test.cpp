@@ -179,8 +179,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"MOVE A\n",
             "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, "
             "VAR, "
-            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, PULSE, WAIT, CALL, ON, OFF, RETURN, LABEL, GOTO, IF, "
-            "ELSEIF, ELSE, WHILE, FOR, LOOP, TRY, RECOVER and END"},
+            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, SET, PULSE, WAIT, CALL, ON, OFF, RETURN, RAISE, "
+            "MESSAGE, "
+            "LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, LOOP, EXIT, SWITCH, CASE, DEFAULT, TRY, RECOVER and END"},
         Bad{"  MOVJ ABOV\nPOINT ABOVE = JOINT 0 0 0 0 0 0\n",
             "a.job:1:8: error: there is no point 'ABOV'; did you mean 'ABOVE'?"},
         Bad{"MOVS A\nPOINT A = JOINT 0 0 0 0 0 0\n",
@@ -211,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"GOTO nowhere\n", "a.job:1:6: error: there is no label 'nowhere'"},
         Bad{"LABEL a\nLABEL a\n", "a.job:2:7: error: there is already a label 'a' in line 1"},
         Bad{"LOOP 2\n", "a.job:1:1: error: LOOP without END"},
-        Bad{"END\n", "a.job:1:1: error: END without LOOP, IF, WHILE, FOR or TRY"},
+        Bad{"END\n", "a.job:1:1: error: END without LOOP, IF, WHILE, FOR, SWITCH or TRY"},
         Bad{"LOOP 0\nEND\n",
             "a.job:1:6: error: a LOOP runs a whole number of times, from 1; without a number it runs for ever"},
         Bad{"CALL b\n", "a.job:1:6: error: there is no job 'b'"},

@@ -45,7 +45,7 @@ TEST(Try, A_wait_in_vain_and_a_value_that_is_none_go_on_behind_RECOVER) {
     EXPECT_EQ(done.values.count("n"), 0U) << line;
     EXPECT_EQ(done.values.at("m"), static_cast<double>(ErrorCode::Line)) << line;
     EXPECT_EQ(done.values.at("z"), 1) << line;
-    EXPECT_THAT(done.ended.message, HasSubstr("main.job:2: ")) << line;
+    EXPECT_THAT(done.ended.message, HasSubstr("main.job:2:")) << line;
   }
 }
 

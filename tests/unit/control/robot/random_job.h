@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <random>
+#include <sstream>
 #include <string>
 
 #include "robot_fixture.h"
@@ -86,6 +87,54 @@ inline RandomJob random_job(const Arm& arm, std::mt19937& random) {
         text += fmt::format("MOVL Q{}\n", along ? i % points : one_of(points));
     }
   }
+  return job;
+}
+
+// The same job with places that it computes, offsets that turn, settings on the lines of motions, and motions that end
+// by themselves after a time.
+inline RandomJob computing(RandomJob job, const Arm& arm, std::mt19937& random) {
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto small = [&] { return fmt::format("{:.3f}, {:.3f}, {:.3f}", in(-60, 60), in(-60, 60), in(-60, 60)); };
+  const Joints somewhere = anywhere(arm, random, 0.1);
+  job.reach(arm.forward(somewhere).position);
+  std::string text = random_point(arm, somewhere, 1000, false) + "VAR a[3] = 10, -20, 30\nVAR i\n";
+  std::istringstream lines(job.text);
+  for (std::string line; std::getline(lines, line);) {
+    const bool to_point = line.starts_with("MOVL Q") || line.starts_with("MOVJ Q");
+    const std::string point = to_point ? line.substr(5) : "";
+    switch (to_point ? std::uniform_int_distribution<int>(0, 9)(random) : -1) {
+      case 0:
+        line += fmt::format(" UNTIL TIME > {:.3f}", in(0, 4));
+        break;
+      case 1:
+        text += fmt::format("MOVL {} UNTIL TIME > {:.3f} ACC {:.0f}%\nIF FOUND\n", point, in(0, 4), in(1, 100));
+        line = "MOVL FOUND\nEND";
+        break;
+      case 2:
+        text +=
+            fmt::format("i = (i + 1) MOD 3\nQ1000 = {} : POSE {} RPY a[i], {:.3f}, 0\n", point, small(), in(-20, 20));
+        line = "MOVL Q1000";
+        break;
+      case 3:
+        line = fmt::format("MOVL HERE OFFSET TOOL {}", small());
+        break;
+      case 4:
+        text += fmt::format("Q1000 = HERE : POSE {}\n", small());
+        line = "MOVJ Q1000";
+        break;
+      case 5:
+        line += fmt::format(" SPEED {:.0f}% ZONE {:.0f} mm", in(1, 100), in(0, 60));
+        break;
+      case 6:
+        text += fmt::format("Q1000 = {}\n", point);
+        line = fmt::format("MOVL Q1000 OFFSET {} RPY {:.3f}, 0, 0", small(), in(-20, 20));
+        break;
+      default:
+        break;
+    }
+    text += line + "\n";
+  }
+  job.text = text;
   return job;
 }
 

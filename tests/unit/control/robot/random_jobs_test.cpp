@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <map>
 #include <random>
+#include <utility>
 
 #include "limit_judge.h"
 #include "random_job.h"
@@ -33,10 +34,11 @@ class Random_jobs : public testing::Test {
   double most_outside = 0;
 
   void run(unsigned seed) { run(seed, seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10, cell_urdf()); }
-  void run(unsigned seed, double period_ms, const std::string& urdf) {
+  void run(unsigned seed, double period_ms, const std::string& urdf, bool computes = false) {
     std::mt19937 random(seed);
     const Arm arm = arm_from_urdf("arm.urdf", urdf).value().arm;
-    const RandomJob made = random_job(arm, random);
+    RandomJob made = random_job(arm, random);
+    made = computes ? computing(std::move(made), arm, random) : std::move(made);
     const std::string& job = made.text;
     Settings settings;
     if (seed % 4 == 1) {
@@ -143,6 +145,24 @@ TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
   }
   fmt::print("{} in a box; axes that braked on their own came {:.1f} mm out of it at most\n", boxes,
              1000 * most_outside);
+}
+
+// The same of jobs that compute places and end motions by conditions.
+TEST_F(Random_jobs, That_compute_and_search_break_no_limit_either) {
+  const int first = setting("INDUROP_ROBOT_SEED", 1);
+  const int jobs = setting("INDUROP_ROBOT_JOBS", 1500) / 10;
+  constexpr std::array kArms{"", "gantry", "scara", "ur5", "iiwa14"};
+  for (int i = 0; i < jobs; ++i) {
+    const auto seed = static_cast<unsigned>(first + i);
+    const std::string arm = kArms[seed % kArms.size()];
+    run(seed, seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10, arm.empty() ? cell_urdf() : urdf_of(arm), true);
+    if (HasFatalFailure()) {
+      return;
+    }
+  }
+  for (const auto& [end, many] : ends) {
+    fmt::print("{:6} {}\n", many, end);
+  }
 }
 
 // Arms of every kind, in periods that motions do not end with.
