@@ -74,9 +74,6 @@ JobRunner::Next JobRunner::search(const Step& step, Signals& signals, MotionPort
   const MotionExtras& extras = *book_.extras_of(step);
   const bool begins = search_.ticket == 0;
   const bool settled = port.settled();
-  if (begins) {
-    places_.set_found({});
-  }
   if (!search_.met) {
     double met = 0;
     if (const auto flaw = values_.number(extras.until, signals, port, met); !flaw.ok()) {
@@ -89,7 +86,10 @@ JobRunner::Next JobRunner::search(const Step& step, Signals& signals, MotionPort
       const Joints at = port.measured();
       places_.set_found({true, at, port.tip_at(at)});
     } else if (begins) {
-      search_.ticket = command_motion(step, signals, port) ? ticket_ : 0;
+      if (command_motion(step, signals, port)) {
+        search_.ticket = ticket_;
+        places_.set_found({});  // only now, since the motion may begin at what was found before
+      }
       return Next::Wait;
     }
   }

@@ -338,6 +338,14 @@ TEST_F(Job_searches, Without_it_the_motion_goes_to_its_end_and_a_search_fails) {
   EXPECT_EQ(robot.x, 300);
 }
 
+TEST_F(Job_searches, May_begin_from_what_was_found) {
+  Mover robot;
+  search("MOVL P UNTIL I4\nMOVL FOUND OFFSET 5, 0, 0 UNTIL X(HERE) > 60\nSET O = X(FOUND)\n", robot);
+  EXPECT_EQ(state, JobState::Ended) << message;
+  EXPECT_NEAR(robot.last.target.pose.position.x(), 0.045, 1e-12);
+  EXPECT_THAT(robot.written, testing::ElementsAre(testing::DoubleNear(61, 1e-9)));
+}
+
 TEST_F(Job_searches, What_is_true_already_moves_nothing) {
   Mover robot;
   robot.edge = 0;
