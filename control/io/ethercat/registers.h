@@ -22,6 +22,7 @@ inline constexpr std::uint16_t kDlStatus = 0x0110;
 inline constexpr std::uint16_t kAlControl = 0x0120;
 inline constexpr std::uint16_t kAlStatus = 0x0130;
 inline constexpr std::uint16_t kAlStatusCode = 0x0134;
+inline constexpr std::uint16_t kPdiControl = 0x0140;
 inline constexpr std::uint16_t kEventMask = 0x0200;
 inline constexpr std::uint16_t kEventRequest = 0x0210;
 inline constexpr std::uint16_t kRxErrors = 0x0300;  // two bytes for each port: invalid frames, physical errors
@@ -53,6 +54,15 @@ inline constexpr std::uint16_t kMemory = 0x1000;  // process data and mailboxes
 
 inline constexpr std::uint16_t kFmmuBytes = 16;
 inline constexpr std::uint16_t kSyncManagerBytes = 8;
+
+// Bits of kFeatures.
+inline constexpr std::uint16_t kHasClock = 0x0004;
+inline constexpr std::uint16_t kHasLongClock = 0x0008;  // of 64 bits
+
+// Values of kEepromConfig: who may use the EEPROM.
+inline constexpr std::uint8_t kEepromOfMaster = 0x00;
+inline constexpr std::uint8_t kEepromOfDevice = 0x01;  // its processor
+inline constexpr std::uint8_t kEepromForce = 0x02;     // takes it away from the processor
 
 // Bits of kEepromControl.
 inline constexpr std::uint16_t kEepromWriteEnable = 0x0001;

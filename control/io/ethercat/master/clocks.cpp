@@ -15,7 +15,6 @@ constexpr Clock kQuiet = milliseconds(20);  // without a slave that comes or goe
 constexpr Clock kMaxJump = std::chrono::microseconds(100);  // of the reference against the tick's clock
 constexpr std::size_t kTimesBytes = 0x20;  // receive times of the ports, system time, receive time of the unit
 constexpr std::uint16_t kUnitTimeAt = reg::kReceiveTimeUnit - reg::kReceiveTimes;
-constexpr std::uint16_t kHasClock = 0x0004;     // in the features
 constexpr unsigned kLinkBit = 4;                // of port 0 in the DL status
 constexpr std::uint16_t kFilterStart = 0x1000;  // a write of the speed counter resets the control loop
 constexpr std::uint32_t kBehind = 0x80000000U;  // sign of the difference
@@ -53,6 +52,7 @@ bool Clocks::concerns(std::size_t place) const noexcept {
   switch (step_) {
     case Step::Latch:
       return place == 0;
+    case Step::Unit:
     case Step::Times:
     case Step::Delay:
       return has_clock(place);
@@ -114,6 +114,8 @@ std::optional<Query> Clocks::query(Clock now) noexcept {
   switch (step_) {
     case Step::Features:
       return Query{Command::Aprd, at(reg::kFeatures), {}, 2};
+    case Step::Unit:
+      return Query{Command::Aprd, at(reg::kSystemTime), {}, 4};
     case Step::Latch:
       store<std::uint32_t>(word_, 0, 0);
       latched_at_ = now;
@@ -146,6 +148,11 @@ void Clocks::answer(Bytes data, bool is_answered, Clock now) noexcept {
   if (step_ == Step::Wait) {
     return;  // asked before a slave came or went
   }
+  if (!is_answered && step_ == Step::Unit) {
+    ports_[place_].has_clock = false;  // the chip could, but the device's EEPROM has switched its clock off
+    advance(now);
+    return;
+  }
   if (!is_answered && step_ != Step::Watch) {
     restart(now);
     return;
@@ -166,12 +173,13 @@ void Clocks::take(Bytes data) noexcept {
   switch (step_) {
     case Step::Features:
       ports_[place_].has_clock = (load<std::uint16_t>(data, 0) & kHasClock) != 0;
+      slave.is_long = (load<std::uint16_t>(data, 0) & kHasLongClock) != 0;
       return;
     case Step::Times:
       for (std::size_t port = 0; port < kPorts; ++port) {
         ports_[place_].arrival[port] = load<std::uint32_t>(data, port * sizeof(std::uint32_t));
       }
-      slave.received = load<std::int64_t>(data, kUnitTimeAt);
+      slave.received = slave.is_long ? load<std::int64_t>(data, kUnitTimeAt) : load<std::uint32_t>(data, kUnitTimeAt);
       return;
     case Step::Ports:
       for (std::size_t port = 0; port < kPorts; ++port) {
@@ -208,6 +216,8 @@ bool Clocks::work_out() noexcept {
   Slave& first = slaves_[place];
   if (!first.is_set) {
     first.offset = reference_ ? reference_time(latched_at_) - first.received : 0;
+    passed_ns_ = first.received + first.offset;
+    passed_at_ = latched_at_;
   }
   reference_ = place;
   for (std::size_t i = 0; i < count; ++i) {
@@ -227,7 +237,16 @@ std::int64_t Clocks::reference_time(Clock now) const noexcept {
   return passed_ns_ + (now - passed_at_).count();
 }
 
+// What a clock of 32 bits shows, as a time that does not wrap around: the nearest one to what the master expects.
+std::int64_t Clocks::whole(std::int64_t reference_ns, Clock sent) const noexcept {
+  const std::int64_t expected = reference_time(sent);
+  return slaves_[*reference_].is_long ? reference_ns
+                                      : expected + static_cast<std::int32_t>(static_cast<std::uint32_t>(reference_ns) -
+                                                                             static_cast<std::uint32_t>(expected));
+}
+
 void Clocks::passed(std::int64_t reference_ns, Clock sent, Clock now) noexcept {
+  reference_ns = whole(reference_ns, sent);
   // A reference that was off for a moment shows another time before it is found again.
   const std::int64_t jump = reference_ns - reference_time(sent);
   if (lock_.has_grid() && std::abs(jump) > kMaxJump.count()) {

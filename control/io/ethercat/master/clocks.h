@@ -62,10 +62,11 @@ class Clocks {
   [[nodiscard]] std::int64_t phase_ns() const noexcept { return lock_.phase_ns(); }
 
  private:
-  enum class Step { Wait, Features, Latch, Times, Ports, Offset, Delay, Filter, Watch };  // in this order
+  enum class Step { Wait, Features, Unit, Latch, Times, Ports, Offset, Delay, Filter, Watch };  // in this order
   struct Slave {
     std::int64_t received = 0;  // the frame that was latched, by its own clock
     std::int64_t offset = 0;    // of the reference's time to its own clock
+    bool is_long = true;        // its clock has 64 bits, else 32
     bool is_set = false;
     std::int32_t difference = 0;
     unsigned close_reads = 0;  // of the difference, one after another
@@ -77,6 +78,7 @@ class Clocks {
   void advance(Clock now) noexcept;
   void finish_step(Clock now) noexcept;
   void take(Bytes data) noexcept;
+  [[nodiscard]] std::int64_t whole(std::int64_t reference_ns, Clock sent) const noexcept;
   bool work_out() noexcept;
 
   std::vector<Slave> slaves_;

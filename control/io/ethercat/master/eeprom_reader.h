@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads eight bytes of a slave's EEPROM after another through its registers: one datagram each time it is asked.
+// Reads eight bytes of a slave's EEPROM through its registers, with one access or two, as the slave can: one datagram
+// each time it is asked. Takes the EEPROM from the processor of the device before.
 
 #pragma once
 
@@ -22,8 +23,12 @@ class EepromReader {
   [[nodiscard]] Bytes bytes() const noexcept { return bytes_; }
 
  private:
-  enum class Step { Command, Poll, Data } step_ = Step::Command;
+  enum class Step { Force, Take, Command, Poll, Data } step_ = Step::Force;
   std::uint16_t station_ = 0;
+  std::uint16_t word_ = 0;
+  std::size_t done_ = 0;
+  std::size_t at_once_ = 0;
+  std::array<std::uint8_t, 1> owner_{};
   std::array<std::uint8_t, 6> command_{};
   std::array<std::uint8_t, 8> bytes_{};
   Clock deadline_{0};

@@ -20,7 +20,6 @@ constexpr Clock kFramePatience = milliseconds(50);
 constexpr Clock kEepromPatience = milliseconds(200);
 constexpr int kTries = 3;
 constexpr std::size_t kMaxImage = 64 * std::size_t{1024};
-constexpr std::uint8_t kForceEeprom = 2;  // takes it away from the processor of the device
 
 // Where the image ends as far as it was read: after the category that says so. Nothing: more has to be read first.
 std::optional<std::size_t> end_of(Bytes image) {
@@ -101,8 +100,8 @@ bool Scan::read_eeprom(std::size_t place, std::size_t word, std::vector<std::uin
 }
 
 std::optional<std::vector<std::uint8_t>> Scan::read_image(std::size_t place) {
-  const std::array<std::uint8_t, 1> force = {kForceEeprom};
-  const std::array<std::uint8_t, 1> own = {0};
+  const std::array<std::uint8_t, 1> force = {kEepromForce};
+  const std::array<std::uint8_t, 1> own = {kEepromOfMaster};
   std::vector<std::uint8_t> image;
   if (!write(place, reg::kEepromConfig, force) || !write(place, reg::kEepromConfig, own)) {
     return std::nullopt;

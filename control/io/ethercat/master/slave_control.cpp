@@ -100,6 +100,9 @@ std::optional<Query> SlaveControl::query(Clock now) noexcept {
       return Query{Command::Fpwr, address_of(station, reg::kAlControl), word_, 0};
     case Step::Wait:
       return state_query();
+    case Step::Release:
+      word_[0] = kEepromOfDevice;
+      return Query{Command::Fpwr, address_of(station, reg::kEepromConfig), Bytes(word_).first(1), 0};
     case Step::Mailbox:
       return Query{Command::Fpwr, address_of(station, reg::kSyncManager), plan_.mailbox_managers, 0};
     case Step::Objects: {
@@ -191,6 +194,12 @@ void SlaveControl::finish_step(Bytes data, Clock now) noexcept {
     case Step::Wait:
       check_state(data, now);
       return;
+    case Step::Release:
+      if (!plan_.mailbox_managers.empty()) {
+        enter(Step::Mailbox, now);
+        return;
+      }
+      [[fallthrough]];
     case Step::Mailbox:
       request(AlState::PreOp, now);
       return;
@@ -248,18 +257,18 @@ void SlaveControl::check_identity(Bytes data, bool is_answered, Clock now) noexc
       (wanted.revision != 0 && identity_.revision != wanted.revision) ||
       (wanted.serial != 0 && identity_.serial != wanted.serial)) {
     fail(Problem::WrongIdentity, identity_.product, kRefusedPause, now);
-  } else if (plan_.mailbox_managers.empty()) {
-    request(AlState::PreOp, now);
   } else {
-    enter(Step::Mailbox, now);
+    enter(Step::Release, now);
   }
 }
 
 void SlaveControl::check_state(Bytes data, Clock now) noexcept {
   const auto status = data[0];
-  if ((status & kAlStateMask) == static_cast<unsigned>(target_) && (status & kAlError) == 0) {
+  // In INIT a slave without a processor shows the bit with which the master acknowledges errors.
+  const bool has_error = (status & kAlError) != 0 && target_ != AlState::Init;
+  if ((status & kAlStateMask) == static_cast<unsigned>(target_) && !has_error) {
     reached(now);
-  } else if ((status & kAlError) != 0 && target_ != AlState::Init) {
+  } else if (has_error) {
     fail(Problem::StateRefused, load<std::uint16_t>(data, kCodeAt), kRefusedPause, now);
   } else if (now - since_ > limit_of(target_)) {
     fail(Problem::StateTimeout, static_cast<std::uint32_t>(target_), kRefusedPause, now);

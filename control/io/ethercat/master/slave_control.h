@@ -45,6 +45,7 @@ class SlaveControl {
     ClearFmmus,
     ClearManagers,
     Identity,
+    Release,  // gives the EEPROM to the processor of the device
     Request,
     Wait,
     Mailbox,

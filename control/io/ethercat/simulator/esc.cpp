@@ -20,7 +20,15 @@ constexpr std::uint8_t kSmModeMask = 0x03;
 constexpr std::uint8_t kSmMailbox = 0x02;
 constexpr std::uint8_t kSmWritten = 0x04;  // by the master
 constexpr std::uint8_t kSmFull = 0x08;
+// A mailbox remembers which side was there last.
+constexpr std::uint8_t kSmWasWritten = 0x01;
+constexpr std::uint8_t kSmWasRead = 0x02;
 constexpr std::uint8_t kSmRepeat = 0x02;
+
+constexpr std::size_t kEepromEnd = reg::kEepromData + 8U;
+constexpr std::size_t kLongBytes = 8;  // that one access to an EEPROM brings
+constexpr std::size_t kShortBytes = 4;
+constexpr std::uint16_t kEepromCommands = kEepromRead | kEepromWrite | kEepromReload;
 
 constexpr std::uint16_t kLastWatchdog = 0x0422;
 
@@ -29,10 +37,11 @@ struct Writable {
   std::uint16_t first;
   std::uint16_t end;
 };
-constexpr Writable kWritable[] = {
-    {0x0010, 0x0012}, {0x0020, 0x0022}, {0x0040, 0x0042},        {0x0100, 0x0104}, {0x0108, 0x010A}, {0x0120, 0x0122},
-    {0x0200, 0x0202}, {0x0300, 0x0314}, {0x0400, kLastWatchdog}, {0x0442, 0x0444}, {0x0500, 0x0510}, {0x0510, 0x0518},
-    {0x0600, 0x0700}, {0x0800, 0x0880}, {0x0900, 0x0918},        {0x0920, 0x0936}, {0x0980, 0x09D0}, {0x0F00, 0x1000}};
+constexpr Writable kWritable[] = {{0x0010, 0x0012},        {0x0020, 0x0022}, {0x0040, 0x0042}, {0x0100, 0x0104},
+                                  {0x0108, 0x010A},        {0x0120, 0x0122}, {0x0200, 0x0202}, {0x0300, 0x0314},
+                                  {0x0400, kLastWatchdog}, {0x0442, 0x0444}, {0x0500, 0x0510}, {0x0510, 0x0518},
+                                  {0x0600, 0x0700},        {0x0800, 0x0880}, {0x0900, 0x0918}, {0x0920, 0x092C},
+                                  {0x0930, 0x0936},        {0x0980, 0x09D0}, {0x0F00, 0x1000}};
 
 bool overlaps(std::size_t offset, std::size_t size, std::size_t first, std::size_t length) noexcept {
   return offset < first + length && first < offset + size;
@@ -53,20 +62,27 @@ void Esc::reset() {
   events_ = {};
   clock_adjusted_ = Time(0);
   has_pulses_ = false;
+  eeprom_command_ = 0;
+  eeprom_errors_ = 0;
   set<std::uint8_t>(reg::kType, config_.type);
+  set<std::uint8_t>(reg::kType + 1U, config_.revision);
+  set<std::uint16_t>(reg::kType + 2U, config_.build);
   set<std::uint8_t>(reg::kFmmuCount, config_.fmmus);
   set<std::uint8_t>(reg::kSyncManagerCount, config_.sync_managers);
   set<std::uint8_t>(reg::kRamSize, config_.ram_kilobytes);
-  set<std::uint8_t>(reg::kPorts, 0x0F);  // ports 0 and 1
-  set<std::uint16_t>(reg::kFeatures, config_.has_clock ? 0x000C : 0);
-  set<std::uint16_t>(reg::kDlControl, 0xC001);
+  set<std::uint8_t>(reg::kPorts, config_.ports);
+  set<std::uint16_t>(reg::kFeatures, config_.features);
+  set<std::uint32_t>(reg::kDlControl, 0x00070001);
   set<std::uint16_t>(reg::kAlStatus, static_cast<std::uint16_t>(AlState::Init));
   set<std::uint16_t>(reg::kWatchdogDivider, 0x09C2);
   set<std::uint16_t>(reg::kWatchdogPdi, 0x03E8);
   set<std::uint16_t>(reg::kWatchdogProcessData, 0x03E8);
-  set<std::uint16_t>(reg::kEepromControl, kEepromEightBytes);
   if (config_.eeprom.size() >= 0x0A) {
+    set<std::uint16_t>(reg::kPdiControl, load<std::uint16_t>(config_.eeprom, 0));
     set<std::uint16_t>(reg::kAlias, load<std::uint16_t>(config_.eeprom, 0x08));
+  }
+  if (config_.pdi_control) {
+    set<std::uint16_t>(reg::kPdiControl, *config_.pdi_control);
   }
 }
 
@@ -78,21 +94,42 @@ EscEvents Esc::take_events() noexcept {
   return std::exchange(events_, {});
 }
 
-bool Esc::is_there(std::uint16_t offset, std::size_t size) const noexcept {
-  const std::size_t end = offset + size;
-  const auto within = [offset](std::uint16_t first, std::size_t length) {
+bool Esc::has(std::size_t offset) const noexcept {
+  const auto within = [offset](std::size_t first, std::size_t length) {
     return offset >= first && offset < first + length;
   };
   if (within(reg::kFmmu, 0x200)) {
-    return end <= reg::kFmmu + std::size_t{config_.fmmus} * kFmmuBytes;
+    return offset < reg::kFmmu + std::size_t{config_.fmmus} * kFmmuBytes;
   }
   if (within(reg::kSyncManager, 0x100)) {
-    return end <= reg::kSyncManager + std::size_t{config_.sync_managers} * kSyncManagerBytes;
+    return offset < reg::kSyncManager + std::size_t{config_.sync_managers} * kSyncManagerBytes;
+  }
+  if (within(reg::kReceiveTimes, reg::kSystemTime - reg::kReceiveTimes)) {
+    return (config_.features & kHasClock) != 0;
   }
   if (within(reg::kSystemTime, reg::kMemory - reg::kSystemTime - 0x100)) {
-    return config_.has_clock;
+    return config_.has_clock && (config_.features & kHasClock) != 0;
   }
-  return end <= reg::kMemory + std::size_t{config_.ram_kilobytes} * 1024;
+  return offset < reg::kMemory + std::size_t{config_.ram_kilobytes} * 1024;
+}
+
+bool Esc::is_writable(std::size_t offset) const noexcept {
+  if ((at(reg::kEepromConfig) & kEepromOfDevice) != 0 && offset >= reg::kEepromControl && offset < kEepromEnd) {
+    return false;
+  }
+  return has(offset) && (offset >= reg::kMemory ||
+                         std::any_of(std::begin(kWritable), std::end(kWritable), [offset](const Writable& area) {
+                           return offset >= area.first && offset < area.end;
+                         }));
+}
+
+bool Esc::is_there(std::uint16_t offset, std::size_t size, bool write) const noexcept {
+  for (std::size_t at = offset; at < std::min(offset + size, kAddressSpace); ++at) {
+    if (write ? is_writable(at) : has(at)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool Esc::may_access(std::uint16_t offset, std::size_t size, bool write) const noexcept {
@@ -139,25 +176,30 @@ bool Esc::mailbox_is_full(unsigned sync_manager) const noexcept {
 
 void Esc::set_mailbox_full(unsigned sync_manager, bool full) noexcept {
   auto& status = memory_[sync_manager_at(sync_manager) + kSmStatus];
-  status = static_cast<std::uint8_t>(full ? status | kSmFull : status & ~kSmFull);
+  status = static_cast<std::uint8_t>(full ? (status & ~kSmWasRead) | kSmFull | kSmWasWritten
+                                          : (status & ~(kSmFull | kSmWasWritten)) | kSmWasRead);
 }
 
 bool Esc::read(std::uint16_t offset, std::span<std::uint8_t> to, Time now) {
-  if (!is_there(offset, to.size()) || !may_access(offset, to.size(), false)) {
+  if (!is_there(offset, to.size(), false) || !may_access(offset, to.size(), false)) {
     return false;
   }
   refresh(offset, to.size(), now);
-  std::copy_n(memory_.begin() + offset, to.size(), to.begin());
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    to[i] = has(offset + i) ? memory_[offset + i] : std::uint8_t{0};
+  }
   after_access(offset, to.size(), false);
   return true;
 }
 
 bool Esc::write(std::uint16_t offset, Bytes from, Time now) {
-  if (!is_there(offset, from.size()) || !may_access(offset, from.size(), true)) {
+  if (!is_there(offset, from.size(), true) || !may_access(offset, from.size(), true)) {
     return false;
   }
   for (std::size_t i = 0; i < from.size(); ++i) {
-    write_register(static_cast<std::uint16_t>(offset + i), from[i]);
+    if (is_writable(offset + i)) {
+      write_register(static_cast<std::uint16_t>(offset + i), from[i]);
+    }
   }
   after_access(offset, from.size(), true);
   if (offset < reg::kMemory) {
@@ -174,19 +216,13 @@ void Esc::write_register(std::uint16_t offset, std::uint8_t byte) noexcept {
     memory_[offset] = byte;
     return;
   }
-  const auto* const region = std::find_if(std::begin(kWritable), std::end(kWritable), [offset](const Writable& area) {
-    return offset >= area.first && offset < area.end;
-  });
-  if (region == std::end(kWritable)) {
-    return;
-  }
   const bool in_manager = offset >= reg::kSyncManager && offset < reg::kSyncManager + 0x80;
   const unsigned field = offset % kSyncManagerBytes;
   if (in_manager && (field == kSmStatus || field == kSmPdi)) {
     return;
   }
   if (in_manager && field == kSmActivate && (byte & 1U) == 0) {
-    memory_[offset - 1U] &= static_cast<std::uint8_t>(~kSmFull);  // a SyncManager that is switched off is empty
+    memory_[offset - 1U] = 0;  // a SyncManager that is switched off is empty
   }
   if (offset >= reg::kRxErrors && offset < reg::kRxErrors + 0x14) {
     byte = 0;  // a write clears a counter
@@ -215,23 +251,23 @@ void Esc::after_write(std::uint16_t offset, std::size_t size, Time now) {
 
 void Esc::run_eeprom_command(Time now) {
   const auto control = value<std::uint16_t>(reg::kEepromControl);
-  const std::uint16_t command = control & (kEepromRead | kEepromWrite | kEepromReload);
-  auto status = static_cast<std::uint16_t>(control & ~(command | kEepromErrors | kEepromBusy));
+  const std::uint16_t command = control & kEepromCommands;
   const std::size_t first = std::size_t{2} * value<std::uint32_t>(reg::kEepromAddress);
   auto& image = config_.eeprom;
+  eeprom_errors_ = 0;
   if (now < eeprom_busy_until_ || (command == kEepromWrite && (control & kEepromWriteEnable) == 0)) {
-    status |= kEepromAckError;
+    eeprom_errors_ = kEepromAckError;
   } else if (command == kEepromWrite) {
     if (first + 2 <= image.size()) {
       std::copy_n(memory_.begin() + reg::kEepromData, 2, image.begin() + static_cast<std::ptrdiff_t>(first));
     }
   } else if (command == kEepromRead) {
-    for (std::size_t i = 0; i < 8; ++i) {
+    const std::size_t count = (config_.eeprom_features & kEepromEightBytes) != 0 ? kLongBytes : kShortBytes;
+    for (std::size_t i = 0; i < count; ++i) {
       memory_[reg::kEepromData + i] = first + i < image.size() ? image[first + i] : 0xFF;
     }
   }
-  status &= static_cast<std::uint16_t>(~kEepromWriteEnable);
-  set<std::uint16_t>(reg::kEepromControl, status | kEepromEightBytes);
+  eeprom_command_ = command;
   if (command != 0) {
     eeprom_busy_until_ = std::max(eeprom_busy_until_, now + config_.eeprom_time);
   }
@@ -239,8 +275,9 @@ void Esc::run_eeprom_command(Time now) {
 
 void Esc::refresh(std::uint16_t offset, std::size_t size, Time now) noexcept {
   if (overlaps(offset, size, reg::kEepromControl, 2)) {
-    const auto rest = static_cast<std::uint16_t>(value<std::uint16_t>(reg::kEepromControl) & ~kEepromBusy);
-    set<std::uint16_t>(reg::kEepromControl, now < eeprom_busy_until_ ? rest | kEepromBusy : rest);
+    const unsigned busy = now < eeprom_busy_until_ ? kEepromBusy | eeprom_command_ : 0U;
+    set<std::uint16_t>(reg::kEepromControl,
+                       static_cast<std::uint16_t>(config_.eeprom_features | eeprom_errors_ | busy));
   }
   if (overlaps(offset, size, reg::kSystemTime, 8)) {
     set<std::int64_t>(reg::kSystemTime, system_time(now).count());
@@ -279,8 +316,8 @@ std::optional<Esc::MappedPart> Esc::mapped(unsigned fmmu, std::uint32_t address,
   MappedPart part{begin - first, map.physical_bit + (begin - map.first_bit), end - begin, 0, 0};
   part.offset = static_cast<std::uint16_t>(part.memory_bit / 8);
   part.size = (part.memory_bit + part.bits + 7) / 8 - part.offset;
-  return is_there(part.offset, part.size) && may_access(part.offset, part.size, write) ? std::optional(part)
-                                                                                       : std::nullopt;
+  return is_there(part.offset, part.size, write) && may_access(part.offset, part.size, write) ? std::optional(part)
+                                                                                              : std::nullopt;
 }
 
 bool Esc::read_logical(std::uint32_t address, std::span<std::uint8_t> to, Time now) {
@@ -306,50 +343,6 @@ bool Esc::write_logical(std::uint32_t address, Bytes from) {
     }
   }
   return any;
-}
-
-// --- the clock ---
-
-Time Esc::local_time(Time now) const noexcept {
-  constexpr std::int64_t kBillion = 1'000'000'000;
-  const std::int64_t drifted =
-      now.count() / kBillion * config_.drift_ppb + now.count() % kBillion * config_.drift_ppb / kBillion;
-  return config_.clock_start + now + Time(drifted) + clock_adjusted_;
-}
-
-Time Esc::system_time(Time now) const noexcept {
-  return local_time(now) + Time(value<std::int64_t>(reg::kSystemTimeOffset));
-}
-
-void Esc::latch_receive_times(Time in, Time back) noexcept {
-  set<std::uint32_t>(reg::kReceiveTimes, static_cast<std::uint32_t>(local_time(in).count()));
-  set<std::uint32_t>(reg::kReceiveTimes + 4, static_cast<std::uint32_t>(local_time(back).count()));
-  set<std::int64_t>(reg::kReceiveTimeUnit, local_time(in).count());
-}
-
-// A clock is made faster or slower for a while, by a thousandth at most, so what it shows never jumps.
-void Esc::follow_reference(Time received, Time now) noexcept {
-  constexpr std::uint32_t kSlower = 0x80000000U;
-  constexpr std::int64_t kShare = 1000;
-  const auto delay = value<std::uint32_t>(reg::kSystemTimeDelay);
-  const auto own = static_cast<std::uint32_t>(system_time(now).count());
-  const auto reference = static_cast<std::uint32_t>(received.count()) + delay;
-  const auto error = static_cast<std::int32_t>(own - reference);
-  const auto size = static_cast<std::uint32_t>(error < 0 ? -std::int64_t{error} : error);
-  set<std::uint32_t>(reg::kSystemTimeDifference, error < 0 ? size | kSlower : size);
-  const std::int64_t most = (now - std::exchange(followed_at_, now)).count() / kShare;
-  clock_adjusted_ -= Time(std::clamp<std::int64_t>(error / 4, -most, most));
-}
-
-void Esc::start_pulses(Time now) noexcept {
-  const Time first(value<std::int64_t>(reg::kSyncStart));
-  has_pulses_ = wants_pulses() && value<std::uint32_t>(reg::kSync0Cycle) > 0 && first > system_time(now);
-}
-
-std::optional<Time> Esc::since_pulse(Time now) const noexcept {
-  const Time since = system_time(now) - Time(value<std::int64_t>(reg::kSyncStart));
-  return has_pulses_ && since.count() >= 0 ? std::optional(since % Time(value<std::uint32_t>(reg::kSync0Cycle)))
-                                           : std::nullopt;
 }
 
 }  // namespace indurop::io::ethercat

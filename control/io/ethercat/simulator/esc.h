@@ -18,13 +18,20 @@ using Time = std::chrono::nanoseconds;  // virtual, since the simulation began
 
 struct EscConfig {
   std::uint8_t type = 0x11;
+  std::uint8_t revision = 0;
+  std::uint16_t build = 0;
   std::uint8_t fmmus = 8;
   std::uint8_t sync_managers = 8;
   std::uint8_t ram_kilobytes = 8;
-  bool has_clock = true;
-  Time clock_start{0};         // what its clock shows when the simulation begins
-  std::int64_t drift_ppb = 0;  // how much faster than time its clock runs, 1e-9
-  Time eeprom_time{100'000};   // busy for each access
+  std::uint8_t ports = 0x0F;        // how each is built, two bits for each; ports 0 and 1
+  std::uint16_t features = 0x000C;  // without kHasLongClock the clock has 32 bits
+  bool has_clock = true;            // the unit is switched on; receive times of ports exist without it
+  std::uint8_t dl_status = 0x01;    // the device and its processor are ready: the low four bits
+  std::uint16_t eeprom_features = kEepromEightBytes;  // of its interface: how many bytes at a time, who answers
+  std::optional<std::uint16_t> pdi_control;           // what the EEPROM's first word does not decide
+  Time clock_start{0};                                // what its clock shows when the simulation begins
+  std::int64_t drift_ppb = 0;                         // how much faster than time its clock runs, 1e-9
+  Time eeprom_time{100'000};                          // busy for each access
   std::vector<std::uint8_t> eeprom;
 };
 
@@ -69,6 +76,8 @@ class Esc {
   // Its clock, and that with the offset the master has set.
   [[nodiscard]] Time local_time(Time now) const noexcept;
   [[nodiscard]] Time system_time(Time now) const noexcept;
+  // What a slave without a processor does: its state is the one that the master writes.
+  [[nodiscard]] bool emulates_device() const noexcept { return (at(reg::kPdiControl + 1U) & 1U) != 0; }
   void jump_clock(Time by) noexcept { clock_adjusted_ += by; }
   // How long ago the last pulse of SYNC0 was; nothing if there was none, because none was asked for or its begin was
   // past when it was switched on.
@@ -82,7 +91,10 @@ class Esc {
  private:
   static constexpr unsigned kSyncActive = 0x03;  // cyclic operation, SYNC0
 
-  [[nodiscard]] bool is_there(std::uint16_t offset, std::size_t size) const noexcept;
+  [[nodiscard]] bool has(std::size_t offset) const noexcept;
+  [[nodiscard]] bool is_writable(std::size_t offset) const noexcept;
+  // Any byte of an access counts: those that are not there read as 0, and are not written.
+  [[nodiscard]] bool is_there(std::uint16_t offset, std::size_t size, bool write) const noexcept;
   [[nodiscard]] bool may_access(std::uint16_t offset, std::size_t size, bool write) const noexcept;
   void after_access(std::uint16_t offset, std::size_t size, bool write) noexcept;
   void refresh(std::uint16_t offset, std::size_t size, Time now) noexcept;
@@ -90,6 +102,7 @@ class Esc {
   void after_write(std::uint16_t offset, std::size_t size, Time now);
   void run_eeprom_command(Time now);
   void follow_reference(Time received, Time now) noexcept;
+  [[nodiscard]] Time long_time(Time now) const noexcept;
   void start_pulses(Time now) noexcept;
 
   struct Mapping {  // one FMMU
@@ -117,6 +130,9 @@ class Esc {
   Time eeprom_busy_until_{0};
   Time clock_adjusted_{0};
   Time followed_at_{0};  // the reference
+  std::uint16_t eeprom_command_ = 0;
+  std::uint16_t eeprom_errors_ = 0;
+  Time first_pulse_{0};  // by the clock as if it had 64 bits
   bool has_pulses_ = false;
 };
 

@@ -161,7 +161,7 @@ std::optional<std::uint32_t> judge_mapping(const Sii& sii, const ObjectDictionar
   for (std::size_t i = 0; i < sii.sync_managers.size(); ++i) {
     const SyncManagerEntry& manager = sii.sync_managers[i];
     const auto assignment = static_cast<std::uint16_t>(kPdoAssignment + i);
-    if (!is_process(manager)) {
+    if (!is_process(manager) || pdos_of(sii, manager).empty()) {
       continue;
     }
     if (write.index == assignment) {

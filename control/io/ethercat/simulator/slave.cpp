@@ -11,9 +11,6 @@ namespace indurop::io::ethercat {
 
 namespace {
 
-constexpr unsigned kMailboxOut = 0;  // SyncManagers
-constexpr unsigned kMailboxIn = 1;
-
 constexpr std::size_t manager_at(unsigned number) {
   return reg::kSyncManager + std::size_t{number} * kSyncManagerBytes;
 }
@@ -21,7 +18,8 @@ constexpr std::size_t manager_at(unsigned number) {
 }  // namespace
 
 Slave::Slave(SlaveConfig config, Application application)
-    : esc_(std::move(config.esc)),
+    : dl_status_(config.esc.dl_status),
+      esc_(std::move(config.esc)),
       objects_(std::move(config.objects)),
       application_(std::move(application)),
       state_time_(config.state_time),
@@ -54,13 +52,16 @@ void Slave::set_power(bool on) {
     state_due_.reset();
     last_counter_ = 0;
     own_counter_ = 0;
+    outputs_off_ = false;
   }
   on_ = on;
 }
 
 void Slave::set_next_port(bool linked) noexcept {
   // Ports 0 and 1 with link and communication; those without are closed.
-  esc_.set<std::uint16_t>(reg::kDlStatus, linked ? 0x5A31 : 0x5611);
+  constexpr unsigned kBoth = 0x5A30;
+  constexpr unsigned kFirst = 0x5610;
+  esc_.set<std::uint16_t>(reg::kDlStatus, static_cast<std::uint16_t>((linked ? kBoth : kFirst) | dl_status_));
 }
 
 // --- frames ---
@@ -175,7 +176,10 @@ void Slave::access_logical(const Datagram& datagram, std::span<std::uint8_t> fra
 
 void Slave::react(Time now) {
   const EscEvents events = esc_.take_events();
-  if (events.al_control) {
+  if (events.al_control && esc_.emulates_device()) {
+    emulate_state();
+    outputs_at_ = now;
+  } else if (events.al_control) {
     state_due_ = now + state_time_;
   }
   if (events.mailbox) {
@@ -187,6 +191,7 @@ void Slave::react(Time now) {
   }
   if (events.outputs) {
     outputs_at_ = now;
+    outputs_off_ = false;
     is_due_ = true;
   }
 }
@@ -201,7 +206,11 @@ void Slave::advance_device(Time now) {
                              (esc_.value<std::uint16_t>(reg::kWatchdogDivider) + 2));
   if (state() == AlState::Op && process_bytes(SyncManagerUse::Outputs) > 0 && now - outputs_at_ > watchdog &&
       (esc_.at(manager_at(output_manager_) + 4) & 0x40U) != 0) {
-    fall_to(AlState::SafeOp, kAlSyncWatchdog);
+    is_due_ |= !outputs_off_;
+    outputs_off_ = true;
+    if (!esc_.emulates_device()) {
+      fall_to(AlState::SafeOp, kAlSyncWatchdog);
+    }
   }
   deliver_mailbox(now);
 }
@@ -223,9 +232,8 @@ void Slave::change_state(std::uint8_t request) {
     return;  // the master has not acknowledged
   }
   std::uint16_t code = check_change(from, to);
-  if (code == kAlNoError && refusal_.times > 0 && refusal_.state == to && from != to) {
-    --refusal_.times;
-    code = refusal_.code;
+  if (code == kAlNoError) {
+    code = take_refusal(to);
   }
   if (code != kAlNoError) {
     fall_to(from, code);
@@ -238,6 +246,26 @@ void Slave::change_state(std::uint8_t request) {
     sdo_.reset();
     last_counter_ = 0;
   }
+  is_due_ = true;
+}
+
+std::uint16_t Slave::take_refusal(AlState to) noexcept {
+  if (refusal_.times == 0 || refusal_.state != to || state() == to) {
+    return kAlNoError;
+  }
+  --refusal_.times;
+  return refusal_.code;
+}
+
+// The chip copies the request, with the bit that acknowledges errors, and checks nothing.
+void Slave::emulate_state() noexcept {
+  const auto request = static_cast<std::uint8_t>(esc_.at(reg::kAlControl) & (kAlStateMask | kAlError));
+  if (const std::uint16_t code = take_refusal(static_cast<AlState>(request & kAlStateMask))) {
+    fall_to(state(), code);
+    return;
+  }
+  esc_.set<std::uint16_t>(reg::kAlStatus, request);
+  esc_.set<std::uint16_t>(reg::kAlStatusCode, kAlNoError);
   is_due_ = true;
 }
 
@@ -316,60 +344,8 @@ void Slave::compute() {
   }
   const Area out = area_of(output_manager_);
   const Area in = area_of(input_manager_);
-  const bool operates = state() == AlState::Op;
+  const bool operates = state() == AlState::Op && !outputs_off_;
   application_(operates ? Bytes(esc_.memory(out.start, out.length)) : Bytes(), esc_.memory(in.start, in.length));
-}
-
-// --- mailbox ---
-
-void Slave::receive_mailbox(Time now) {
-  const Area area = area_of(kMailboxOut);
-  esc_.set_mailbox_full(kMailboxOut, false);
-  const auto mailbox = read_mailbox(esc_.memory(area.start, area.length));
-  if (!mailbox || state() == AlState::Init) {
-    return;
-  }
-  if (mailbox->counter != 0 && mailbox->counter == last_counter_) {
-    return;  // the same again: its answer was lost, or it was
-  }
-  last_counter_ = mailbox->counter;
-  if (service_of(*mailbox) != CoeService::SdoRequest) {
-    return;
-  }
-  const auto bytes = sdo_.answer(mailbox->data, objects_, area_of(kMailboxIn).length);
-  if (bytes.empty()) {
-    return;
-  }
-  own_counter_ = next_counter(own_counter_);
-  std::vector<std::uint8_t> message(kMailboxHeader);
-  write_mailbox_header(message, bytes.size(), MailboxType::Coe, own_counter_);
-  message.insert(message.end(), bytes.begin(), bytes.end());
-  answers_.push_back({now + mailbox_time_, std::move(message)});
-}
-
-void Slave::send_emergency(const Emergency& emergency) {
-  std::vector<std::uint8_t> message(kCoeHeader + 8);
-  own_counter_ = next_counter(own_counter_);
-  write_mailbox_header(message, message.size() - kMailboxHeader, MailboxType::Coe, own_counter_);
-  write_coe_header(message, CoeService::Emergency);
-  store<std::uint16_t>(message, kCoeHeader, emergency.code);
-  message[kCoeHeader + 2] = emergency.error_register;
-  std::copy(emergency.data.begin(), emergency.data.end(), message.begin() + kCoeHeader + 3);
-  answers_.push_back({Time(0), std::move(message)});
-}
-
-void Slave::deliver_mailbox(Time now) {
-  const Area area = area_of(kMailboxIn);
-  if (answers_.empty() || answers_.front().due > now || area.length == 0 || state() == AlState::Init ||
-      esc_.mailbox_is_full(kMailboxIn)) {
-    return;
-  }
-  last_answer_ = std::move(answers_.front().bytes);
-  answers_.pop_front();
-  const auto to = esc_.memory(area.start, area.length);
-  std::fill(to.begin(), to.end(), std::uint8_t{0});
-  std::copy_n(last_answer_.begin(), std::min(last_answer_.size(), to.size()), to.begin());
-  esc_.set_mailbox_full(kMailboxIn, true);
 }
 
 }  // namespace indurop::io::ethercat

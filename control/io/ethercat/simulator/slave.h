@@ -57,6 +57,8 @@ class Slave {
   [[nodiscard]] SdoServer& sdo() noexcept { return sdo_; }
 
  private:
+  static constexpr unsigned kMailboxOut = 0;  // SyncManagers
+  static constexpr unsigned kMailboxIn = 1;
   struct Area {
     std::uint16_t start = 0;
     std::uint16_t length = 0;
@@ -69,6 +71,8 @@ class Slave {
   void react(Time now);
   void advance_device(Time now);
   void change_state(std::uint8_t request);
+  void emulate_state() noexcept;
+  [[nodiscard]] std::uint16_t take_refusal(AlState to) noexcept;
   [[nodiscard]] std::uint16_t check_change(AlState from, AlState to) const;
   [[nodiscard]] bool mailbox_fits() const;
   [[nodiscard]] bool process_data_fits(SyncManagerUse use, unsigned number) const;
@@ -77,6 +81,7 @@ class Slave {
   void receive_mailbox(Time now);
   void deliver_mailbox(Time now);
 
+  unsigned dl_status_;
   Esc esc_;
   ObjectDictionary objects_;
   Application application_;
@@ -98,7 +103,8 @@ class Slave {
   std::uint8_t last_counter_ = 0;
   std::uint8_t own_counter_ = 0;
   Time outputs_at_{0};
-  bool is_due_ = false;  // the application
+  bool outputs_off_ = false;  // by the watchdog
+  bool is_due_ = false;       // the application
   struct Refusal {
     AlState state = AlState::None;
     std::uint16_t code = 0;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <vector>
 
 #include "control/io/ethercat/bytes.h"
@@ -10,10 +11,20 @@
 
 namespace indurop::io::ethercat {
 
-inline std::vector<std::vector<std::uint8_t>> packets_of(const std::filesystem::path& path) {
+struct Packet {
+  std::chrono::microseconds at{0};
+  std::vector<std::uint8_t> bytes;
+};
+
+inline bool is_ethercat(Bytes packet) {
+  constexpr std::size_t kLeast = 16;
+  return packet.size() >= kLeast && packet[12] == 0x88 && packet[13] == 0xA4;
+}
+
+inline std::vector<Packet> packets_of(const std::filesystem::path& path) {
   constexpr std::uint32_t kEnhancedPacket = 6;
   constexpr std::size_t kPacketHeader = 28;
-  std::vector<std::vector<std::uint8_t>> packets;
+  std::vector<Packet> packets;
   const auto file = bytes_of_file(path);
   std::size_t at = 0;
   while (at + 12 <= file.size()) {
@@ -26,7 +37,8 @@ inline std::vector<std::vector<std::uint8_t>> packets_of(const std::filesystem::
     if (type == kEnhancedPacket) {
       const std::size_t length = load<std::uint32_t>(file, at + 20);
       const auto packet = Bytes(file).subspan(at + kPacketHeader, length);
-      packets.emplace_back(packet.begin(), packet.end());
+      const auto time = std::uint64_t{load<std::uint32_t>(file, at + 12)} << 32U | load<std::uint32_t>(file, at + 16);
+      packets.push_back({std::chrono::microseconds(static_cast<std::int64_t>(time)), {packet.begin(), packet.end()}});
     }
     at += size;
   }

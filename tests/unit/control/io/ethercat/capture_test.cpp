@@ -10,10 +10,6 @@
 namespace indurop::io::ethercat {
 namespace {
 
-bool is_ethercat(const std::vector<std::uint8_t>& packet) {
-  return packet.size() >= kFrameHeader && packet[12] == 0x88 && packet[13] == 0xA4;
-}
-
 // Builds the frame again from what was read of it.
 std::vector<std::uint8_t> rebuilt(const std::vector<std::uint8_t>& packet) {
   Mac source{};
@@ -38,7 +34,7 @@ TEST(Captures, Every_frame_of_real_buses_is_read_and_built_again) {
       continue;
     }
     ++files;
-    for (const auto& packet : packets_of(entry.path())) {
+    for (const auto& [time, packet] : packets_of(entry.path())) {
       if (!is_ethercat(packet)) {
         continue;
       }

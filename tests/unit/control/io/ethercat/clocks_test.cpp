@@ -26,6 +26,7 @@ struct Machine {
   std::vector<std::int64_t> drift_ppb = {0, 0, 0, 0};
   unsigned seed = 0;  // of what clocks show when they are switched on
   bool is_late_by_chance = false;
+  std::vector<bool> has_short_clock = {};  // of 32 bits, by place
 };
 
 class Synchronous {
@@ -36,6 +37,9 @@ class Synchronous {
       SlaveConfig config = drive_config();
       config.esc.clock_start = Time(static_cast<std::int64_t>(random_() % 4'000'000'000'000U));
       config.esc.drift_ppb = machine.drift_ppb[i % machine.drift_ppb.size()];
+      if (i < machine.has_short_clock.size() && machine.has_short_clock[i]) {
+        config.esc.features = kHasClock;
+      }
       bus_.segment().add(config, [](Bytes outputs, std::span<std::uint8_t> inputs) { reflect(outputs, inputs); });
       plans[i].sync = {0x0300, kTick, kShift, {}};
     }
@@ -157,6 +161,59 @@ TEST(Clocks, The_tick_follows_a_drift_of_100_ppm_in_both_directions) {
     }
     EXPECT_LT(worst, 1000);
   }
+}
+
+// A clock of 32 bits wraps around every 4.3 s, the one that the others follow, too.
+TEST(Clocks, Clocks_of_32_bits_and_of_64_go_together) {
+  for (const auto& has_short : {std::vector<bool>{true, false, true, false}, {false, true, false, true}}) {
+    SCOPED_TRACE(has_short[0]);
+    Synchronous bus({4, 30'000, {0, 20'000, -35'000, 50'000}, 11, false, has_short});
+    bus.start();
+    bus.run(2 * kSecond);
+    std::int64_t worst = 0;
+    for (unsigned i = 0; i < 10 * kSecond; ++i) {
+      bus.tick();
+      worst = std::max(worst, bus.worst_phase());
+    }
+    EXPECT_LT(worst, 1000);
+    EXPECT_TRUE(bus.all_operate()) << bus.story();
+    EXPECT_EQ(bus.story().find("does not follow"), std::string::npos) << bus.story();
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(bus.slave(i).esc().system_time(bus.now()) < Time(std::int64_t{1} << 32U), has_short[i]) << i;
+    }
+  }
+}
+
+TEST(Clocks, A_reference_of_32_bits_that_comes_back_goes_on_with_its_time) {
+  Synchronous bus({4, -40'000, {0, 20'000, -30'000, 10'000}, 12, false, {true, false, false, true}});
+  bus.start();
+  bus.run(2 * kSecond);
+  bus.bus().add_fault({FaultKind::PowerOff, bus.now() + kTick, 30 * kTick, 0, 0});
+  bus.run(4 * kSecond);
+  EXPECT_TRUE(bus.all_operate()) << bus.story();
+  EXPECT_LT(bus.worst_phase(), 1000);
+}
+
+// Its chip could have a clock, and stamps frames; the EEPROM of the device has switched the clock off.
+TEST(Clocks, A_clock_that_is_switched_off_is_a_piece_of_cable) {
+  SimulatedBus wire{kCable};
+  auto plans = drive_plans(3);
+  for (const std::size_t place : {0U, 1U, 2U}) {
+    SlaveConfig config = drive_config();
+    config.esc.has_clock = place != 1;
+    wire.segment().add(config);
+    plans[place].sync.activation = 0;
+  }
+  plans[2].sync = {0x0300, kTick, kShift, {}};
+  Master master(wire, std::move(plans), kTick);
+  for (Clock now = kTick; now < std::chrono::seconds(1) && !all_operate(master); now += kTick) {
+    wire.advance(now);
+    master.cycle(now);
+    wire.segment().compute();
+  }
+  EXPECT_TRUE(all_operate(master));
+  EXPECT_FALSE(master.clocks().has_clock(1));
+  EXPECT_EQ(master.clocks().delay_ns(2), 2 * kCable.count());
 }
 
 TEST(Clocks, Late_ticks_move_the_phase_by_little) {

@@ -70,6 +70,56 @@ TEST(Master, A_pulled_slave_is_named_in_the_next_tick_and_others_keep_their_data
   EXPECT_TRUE(plant.master().is_fresh(3));
 }
 
+// As couplers and terminals of real buses are: the chip copies the state with the bit that acknowledges.
+TEST(Master, Starts_slaves_without_a_processor) {
+  Sii sii;
+  sii.identity = {2, 0xB0C3052, 1, 0};
+  sii.pdi_control = 0x0104;
+  sii.fmmus = {FmmuUse::Outputs};
+  sii.sync_managers = {{0x0F00, 1, 0x44, 9, SyncManagerUse::Outputs}};
+  sii.outputs = {{0x1600, 0, 0, "Channel 1", {{0x7000, 1, 8, 5, "Output"}}}};
+  std::vector<std::uint8_t> applied;
+  SimulatedBus wire;
+  SlaveConfig config;
+  config.esc.eeprom = sii_image(sii);
+  wire.segment().add(config, [&applied](Bytes outputs, std::span<std::uint8_t> /*inputs*/) {
+    applied.assign(outputs.begin(), outputs.end());
+  });
+  Master master(wire, {plan_of(sii, 0x10000)}, kTick);
+  Clock now{0};
+  const auto run = [&](unsigned ticks) {
+    for (unsigned i = 0; i < ticks; ++i) {
+      now += kTick;
+      wire.advance(now);
+      master.cycle(now);
+      wire.segment().compute();
+    }
+  };
+  run(100);
+  ASSERT_TRUE(master.slave(0).operates());
+  master.outputs(0)[0] = 0xA5;
+  master.set_outputs_good(0, true);
+  run(2);
+  EXPECT_EQ(applied, std::vector<std::uint8_t>{0xA5});
+  EXPECT_TRUE(master.is_fresh(0));
+}
+
+TEST(Master, Reads_an_eeprom_of_four_bytes_and_gives_it_to_the_processor) {
+  SimulatedBus wire;
+  SlaveConfig config = drive_config();
+  config.esc.eeprom_features = 0;
+  wire.segment().add(config);
+  wire.segment().slave(0).esc().set<std::uint8_t>(reg::kEepromConfig, kEepromOfDevice);  // another master left it so
+  Master master(wire, drive_plans(1), kTick);
+  for (Clock now = kTick; now < std::chrono::seconds(1); now += kTick) {
+    wire.advance(now);
+    master.cycle(now);
+    wire.segment().compute();
+  }
+  EXPECT_TRUE(master.slave(0).operates());
+  EXPECT_EQ(wire.segment().slave(0).esc().at(reg::kEepromConfig), kEepromOfDevice);
+}
+
 TEST(Master, A_cut_cable_at_the_master_is_named) {
   Plant plant(2);
   plant.run_until_all_operate(2000);

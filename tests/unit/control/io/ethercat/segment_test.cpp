@@ -86,8 +86,41 @@ TEST_F(SegmentTest, Registers_that_are_not_there_do_not_answer) {
   Data fmmu(16);
   EXPECT_EQ(master_.send(Command::Bwr, address_of(0, reg::kFmmu + 16 * 7), fmmu), 1);
   EXPECT_EQ(master_.send(Command::Bwr, address_of(0, reg::kFmmu + 16 * 8), fmmu), 0);
-  EXPECT_EQ(master_.write<std::uint8_t>(Command::Fpwr, of(0, reg::kType), 0xFF), 1);
+  EXPECT_EQ(master_.write<std::uint8_t>(Command::Fpwr, of(0, reg::kType), 0xFF), 0);
   EXPECT_EQ(master_.read<std::uint8_t>(Command::Fprd, of(0, reg::kType)), 0x11);  // can only be read
+}
+
+TEST_F(SegmentTest, An_access_answers_if_a_part_of_it_is_there) {
+  add(1);
+  segment_.slave(0).esc().set<std::uint16_t>(reg::kFmmu + 16 * 8, 0x1234);
+  Data two(32, 0xFF);
+  EXPECT_EQ(master_.send(Command::Fprd, of(0, reg::kFmmu + 16 * 7), two), 1);
+  EXPECT_EQ(two, Data(32));
+}
+
+TEST_F(SegmentTest, Another_eeprom_gives_four_bytes_and_one_of_a_processor_none) {
+  SlaveConfig config = drive_config();
+  config.esc.eeprom_features = 0;
+  segment_.add(config);
+  master_.write<std::uint16_t>(Command::Apwr, address_of(0, reg::kStation), 0x1001);
+  Data command = {0x00, 0x01, 0x08, 0, 0, 0};
+  EXPECT_EQ(master_.send(Command::Fpwr, of(0, reg::kEepromControl), command), 1);
+  EXPECT_EQ(master_.read<std::uint16_t>(Command::Fprd, of(0, reg::kEepromControl)), kEepromBusy | kEepromRead);
+  master_.wait(Time(200'000));
+  EXPECT_EQ(master_.read<std::uint64_t>(Command::Fprd, of(0, reg::kEepromData)), 0x4D8U);
+  EXPECT_EQ(master_.write<std::uint8_t>(Command::Fpwr, of(0, reg::kEepromConfig), kEepromOfDevice), 1);
+  EXPECT_EQ(master_.send(Command::Fpwr, of(0, reg::kEepromControl), command), 0);
+}
+
+TEST_F(SegmentTest, A_slave_without_a_processor_copies_the_state_that_is_asked_for) {
+  SlaveConfig config = drive_config();
+  config.esc.pdi_control = 0x0104;
+  segment_.add(config);
+  master_.write<std::uint16_t>(Command::Apwr, address_of(0, reg::kStation), 0x1001);
+  for (const unsigned request : {0x11U, 0x02U, 0x12U, 0x04U, 0x08U}) {
+    master_.write<std::uint16_t>(Command::Fpwr, of(0, reg::kAlControl), static_cast<std::uint16_t>(request));
+    EXPECT_EQ(master_.read<std::uint16_t>(Command::Fprd, of(0, reg::kAlStatus)), request);
+  }
 }
 
 TEST_F(SegmentTest, The_eeprom_is_read_word_by_word) {
