@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What the documentation tells people to type exists, its links lead somewhere, and so do the files it names in code
-of this tree: `store/vars/store.h`, or `store/vars/store` for short. check_readme.py ROOT [INDUROP]
+of this tree, `store/vars/store.h`, or `store/vars/store` for short, and tests, `Suite.Shows_something`.
+check_readme.py ROOT [INDUROP]
 INDUROP: the built program, whose --help must know every verb shown."""
 
 import pathlib
@@ -12,6 +13,8 @@ import common
 
 FENCE = re.compile(r"^```(\w*)[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
 NAMED_FILE = re.compile(r"`((?:[a-z0-9_]+/)+[\w.-]*)`")
+NAMED_TEST = re.compile(r"`([A-Z]\w+\.[A-Z][a-z0-9]*_\w+)`")
+TEST = re.compile(r"^TEST\w*\(\s*(\w+),\s*(\w+)\)", re.MULTILINE)
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
 
@@ -40,6 +43,11 @@ def missing_files(root, name, text, files):
                 yield f"{name}: names the missing file {path}"
 
 
+def tests_of(root, files):
+    return {".".join(names) for file in files if file.startswith("tests/") and file.endswith(".cpp")
+            for names in TEST.findall(common.read(root, file))}
+
+
 def check(root, program):
     make_targets = set(re.findall(r"^([a-z][a-z-]*(?: [a-z-]+)*):", common.read(root, "Makefile"), re.MULTILINE))
     make_targets = {word for line in make_targets for word in line.split()}
@@ -48,11 +56,13 @@ def check(root, program):
         verbs = subprocess.run([program, "--help"], capture_output=True, text=True, check=False).stdout
     findings = []
     files = set(common.project_files(root))
+    tests = tests_of(root, files)
     for name in sorted(files):
         if not name.endswith(".md"):
             continue
         text = common.read(root, name)
         findings += missing_files(root, name, text, files)
+        findings += [f"{name}: names the missing test {test}" for test in NAMED_TEST.findall(text) if test not in tests]
         for target in LINK.findall(text):
             if "://" not in target and not (root / name).parent.joinpath(target).exists():
                 findings.append(f"{name}: link to missing file {target}")

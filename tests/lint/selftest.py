@@ -466,6 +466,12 @@ class Readme(Sample):
         self.put("docs/a.md", "[b](b.md) [web](https://example.org/)\n")
         self.found(check_readme.check(self.root, None), "b.md")
 
+    def test_missing_test(self):
+        self.put("Makefile", "all:\n")
+        self.put("tests/unit/a_test.cpp", HEAD + "TEST_F(Store, Keeps_what_is_written) {\n}\n")
+        self.put("docs/a.md", "`Store.Keeps_what_is_written`, `Store.size`, and `Store.Forgets_what_is_written`\n")
+        self.found(check_readme.check(self.root, None), "docs/a.md", "Store.Forgets_what_is_written")
+
     def test_missing_source_file(self):
         self.put("Makefile", "all:\n")
         self.put("store/vars/store.h", HEAD)

@@ -245,6 +245,12 @@ std::int64_t Clocks::whole(std::int64_t reference_ns, Clock sent) const noexcept
                                                                              static_cast<std::uint32_t>(expected));
 }
 
+std::int64_t Clocks::since_passed(std::size_t place, std::int64_t shown) const noexcept {
+  return slaves_[place].is_long
+             ? shown - passed_ns_
+             : static_cast<std::int32_t>(static_cast<std::uint32_t>(shown) - static_cast<std::uint32_t>(passed_ns_));
+}
+
 void Clocks::passed(std::int64_t reference_ns, Clock sent, Clock now) noexcept {
   reference_ns = whole(reference_ns, sent);
   // A reference that was off for a moment shows another time before it is found again.

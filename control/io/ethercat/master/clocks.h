@@ -35,6 +35,8 @@ class Clocks {
   [[nodiscard]] std::int64_t reference_time(Clock now) const noexcept;
   // The frame that was sent at `sent` passed the reference at this time of it.
   void passed(std::int64_t reference_ns, Clock sent, Clock now) noexcept;
+  // How long after the frame of the last tick the clock of this slave shows this time, ns.
+  [[nodiscard]] std::int64_t since_passed(std::size_t place, std::int64_t shown) const noexcept;
   // The frame of a tick did not come back.
   void not_passed() noexcept;
 

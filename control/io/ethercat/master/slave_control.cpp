@@ -122,15 +122,20 @@ std::optional<Query> SlaveControl::query(Clock now) noexcept {
     case Step::Operate:
       break;
   }
-  asks_state_ = is_suspect_ || now >= check_at_;
-  if (asks_state_) {
+  if (is_suspect_ || now >= check_at_) {
+    asks_ = Asks::State;
     return state_query();
   }
+  if (sync_.wants_pulse(now)) {
+    asks_ = Asks::Pulse;
+    return sync_.pulse_query(now);
+  }
+  asks_ = Asks::Mailbox;
   return mailbox_.is_open() ? mailbox_.query(now) : std::nullopt;
 }
 
 void SlaveControl::lost(Clock now) noexcept {
-  if (step_ == Step::Objects || (step_ == Step::Operate && !asks_state_)) {
+  if (step_ == Step::Objects || (step_ == Step::Operate && asks_ == Asks::Mailbox)) {
     mailbox_.lost(now);
   }
   if (step_ != Step::Pause && now - answered_at_ > kAnswerLimit) {
@@ -353,7 +358,13 @@ void SlaveControl::judge_sync(SyncSetup::Outcome outcome, Clock now) noexcept {
 }
 
 void SlaveControl::monitor(Bytes data, bool is_answered, Clock now) noexcept {
-  if (!asks_state_) {
+  if (asks_ == Asks::Pulse) {
+    if (is_answered) {
+      sync_.take_pulse(data);
+    }
+    return;
+  }
+  if (asks_ == Asks::Mailbox) {
     mailbox_.answer(data, is_answered, now);
     if (const auto emergency = mailbox_.take_emergency()) {
       events_.push({now, place_, Problem::EmergencySent, emergency->code});

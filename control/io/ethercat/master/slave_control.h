@@ -33,6 +33,11 @@ class SlaveControl {
   [[nodiscard]] Problem problem() const noexcept { return problem_; }
   [[nodiscard]] std::uint16_t expected_counter() const noexcept { return expected_; }
   [[nodiscard]] std::uint64_t wrong_counters() const noexcept { return wrong_counters_; }
+  // How long after the frame of a tick its pulse (SYNC0) is, as the slave says; nothing if it does not know or has
+  // none.
+  [[nodiscard]] std::optional<Clock> pulse_after() const noexcept {
+    return operates() ? sync_.pulse_after() : std::nullopt;
+  }
   // Begins a transfer of an application's. False: not now.
   bool start(SdoTransfer& transfer, Clock now) noexcept;
 
@@ -91,7 +96,7 @@ class SlaveControl {
   SyncSetup sync_;
   std::size_t object_ = 0;
   SdoTransfer transfer_;
-  bool asks_state_ = false;  // the query on its way in Operate
+  enum class Asks { Mailbox, State, Pulse } asks_ = Asks::Mailbox;  // the query on its way in Operate
   bool is_suspect_ = false;
   Clock check_at_{0};
   std::uint64_t wrong_counters_ = 0;

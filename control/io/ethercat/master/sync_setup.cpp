@@ -10,13 +10,15 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr Clock kPatience = milliseconds(10'000);  // for a clock to be in step
-constexpr Clock kAhead = milliseconds(100);        // of the first pulse, so that it is not past when it is switched on
+constexpr Clock kPulseCheck = milliseconds(100);
+constexpr Clock kAhead = milliseconds(100);  // of the first pulse, so that it is not past when it is switched on
 
 }  // namespace
 
 void SyncSetup::start(Clock now) noexcept {
   step_ = Step::Await;
   since_ = now;
+  pulse_after_.reset();
 }
 
 std::optional<Query> SyncSetup::query(Clock now) noexcept {
@@ -63,6 +65,17 @@ SyncSetup::Outcome SyncSetup::outcome(Clock now) const noexcept {
     return Outcome::NoClock;
   }
   return now - since_ > kPatience ? Outcome::NotInStep : Outcome::Running;
+}
+
+Query SyncSetup::pulse_query(Clock now) noexcept {
+  ask_pulse_at_ = now + kPulseCheck;
+  return Query{Command::Fprd, address_of(station_of(place_), reg::kSyncStart), {}, 8};
+}
+
+void SyncSetup::take_pulse(Bytes data) noexcept {
+  const std::int64_t since_frame = clocks_.since_passed(place_, load<std::int64_t>(data, 0));
+  const std::int64_t cycle = plan_.cycle.count();
+  pulse_after_ = Clock((since_frame % cycle + cycle) % cycle);
 }
 
 }  // namespace indurop::io::ethercat

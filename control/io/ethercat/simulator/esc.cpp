@@ -282,6 +282,9 @@ void Esc::refresh(std::uint16_t offset, std::size_t size, Time now) noexcept {
   if (overlaps(offset, size, reg::kSystemTime, 8)) {
     set<std::int64_t>(reg::kSystemTime, system_time(now).count());
   }
+  if (overlaps(offset, size, reg::kSyncStart, 8)) {
+    show_next_pulse(now);
+  }
 }
 
 // --- logical addresses ---

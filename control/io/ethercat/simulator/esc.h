@@ -104,6 +104,7 @@ class Esc {
   void follow_reference(Time received, Time now) noexcept;
   [[nodiscard]] Time long_time(Time now) const noexcept;
   void start_pulses(Time now) noexcept;
+  void show_next_pulse(Time now) noexcept;
 
   struct Mapping {  // one FMMU
     std::uint64_t first_bit = 0;

@@ -60,6 +60,18 @@ void Esc::start_pulses(Time now) noexcept {
   has_pulses_ = wants_pulses() && value<std::uint32_t>(reg::kSync0Cycle) > 0 && ahead > 0;
 }
 
+// The register of the first pulse is read as the time of the next one.
+void Esc::show_next_pulse(Time now) noexcept {
+  if (!has_pulses_) {
+    return;
+  }
+  const Time here = long_time(now);
+  const Time cycle(value<std::uint32_t>(reg::kSync0Cycle));
+  const Time next = here < first_pulse_ ? first_pulse_ : here + cycle - (here - first_pulse_) % cycle;
+  const bool is_long = (config_.features & kHasLongClock) != 0;
+  set<std::int64_t>(reg::kSyncStart, is_long ? next.count() : static_cast<std::uint32_t>(next.count()));
+}
+
 std::optional<Time> Esc::since_pulse(Time now) const noexcept {
   const Time since = long_time(now) - first_pulse_;
   return has_pulses_ && since.count() >= 0 ? std::optional(since % Time(value<std::uint32_t>(reg::kSync0Cycle)))

@@ -216,6 +216,30 @@ TEST(Clocks, A_clock_that_is_switched_off_is_a_piece_of_cable) {
   EXPECT_EQ(master.clocks().delay_ns(2), 2 * kCable.count());
 }
 
+// What each slave says to the master, against when frames arrive there by the slave's own pulses.
+TEST(Clocks, The_phase_of_pulses_is_reported_as_the_slaves_have_it) {
+  Synchronous bus({4, 30'000, {0, 20'000, -35'000, 50'000}, 13, false, {false, true, false, false}});
+  bus.start();
+  bus.run(2 * kSecond);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto after = bus.master().slave(i).pulse_after();
+    ASSERT_TRUE(after) << i;
+    EXPECT_NEAR(static_cast<double>(after->count()), static_cast<double>(kShift.count() - bus.phase_error(i)), 500)
+        << i;
+  }
+  // One whose pulses are elsewhere is seen although the tick keeps its phase.
+  auto& esc = bus.slave(2).esc();
+  const auto start = static_cast<std::int64_t>(esc.value<std::uint64_t>(reg::kSyncStart));
+  std::vector<std::uint8_t> word(8);
+  store<std::int64_t>(word, 0, start + kSecond * kTick.count() + 100'000);
+  const std::uint8_t on = 0x03;
+  ASSERT_TRUE(esc.write(reg::kSyncStart, word, bus.now()));
+  ASSERT_TRUE(esc.write(reg::kSyncActivation + 1U, Bytes(&on, 1), bus.now()));
+  bus.run(2 * kSecond);
+  EXPECT_NEAR(static_cast<double>(bus.master().slave(2).pulse_after()->count()), 350'000, 1000);
+  EXPECT_LT(std::abs(bus.master().clocks().phase_ns()), 1000);
+}
+
 TEST(Clocks, Late_ticks_move_the_phase_by_little) {
   Synchronous bus({4, 60'000, {0, 100'000, -100'000, 0}, 8, true});
   bus.start();

@@ -205,6 +205,35 @@ class Counted final : public Link {
   std::uint64_t allocated_ = 0;
 };
 
+// A frame that comes too late has been at the slave: it has taken the message, or believes that its answer was read.
+TEST(Master, A_message_whose_frame_is_lost_is_not_lost_and_not_taken_twice) {
+  Plant plant(1);
+  plant.run_until_all_operate(2000);
+  std::vector<std::uint8_t> sent(150);
+  for (unsigned delay = 0; delay < 30; ++delay) {
+    SCOPED_TRACE(delay);
+    std::fill(sent.begin(), sent.end(), static_cast<std::uint8_t>(delay));
+    SdoTransfer transfer;
+    transfer.index = 0x2000;
+    transfer.sent = sent;
+    for (int i = 0; i < 100 && !plant.master().start(0, transfer, plant.now()); ++i) {
+      plant.tick();
+    }
+    const auto before = plant.slave(0).sdo().downloads();
+    const auto lost = delay % 2 == 0 ? FaultKind::FramesLate : FaultKind::FramesLost;
+    plant.bus().add_fault({lost, plant.now() + delay / 2 * kTick, kTick, 0, 20'000'000});
+    for (int i = 0; i < 2000 && transfer.state == SdoTransfer::State::Waiting; ++i) {
+      plant.tick();
+    }
+    EXPECT_EQ(transfer.state, SdoTransfer::State::Done);
+    EXPECT_EQ(plant.slave(0).sdo().downloads(), before + 1);
+    const auto stored = plant.slave(0).objects().storage(0x2000, 0);
+    EXPECT_TRUE(std::equal(sent.begin(), sent.end(), stored.begin()));
+    plant.run_until_all_operate(2000);
+    plant.run(40);
+  }
+}
+
 TEST(Master, The_exchange_allocates_nothing) {
   constexpr std::size_t kDrives = 8;
   SimulatedBus bus;
