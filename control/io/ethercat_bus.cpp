@@ -127,12 +127,12 @@ void EthercatBus::stop() {
     const std::array<std::uint8_t, 2> init = {static_cast<std::uint8_t>(ethercat::AlState::Init) | ethercat::kAlError,
                                               0};
     builder.add(ethercat::Command::Bwr, 0, ethercat::address_of(0, ethercat::reg::kAlControl), init);
-    link_->send(builder.finish());
+    wire_->link().send(builder.finish());
   }
   ready_ = nullptr;
   running_ = nullptr;
   owned_.reset();
-  link_.reset();
+  wire_.reset();
 }
 
 ethercat::Master* EthercatBus::begin_turn() noexcept {
@@ -140,6 +140,8 @@ ethercat::Master* EthercatBus::begin_turn() noexcept {
     running_ = ready_.load(std::memory_order_acquire);
     if (running_ != nullptr) {
       running_->master.receive(now());
+      const auto cut = wire_->cut();
+      cut_.store(cut ? std::uint64_t{cut->before} << 32U | cut->behind : kWhole, std::memory_order_relaxed);
     }
   }
   return running_ == nullptr ? nullptr : &running_->master;
@@ -174,6 +176,7 @@ void EthercatBus::work() {
   ready_.store(owned_.get(), std::memory_order_release);
   while (wait(kPoll)) {
     report_carrier();
+    report_cut();
     report_events();
   }
 }
@@ -185,12 +188,29 @@ void EthercatBus::report(const std::string& problem) {
 }
 
 void EthercatBus::report_carrier() {
-  const bool has_carrier = link_->has_carrier();
+  const bool has_carrier = wire_->has_carrier();
   if (std::exchange(had_carrier_, has_carrier) != has_carrier) {
     irp::printf(has_carrier ? "EtherCAT %s: the link is back\n"
                             : "EtherCAT %s: no link; check the cable, and the power of the first slave\n",
                 interface_);
   }
+}
+
+void EthercatBus::report_cut() {
+  const std::uint64_t cut = cut_.load(std::memory_order_relaxed);
+  if (std::exchange(reported_cut_, cut) == cut) {
+    return;
+  }
+  if (cut == kWhole) {
+    irp::printf("EtherCAT %s: the cable is whole again\n", interface_);
+    return;
+  }
+  const std::size_t before = cut >> 32U;
+  const std::size_t behind = cut & 0xFFFFFFFFU;
+  const std::string left = before == 0 ? "the first interface" : fmt::format("slave {}", before - 1);
+  const std::string right = behind == owned_->master.size() ? "the second interface" : fmt::format("slave {}", behind);
+  irp::printf("EtherCAT %s: the cable is cut between %s and %s%s\n", interface_, left, right,
+              before == behind ? "; all slaves are reached" : "; those between them are not reached");
 }
 
 void EthercatBus::report_events() {
@@ -202,15 +222,15 @@ void EthercatBus::report_events() {
 
 // Returns what is wrong; nothing if the bus is ready for the tick.
 std::string EthercatBus::prepare() {
-  auto link = ethercat::PacketLink::open(interface_);
-  if (!link) {
-    return link.error();
+  auto wire = ethercat::Wire::open(interface_);
+  if (!wire) {
+    return wire.error();
   }
-  if (!(*link)->has_carrier()) {
+  if (!(*wire)->has_carrier()) {
     return "no link; check the cable, and the power of the first slave";
   }
-  auto found = ethercat::Scan(**link, [&link] {
-                 (*link)->wait(milliseconds(1));
+  auto found = ethercat::Scan((*wire)->link(), [&wire] {
+                 (*wire)->wait(milliseconds(1));
                  return now();
                }).run();
   if (!found) {
@@ -239,8 +259,8 @@ std::string EthercatBus::prepare() {
     const config::IoSync& sync = member.slave.sync;
     plan.sync = {sync.activate, sync.cycle, sync.shift, sync.sync1};
   }
-  link_ = std::move(*link);
-  owned_ = std::make_unique<Running>(*link_, std::move(plans), period_);
+  wire_ = std::move(*wire);
+  owned_ = std::make_unique<Running>(wire_->link(), std::move(plans), period_);
   make_fields(*found, *owned_);
   return {};
 }
@@ -258,6 +278,10 @@ std::string EthercatBus::check(const std::vector<ethercat::FoundSlave>& found) c
           "device {} is slave {}, and {} answer, from 0 on; check the cable after the last one, or the "
           "position in the file",
           member.device, place, found.size());
+    }
+    if (member.slave.sync.activate != 0 && interface_.find(',') != std::string::npos) {
+      return fmt::format("slave {}, device {}: a ring has no clocks; leave out <sync>, or name one interface only",
+                         place, member.device);
     }
     if (period_.count() > 0 && member.slave.sync.cycle % period_ != std::chrono::nanoseconds(0)) {
       return fmt::format(

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "control/io/ethercat/link/packet_link.h"
+#include "control/io/ethercat/link/wire.h"
 #include "control/io/ethercat/master/master.h"
 #include "control/io/ethercat/master/scan.h"
 #include "control/io/ethercat_field.h"
@@ -36,6 +36,7 @@ struct EthercatMember {
 
 class EthercatBus {
  public:
+  // The interface, or two of a ring: "eth1,eth2".
   explicit EthercatBus(std::string interface) : interface_(std::move(interface)) {}
   EthercatBus(const EthercatBus&) = delete;
   EthercatBus& operator=(const EthercatBus&) = delete;
@@ -78,6 +79,8 @@ class EthercatBus {
     std::atomic<std::size_t> read_{0};
   };
 
+  static constexpr std::uint64_t kWhole = ~std::uint64_t{0};
+
   void work();
   [[nodiscard]] std::string prepare();
   [[nodiscard]] std::string check(const std::vector<ethercat::FoundSlave>& found) const;
@@ -88,17 +91,20 @@ class EthercatBus {
   void report(const std::string& problem);
   void report_events();
   void report_carrier();
+  void report_cut();
   bool wait(std::chrono::milliseconds time);
 
   std::string interface_;
   std::vector<EthercatMember> members_;
-  std::unique_ptr<ethercat::PacketLink> link_;
+  std::unique_ptr<ethercat::Wire> wire_;
   std::unique_ptr<Running> owned_;
   std::atomic<Running*> ready_{nullptr};
   Running* running_ = nullptr;          // the tick's
   std::size_t turn_ = 0;                // members that had theirs in this tick
   std::chrono::nanoseconds period_{0};  // of the module
   EventQueue events_;
+  std::atomic<std::uint64_t> cut_{kWhole};  // where the ring is: the tick writes, the thread reads
+  std::uint64_t reported_cut_ = kWhole;
   std::string reported_;
   bool had_carrier_ = true;
   std::mutex mutex_;

@@ -51,6 +51,7 @@ lines come from the standard input, and times count from each of them:
 
 struct Setup {
   std::string interface;
+  std::string ring;
   std::vector<std::string> slaves;
   std::filesystem::path script;
   std::filesystem::path pcap;
@@ -59,6 +60,12 @@ struct Setup {
 class Simulation {
  public:
   Simulation(ethercat::PacketLink& link, std::unique_ptr<PcapFile> pcap) : link_(link), pcap_(std::move(pcap)) {}
+
+  // The cable comes in at this link, too.
+  void make_ring(std::unique_ptr<ethercat::PacketLink> last) {
+    last_link_ = std::move(last);
+    last_end_ = &bus_.make_ring();
+  }
 
   void add(SlaveModel model) {
     ethercat::Slave& slave = bus_.segment().add(
@@ -123,16 +130,29 @@ class Simulation {
   }
 
   void answer() {
+    take(link_, bus_);
+    if (last_link_ != nullptr) {
+      take(*last_link_, *last_end_);
+    }
+    bus_.advance(now());
+    give(bus_, link_);
+    if (last_link_ != nullptr) {
+      give(*last_end_, *last_link_);
+    }
+  }
+  void take(ethercat::Link& from, ethercat::Link& to) {
     std::array<std::uint8_t, ethercat::kMaxFrame> frame{};
-    while (const std::size_t size = link_.receive(frame)) {
+    while (const std::size_t size = from.receive(frame)) {
       began_ = began_ ? began_ : rt::MonoClock::now();
       record(ethercat::Bytes(frame).first(size));
       bus_.advance(now());
-      bus_.send(ethercat::Bytes(frame).first(size));
+      to.send(ethercat::Bytes(frame).first(size));
     }
-    bus_.advance(now());
-    while (const std::size_t size = bus_.receive(frame)) {
-      link_.send(ethercat::Bytes(frame).first(size));
+  }
+  void give(ethercat::Link& from, ethercat::Link& to) {
+    std::array<std::uint8_t, ethercat::kMaxFrame> frame{};
+    while (const std::size_t size = from.receive(frame)) {
+      to.send(ethercat::Bytes(frame).first(size));
       record(ethercat::Bytes(frame).first(size));
     }
   }
@@ -144,8 +164,10 @@ class Simulation {
   }
 
   ethercat::PacketLink& link_;
+  std::unique_ptr<ethercat::PacketLink> last_link_;  // of a ring
   std::unique_ptr<PcapFile> pcap_;
   ethercat::SimulatedBus bus_;
+  ethercat::Link* last_end_ = nullptr;
   std::optional<rt::MonoTime> began_;
   int input_ = -1;  // with lines of faults
   std::string lines_;
@@ -175,6 +197,13 @@ int run(const Setup& setup) {
     return fail(link.error());
   }
   Simulation simulation(**link, setup.pcap.empty() ? nullptr : std::make_unique<PcapFile>(setup.pcap));
+  if (!setup.ring.empty()) {
+    auto last = ethercat::PacketLink::open(setup.ring);
+    if (!last) {
+      return fail(last.error());
+    }
+    simulation.make_ring(std::move(*last));
+  }
   for (const std::string& word : setup.slaves) {
     auto model = read_slave_word(word);
     if (!model) {
@@ -208,6 +237,7 @@ int main(int argc, char** argv) {
   app.add("slaves", "SLAVE", setup.slaves, "The slaves, in the order of the cable")
       .required()
       .completes(base::Completion::File);
+  app.add("--ring", "INTERFACE", setup.ring, "Where the other end of the cable is: a ring");
   app.add("--script", "FILE", setup.script, "Faults that happen at their time").completes(base::Completion::File);
   app.add("--pcap", "FILE", setup.pcap, "Write all frames, for Wireshark").completes(base::Completion::File);
   app.details(io::ecsim::kDetails + io::ecsim::script_help());

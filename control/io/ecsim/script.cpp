@@ -44,6 +44,7 @@ constexpr std::array<Form, ethercat::kFaultKinds> kForms{
      {"eeprom_busy", FaultKind::EepromBusy, true, true},
      {"emergency", FaultKind::Emergency, true, false, "code"},
      {"clock_jumps", FaultKind::ClockJumps, true, false, "by"},
+     {"cable_cut", FaultKind::CableCut, true, true},
      {"value", FaultKind::ObjectSet, true, false, "to"}}};
 
 std::string example_of(const Form& form) {
@@ -147,7 +148,8 @@ class LineReader {
     const std::string value = equals == std::string::npos ? "" : word.text.substr(equals + 1);
     const auto number = number_of(value);
     const auto duration = base::parse_duration(value);
-    if (name == "slave" && number && *number < slaves_) {
+    const std::size_t places = slaves_ + (form_->kind == FaultKind::CableCut ? 1 : 0);  // behind the last one, too
+    if (name == "slave" && number && *number < places) {
       fault_.slave = *number;
       has_slave_ = true;
     } else if (name == "for" && duration) {
@@ -164,7 +166,7 @@ class LineReader {
     } else {
       wrong(word, fmt::format("{} is not possible here; {} is written so: {}{}", base::in_quotes(word.text),
                               form_->word, example_of(*form_),
-                              name == "slave" ? fmt::format(", with a slave from 0 to {}", slaves_ - 1) : ""));
+                              name == "slave" ? fmt::format(", with a slave from 0 to {}", places - 1) : ""));
       return false;
     }
     return true;

@@ -74,6 +74,33 @@ TEST_F(EthercatNode, The_tick_follows_the_clocks_of_drives) {
   EXPECT_TRUE(sut.prints("EtherCAT ec0: slave 1 (InduRoP simulated drive): its clock does not follow")) << sut.out();
 }
 
+TEST_F(EthercatNode, A_cut_ring_is_named_and_the_drive_moves_on) {
+  ASSERT_TRUE(io::ethercat::make_way_back());
+  drives_ = io::ethercat::start_drives(2, (folder() / "frames.pcap").string(), {"--ring", "ec3"});
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0,ec2' slave='1' in='TEST_CELL::AXIS1_IN'\n"
+      "  out='TEST_CELL::AXIS1_OUT'/>");
+  EXPECT_TRUE(moves()) << sut.out() << sut.err();
+  drives_->input("0s cable_cut slave=1 for=2s\n");
+  EXPECT_TRUE(sut.prints("EtherCAT ec0,ec2: the cable is cut between slave 0 and slave 1; all slaves are reached"))
+      << sut.out();
+  EXPECT_TRUE(moves()) << sut.out() << sut.err();
+  EXPECT_TRUE(sut.prints("EtherCAT ec0,ec2: the cable is whole again")) << sut.out();
+}
+
+TEST_F(EthercatNode, A_ring_has_no_clocks) {
+  ASSERT_TRUE(io::ethercat::make_way_back());
+  drives_ = io::ethercat::start_drives(1, (folder() / "frames.pcap").string(), {"--ring", "ec3"});
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0,ec2' slave='0' in='TEST_CELL::AXIS1_IN'>\n"
+      "  <sync activate='0x300' cycle='2ms'/>\n"
+      "</device>");
+  EXPECT_TRUE(
+      sut.prints("EtherCAT ec0,ec2: slave 0, device axis1: a ring has no clocks; leave out <sync>, or name one "
+                 "interface only"))
+      << sut.out();
+}
+
 TEST_F(EthercatNode, Pulses_that_fit_no_period_are_refused) {
   simulate(1);
   Program& sut = run_node(

@@ -74,10 +74,21 @@ inline bool make_cable() {
   return true;
 }
 
-// The slaves at the end of the cable. Faults are lines of input.
-inline std::unique_ptr<test::Program> start_drives(std::size_t drives, const std::string& pcap) {
+// A second cable in that network, ec2 to ec3, for the way back of a ring.
+inline bool make_way_back() {
+  bool good = test::Program({kEnv, "ip", "link", "add", "ec2", "type", "veth", "peer", "name", "ec3"}).wait() == 0;
+  for (const char* const end : {"ec2", "ec3"}) {
+    good = good && test::Program({kEnv, "ip", "link", "set", end, "up"}).wait() == 0;
+  }
+  return good;
+}
+
+// The slaves at the end of the cable, with these options. Faults are lines of input.
+inline std::unique_ptr<test::Program> start_drives(std::size_t drives, const std::string& pcap,
+                                                   const std::vector<std::string>& options = {}) {
   std::vector<std::string> command = {ECSIM_PROGRAM, kSlaveEnd};
   command.insert(command.end(), drives, "drive");
+  command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(), {"--pcap", pcap, "--script", "-"});
   auto started = std::make_unique<test::Program>(command);
   EXPECT_TRUE(started->prints("slaves at")) << started->err();

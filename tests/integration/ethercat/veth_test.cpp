@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The master at a network interface, simulated drives at the other end of the cable, tshark as the judge of what is
 // between them.
+#include <array>
+#include <deque>
 #include <map>
 #include <set>
+#include <utility>
 
+#include "control/io/ethercat/link/ring_link.h"
 #include "tests/support/unprivileged.h"
 #include "tests/unit/allocations.h"
 #include "veth_fixture.h"
@@ -72,6 +76,50 @@ class Bus {
   Clock now_{0};
   std::string story_;
 };
+
+// One end of a ring: keeps what has come until it is asked for.
+class QueuedLink final : public Link {
+ public:
+  explicit QueuedLink(PacketLink& link) : link_(link) {}
+  bool send(Bytes frame) noexcept override {
+    ++sent_;
+    return link_.send(frame);
+  }
+  std::size_t receive(std::span<std::uint8_t> to) noexcept override {
+    if (frames_.empty()) {
+      return 0;
+    }
+    const auto frame = frames_.front();
+    frames_.pop_front();
+    std::copy_n(frame.begin(), std::min(frame.size(), to.size()), to.begin());
+    return frame.size();
+  }
+  // Fetches what comes in within a millisecond. Returns how many frames those were.
+  int fetch() {
+    std::array<std::uint8_t, kMaxFrame> frame{};
+    int count = 0;
+    for (; link_.wait(std::chrono::milliseconds(count == 0 ? 1 : 0)); ++count) {
+      const std::size_t size = link_.receive(frame);
+      frames_.emplace_back(frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(size));
+    }
+    return count;
+  }
+  int take_sent() noexcept { return std::exchange(sent_, 0); }
+
+ private:
+  PacketLink& link_;
+  int sent_ = 0;
+  std::deque<std::vector<std::uint8_t>> frames_;
+};
+
+// Copies come out at either end: waits until as many are back as were sent, or some are lost.
+void settle(QueuedLink& first, QueuedLink& last) {
+  int under_way = first.take_sent() + last.take_sent();
+  test::wait_until([&] {
+    under_way -= first.fetch() + last.fetch();
+    return under_way <= 0;
+  });
+}
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;
@@ -272,6 +320,45 @@ TEST_F(Veth, Drives_before_a_pulled_one_keep_their_data) {
     EXPECT_THAT(sut.story(), testing::HasSubstr("slave 2 (drive): operates"));
     ASSERT_TRUE(sut.run_until([&] { return sut.all_fresh(); }));
   }
+}
+
+// No cycle is lost when the ring is cut. When it is whole again one may be: the copy of the first end has turned round
+// at the cut, and that of the last end comes through.
+TEST_F(Veth, A_ring_of_two_cables_is_cut_and_healed) {
+  ASSERT_TRUE(make_way_back());
+  slaves_ = start_drives(4, pcap(), {"--ring", "ec3"});
+  auto there = PacketLink::open("ec0");
+  auto back = PacketLink::open("ec2");
+  ASSERT_TRUE(there && back);
+  QueuedLink first(**there);
+  QueuedLink last(**back);
+  RingLink ring(first, last);
+  Master sut(ring, plans_of_drives(4), kCycle);
+  Clock now{0};
+  unsigned lost = 0;  // cycles without the data of all slaves
+  const auto all_fresh = [&sut] { return sut.is_fresh(0) && sut.is_fresh(1) && sut.is_fresh(2) && sut.is_fresh(3); };
+  const auto run_until = [&](auto condition) {
+    for (unsigned i = 0; i < 100'000 && !condition(); ++i) {
+      now += kCycle;
+      settle(first, last);
+      sut.cycle(now);
+      lost += all_fresh() ? 0U : 1U;
+    }
+    return condition();
+  };
+  ASSERT_TRUE(run_until(all_fresh));
+  for (std::size_t place = 1; place < 4; ++place) {
+    lost = 0;
+    slaves_->input("0s cable_cut slave=" + std::to_string(place) + " for=100ms\n");
+    ASSERT_TRUE(run_until([&] { return ring.cut().has_value(); }));
+    EXPECT_EQ(ring.cut()->before, place);
+    EXPECT_EQ(ring.cut()->behind, place);
+    EXPECT_EQ(lost, 0U) << place;
+    ASSERT_TRUE(run_until([&] { return !ring.cut(); }));
+    EXPECT_LE(lost, 1U) << place;
+  }
+  EXPECT_EQ(sut.counters().lost, 0U);
+  EXPECT_EQ(slaves_->err(), "");
 }
 
 TEST_F(Veth, A_link_that_cannot_be_used_says_why) {

@@ -2,7 +2,7 @@
 // indurop io: field devices, without a node.
 #include <fmt/format.h>
 
-#include "control/io/ethercat/link/packet_link.h"
+#include "control/io/ethercat/link/wire.h"
 #include "core/base/replace_file.h"
 #include "core/rt/clock.h"
 #include "tools/cli/fieldbus/import_esi.h"
@@ -124,13 +124,13 @@ void print_slaves(Context& context, const std::vector<FoundSlave>& slaves) {
 }
 
 int scan(Context& context, const IoOptions& options) {
-  auto link = io::ethercat::PacketLink::open(options.interface);
-  if (!link) {
-    context.out.error(link.error());
+  auto wire = io::ethercat::Wire::open(options.interface);
+  if (!wire) {
+    context.out.error(wire.error());
     return kFailed;
   }
-  const auto found = io::ethercat::Scan(**link, [&link] {
-                       (*link)->wait(std::chrono::milliseconds(1));
+  const auto found = io::ethercat::Scan((*wire)->link(), [&wire] {
+                       (*wire)->wait(std::chrono::milliseconds(1));
                        return rt::MonoClock::now().time_since_epoch();
                      }).run();
   if (!found) {
@@ -158,7 +158,7 @@ Action declare_io(base::Options& app, Context& context) {
   base::Options& scanning =
       app.command("scan", "List the slaves of an EtherCAT bus, with what they exchange",
                   [options, chosen] { *chosen = [options](Context& c) { return scan(c, *options); }; });
-  scanning.add("interface", "INTERFACE", options->interface, "Where the cable is").required();
+  scanning.add("interface", "INTERFACE", options->interface, "Where the cable is; of a ring two: eth1,eth2").required();
   scanning.add("--write", "FILE", options->file, "Write an ioconfig.xml for them").completes(base::Completion::File);
   scanning.add("--namespace", "NAME", options->space, "Of the variables in that file (default: IO)");
   add_format_option(scanning, context, {Format::Table, Format::Json, Format::Csv});

@@ -34,7 +34,15 @@ void SimulatedBus::add_to_product(std::size_t slave, std::uint32_t number) {
   store<std::uint32_t>(image, kProductAt, load<std::uint32_t>(image, kProductAt) + number);
 }
 
+Link& SimulatedBus::make_ring() {
+  segment_.make_ring();
+  return last_end_;
+}
+
 void SimulatedBus::begin(const Fault& fault) {
+  if (fault.kind == FaultKind::CableCut && fault.slave <= segment_.size()) {
+    segment_.set_cable(fault.slave, false);
+  }
   if (fault.slave >= segment_.size()) {
     return;
   }
@@ -83,7 +91,7 @@ void SimulatedBus::begin(const Fault& fault) {
     case FaultKind::ForeignFrame: {
       FrameBuilder builder({2, 9, 9, 9, 9, 9});
       builder.add(Command::Brd, 0, address_of(0, 0xFFFF), 1);
-      arrive(now_, builder.finish());
+      arrive({now_, Segment::End::First}, builder.finish());
       return;
     }
     default:
@@ -92,6 +100,9 @@ void SimulatedBus::begin(const Fault& fault) {
 }
 
 void SimulatedBus::end(const Fault& fault) {
+  if (fault.kind == FaultKind::CableCut && fault.slave <= segment_.size()) {
+    segment_.set_cable(fault.slave, true);
+  }
   if (fault.slave >= segment_.size()) {
     return;
   }
@@ -109,9 +120,9 @@ const Fault* SimulatedBus::active(FaultKind kind) const noexcept {
   return found == faults_.end() ? nullptr : &found->fault;
 }
 
-void SimulatedBus::arrive(Time at, Bytes frame) {
+void SimulatedBus::arrive(Segment::Passed passed, Bytes frame) {
   Arrival arrival;
-  arrival.at = at;
+  arrival.passed = passed;
   arrival.size = std::min(frame.size(), arrival.bytes.size());
   std::copy_n(frame.begin(), arrival.size, arrival.bytes.begin());
   arrivals_.push_back(arrival);
@@ -128,7 +139,7 @@ void SimulatedBus::spoil_counter(std::span<std::uint8_t> frame, std::size_t slav
   }
 }
 
-bool SimulatedBus::send(Bytes frame) noexcept {
+bool SimulatedBus::send(Bytes frame, Segment::End end) noexcept {
   std::array<std::uint8_t, kMaxFrame> copy{};
   const auto bytes = std::span(copy).first(std::min(frame.size(), copy.size()));
   std::copy_n(frame.begin(), bytes.size(), bytes.begin());
@@ -140,32 +151,33 @@ bool SimulatedBus::send(Bytes frame) noexcept {
     segment_.break_frame_at(broken->slave);
     return true;
   }
-  auto back = segment_.process(bytes, now_);
-  if (!back) {
+  auto passed = segment_.pass(bytes, now_, end);
+  if (!passed) {
     return true;
   }
   if (const Fault* const wrong = active(FaultKind::WrongCounter); wrong != nullptr && wrong->slave < segment_.size()) {
     spoil_counter(bytes, wrong->slave);
   }
   if (const Fault* const late = active(FaultKind::FramesLate)) {
-    *back += Time(late->value);
+    passed->back += Time(late->value);
   }
-  arrive(*back, bytes);
+  arrive(*passed, bytes);
   if (active(FaultKind::FramesDoubled) != nullptr) {
-    arrive(*back, bytes);
+    arrive(*passed, bytes);
   }
   return true;
 }
 
 std::optional<Time> SimulatedBus::next_arrival() const noexcept {
   const auto next = std::min_element(arrivals_.begin(), arrivals_.end(),
-                                     [](const Arrival& a, const Arrival& b) { return a.at < b.at; });
-  return next == arrivals_.end() ? std::nullopt : std::optional(next->at);
+                                     [](const Arrival& a, const Arrival& b) { return a.passed.back < b.passed.back; });
+  return next == arrivals_.end() ? std::nullopt : std::optional(next->passed.back);
 }
 
-std::size_t SimulatedBus::receive(std::span<std::uint8_t> to) noexcept {
-  const auto next =
-      std::find_if(arrivals_.begin(), arrivals_.end(), [this](const Arrival& arrival) { return arrival.at <= now_; });
+std::size_t SimulatedBus::receive(std::span<std::uint8_t> to, Segment::End end) noexcept {
+  const auto next = std::find_if(arrivals_.begin(), arrivals_.end(), [this, end](const Arrival& arrival) {
+    return arrival.passed.at == end && arrival.passed.back <= now_;
+  });
   if (next == arrivals_.end()) {
     return 0;
   }

@@ -30,9 +30,10 @@ enum class FaultKind : std::uint8_t {
   EepromBusy,     // for the duration, after the slave was restarted
   Emergency,      // the slave sends one with `value` as its code
   ClockJumps,     // the slave's, forward by `value` ns
+  CableCut,       // before the slave, or behind the last one, for the duration
   ObjectSet       // no fault: what a sensor of the slave measures; the object becomes `value`
 };
-inline constexpr std::uint8_t kFaultKinds = 16;
+inline constexpr std::uint8_t kFaultKinds = 17;
 
 struct Fault {
   FaultKind kind = FaultKind::FramesLost;
@@ -48,6 +49,8 @@ class SimulatedBus final : public Link {
   explicit SimulatedBus(Time delay = Time(500)) : segment_(delay) {}
 
   [[nodiscard]] Segment& segment() noexcept { return segment_; }
+  // The cable leads back to the master; returns its other end.
+  Link& make_ring();
   void add_fault(const Fault& fault) { faults_.push_back({fault, false, false}); }
   // Time passes; faults begin and end.
   void advance(Time now);
@@ -55,8 +58,8 @@ class SimulatedBus final : public Link {
   // When the next frame comes back to the master; nothing if none is under way.
   [[nodiscard]] std::optional<Time> next_arrival() const noexcept;
 
-  bool send(Bytes frame) noexcept override;
-  std::size_t receive(std::span<std::uint8_t> to) noexcept override;
+  bool send(Bytes frame) noexcept override { return send(frame, Segment::End::First); }
+  std::size_t receive(std::span<std::uint8_t> to) noexcept override { return receive(to, Segment::End::First); }
 
  private:
   struct Planned {
@@ -64,8 +67,17 @@ class SimulatedBus final : public Link {
     bool has_begun = false;
     bool has_ended = false;
   };
+  class LastEnd final : public Link {
+   public:
+    explicit LastEnd(SimulatedBus& bus) : bus_(bus) {}
+    bool send(Bytes frame) noexcept override { return bus_.send(frame, Segment::End::Last); }
+    std::size_t receive(std::span<std::uint8_t> to) noexcept override { return bus_.receive(to, Segment::End::Last); }
+
+   private:
+    SimulatedBus& bus_;
+  };
   struct Arrival {
-    Time at{0};
+    Segment::Passed passed;
     std::size_t size = 0;
     std::array<std::uint8_t, kMaxFrame> bytes{};
   };
@@ -75,13 +87,16 @@ class SimulatedBus final : public Link {
   void restart(std::size_t slave);
   void add_to_product(std::size_t slave, std::uint32_t number);
   [[nodiscard]] const Fault* active(FaultKind kind) const noexcept;
-  void arrive(Time at, Bytes frame);
+  bool send(Bytes frame, Segment::End end) noexcept;
+  std::size_t receive(std::span<std::uint8_t> to, Segment::End end) noexcept;
+  void arrive(Segment::Passed passed, Bytes frame);
   void spoil_counter(std::span<std::uint8_t> frame, std::size_t slave) noexcept;
 
   Segment segment_;
   Time now_{0};
   std::vector<Planned> faults_;
   std::vector<Arrival> arrivals_;
+  LastEnd last_end_{*this};
 };
 
 }  // namespace indurop::io::ethercat

@@ -57,11 +57,12 @@ void Slave::set_power(bool on) {
   on_ = on;
 }
 
-void Slave::set_next_port(bool linked) noexcept {
-  // Ports 0 and 1 with link and communication; those without are closed.
-  constexpr unsigned kBoth = 0x5A30;
-  constexpr unsigned kFirst = 0x5610;
-  esc_.set<std::uint16_t>(reg::kDlStatus, static_cast<std::uint16_t>((linked ? kBoth : kFirst) | dl_status_));
+void Slave::set_ports(bool before, bool after) noexcept {
+  // Ports 0 and 1: link and communication, or a closed loop; the other ports are closed.
+  unsigned status = 0x5000U | dl_status_;
+  status |= before ? 0x0210U : 0x0100U;
+  status |= after ? 0x0820U : 0x0400U;
+  esc_.set<std::uint16_t>(reg::kDlStatus, static_cast<std::uint16_t>(status));
 }
 
 // --- frames ---

@@ -40,7 +40,8 @@ class Slave {
   // slave: what the application computes goes into later frames.
   void compute();
   void set_power(bool on);
-  void set_next_port(bool linked) noexcept;  // whether another slave answers after it
+  // Whether something is linked before it (the master or another slave), and after it.
+  void set_ports(bool before, bool after) noexcept;
 
   void send_emergency(const Emergency& emergency);
   // Refuses the next requests for this state with this code.

@@ -57,6 +57,7 @@ TEST(Script, Wrong_lines_are_named_with_their_place_and_what_to_write) {
   EXPECT_EQ(said("2s power_off slave=2 for=5ms"),
             "faults:1:14: error: 'slave=2' is not possible here; power_off is written so: power_off slave=0 for=5ms, "
             "with a slave from 0 to 1\n");
+  EXPECT_EQ(said("2s cable_cut slave=2 for=5ms"), "") << "behind the last one";
   EXPECT_EQ(said("2s value slave=0 to=1"), "faults:1:4: error: value is written so: value slave=0 at=6000:1 to=1\n");
   EXPECT_EQ(said("2s frames_lost for=5x"),
             "faults:1:16: error: 'for=5x' is not possible here; frames_lost is written so: frames_lost for=5ms\n");

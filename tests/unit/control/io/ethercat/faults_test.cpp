@@ -77,6 +77,8 @@ class FaultyPlant {
         return has(fault.slave, Problem::EmergencySent, fault.value);
       case FaultKind::ClockJumps:
         return plant.happened(fault.slave, Problem::ClockNotInStep);
+      case FaultKind::CableCut:
+        return plant.happened(fault.slave, Problem::Missing);
       case FaultKind::ObjectSet:
         return true;
     }
@@ -122,6 +124,7 @@ Fault random_fault(std::mt19937& random, std::size_t slaves, FaultKind kind, Tim
       fault.value = static_cast<std::uint32_t>(1'200'000 + random() % 3'000'000);
       break;
     case FaultKind::PowerOff:
+    case FaultKind::CableCut:
       fault.duration = std::chrono::milliseconds(10 + random() % 400);
       break;
     case FaultKind::EepromBusy:
