@@ -16,7 +16,7 @@
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
-inline constexpr std::uint32_t kRunAbi = 7;
+inline constexpr std::uint32_t kRunAbi = 8;
 inline constexpr std::size_t kTextLength = 160;
 
 enum class NodeState : std::uint32_t { Starting, Running, Stopping, Stopped, Failed };
@@ -200,6 +200,10 @@ struct RunBlock {
   // CLOCK_MONOTONIC of tick 0. A module whose devices have a clock of their own moves it a little, and all later ticks
   // with it.
   std::atomic<std::int64_t> epoch_ns;
+  // How long after the frames of a tick devices of that module have a pulse of their clock, and shall have it; both 0:
+  // no module has said.
+  std::atomic<std::int64_t> pulse_after_ns;
+  std::atomic<std::int64_t> pulse_wanted_ns;
   std::atomic<std::int64_t> virtual_ns;  // time of a simulation; 0: CLOCK_MONOTONIC
   std::atomic<std::uint64_t> tick;       // number of the last tick begun + 1; 0: none
   std::atomic<std::uint64_t> lost_ticks;

@@ -5,6 +5,7 @@
 #include <indurop/irp.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "config/check/io_mapping.h"
@@ -155,11 +156,27 @@ void EthercatBus::end_turn() noexcept {
   running_->master.send(now());
   if (running_->master.clocks().reference()) {
     irp::shift_ticks(std::chrono::nanoseconds(running_->master.clocks().tick_correction()));
+    report_pulse(running_->master);
   }
   ethercat::Event event;
   while (running_->master.next_event(event)) {
     events_.push(event);
   }
+}
+
+// That of the slave which is farthest from where it shall be.
+void EthercatBus::report_pulse(const ethercat::Master& master) noexcept {
+  ethercat::Clock after{0};
+  ethercat::Clock wanted{0};
+  for (std::size_t i = 0; i < master.size(); ++i) {
+    const auto found = master.slave(i).pulse_after();
+    const ethercat::Clock shift = master.plan(i).sync.shift;
+    if (found && (wanted.count() == 0 || std::abs((*found - shift).count()) > std::abs((after - wanted).count()))) {
+      after = *found;
+      wanted = shift;
+    }
+  }
+  irp::report_pulse(after, wanted);
 }
 
 // --- the thread ---

@@ -81,6 +81,7 @@ class EthercatBus {
 
   static constexpr std::uint64_t kWhole = ~std::uint64_t{0};
 
+  static void report_pulse(const ethercat::Master& master) noexcept;
   void work();
   [[nodiscard]] std::string prepare();
   [[nodiscard]] std::string check(const std::vector<ethercat::FoundSlave>& found) const;

@@ -118,6 +118,10 @@ std::int64_t release_ns() noexcept;
 // modules of the node move along, statistics count from the moved ticks, and the node leaves the grid that boards of a
 // plant share. One module of a node may do so. Real-time safe.
 void shift_ticks(std::chrono::nanoseconds by) noexcept;
+// What `indurop status` shows of devices with a clock of their own: how long after the frames of a tick they have their
+// pulse, as they say themselves, and how long after them it shall be. Does nothing if the caller is no thread module of
+// a node. Real-time safe.
+void report_pulse(std::chrono::nanoseconds after, std::chrono::nanoseconds wanted) noexcept;
 // The current time of the node in ns: CLOCK_MONOTONIC; in a simulation its virtual time. Real-time safe.
 std::int64_t now_ns() noexcept;
 

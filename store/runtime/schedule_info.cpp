@@ -35,6 +35,14 @@ const RunBlock* current_run() noexcept {
   return runtime::hot.run.load(std::memory_order_acquire);
 }
 
+// The run of the node whose thread module calls; null if none does.
+RunBlock* own_run() noexcept {
+  RunBlock* const run = runtime::hot.run.load(std::memory_order_acquire);
+  const bool is_own =
+      run != nullptr && runtime::Process::get().hosted() && runtime::current_module() < run->module_count;
+  return is_own ? run : nullptr;
+}
+
 // For threads that run no run of a module: the basic period that the node is in.
 std::uint64_t present_tick(const RunBlock& run) noexcept {
   const std::uint64_t begun = run.tick.load(std::memory_order_acquire);
@@ -97,12 +105,17 @@ std::int64_t release_ns() noexcept {
 
 void shift_ticks(std::chrono::nanoseconds by) noexcept {
   constexpr std::int64_t kShare = 100;
-  RunBlock* const run = runtime::hot.run.load(std::memory_order_acquire);
-  if (run == nullptr || !runtime::Process::get().hosted() || runtime::current_module() >= run->module_count) {
-    return;
+  if (RunBlock* const run = own_run()) {
+    const std::int64_t most = run->basic_period_ns / kShare;
+    run->epoch_ns.fetch_add(std::clamp(by.count(), -most, most), std::memory_order_relaxed);
   }
-  const std::int64_t most = run->basic_period_ns / kShare;
-  run->epoch_ns.fetch_add(std::clamp(by.count(), -most, most), std::memory_order_relaxed);
+}
+
+void report_pulse(std::chrono::nanoseconds after, std::chrono::nanoseconds wanted) noexcept {
+  if (RunBlock* const run = own_run()) {
+    run->pulse_after_ns.store(after.count(), std::memory_order_relaxed);
+    run->pulse_wanted_ns.store(wanted.count(), std::memory_order_relaxed);
+  }
 }
 
 std::int64_t now_ns() noexcept {

@@ -70,6 +70,8 @@ TEST_F(EthercatNode, The_tick_follows_the_clocks_of_drives) {
       "</device>");
   EXPECT_TRUE(moves()) << sut.out() << sut.err();
   EXPECT_TRUE(sut.prints("EtherCAT ec0: slave 1 (InduRoP simulated drive): operates"));
+  EXPECT_TRUE(wait_until([&] { return indurop({"status"}).out.find("pulse     SYNC0 ") != std::string::npos; }))
+      << indurop({"status"}).out;
   drives_->input("0s clock_jumps slave=1 by=300us\n");
   EXPECT_TRUE(sut.prints("EtherCAT ec0: slave 1 (InduRoP simulated drive): its clock does not follow")) << sut.out();
 }

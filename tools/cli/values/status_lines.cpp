@@ -15,6 +15,8 @@
 namespace indurop::tools {
 namespace {
 
+constexpr double kNanosInMicro = 1000;
+
 Style style_of(const std::string& state) {
   return state == "alive" ? Style::Good : state == "absent" ? Style::Warn : Style::Bad;
 }
@@ -70,6 +72,11 @@ std::vector<std::string> header_lines(const NodeReport& report, const Output& ou
   if (report.lateness.count > 0) {
     lines.push_back(fmt::format("  lateness  p50 {}, p99 {}, max {}", human_ns(report.lateness.p50),
                                 human_ns(report.lateness.p99), human_ns(report.lateness.max)));
+  }
+  if (report.pulse_wanted_ns > 0) {
+    lines.push_back(fmt::format("  pulse     SYNC0 {:.3f} us after the frames of a tick, {:+.3f} us off",
+                                static_cast<double>(report.pulse_after_ns) / kNanosInMicro,
+                                static_cast<double>(report.pulse_after_ns - report.pulse_wanted_ns) / kNanosInMicro));
   }
   lines.push_back("  obtained  " + output.paint(report.rt.fifo != 0 ? Style::None : Style::Warn, rt_text(report.rt)));
   if (!report.same_core.empty()) {

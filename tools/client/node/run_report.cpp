@@ -80,6 +80,8 @@ NodeReport report_of(const std::string& node, const RunView& run) {
     report.same_core = nodes_on(report.rt.tick_core, node);
   }
   report.lateness = scheduler::summarize(block.tick_lateness);
+  report.pulse_after_ns = block.pulse_after_ns.load(kRelaxed);
+  report.pulse_wanted_ns = block.pulse_wanted_ns.load(kRelaxed);
   return report;
 }
 
@@ -114,6 +116,9 @@ JsonValue json_of(const NodeReport& report) {
             {"p99", report.lateness.p99},
             {"p99_9", report.lateness.p99_9},
             {"max", report.lateness.max}}},
+          {"pulse_ns", report.pulse_wanted_ns == 0
+                           ? JsonValue()
+                           : JsonValue({{"after", report.pulse_after_ns}, {"wanted", report.pulse_wanted_ns}})},
           {"rt",
            {{"fifo", report.rt.fifo != 0},
             {"priority", report.rt.tick_priority},

@@ -32,8 +32,10 @@ struct NodeReport {
   scheduler::Obtained rt{};
   std::vector<std::string> same_core;  // other real-time nodes of this host that run their tick on the same core
   scheduler::Summary lateness;
-  std::string owner;     // user who owns the store; empty: of another machine
-  bool foreign = false;  // the owner is another user
+  std::int64_t pulse_after_ns = 0;   // of devices with a clock that ticks follow, after the frames of a tick
+  std::int64_t pulse_wanted_ns = 0;  // 0: there are none
+  std::string owner;                 // user who owns the store; empty: of another machine
+  bool foreign = false;              // the owner is another user
   [[nodiscard]] bool hung() const { return state == kHung; }
 };
 

@@ -127,8 +127,21 @@ TEST(Schedule, Is_moved_by_a_hundredth_of_the_period_at_most) {
   EXPECT_EQ(run.epoch_ns, before - 10 + run.basic_period_ns / 100);
 }
 
+TEST(Schedule, Shows_the_pulses_of_devices) {
+  using std::chrono::nanoseconds;
+  TestNode node;
+  const Hosted hosted(node);
+  irp::report_pulse(nanoseconds(250'100), nanoseconds(250'000));
+  EXPECT_EQ(node.run().pulse_after_ns, 250'100);
+  EXPECT_EQ(node.run().pulse_wanted_ns, 250'000);
+  indurop::runtime::set_current_module(indurop::runtime::kNoModule);
+  irp::report_pulse(nanoseconds(1), nanoseconds(1));
+  EXPECT_EQ(node.run().pulse_after_ns, 250'100);
+}
+
 TEST(Schedule, Outside_a_node_is_empty) {
   irp::shift_ticks(std::chrono::nanoseconds(1));
+  irp::report_pulse(std::chrono::nanoseconds(1), std::chrono::nanoseconds(1));
   EXPECT_EQ(irp::period(), std::chrono::nanoseconds(0));
   EXPECT_EQ(irp::tick(), 0U);
   EXPECT_EQ(irp::release_ns(), 0);
