@@ -18,6 +18,9 @@ enum class ModuleCommand : std::uint8_t {
   Restart,
   Reload,  // exchange its code; a request in the node's folder says with what (store/operate/reload.h)
   Back,    // exchange its code with the previous version
+  // Exchange several modules; it is placed at the first module of the node, and a request in the node's folder says
+  // what (store/operate/exchange_set.h).
+  Exchange,
 };
 enum class CommandResult : std::uint8_t {
   None,       // not answered yet

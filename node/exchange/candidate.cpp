@@ -17,7 +17,8 @@ class CandidateCheck {
  public:
   CandidateCheck(const CandidateTask& task, std::vector<std::string>& errors) : task_(task), errors_(errors) {}
 
-  void run() {
+  // Returns true if what is wrong is wrong for this run of the node only.
+  bool run() {
     config::Config one = task_.config;
     one.modules = {task_.config.modules[task_.module]};
     config::Module& module = one.modules.front();
@@ -34,10 +35,12 @@ class CandidateCheck {
         errors_.push_back(base::to_string(diagnostic));
       }
     }
-    if (errors_.empty()) {
-      check_variables(result.facts.front());
-      check_imports(result.facts.front().file.imports);
+    if (!errors_.empty()) {
+      return false;
     }
+    check_variables(result.facts.front());
+    check_imports(result.facts.front().file.imports);
+    return !errors_.empty();
   }
 
  private:
@@ -102,7 +105,7 @@ class CandidateCheck {
 Candidate make_candidate(const CandidateTask& task) {
   Candidate candidate;
   const auto before = keys::digest_of_file(task.file);
-  CandidateCheck(task, candidate.errors).run();
+  candidate.needs_restart = CandidateCheck(task, candidate.errors).run();
   if (!candidate.errors.empty()) {
     return candidate;
   }

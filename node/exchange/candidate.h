@@ -35,6 +35,7 @@ struct Candidate {
   ModuleLibrary library;
   Carry carry;
   std::vector<std::string> errors;  // all that are found; empty: it may run
+  bool needs_restart = false;       // a node that is started with it has none of them
 };
 
 // Checks and loads it, next to the running version. Static constructors of the file run.

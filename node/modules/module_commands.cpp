@@ -44,7 +44,8 @@ void ModuleCommands::poll(rt::MonoTime now) {
   for (std::uint32_t i = 0; i < parts_.run.module_count; ++i) {
     const ModuleCommand command = scheduler::waiting_command(record(i));
     const bool taken = std::any_of(works_.begin(), works_.end(), [i](const Work& work) { return work.module == i; });
-    const bool exchanges = command == ModuleCommand::Reload || command == ModuleCommand::Back;
+    const bool exchanges =
+        command == ModuleCommand::Reload || command == ModuleCommand::Back || command == ModuleCommand::Exchange;
     if (command != ModuleCommand::None && !exchanges && !taken) {
       take(i, command, now);
     }

@@ -9,9 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/base/read_file.h"
-#include "core/base/replace_file.h"
 #include "core/rt/file_lock.h"
+#include "store/operate/node_json.h"
 #include "store/vars/retain.h"
 
 namespace indurop::operate {
@@ -19,21 +18,8 @@ namespace {
 
 using base::Json;
 
-std::filesystem::path file_of_reload(const std::string& node, const char* name) {
-  return vars::state_directory(node) / name;
-}
-
-Status write_json(const std::filesystem::path& file, const Json& json) {
-  std::error_code error;
-  std::filesystem::create_directories(file.parent_path(), error);
-  const auto written = base::replace_file(file, json.dump(), base::Durable::No);
-  return written ? Status() : Status(Error{Errc::System, EIO, "folder of the node"});
-}
-
-std::optional<Json> read_json(const std::filesystem::path& file) {
-  const auto text = base::read_file(file);
-  return text ? Json::parse(*text) : std::nullopt;
-}
+constexpr const char* kRequestFile = "reload.request";
+constexpr const char* kReportFile = "reload.report";
 
 Json json_of_plan(const ReloadPlan& plan) {
   return {
@@ -75,23 +61,20 @@ ReloadRequest request_of(const Json& json) {
 }
 
 Status write_request(const std::string& node, const ReloadRequest& request) {
-  return write_json(file_of_reload(node, "reload.request"), json_of(request));
+  return write_json(node, kRequestFile, json_of(request));
 }
 
 std::optional<ReloadRequest> take_reload_request(const std::string& node) {
-  const std::filesystem::path file = file_of_reload(node, "reload.request");
-  const auto json = read_json(file);
-  std::error_code ignored;
-  std::filesystem::remove(file, ignored);
+  const auto json = take_json(node, kRequestFile);
   return json ? std::optional(request_of(*json)) : std::nullopt;
 }
 
 Status write_report(const std::string& node, const ReloadReport& report) {
-  return write_json(file_of_reload(node, "reload.report"), json_of(report));
+  return write_json(node, kReportFile, json_of(report));
 }
 
 std::optional<ReloadReport> read_report(const std::string& node) {
-  const auto json = read_json(file_of_reload(node, "reload.report"));
+  const auto json = read_json(node, kReportFile);
   return json ? std::optional(report_of(*json)) : std::nullopt;
 }
 
@@ -100,6 +83,7 @@ ReloadReport report_of(const Json& json) {
   base::read(json, "module", report.module);
   base::read(json, "text", report.text);
   base::read(json, "errors", report.errors);
+  base::read(json, "needs_restart", report.needs_restart);
   report.plan = plan_of(json["plan"]);
   base::read(json, "from", report.from);
   base::read(json, "to", report.to);
@@ -115,6 +99,7 @@ Json json_of(const ReloadReport& report) {
   return {{"module", report.module},
           {"text", report.text},
           {"errors", report.errors},
+          {"needs_restart", report.needs_restart},
           {"plan", json_of_plan(report.plan)},
           {"from", report.from},
           {"to", report.to},
@@ -126,7 +111,7 @@ Json json_of(const ReloadReport& report) {
 }
 
 Result<ReloadLock> ReloadLock::acquire(const std::string& node) {
-  const std::filesystem::path path = file_of_reload(node, "reload.lock");
+  const std::filesystem::path path = vars::state_directory(node) / "reload.lock";
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   constexpr mode_t kMode = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP;

@@ -41,6 +41,7 @@ struct ReloadReport {
   std::string module;
   std::string text;                 // one sentence: what was done, or why not
   std::vector<std::string> errors;  // all that is wrong with the new version
+  bool needs_restart = false;       // a node that is started with it has none of the errors
   ReloadPlan plan;
   std::string from;  // SHA-256 of the files
   std::string to;

@@ -34,7 +34,8 @@ Action action_of(ModuleCommand what, bool module) {
     case ModuleCommand::None:
     case ModuleCommand::Restart:
     case ModuleCommand::Reload:
-    case ModuleCommand::Back:  // of this machine only
+    case ModuleCommand::Back:
+    case ModuleCommand::Exchange:  // of this machine only
       break;
   }
   return module ? Action::RestartModule : Action::RestartNode;

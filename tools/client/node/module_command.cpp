@@ -91,6 +91,7 @@ const char* verb_of(ModuleCommand command) {
     case ModuleCommand::Back:
       return "reload --back";
     case ModuleCommand::None:
+    case ModuleCommand::Exchange:
     case ModuleCommand::Restart:
       break;
   }
@@ -105,6 +106,7 @@ const char* past_of(ModuleCommand command) {
       return "started";
     case ModuleCommand::Reload:
     case ModuleCommand::Back:
+    case ModuleCommand::Exchange:
       return "exchanged";
     case ModuleCommand::None:
     case ModuleCommand::Restart:

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <string>
 
+#include "store/operate/exchange_set.h"
 #include "store/operate/remote_reload.h"
 #include "store/vars/retain.h"
 
@@ -113,6 +114,51 @@ TEST(RemoteReload, Other_text_is_refused) {
   for (const char* text : {"", "{}", "[]", R"({"back": 1})", R"({"result": "perhaps"})"}) {
     EXPECT_FALSE(parse_remote_reload(text)) << text;
     EXPECT_FALSE(parse_remote_reload_reply(text)) << text;
+  }
+}
+
+TEST_F(ReloadFiles, A_request_about_several_modules_comes_as_it_was_written_and_once) {
+  using Act = SetRequest::Act;
+  EXPECT_FALSE(take_set_request("n"));
+  for (const Act act : {Act::Compare, Act::Prepare, Act::Exchange, Act::Decide}) {
+    ASSERT_TRUE(write_set_request("n", {act, "0123", {{"press", "/a b/p.so"}, {"belt", ""}}, ~std::uint64_t{0}}).ok());
+    const auto request = take_set_request("n");
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->act, act);
+    EXPECT_EQ(request->deployment, "0123");
+    EXPECT_EQ(request->tick, ~std::uint64_t{0});
+    ASSERT_EQ(request->modules.size(), 2U);
+    EXPECT_EQ(request->modules[0].file, "/a b/p.so");
+    EXPECT_EQ(request->modules[1].name, "belt");
+    EXPECT_FALSE(take_set_request("n"));
+  }
+}
+
+TEST_F(ReloadFiles, A_report_about_several_modules_comes_as_it_was_written) {
+  using State = SetReport::State;
+  EXPECT_FALSE(read_set_report("n"));
+  for (const State state : {State::None, State::Preparing, State::Compared, State::Ready, State::Waiting,
+                            State::Exchanged, State::Leaving, State::Undone, State::Stuck}) {
+    SetReport sut;
+    sut.state = state;
+    sut.node_pid = 77;
+    sut.problem = "why";
+    sut.refused = "belt";
+    sut.needs_restart = true;
+    sut.modules.resize(2);
+    sut.modules[1].module = "belt";
+    sut.modules[1].tick = 5;
+    ASSERT_TRUE(write_set_report("n", sut).ok());
+    const auto read = read_set_report("n");
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->state, state);
+    EXPECT_EQ(read->node_pid, 77);
+    EXPECT_EQ(read->problem, "why");
+    EXPECT_EQ(read->refused, "belt");
+    EXPECT_TRUE(read->needs_restart);
+    ASSERT_EQ(read->modules.size(), 2U);
+    EXPECT_EQ(read->modules[1].module, "belt");
+    EXPECT_EQ(read->modules[1].tick, 5U);
   }
 }
 
