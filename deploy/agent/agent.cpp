@@ -7,6 +7,7 @@
 #include "core/rt/clock.h"
 #include "deploy/agent/agent_state.h"
 #include "deploy/agent/board_alarms.h"
+#include "deploy/agent/board_change.h"
 #include "deploy/agent/board_commands.h"
 #include "deploy/agent/board_deployment.h"
 #include "deploy/agent/board_link.h"
@@ -16,6 +17,7 @@
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/agent/fetcher.h"
 #include "deploy/agent/offer.h"
+#include "deploy/agent/order_gate.h"
 #include "deploy/agent/other_boards.h"
 #include "deploy/agent/platform_update.h"
 #include "deploy/agent/report_schedule.h"
@@ -36,6 +38,27 @@ std::string text_of(const Result<void, base::Problem>& result) {
   return result ? std::string{} : result.error().text;
 }
 
+// Both clocks at the same moment: the tick of an exchange depends on it, and this thread may be preempted in between.
+struct BothClocks {
+  rt::MonoTime mono;
+  rt::WallTime wall;
+};
+BothClocks both_clocks() {
+  constexpr int kTries = 10;
+  constexpr std::chrono::microseconds kClose{20};
+  BothClocks best;
+  std::chrono::nanoseconds closest = std::chrono::hours(1);
+  for (int i = 0; i < kTries && closest > kClose; ++i) {
+    const rt::MonoTime before = rt::MonoClock::now();
+    const rt::WallTime wall = rt::WallClock::now();
+    if (const auto apart = rt::MonoClock::now() - before; apart < closest) {
+      closest = apart;
+      best = {before, wall};
+    }
+  }
+  return best;
+}
+
 class Agent {
  public:
   Agent(const AgentOptions& options, const base::Log& log, AgentState& state, AgentState& platform,
@@ -47,10 +70,12 @@ class Agent {
         keys_(options.board),
         deployment_(state, options.board, options.link.network.one_host),
         transaction_(options.board),
+        gate_(state, keys_, deployment_, transaction_, log),
         fetcher_(state, self_, options.board),
         process_(
             options.board, node_arguments(options), {state.folder() / "blackbox", options.board},
             [this](const std::string& id) { return verify(id); }, log),
+        change_(state, options.board, deployment_, process_, log),
         recorder_(options.board, base::program_folder() / "indurop", {}, log),
         alarms_(options.board, log),
         board_commands_(options.board, self_, keys_, state, process_, recorder_, log),
@@ -65,6 +90,7 @@ class Agent {
   }
 
   int run(base::StopSignal& signals) {
+    change_.resume();
     state_.collect_old_garbage();
     resume();
     service_manager_.ready();
@@ -138,8 +164,13 @@ class Agent {
 
   void listen(rt::MonoTime now) {
     for (const auto& news : net_.link()->take_orders()) {
-      if (!news.gone && may_order(news.order)) {  // a deployer that is gone sends nothing
-        perform(transaction_.receive(news.order, now, rt::WallClock::now()), now);
+      const std::uint64_t refused = gate_.refused();
+      if (!news.gone && gate_.accepts(news.order, platform_.under_way())) {  // a deployer that is gone sends nothing
+        const BothClocks clocks = both_clocks();
+        perform(transaction_.receive(news.order, clocks.mono, clocks.wall), now);
+      }
+      if (gate_.refused() != refused) {
+        report_schedule_.request();
       }
     }
     for (const std::string& why : others_.listen(*net_.link(), state_.committed().plant)) {
@@ -148,7 +179,7 @@ class Agent {
     for (const auto& [key, other] : others_.all()) {
       if (deployment_.lacks(other, damaged_) && !platform_.under_way() &&
           keys_.refusal(other.plant, grant_text(other.plant, other.current, other.generation), other.grant).empty()) {
-        perform(transaction_.catch_up(other, now), now);
+        perform(transaction_.catch_up(other, now, Way::Exchange), now);
       }
     }
   }
@@ -161,31 +192,6 @@ class Agent {
         log_.warning("the black box cannot be kept: {}", requested.error().where);
       }
     }
-  }
-
-  // Orders addressed to this board are accepted from deployers with permission; others get the reason.
-  bool may_order(const Order& order) {
-    if (!deployment_.belongs(order.boards)) {
-      return false;
-    }
-    std::string why = keys_.refusal(order.plant, order_text(order), order.signature);
-    if (why.empty()) {
-      why = keys_.refusal(order.plant, grant_text(order.plant, order.deployment, order.generation), order.grant);
-    }
-    const bool begins = order.step == Step::Prepare && transaction_.phase() == Phase::Steady;
-    if (why.empty() && begins && order.generation <= state_.committed().generation &&
-        order.deployer != transaction_.order().deployer) {
-      why = "this board has a newer deployment than that; deploy again";
-    }
-    if (why.empty() && begins && platform_.under_way()) {
-      why = "the platform of this board is being updated";
-    }
-    if (!why.empty() && order.step == Step::Prepare && refusal_.deployer != order.deployer) {
-      log_.warning("an order from {} was rejected: {}", order.host, why);
-      refusal_ = {order.deployer, why};
-      report_schedule_.request();
-    }
-    return why.empty();
   }
 
   void work(rt::MonoTime now) {
@@ -214,10 +220,17 @@ class Agent {
   }
 
   void follow(rt::MonoTime now) {
+    if (const auto answer = change_.poll(transaction_.order())) {
+      report_schedule_.request();
+      perform(answer->what == BoardExchange::Done::Loaded ? transaction_.loaded(answer->problem, answer->exchanges, now)
+              : answer->what == BoardExchange::Done::Entered ? transaction_.exchanged(answer->problem, now)
+                                                             : Do::Nothing,
+              now);
+    }
     perform(transaction_.time(now), now);
     const Phase phase = transaction_.phase();
     if (phase == Phase::Trial || phase == Phase::Healthy) {
-      const BoardProcess::Health health = process_.health(transaction_.order().boards);
+      const BoardProcess::Health health = change_.health(transaction_.order());
       perform(transaction_.node(health.problem, health.missing, now), now);
     }
   }
@@ -229,6 +242,7 @@ class Agent {
         return;
       case Do::Fetch:
         log_.info("deployment {} of {}: fetching", shown_id(order.deployment), order.host);
+        change_.begin();
         fetcher_.begin(others_.with_files_of(order.plant, transaction_.source()), order.deployment, order.size);
         break;
       case Do::Check:
@@ -236,12 +250,17 @@ class Agent {
         send_report(now);  // it may take a while
         perform(transaction_.checked(text_of(deployment_.check(order)), rt::MonoClock::now()), rt::MonoClock::now());
         break;
+      case Do::Load:
+        change_.load(order);
+        break;
+      case Do::Enter:
+        change_.enter(order, transaction_.switch_at());
+        break;
       case Do::Switch:
-        log_.info("deployment {}: switching", shown_id(order.deployment));
-        held_before_ = process_.held();
-        process_.want(deployment_.manifest(order.deployment), order.deployment);
+        change_.restart(order);
         break;
       case Do::Commit:
+        change_.commit(order);
         commit(order);
         break;
       case Do::GoBack:
@@ -250,7 +269,10 @@ class Agent {
         break;
       case Do::Forget:
         fetcher_.cancel();
-        log_.warning("deployment {}: abandoned: {}", shown_id(order.deployment), transaction_.message());
+        change_.forget();
+        if (!transaction_.message().empty()) {
+          log_.warning("deployment {}: abandoned: {}", shown_id(order.deployment), transaction_.message());
+        }
         state_.collect_garbage(order.deployment);
         break;
     }
@@ -267,11 +289,7 @@ class Agent {
   }
 
   void go_back(const Order& order) {
-    const std::string& before = state_.committed().current;
-    process_.want(deployment_.manifest(before), before);
-    if (!held_before_.empty()) {
-      process_.hold(held_before_);
-    }
+    change_.go_back(transaction_.way());
     if (const auto noted = deployment_.note_rollback(order, transaction_.message()); !noted) {
       log_.error("{}", noted.error().text);
     }
@@ -294,8 +312,8 @@ class Agent {
     out.proposed = order.deployment;
     out.phase = transaction_.phase();
     out.stage = transaction_.stage();
-    out.refused = refusal_.deployer;
-    out.refusal = refusal_.reason;
+    out.refused = gate_.refused();
+    out.refusal = gate_.reason();
     out.message = transaction_.message();
     if (!out.message.empty() && out.phase == Phase::Steady && order.deployment != committed.current) {
       out.message = fmt::format("deployment {} was rolled back: {}", shown_id(order.deployment), out.message);
@@ -308,6 +326,9 @@ class Agent {
     }
     out.node = process_.condition();
     out.clock_offset_ns = transaction_.clock_offset().count();
+    out.way = transaction_.way();
+    out.grid_ns = change_.grid_ns();
+    out.plan = out.phase == Phase::Steady ? "" : change_.plan();
     return out;
   }
 
@@ -326,12 +347,6 @@ class Agent {
     }
   }
 
-  // The order that was rejected last.
-  struct Refusal {
-    std::uint64_t deployer = 0;
-    std::string reason;
-  };
-
   const AgentOptions& options_;
   const base::Log& log_;
   AgentState& state_;
@@ -340,9 +355,10 @@ class Agent {
   DeployKeys keys_;
   BoardDeployment deployment_;
   BoardTransaction transaction_;
+  OrderGate gate_;
   Fetcher fetcher_;
   BoardProcess process_;
-  std::string held_before_;  // hold reason before the trial
+  BoardChange change_;
   BoardRecorder recorder_;
   BoardAlarms alarms_;
   BoardCommands board_commands_;
@@ -353,7 +369,6 @@ class Agent {
   BoardLink net_;
   OtherBoards others_;
   PlatformUpdate platform_;
-  Refusal refusal_;
   bool damaged_ = false;  // the committed deployment is damaged, and this board cannot restore it on its own
   bool busy_ = false;
   ReportSchedule report_schedule_;

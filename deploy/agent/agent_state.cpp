@@ -122,7 +122,8 @@ AgentState::AgentState(AgentState&& other) noexcept
       lock_(std::exchange(other.lock_, -1)),
       kept_(other.kept_),
       log_(std::move(other.log_)),
-      committed_(std::move(other.committed_)) {}
+      committed_(std::move(other.committed_)),
+      used_(std::move(other.used_)) {}
 
 AgentState::~AgentState() {
   if (lock_ >= 0) {
@@ -295,6 +296,7 @@ fs::path AgentState::manifest(const std::string& id) const {
 
 AgentState::Needed AgentState::needed_by(const std::set<std::string>& ids) const {
   Needed needed;
+  needed.folders.insert(used_);
   for (const std::string& id : ids) {
     needed.folders.insert(files_.deployment(id).filename().string());
     needed.files.insert(id);
@@ -313,6 +315,11 @@ void AgentState::remove_files_but(const std::set<std::string>& needed, bool old_
   if (is_known(committed_.current) && is_known(committed_.previous)) {
     remove_others(folder() / "files", needed, old_only ? kPiecesKept : std::chrono::hours{});
   }
+}
+
+void AgentState::keep_folder_of(const fs::path& manifest) {
+  const fs::path inside = manifest.lexically_relative(folder() / "deployments");
+  used_ = inside.empty() || *inside.begin() == ".." ? std::string() : inside.begin()->string();
 }
 
 void AgentState::collect_garbage(const std::string& tried) {

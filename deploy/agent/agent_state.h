@@ -65,6 +65,8 @@ class AgentState {
   Result<void, base::Problem> restore(const std::string& id, const PackageFile& entry);
   // Returns the path of its manifest when it is installed; its folder if its package is damaged.
   [[nodiscard]] std::filesystem::path manifest(const std::string& id) const;
+  // Keeps one more folder: the one from which a node was started that has changed to later deployments since.
+  void keep_folder_of(const std::filesystem::path& manifest);
   // Removes everything that the committed deployment, the previous one and the newest of the history do not need. The
   // files of `tried`, a deployment that was abandoned, are kept for the next attempt.
   void collect_garbage(const std::string& tried = {});
@@ -94,6 +96,7 @@ class AgentState {
   std::size_t kept_;  // number of deployments
   Log log_;
   Committed committed_;
+  std::string used_;  // name of that folder; empty: none
 };
 
 }  // namespace indurop::deploy

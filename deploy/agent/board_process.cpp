@@ -41,6 +41,11 @@ const scheduler::RunBlock& present(const std::optional<vars::RunFile>& file) {
   return *static_cast<const scheduler::RunBlock*>(file->data());
 }
 
+template <std::size_t N>
+std::string text_of_fixed(const char (&text)[N]) {
+  return {text, ::strnlen(text, N)};
+}
+
 std::string describe(int status) {
   return WIFSIGNALED(status)
              ? fmt::format("was ended by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)))
@@ -86,6 +91,17 @@ void BoardProcess::want(const std::filesystem::path& manifest, const std::string
   }
 }
 
+void BoardProcess::go_on_as(const std::filesystem::path& manifest, const std::string& deployment) {
+  running_ = deployment;
+  want(manifest, deployment);
+}
+
+std::filesystem::path BoardProcess::manifest_of_node(const std::string& board) {
+  const auto file = vars::RunFile::open(board, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+  const auto* const block = file && vars::running_node(board) > 0 ? block_of(file.value()) : nullptr;
+  return block != nullptr ? text_of_fixed(block->plant_file) : std::string();
+}
+
 void BoardProcess::hold(const std::string& reason) {
   held_ = reason;
   reason_ = reason;
@@ -110,9 +126,8 @@ bool BoardProcess::adopt() {
   const auto* block = file ? block_of(file.value()) : nullptr;
   const bool same_release = release_folder_in(fs::read_symlink(fmt::format("/proc/{}/exe", pid), error)) ==
                             release_folder_in(node_program_path(program_));
-  running_ = same_release && block != nullptr && block->node_pid.load() == pid
-                 ? std::string(block->deployment, ::strnlen(block->deployment, sizeof block->deployment))
-                 : std::string{};
+  running_ = same_release && block != nullptr && block->node_pid.load() == pid ? text_of_fixed(block->deployment)
+                                                                               : std::string{};
   pid_ = pid;
   adopted_ = true;
   asked_to_stop_ = false;

@@ -45,6 +45,12 @@ class BoardProcess {
   // Sets what should run from now on, and its id; empty: nothing. The same again: a node that has failed is given a new
   // chance.
   void want(const std::filesystem::path& manifest, const std::string& deployment);
+  // As want(), of a node that was exchanged to that deployment: it goes on.
+  void go_on_as(const std::filesystem::path& manifest, const std::string& deployment);
+  // Ends the node, and starts it again with what should run.
+  void renew() noexcept { running_.clear(); }
+  // Returns the manifest that the board's node was started with; empty: none runs.
+  static std::filesystem::path manifest_of_node(const std::string& board);
   // Ends the node and keeps it down until release() or want(); `reason` is what users see.
   void hold(const std::string& reason);
   void release();

@@ -236,6 +236,11 @@ void PlatformUpdate::perform(Do what, rt::MonoTime now) {
     case Do::Check:
       perform(transaction_.checked(check(), rt::MonoClock::now()), rt::MonoClock::now());
       break;
+    case Do::Load:
+      perform(transaction_.loaded({}, false, now), now);  // programs are not exchanged while they run
+      break;
+    case Do::Enter:
+      break;
     case Do::Switch:
       prepare_switch();
       break;

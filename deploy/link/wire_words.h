@@ -67,6 +67,9 @@ struct Wire<BoardReport> {
       Pair{&BoardReport::overruns, &Sample::overruns},
       Pair{&BoardReport::faults, &Sample::faults},
       Pair{&BoardReport::clock_offset_ns, &Sample::clock_offset_ns},
+      Pair{&BoardReport::way, &Sample::way},
+      Pair{&BoardReport::grid_ns, &Sample::grid_ns},
+      Pair{&BoardReport::plan, &Sample::plan},
   };
 };
 
@@ -85,6 +88,7 @@ struct Wire<Order> {
       Pair{&Order::said_at_ns, &Sample::said_at_ns},
       Pair{&Order::switch_at_ns, &Sample::switch_at_ns},
       Pair{&Order::health_ns, &Sample::health_ns},
+      Pair{&Order::way, &Sample::way},
       Pair{&Order::grant, &Sample::grant},
       Pair{&Order::signature, &Sample::signature},
   };
@@ -210,6 +214,9 @@ constexpr Phase last_of(Phase /*any*/) noexcept {
 }
 constexpr Step last_of(Step /*any*/) noexcept {
   return Step::Abort;
+}
+constexpr Way last_of(Way /*any*/) noexcept {
+  return Way::Compare;
 }
 constexpr NodeCondition last_of(NodeCondition /*any*/) noexcept {
   return NodeCondition::Stopped;

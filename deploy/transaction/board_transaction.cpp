@@ -8,7 +8,8 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::chrono::seconds kRetry{30};  // after a deployment that could not be taken over
+constexpr std::chrono::seconds kRetry{30};             // after a deployment that could not be taken over
+constexpr std::chrono::milliseconds kEnterAhead{100};  // until the tick in which a board that joins exchanges modules
 constexpr std::chrono::nanoseconds kLongestHealth = std::chrono::minutes{10};
 
 }  // namespace
@@ -23,6 +24,7 @@ Do BoardTransaction::begin(const Order& order, std::uint64_t source, bool joinin
   order_ = order;
   source_ = source;
   joining_ = joining;
+  way_ = Way::Restart;
   phase_ = Phase::Fetching;
   stage_ = Phase::Steady;
   message_.clear();
@@ -110,8 +112,7 @@ Do BoardTransaction::receive(const Order& order, rt::MonoTime now, rt::WallTime 
       break;
     case Step::Switch:
       if (phase_ == Phase::Prepared && !switch_) {
-        clock_offset_ = wall - rt::wall_time(order.said_at_ns);
-        agree_instant(order, now);
+        return hear_switch(order, now, wall);
       }
       break;
     case Step::Commit:
@@ -122,12 +123,22 @@ Do BoardTransaction::receive(const Order& order, rt::MonoTime now, rt::WallTime 
       }
       break;
     case Step::Abort:
-      return end("another board failed, or the deployer gave up");
+      return end(order_.way == Way::Compare ? "" : "another board failed, or the deployer gave up");
   }
   return Do::Nothing;
 }
 
-Do BoardTransaction::catch_up(const BoardReport& from, rt::MonoTime now) {
+Do BoardTransaction::hear_switch(const Order& order, rt::MonoTime now, rt::WallTime wall) {
+  if (order.way == Way::Exchange && way_ != Way::Exchange) {
+    return fail("it can change to this deployment by a restart of its node only");
+  }
+  clock_offset_ = wall - rt::wall_time(order.said_at_ns);
+  agree_instant(order, now);
+  way_ = order.way;
+  return way_ == Way::Exchange ? Do::Enter : Do::Nothing;
+}
+
+Do BoardTransaction::catch_up(const BoardReport& from, rt::MonoTime now, Way way) {
   if (phase_ != Phase::Steady || (from.generation == failed_join_ && now < retry_)) {
     return Do::Nothing;
   }
@@ -141,6 +152,7 @@ Do BoardTransaction::catch_up(const BoardReport& from, rt::MonoTime now) {
   order.generation = from.generation;
   order.boards = from.members;
   order.health_ns = std::chrono::nanoseconds(kJoinHealth).count();
+  order.way = way;
   return begin(order, from.agent, true);
 }
 
@@ -162,10 +174,38 @@ Do BoardTransaction::checked(const std::string& problem, rt::MonoTime now) {
   if (!problem.empty()) {
     return fail(problem);
   }
-  phase_ = Phase::Prepared;
-  if (joining_) {
-    switch_ = now;
+  return order_.way == Way::Restart ? prepared(now) : Do::Load;
+}
+
+Do BoardTransaction::loaded(const std::string& problem, bool exchanges, rt::MonoTime now) {
+  if (phase_ != Phase::Checking) {
+    return Do::Nothing;
   }
+  if (!problem.empty()) {
+    return fail(problem);
+  }
+  way_ = exchanges ? Way::Exchange : Way::Restart;
+  return prepared(now);
+}
+
+Do BoardTransaction::prepared(rt::MonoTime now) {
+  phase_ = Phase::Prepared;
+  if (!joining_) {
+    return Do::Nothing;
+  }
+  switch_ = now + (way_ == Way::Exchange ? kEnterAhead : std::chrono::milliseconds(0));
+  return way_ == Way::Exchange ? Do::Enter : Do::Nothing;
+}
+
+Do BoardTransaction::exchanged(const std::string& problem, rt::MonoTime now) {
+  if (phase_ != Phase::Prepared) {
+    return Do::Nothing;
+  }
+  if (!problem.empty()) {
+    return fail(problem);
+  }
+  phase_ = Phase::Trial;
+  trial_end_ = now + std::chrono::nanoseconds(order_.health_ns);
   return Do::Nothing;
 }
 
@@ -198,7 +238,7 @@ Do BoardTransaction::time(rt::MonoTime now) {
   if (!joining_ && silence_.update(now) > longest_silence_) {
     return end(fmt::format("there was no message from the deployer for {} s", longest_silence_.count()));
   }
-  if (phase_ == Phase::Prepared && switch_ && now >= *switch_) {
+  if (phase_ == Phase::Prepared && way_ != Way::Exchange && switch_ && now >= *switch_) {
     phase_ = Phase::Trial;
     trial_end_ = now + std::chrono::nanoseconds(order_.health_ns);
     return Do::Switch;

@@ -21,6 +21,8 @@ class BoardTransaction {
     Nothing,
     Fetch,   // fetch what the deployment needs; answer with fetched()
     Check,   // check the plant on this board's copy; answer with checked()
+    Load,    // load the modules that differ next to those that run, or only compare; answer with loaded()
+    Enter,   // let the node exchange them at switch_at(); answer with exchanged(), then call node()
     Switch,  // end the old node, start the new one; then call node()
     Commit,  // commit the deployment
     GoBack,  // end the new node, start the committed one
@@ -47,11 +49,15 @@ class BoardTransaction {
 
   // An order of a deployer arrived. One deployment at a time: orders of other deployers are ignored meanwhile.
   Do receive(const Order& order, rt::MonoTime now, rt::WallTime wall);
-  // Another board of this board's plant has a newer deployment: this one missed it and takes it over on its own.
-  Do catch_up(const BoardReport& from, rt::MonoTime now);
+  // Another board of this board's plant has a newer deployment: this one missed it and takes it over on its own, the
+  // given way if it can.
+  Do catch_up(const BoardReport& from, rt::MonoTime now, Way way = Way::Restart);
   // An empty problem is success.
   Do fetched(const std::string& problem);
   Do checked(const std::string& problem, rt::MonoTime now);
+  // `exchanges`: the node can change to it without a restart.
+  Do loaded(const std::string& problem, bool exchanges, rt::MonoTime now);
+  Do exchanged(const std::string& problem, rt::MonoTime now);
   // Reports the node of the trial: a permanent `problem`, or what is `missing` for it to be healthy.
   Do node(const std::string& problem, const std::string& missing, rt::MonoTime now);
   // To be called often, as time passes.
@@ -60,6 +66,10 @@ class BoardTransaction {
   [[nodiscard]] Phase phase() const noexcept { return phase_; }
   [[nodiscard]] Phase stage() const noexcept { return stage_; }
   [[nodiscard]] const std::string& message() const noexcept { return message_; }
+  // How the board can change to the deployment; in the trial and after it, how it did.
+  [[nodiscard]] Way way() const noexcept { return way_; }
+  // The instant of the switch. Valid with Do::Enter.
+  [[nodiscard]] rt::MonoTime switch_at() const noexcept { return switch_.value_or(rt::MonoTime{}); }
   // The deployment that is under way, or was last.
   [[nodiscard]] const Order& order() const noexcept { return order_; }
   [[nodiscard]] bool joining() const noexcept { return joining_; }
@@ -69,6 +79,8 @@ class BoardTransaction {
 
  private:
   Do begin(const Order& order, std::uint64_t source, bool joining);
+  Do prepared(rt::MonoTime now);
+  Do hear_switch(const Order& order, rt::MonoTime now, rt::WallTime wall);
   Do fail(const std::string& problem);
   Do end(const std::string& why);
   [[nodiscard]] bool is_addressed(const Order& order) const;
@@ -80,6 +92,7 @@ class BoardTransaction {
   Order order_;
   std::uint64_t source_ = 0;
   bool joining_ = false;
+  Way way_ = Way::Restart;
   std::string message_;
   std::uint64_t finished_ = 0;     // deployer whose deployment is finished on this board
   std::uint64_t failed_join_ = 0;  // generation that this board failed to take over

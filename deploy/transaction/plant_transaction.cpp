@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "deploy/transaction/board_transaction.h"
 
 namespace indurop::deploy {
 namespace {
+
+constexpr std::int64_t kLongestGridNs = 1'000'000'000;  // longer macro periods are not waited for
 
 bool same_progress(const BoardReport& a, const BoardReport& b) {
   return a.phase == b.phase && a.bytes_done == b.bytes_done && a.files_done == b.files_done && a.deployer == b.deployer;
@@ -135,6 +138,30 @@ bool PlantTransaction::all_have_ended() {
   return unconfirmed_.empty();
 }
 
+// An exchange is at an instant at which the macro periods of all boards begin.
+void PlantTransaction::all_are_prepared(rt::MonoTime now, rt::WallTime wall) {
+  if (order_.way == Way::Compare) {
+    abort(Verdict::Compared, {}, {}, now);
+    return;
+  }
+  std::int64_t grid = 1;
+  for (const std::string& board : order_.boards) {
+    const BoardReport& report = reports_.at(board);
+    if (report.way != Way::Exchange) {
+      order_.way = Way::Restart;
+    }
+    const std::int64_t common = report.grid_ns > 0 && report.grid_ns <= kLongestGridNs
+                                    ? grid / std::gcd(grid, report.grid_ns) * report.grid_ns
+                                    : grid;
+    grid = common <= kLongestGridNs ? common : grid;
+  }
+  const std::int64_t ahead = rt::to_ns(wall + kSwitchAhead);
+  order_.step = Step::Switch;
+  order_.switch_at_ns = order_.way == Way::Exchange ? (ahead + grid - 1) / grid * grid : ahead;
+  switched_ = true;
+  moved_ = now;
+}
+
 bool PlantTransaction::time(rt::MonoTime now, rt::WallTime wall) {
   order_.said_at_ns = rt::to_ns(wall);
   miss_lost(now);
@@ -152,10 +179,7 @@ bool PlantTransaction::time(rt::MonoTime now, rt::WallTime wall) {
     }
   }
   if (order_.step == Step::Prepare && all_in(Phase::Prepared)) {
-    order_.step = Step::Switch;
-    order_.switch_at_ns = rt::to_ns(wall + kSwitchAhead);
-    switched_ = true;
-    moved_ = now;
+    all_are_prepared(now, wall);
   } else if (order_.step == Step::Switch && all_in(Phase::Healthy)) {
     order_.step = Step::Commit;
     verdict_ = Verdict::Committed;

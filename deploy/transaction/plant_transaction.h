@@ -26,6 +26,7 @@ class PlantTransaction {
     Busy,         // another deployment is under way
     RolledBack,   // the new deployment was not healthy; all boards rolled back
     Interrupted,  // cancelled by the user
+    Compared,     // all boards have said what they would change, and nothing was
   };
 
   static constexpr std::chrono::milliseconds kSwitchAhead{300};
@@ -33,8 +34,9 @@ class PlantTransaction {
   static constexpr std::chrono::seconds kWindUp{10};
   static constexpr std::chrono::seconds kLost{3};
 
-  // `order` without step and times: deployer, host, deployment, size, generation, boards, health. `patience`: maximum
-  // time without any event while boards prepare. `lost`: time a board that the network has lost has to come back.
+  // `order` without step and times: deployer, host, deployment, size, generation, boards, health, the way that is
+  // wanted. `patience`: maximum time without any event while boards prepare. `lost`: time a board that the network has
+  // lost has to come back.
   PlantTransaction(Order order, std::chrono::nanoseconds patience, rt::MonoTime now,
                    std::chrono::nanoseconds lost = kLost);
 
@@ -62,6 +64,7 @@ class PlantTransaction {
   void abort(Verdict verdict, const std::string& board, const std::string& reason, rt::MonoTime now);
   void miss_lost(rt::MonoTime now);
   void judge(const std::string& board, const BoardReport& report, rt::MonoTime now);
+  void all_are_prepared(rt::MonoTime now, rt::WallTime wall);
   [[nodiscard]] bool all_in(Phase phase) const;
   [[nodiscard]] bool all_have_ended();
   [[nodiscard]] bool ours(const BoardReport& report) const noexcept { return report.deployer == order_.deployer; }

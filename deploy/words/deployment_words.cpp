@@ -51,10 +51,10 @@ std::string grant_text(const std::string& plant, const std::string& deployment, 
 }
 
 std::string order_text(const Order& order) {
-  return fmt::format("indurop order\n{}{}\n{}\n{}\n{}\n{}\n{}\n{}\n",
+  return fmt::format("indurop order\n{}{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n",
                      grant_text(order.plant, order.deployment, order.generation), order.deployer, order.size,
                      static_cast<int>(order.step), order.said_at_ns, order.switch_at_ns, order.health_ns,
-                     fmt::join(order.boards, ","));
+                     static_cast<int>(order.way), fmt::join(order.boards, ","));
 }
 
 std::string describe(const OtherAgent& agent, unsigned own_protocol) {

@@ -26,6 +26,13 @@ const char* to_text(Phase phase) noexcept;
 // The step that the deployer requests.
 enum class Step : std::uint8_t { Prepare, Switch, Commit, Abort };
 
+// How boards change to a deployment.
+enum class Way : std::uint8_t {
+  Restart,   // their nodes end and start again
+  Exchange,  // the modules that differ are exchanged at one tick; the nodes go on
+  Compare,   // nothing changes; boards report what they would exchange
+};
+
 // The condition of a board's node, as reported by its agent.
 enum class NodeCondition : std::uint8_t {
   None,  // nothing is deployed
@@ -84,6 +91,9 @@ struct BoardReport : CommittedDeployment, FetchProgress, NodeFigures {
   std::string message;          // why it failed or rolled back; else a note for people
   NodeCondition node = NodeCondition::None;
   std::int64_t clock_offset_ns = 0;  // the board's CLOCK_REALTIME minus the deployer's, transport included
+  Way way = Way::Restart;            // how it can change to the deployment, once it is prepared
+  std::int64_t grid_ns = 0;          // its ticks that may be exchanged at are multiples of this; 0: no node runs
+  std::string plan;                  // text of a BoardPlan, while it is in a deployment; empty: there is none
 };
 
 // An agent of another release with another protocol: it is present, but its messages cannot be read.
@@ -117,8 +127,10 @@ struct Order {
   std::int64_t said_at_ns = 0;    // CLOCK_REALTIME of the deployer when it was sent
   std::int64_t switch_at_ns = 0;  // the same clock; with Step::Switch
   std::int64_t health_ns = 0;     // how long the new deployment is monitored before it counts as healthy
-  std::string grant;              // signature of grant_text(); empty: unsigned
-  std::string signature;          // of order_text()
+  // Prepare: what is wanted; Switch: what is done, Exchange only if all boards can.
+  Way way = Way::Restart;
+  std::string grant;      // signature of grant_text(); empty: unsigned
+  std::string signature;  // of order_text()
 };
 
 // The signed texts: that a deployment belongs to the plant, permanently, and the deployer's current order.

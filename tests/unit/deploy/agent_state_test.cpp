@@ -105,5 +105,20 @@ TEST_F(AgentStateTest, At_the_start_only_what_is_old_goes) {
   EXPECT_THAT(in("files"), UnorderedElementsAre(good, keys::digest_of("good"), fresh, keys::digest_of("fresh")));
 }
 
+TEST_F(AgentStateTest, The_folder_that_a_node_runs_from_stays) {
+  const std::string first = fetched("first");
+  commit(first);
+  state_->keep_folder_of(state_->manifest(first));
+  for (const char* content : {"1", "2", "3", "4", "5", "6", "7"}) {
+    commit(fetched(content));
+    state_->collect_garbage();
+  }
+  EXPECT_TRUE(fs::exists(state_->manifest(first))) << "it may still start processes from there";
+  EXPECT_EQ(in("deployments").size(), kDeploymentsKept + 1);
+  state_->keep_folder_of("/somewhere/else/plant.xml");
+  state_->collect_garbage();
+  EXPECT_EQ(in("deployments").size(), kDeploymentsKept);
+}
+
 }  // namespace
 }  // namespace indurop::deploy

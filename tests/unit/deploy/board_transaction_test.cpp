@@ -277,5 +277,108 @@ TEST_F(Successor, Of_a_board_that_joined_does_not_wait_for_a_deployer) {
   EXPECT_EQ(sut_.message(), "it crashed");
 }
 
+class ExchangingBoard : public Board {
+ protected:
+  Order with(Step step, Way way) const {
+    Order out = order(step);
+    out.way = way;
+    return out;
+  }
+  Do hear_way(Step step, Way way) { return sut_.receive(with(step, way), now_, wall_); }
+  void load(Way way = Way::Exchange) {
+    ASSERT_EQ(hear_way(Step::Prepare, way), Do::Fetch);
+    ASSERT_EQ(sut_.fetched(""), Do::Check);
+    ASSERT_EQ(sut_.checked("", now_), Do::Load);
+    ASSERT_EQ(sut_.phase(), Phase::Checking) << "nothing is prepared before it is loaded";
+  }
+  void get_ready() {
+    load();
+    ASSERT_EQ(sut_.loaded("", true, now_), Do::Nothing);
+    ASSERT_EQ(sut_.phase(), Phase::Prepared);
+    ASSERT_EQ(sut_.way(), Way::Exchange);
+  }
+  void enter() {
+    get_ready();
+    ASSERT_EQ(hear_way(Step::Switch, Way::Exchange), Do::Enter);
+    ASSERT_EQ(sut_.switch_at(), now_ + 300 * kMs);
+  }
+};
+
+TEST_F(ExchangingBoard, Enters_at_the_instant_and_commits) {
+  enter();
+  EXPECT_EQ(hear_way(Step::Switch, Way::Exchange), Do::Nothing) << "once";
+  now_ += 400 * kMs;
+  EXPECT_EQ(sut_.time(now_), Do::Nothing) << "the node says when";
+  EXPECT_EQ(sut_.phase(), Phase::Prepared);
+  EXPECT_EQ(sut_.exchanged("", now_), Do::Nothing);
+  EXPECT_EQ(sut_.phase(), Phase::Trial);
+  now_ += kSecond;
+  EXPECT_EQ(sut_.node("", "", now_), Do::Nothing);
+  EXPECT_EQ(hear_way(Step::Commit, Way::Exchange), Do::Commit);
+  EXPECT_EQ(sut_.way(), Way::Exchange);
+}
+
+TEST_F(ExchangingBoard, A_missed_tick_fails_and_forgets) {
+  enter();
+  EXPECT_EQ(sut_.exchanged("it missed the tick", now_), Do::Forget);
+  EXPECT_EQ(sut_.phase(), Phase::Failed);
+  EXPECT_EQ(sut_.message(), "it missed the tick");
+  EXPECT_EQ(sut_.exchanged("", now_), Do::Nothing) << "too late";
+}
+
+TEST_F(ExchangingBoard, An_abort_before_the_tick_forgets_and_one_after_it_goes_back) {
+  enter();
+  EXPECT_EQ(hear_way(Step::Abort, Way::Exchange), Do::Forget);
+  ASSERT_EQ(sut_.receive(order(Step::Prepare, 9), now_, wall_), Do::Fetch);
+  EXPECT_EQ(sut_.way(), Way::Restart) << "of another deployment";
+}
+
+TEST_F(ExchangingBoard, A_fault_of_a_new_version_goes_back) {
+  enter();
+  ASSERT_EQ(sut_.exchanged("", now_), Do::Nothing);
+  EXPECT_EQ(sut_.node("module press: the new one faulted", "", now_), Do::GoBack);
+  EXPECT_EQ(sut_.way(), Way::Exchange);
+}
+
+TEST_F(ExchangingBoard, What_cannot_be_loaded_is_a_failed_check) {
+  load();
+  EXPECT_EQ(sut_.loaded("start() failed", false, now_), Do::Forget);
+  EXPECT_EQ(sut_.stage(), Phase::Checking);
+}
+
+TEST_F(ExchangingBoard, Restarts_if_the_deployer_says_so) {
+  get_ready();
+  EXPECT_EQ(hear_way(Step::Switch, Way::Restart), Do::Nothing);
+  now_ += 300 * kMs;
+  EXPECT_EQ(sut_.time(now_), Do::Switch);
+  EXPECT_EQ(sut_.way(), Way::Restart);
+}
+
+TEST_F(ExchangingBoard, A_board_that_has_to_restart_does_not_exchange) {
+  load();
+  ASSERT_EQ(sut_.loaded("", false, now_), Do::Nothing);
+  EXPECT_EQ(sut_.way(), Way::Restart);
+  EXPECT_EQ(hear_way(Step::Switch, Way::Exchange), Do::Forget);
+  EXPECT_EQ(sut_.phase(), Phase::Failed);
+}
+
+TEST_F(ExchangingBoard, Takes_over_what_it_missed_without_a_restart_if_it_can) {
+  BoardReport other;
+  other.board = "b";
+  other.agent = 5;
+  other.current = "d2";
+  other.generation = 9;
+  other.members = {"a", "b"};
+  for (const bool exchanges : {true, false}) {
+    BoardTransaction sut("a");
+    ASSERT_EQ(sut.catch_up(other, now_, Way::Exchange), Do::Fetch);
+    ASSERT_EQ(sut.fetched(""), Do::Check);
+    ASSERT_EQ(sut.checked("", now_), Do::Load);
+    EXPECT_EQ(sut.loaded("", exchanges, now_), exchanges ? Do::Enter : Do::Nothing);
+    EXPECT_EQ(exchanges ? sut.exchanged("", now_) : sut.time(now_), exchanges ? Do::Nothing : Do::Switch);
+    EXPECT_EQ(sut.phase(), Phase::Trial);
+  }
+}
+
 }  // namespace
 }  // namespace indurop::deploy

@@ -297,5 +297,79 @@ TEST_F(Deployer, The_user_may_give_up) {
   EXPECT_EQ(sut_.verdict(), Verdict::Interrupted);
 }
 
+class ExchangingPlant : public Deployer {
+ protected:
+  static Order order_of(Way way) {
+    Order order = make_order();
+    order.way = way;
+    return order;
+  }
+  BoardReport ready(const std::string& board, Way way, std::int64_t grid_ns) const {
+    BoardReport out = report(board, Phase::Prepared);
+    out.way = way;
+    out.grid_ns = grid_ns;
+    return out;
+  }
+};
+
+TEST_F(ExchangingPlant, Exchanges_where_the_macro_periods_of_all_boards_begin) {
+  PlantTransaction sut(order_of(Way::Exchange), 5 * kPlantSecond, now_);
+  wall_ += std::chrono::nanoseconds(1);
+  sut.receive(ready("a", Way::Exchange, 4'000'000), now_);
+  sut.receive(ready("b", Way::Exchange, 6'000'000), now_);
+  EXPECT_TRUE(sut.time(now_, wall_));
+  EXPECT_EQ(sut.order().step, Step::Switch);
+  EXPECT_EQ(sut.order().way, Way::Exchange);
+  const std::int64_t earliest = rt::to_ns(wall_ + PlantTransaction::kSwitchAhead);
+  EXPECT_EQ(sut.order().switch_at_ns % 12'000'000, 0);
+  EXPECT_GE(sut.order().switch_at_ns, earliest);
+  EXPECT_LT(sut.order().switch_at_ns, earliest + 12'000'000);
+}
+
+TEST_F(ExchangingPlant, A_board_that_cannot_restarts_all) {
+  PlantTransaction sut(order_of(Way::Exchange), 5 * kPlantSecond, now_);
+  sut.receive(ready("a", Way::Exchange, 4'000'000), now_);
+  sut.receive(ready("b", Way::Restart, 0), now_);
+  sut.time(now_, wall_);
+  EXPECT_EQ(sut.order().step, Step::Switch);
+  EXPECT_EQ(sut.order().way, Way::Restart);
+}
+
+TEST_F(ExchangingPlant, Macro_periods_without_a_common_multiple_below_a_second_are_not_waited_for) {
+  PlantTransaction sut(order_of(Way::Exchange), 5 * kPlantSecond, now_);
+  sut.receive(ready("a", Way::Exchange, 999'999'937), now_);
+  sut.receive(ready("b", Way::Exchange, 999'999'929), now_);
+  sut.time(now_, wall_);
+  EXPECT_LE(sut.order().switch_at_ns, rt::to_ns(wall_ + PlantTransaction::kSwitchAhead + kPlantSecond));
+}
+
+TEST_F(ExchangingPlant, A_comparison_ends_before_anything_is_changed) {
+  PlantTransaction sut(order_of(Way::Compare), 5 * kPlantSecond, now_);
+  sut.receive(ready("a", Way::Exchange, 4'000'000), now_);
+  sut.receive(ready("b", Way::Restart, 0), now_);
+  sut.time(now_, wall_);
+  EXPECT_EQ(sut.order().step, Step::Abort);
+  sut.receive(report("a", Phase::Steady), now_);
+  sut.receive(report("b", Phase::Steady), now_);
+  sut.time(now_, wall_);
+  EXPECT_TRUE(sut.finished());
+  EXPECT_EQ(sut.verdict(), Verdict::Compared);
+}
+
+TEST_F(ExchangingPlant, A_board_that_misses_the_tick_takes_all_back_and_is_named) {
+  PlantTransaction sut(order_of(Way::Exchange), 5 * kPlantSecond, now_);
+  sut.receive(ready("a", Way::Exchange, 4'000'000), now_);
+  sut.receive(ready("b", Way::Exchange, 4'000'000), now_);
+  sut.time(now_, wall_);
+  sut.receive(report("a", Phase::Trial), now_);
+  BoardReport late = report("b", Phase::Failed);
+  late.stage = Phase::Prepared;
+  late.message = "it missed the tick of the exchange";
+  sut.receive(late, now_);
+  EXPECT_EQ(sut.order().step, Step::Abort);
+  EXPECT_EQ(sut.verdict(), Verdict::RolledBack);
+  EXPECT_THAT(sut.reasons(), ElementsAre(Pair("b", "it missed the tick of the exchange")));
+}
+
 }  // namespace
 }  // namespace indurop::deploy

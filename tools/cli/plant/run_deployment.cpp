@@ -11,6 +11,7 @@
 #include "core/keys/plant_keys.h"
 #include "core/rt/clock.h"
 #include "deploy/transaction/plant_transaction.h"
+#include "tools/cli/plant/deployment_plan.h"
 #include "tools/client/board/board_table.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/client/text/units.h"
@@ -41,6 +42,8 @@ const char* word_of(Verdict verdict) {
       return "rolled back";
     case Verdict::Interrupted:
       return "interrupted";
+    case Verdict::Compared:
+      return "compared";
   }
   return "?";
 }
@@ -89,6 +92,9 @@ class Run {
     for (const auto& [key, entry] : roster_.all()) {
       if (entry.heard_ns == rt::to_ns(now)) {
         transaction_.receive(entry.report, now);
+        if (entry.report.deployer == deployment_.order.deployer) {
+          plan_.receive(entry.report);
+        }
       }
     }
     for (const auto& news : link_.take_orders()) {
@@ -110,6 +116,9 @@ class Run {
         order.signature = keys::signature_of(deploy::order_text(order), deployment_.key);
       }
       link_.publish(order);
+      if (order.step != deploy::Step::Prepare) {
+        plan_.print(context_);  // what the boards have reported before the switch
+      }
     }
   }
 
@@ -176,6 +185,13 @@ class Run {
     head["signed"] = !deployment_.key.empty();
     head["result"] = word_of(verdict);
     head["unconfirmed"] = transaction_.unconfirmed();
+    if (!plan_.empty()) {
+      head["plan"] = plan_.json();
+    }
+    plan_.print(context_);
+    if (verdict == Verdict::Committed) {
+      plan_.print_ticks(context_);
+    }
     print_table(context_, table(), head, "boards");
     for (const auto& [board, reason] : transaction_.reasons()) {
       context_.out.error(fmt::format("{}: {}", board, printable(reason)));
@@ -198,6 +214,9 @@ class Run {
       case Verdict::RolledBack:
         context_.out.error(title + " was rolled back: every board runs what it ran before");
         return kRolledBack;
+      case Verdict::Compared:
+        context_.out.note(title + " would be deployed so; nothing was changed");
+        return kOk;
       case Verdict::CheckFailed:
         context_.out.error(title + " was refused: nothing was changed");
         return kCheckFailed;
@@ -224,6 +243,7 @@ class Run {
   Deployment deployment_;
   deploy::BlobServer server_;
   PlantTransaction transaction_;
+  DeploymentPlan plan_;
   bool busy_ = false;
   rt::MonoTime said_;
   std::map<std::string, Shown> shown_;

@@ -30,6 +30,8 @@ struct DeployOptions {
   std::string comment;
   bool allow_missing = false;
   bool older = false;
+  bool restart = false;
+  bool dry_run = false;
 };
 
 std::vector<std::string> addresses(const config::Plant& plant) {
@@ -132,6 +134,10 @@ Result<std::string, base::Problem> deploy_key(Context& context, const config::Pl
 }
 
 int deploy_plant(Context& context, DeployOptions& options) {
+  if (options.dry_run && options.restart) {
+    context.out.error("--dry-run shows what a deployment does without --restart; leave out one of both");
+    return kUsage;
+  }
   auto read = read_plant_source(context, options.file, options.also, options.comment);
   if (!read) {
     return report(context.out, not_done(read.error(), "deployed"));
@@ -176,6 +182,9 @@ int deploy_plant(Context& context, DeployOptions& options) {
   deployment.order.size = packed->text.size();
   deployment.order.generation = next_generation(roster);
   deployment.order.health_ns = options.health_ns;
+  deployment.order.way = options.dry_run   ? deploy::Way::Compare
+                         : options.restart ? deploy::Way::Restart
+                                           : deploy::Way::Exchange;
   deployment.patience_ns = options.timeout_ns;
   deployment.title = fmt::format("plant {}, deployment {}", packed->package.plant, deploy::shown_id(packed->id));
   deployment.head = {
@@ -198,6 +207,8 @@ Action declare_deploy(base::Options& app, Context& context) {
   app.flag("--allow-missing", options->allow_missing,
            "Deploy to the boards that are heard; the others take it over when they appear");
   app.flag("--older", options->older, "Deploy a bundle although boards have replaced it by what they run now");
+  app.flag("--restart", options->restart, "Restart all nodes, also where modules could be exchanged while they run");
+  app.flag("--dry-run", options->dry_run, "Send what the boards lack and show what would be done; change nothing");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return deploy_plant(c, *options); };
 }
@@ -208,12 +219,15 @@ const Verb kDeployVerb{
     "deploy", "Plants", "Deploy a plant on all its boards, or change nothing",
     "Checks the plant, sends what the boards lack, lets every board check its own copy, switches all of them at\n"
     "one instant, monitors them for a while and commits. If anything fails on any board, all of them roll back.\n"
+    "If only files of thread modules differ, these are exchanged in one tick, with what they keep, and everything\n"
+    "else goes on; else the nodes are restarted. What is done to each module is shown before.\n"
     "Every board needs a running agent: indurop-agent --board NAME.\n"
     "Exit codes: 0 committed, 1 not deployed (another deployment is under way, a board could not fetch it, the\n"
     "bundle is older than what runs), 4 the check found errors, 5 rolled back, 6 boards are missing. Keys are those\n"
     "of --keys, else <security> of the manifest.\n"
     "Examples:\n"
     "  indurop deploy plant.xml\n"
+    "  indurop deploy plant.xml --dry-run\n"
     "  indurop deploy plant.xml --keys keys --health 5s\n"
     "  indurop deploy plant.xml -m 'gripper opens wider'\n"
     "  indurop deploy cell.bundle --keys keys\n",

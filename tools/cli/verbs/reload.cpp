@@ -9,6 +9,7 @@
 
 #include "core/rt/clock.h"
 #include "tools/cli/plant/reload_remote.h"
+#include "tools/cli/plant/roll_back.h"
 #include "tools/cli/shadow/shadow_run.h"
 #include "tools/cli/values/forcing.h"
 #include "tools/cli/verbs/verbs.h"
@@ -32,6 +33,7 @@ struct ReloadOptions {
   std::string file;
   operate::ReloadRequest request;
   std::string board;  // empty: a node of this machine
+  std::string plant;  // whose boards all go back; empty: one module does
   deploy::LinkSettings link;
   bool back = false;
   std::int64_t shadow_ns = 0;  // 0: no shadow
@@ -202,7 +204,27 @@ int reload_there(Context& context, ReloadOptions& options) {
   return done ? print_result(context, options, done->report, done->result) : report(context.out, done.error());
 }
 
+// All modules that the last deployment has exchanged, on all boards.
+int reload_plant(Context& context, const ReloadOptions& options) {
+  if (!options.back || !options.module.empty() || !options.board.empty()) {
+    context.out.error("--plant is for --back alone: indurop reload --back --plant NAME takes all boards back");
+    return kUsage;
+  }
+  RollbackOptions all;
+  all.plant = options.plant;
+  all.link = options.link;
+  all.health_ns = options.request.health_ns;
+  return roll_back(context, all);
+}
+
 int reload(Context& context, ReloadOptions& options) {
+  if (!options.plant.empty()) {
+    return reload_plant(context, options);
+  }
+  if (options.module.empty()) {
+    context.out.error("name the module: indurop reload MODULE [FILE]");
+    return kUsage;
+  }
   if (options.back && (!options.file.empty() || options.request.dry_run || options.shadow_ns > 0)) {
     context.out.error("--back takes a module only: the previous version is in memory");
     return kUsage;
@@ -213,9 +235,7 @@ int reload(Context& context, ReloadOptions& options) {
 Action declare_reload(base::Options& app, Context& context) {
   auto options = std::make_shared<ReloadOptions>();
   options->request.health_ns = 5'000'000'000;
-  app.add("module", "MODULE", options->module, "A thread module of the node")
-      .required()
-      .completes(base::Completion::Module);
+  app.add("module", "MODULE", options->module, "A thread module of the node").completes(base::Completion::Module);
   app.add("file", "FILE", options->file, "The file of its new version (default: that of the configuration)")
       .completes(base::Completion::File);
   app.flag("--dry-run", options->request.dry_run, "Load and compare it, and exchange nothing");
@@ -241,6 +261,8 @@ Action declare_reload(base::Options& app, Context& context) {
   add_time_option(app, "--timeout", options->timeout_ns, "How long to wait for the exchange (default 30 s)");
   app.add("--board", "NAME", options->board, "Exchange it on this board, through its agent, which gets FILE from here")
       .completes(base::Completion::Node);
+  app.add("--plant", "NAME", options->plant,
+          "With --back: take all boards of this plant back to its deployment before, as indurop rollback does");
   deploy::add_link_options(app, options->link);
   add_reason_option(app, context);
   add_node_option(app, context);
@@ -268,7 +290,8 @@ const Verb kReloadVerb{
     "  indurop reload press --health 10s --guard \"pressure < 80\"\n"
     "  indurop reload press build/press.so --reason \"faster ramp\"\n"
     "  indurop reload press --back\n"
-    "  indurop reload press build/press.so --board cell\n",
+    "  indurop reload press build/press.so --board cell\n"
+    "  indurop reload --back --plant cell\n",
     &declare_reload};
 
 }  // namespace indurop::tools

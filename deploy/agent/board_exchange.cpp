@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/board_exchange.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "store/vars/node_lock.h"
+
+namespace indurop::deploy {
+namespace {
+
+using operate::SetRequest;
+using scheduler::CommandResult;
+using State = operate::SetReport::State;
+using scheduler::RunBlock;
+
+constexpr std::int64_t kLongestGridNs = rt::kNanosPerSecond;  // longer macro periods are not waited for
+constexpr std::chrono::seconds kToSettle{2};
+constexpr std::chrono::milliseconds kSettlePoll{10};
+
+std::optional<vars::RunFile> run_of(const std::string& board) {
+  auto file = vars::RunFile::open(board, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(RunBlock));
+  const auto* const block = file ? static_cast<const RunBlock*>(file.value().data()) : nullptr;
+  if (block == nullptr || block->abi != scheduler::kRunAbi || block->total_size > file.value().size() ||
+      block->state.load() != scheduler::NodeState::Running || block->module_count == 0) {
+    return std::nullopt;
+  }
+  return std::move(file).value();
+}
+
+std::string text_of_id(const char (&id)[72]) {
+  return {id, ::strnlen(id, sizeof id)};
+}
+
+std::map<std::string, std::string> running_versions(const RunBlock& block) {
+  std::map<std::string, std::string> digests;
+  for (std::uint32_t i = 0; i < block.module_count; ++i) {
+    const scheduler::ModuleRecord& module = block.modules()[i];
+    const std::uint64_t version = module.version.load(std::memory_order_acquire);
+    if (version > 0) {
+      digests[module.name] = text_of_id(module.digests[version % 2]);
+    }
+  }
+  return digests;
+}
+
+std::uint64_t ticks_of_grid(const RunBlock& block) noexcept {
+  return block.macro_period_ns > kLongestGridNs ? 1 : std::max<std::uint64_t>(block.slot_count, 1);
+}
+
+std::string why_of(const operate::ReloadReport& report) {
+  const operate::ReloadPlan& plan = report.plan;
+  if (!plan.with_state) {
+    return plan.why_not.empty() ? "it keeps nothing" : plan.why_not;
+  }
+  std::string text = fmt::format("{} kept, {} bytes", plan.kept.size() + plan.grown.size(), plan.bytes);
+  const auto add = [&text](const char* word, const std::vector<std::string>& names) {
+    if (!names.empty()) {
+      text += fmt::format("; {}: {}", word, fmt::join(names, ", "));
+    }
+  };
+  add("added", plan.added);
+  add("removed", plan.removed);
+  add("initial value", plan.changed);
+  return text;
+}
+
+}  // namespace
+
+RunBlock& BoardExchange::run() const noexcept {
+  return *static_cast<RunBlock*>(run_->data());
+}
+
+bool BoardExchange::open_run() {
+  run_ = run_of(board_);
+  return run_.has_value();
+}
+
+void BoardExchange::load(Task task) {
+  task_ = std::move(task);
+  load_is_due_ = true;
+  if (stage_ != Stage::Deciding) {
+    begin_load();
+  }
+}
+
+void BoardExchange::begin_load() {
+  load_is_due_ = false;
+  drop();
+  const bool runs = task_.node_runs && open_run();
+  const bool same = runs && text_of_id(run().deployment) == task_.from;
+  DeploymentChange change = change_between(state_, board_, task_.from, task_.to,
+                                           runs ? running_versions(run()) : std::map<std::string, std::string>());
+  if (change.plan.restart.empty() && !same) {
+    change.plan.restart = runs ? "its node runs another deployment" : "its node does not run";
+  }
+  board_plan_ = std::move(change.plan);
+  early_.clear();
+  answers_ = true;
+  stage_ = Stage::Loading;
+  grid_ns_ = runs ? run().basic_period_ns * static_cast<std::int64_t>(ticks_of_grid(run())) : 0;
+  if (board_plan_.restart.empty()) {
+    auto lock = operate::ReloadLock::acquire(board_);
+    if (lock) {
+      lock_.emplace(std::move(lock).value());
+      request({task_.compare ? SetRequest::Act::Compare : SetRequest::Act::Prepare, task_.to,
+               std::move(change.exchanged), 0},
+              Stage::Loading);
+    } else {
+      early_ = "a process on the board is exchanging a module";
+    }
+  }
+  plan_ = text_of(board_plan_);
+}
+
+void BoardExchange::enter(rt::MonoTime at) {
+  answers_ = true;
+  stage_ = Stage::Entering;
+  if (!lock_ || !run_) {
+    early_ = "its node has nothing to exchange";
+    return;
+  }
+  const auto grid = static_cast<std::int64_t>(ticks_of_grid(run()));
+  const std::int64_t period = run().basic_period_ns * grid;
+  const std::int64_t since = rt::to_ns(at) - run().epoch_ns.load();
+  const std::int64_t steps = std::max<std::int64_t>((since + period / 2) / period, 0);
+  request({SetRequest::Act::Exchange, task_.to, {}, static_cast<std::uint64_t>(steps * grid)}, Stage::Entering);
+}
+
+void BoardExchange::decide(const std::string& deployment) {
+  load_is_due_ = false;
+  if (!lock_) {
+    return;
+  }
+  answers_ = true;
+  decided_ = deployment;
+  early_.clear();
+  request({SetRequest::Act::Decide, deployment, {}, 0}, Stage::Deciding);
+}
+
+void BoardExchange::request(SetRequest request, Stage stage) {
+  request_ = std::move(request);
+  stage_ = stage;
+}
+
+void BoardExchange::drop() {
+  lock_.reset();
+  run_.reset();
+  request_.reset();
+  ticket_.reset();
+  answers_ = false;
+  early_.clear();
+  stage_ = Stage::Idle;
+}
+
+// Returns true when the command is with the node, and it has answered it.
+bool BoardExchange::place() {
+  scheduler::ModuleRecord& first = run().modules()[0];
+  if (ticket_ && scheduler::result_of(first, *ticket_) == CommandResult::None) {
+    return false;
+  }
+  if (request_) {
+    if (!operate::write_set_request(board_, *request_)) {
+      early_ = "the folder of the node cannot be written";
+      request_.reset();
+      return true;
+    }
+    ticket_ = scheduler::place_command(first, scheduler::ModuleCommand::Exchange);
+    if (ticket_) {
+      request_.reset();
+    }
+    return false;
+  }
+  const CommandResult result = scheduler::result_of(first, *ticket_);
+  if (result != CommandResult::Done && early_.empty()) {
+    const operate::SetReport report = report_of_node();
+    early_ = report.problem.empty() ? "its node does not do it" : report.problem;
+  }
+  return true;
+}
+
+std::optional<BoardExchange::Answer> BoardExchange::poll() {
+  if (load_is_due_ && stage_ != Stage::Deciding) {
+    begin_load();
+  }
+  if (!answers_) {
+    return std::nullopt;
+  }
+  if (!lock_) {
+    return done(early_);
+  }
+  if (vars::running_node(board_) != run().node_pid.load()) {
+    return done(stage_ == Stage::Deciding ? "" : "its node ended");  // the next one runs what it is started with
+  }
+  if (!place()) {
+    return std::nullopt;
+  }
+  switch (stage_) {
+    case Stage::Loading:
+      return loaded();
+    case Stage::Entering:
+      return entered();
+    case Stage::Deciding:
+      return decided();
+    case Stage::Idle:
+    case Stage::Loaded:
+    case Stage::Entered:
+      break;
+  }
+  return std::nullopt;
+}
+
+BoardExchange::Answer BoardExchange::done(const std::string& problem, bool exchanges) {
+  answers_ = false;
+  Answer answer{stage_ == Stage::Loading    ? Done::Loaded
+                : stage_ == Stage::Entering ? Done::Entered
+                                            : Done::Decided,
+                problem, exchanges};
+  plan_ = text_of(board_plan_);
+  if (stage_ == Stage::Deciding || (stage_ == Stage::Loading && (!exchanges || task_.compare))) {
+    drop();
+  } else {
+    stage_ = stage_ == Stage::Loading ? Stage::Loaded : Stage::Entered;
+  }
+  return answer;
+}
+
+// Completes the plan by what the node has found.
+void BoardExchange::describe(const operate::SetReport& report) {
+  for (const operate::ReloadReport& module : report.modules) {
+    const auto found = std::find_if(board_plan_.modules.begin(), board_plan_.modules.end(),
+                                    [&](const ModulePlan& one) { return one.module == module.module; });
+    if (found == board_plan_.modules.end()) {
+      continue;
+    }
+    if (module.module == report.refused && !report.needs_restart) {
+      found->act = ModulePlan::Act::Refused;
+      found->why = module.errors.empty() ? module.text : module.errors.front();
+    } else {
+      found->act =
+          module.plan.with_state || module.plan.why_not.empty() ? ModulePlan::Act::Exchanged : ModulePlan::Act::Fresh;
+      found->why = why_of(module);
+    }
+    board_plan_.tick = std::max(board_plan_.tick, module.tick);
+    board_plan_.left_out = std::max(board_plan_.left_out, module.left_out);
+  }
+}
+
+std::optional<BoardExchange::Answer> BoardExchange::loaded() {
+  const operate::SetReport report = report_of_node();
+  if (early_.empty() && (report.state == State::Preparing || report.state == State::Leaving)) {
+    return std::nullopt;
+  }
+  describe(report);
+  if (early_.empty() && (report.state == State::Ready || report.state == State::Compared)) {
+    return done("", true);
+  }
+  const std::string problem = early_.empty() ? report.problem : early_;
+  if (report.needs_restart) {
+    board_plan_.restart = problem;
+    return done("");
+  }
+  return done(problem.empty() ? "its node left no report" : problem);
+}
+
+std::optional<BoardExchange::Answer> BoardExchange::entered() {
+  const operate::SetReport report = report_of_node();
+  if (early_.empty() && (report.state == State::Waiting || report.state == State::Leaving)) {
+    return std::nullopt;
+  }
+  if (early_.empty() && report.state == State::Exchanged) {
+    describe(report);
+    return done("");
+  }
+  const std::string problem = early_.empty() ? report.problem : early_;
+  return done(problem.empty() ? "its node left no report" : problem);
+}
+
+std::optional<BoardExchange::Answer> BoardExchange::decided() {
+  const State state = report_of_node().state;
+  if (early_.empty() && state == State::Leaving) {
+    return std::nullopt;
+  }
+  const bool runs = text_of_id(run().deployment) == decided_ && state != State::Stuck;
+  return done(runs ? "" : "its node runs another deployment");
+}
+
+std::string BoardExchange::returned() {
+  if (stage_ != Stage::Entered) {
+    return "";
+  }
+  const operate::SetReport report = report_of_node();
+  return report.state == State::Exchanged ? "" : report.problem.empty() ? "its node has given up" : report.problem;
+}
+
+// The report of an earlier node does not count.
+operate::SetReport BoardExchange::report_of_node() const {
+  auto report = operate::read_set_report(board_);
+  return report && report->node_pid == run().node_pid.load() ? *std::move(report) : operate::SetReport();
+}
+
+void BoardExchange::settle(const std::string& board, const std::string& deployment) {
+  const auto file = vars::running_node(board) > 0 ? run_of(board) : std::nullopt;
+  if (!file || !operate::write_set_request(board, {SetRequest::Act::Decide, deployment, {}, 0})) {
+    return;
+  }
+  scheduler::ModuleRecord& first = static_cast<RunBlock*>(file->data())->modules()[0];
+  std::optional<scheduler::CommandTicket> ticket;
+  for (const rt::MonoTime end = rt::MonoClock::now() + kToSettle; rt::MonoClock::now() < end;) {
+    const auto report = operate::read_set_report(board);
+    if (!ticket) {
+      ticket = scheduler::place_command(first, scheduler::ModuleCommand::Exchange);
+    } else if (scheduler::result_of(first, *ticket) != CommandResult::None &&
+               (!report || report->state != State::Leaving)) {
+      return;
+    }
+    rt::sleep_until(rt::MonoClock::now() + kSettlePoll);
+  }
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/transaction/board_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/base/json.h"
+
+namespace indurop::deploy {
+namespace {
+
+using base::Json;
+using PlannedAct = ModulePlan::Act;
+
+struct PlanWord {
+  PlannedAct act;
+  const char* word;  // in the text
+  const char* text;  // for people
+};
+constexpr std::array kPlanWords{PlanWord{PlannedAct::Kept, "kept", "kept"},
+                                PlanWord{PlannedAct::Exchanged, "exchanged", "exchanged with state"},
+                                PlanWord{PlannedAct::Fresh, "fresh", "exchanged fresh"},
+                                PlanWord{PlannedAct::Added, "added", "added"},
+                                PlanWord{PlannedAct::Ended, "ended", "ended"},
+                                PlanWord{PlannedAct::Restarted, "restarted", "restarted"},
+                                PlanWord{PlannedAct::Refused, "refused", "refused"}};
+
+const PlanWord& plan_word_of(PlannedAct act) noexcept {
+  return *std::find_if(kPlanWords.begin(), kPlanWords.end(), [act](const PlanWord& one) { return one.act == act; });
+}
+
+}  // namespace
+
+const char* to_text(ModulePlan::Act act) noexcept {
+  return plan_word_of(act).text;
+}
+
+std::string text_of(const BoardPlan& plan) {
+  Json modules = Json::array();
+  for (const ModulePlan& module : plan.modules) {
+    modules.push_back({{"module", module.module}, {"act", plan_word_of(module.act).word}, {"why", module.why}});
+  }
+  return Json{
+      {"restart", plan.restart}, {"tick", plan.tick}, {"left_out", plan.left_out}, {"modules", std::move(modules)}}
+      .dump();
+}
+
+std::optional<BoardPlan> parse_board_plan(std::string_view text) {
+  const auto json = Json::parse(text);
+  BoardPlan plan;
+  if (!json || !base::read(*json, "restart", plan.restart) || !base::read(*json, "tick", plan.tick) ||
+      !base::read(*json, "left_out", plan.left_out)) {
+    return std::nullopt;
+  }
+  for (const Json& one : (*json)["modules"].values()) {
+    ModulePlan& module = plan.modules.emplace_back();
+    std::string word;
+    base::read(one, "act", word);
+    const auto* const found =
+        std::find_if(kPlanWords.begin(), kPlanWords.end(), [&](const PlanWord& known) { return known.word == word; });
+    if (found == kPlanWords.end() || !base::read(one, "module", module.module)) {
+      return std::nullopt;
+    }
+    module.act = found->act;
+    base::read(one, "why", module.why);
+  }
+  return plan;
+}
+
+BoardPlan restarted(BoardPlan plan) {
+  for (ModulePlan& module : plan.modules) {
+    if (module.act == PlannedAct::Kept || module.act == PlannedAct::Exchanged || module.act == PlannedAct::Fresh) {
+      module = {module.module, PlannedAct::Restarted, ""};
+    }
+  }
+  return plan;
+}
+
+}  // namespace indurop::deploy
