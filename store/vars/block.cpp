@@ -265,4 +265,11 @@ Result<BlockIndex> check_block(std::span<const std::byte> memory) {
   return index;
 }
 
+const DirectoryEntry* find_entry(const std::vector<DirectoryEntry>& directory, std::uint64_t name_hash) noexcept {
+  const auto at =
+      std::lower_bound(directory.begin(), directory.end(), name_hash,
+                       [](const DirectoryEntry& entry, std::uint64_t hash) { return entry.name_hash < hash; });
+  return at != directory.end() && at->name_hash == name_hash ? &*at : nullptr;
+}
+
 }  // namespace indurop::vars

@@ -46,6 +46,9 @@ struct BlockIndex {
 // Errors: Busy (not yet complete), VersionMismatch (another ABI), Corrupt (anything inconsistent).
 Result<BlockIndex> check_block(std::span<const std::byte> memory);
 
+// Returns null if the directory, which is sorted, has no such variable. Real-time safe.
+const DirectoryEntry* find_entry(const std::vector<DirectoryEntry>& directory, std::uint64_t name_hash) noexcept;
+
 BlockHeader* header_of(std::byte* memory) noexcept;
 const BlockHeader* header_of(const std::byte* memory) noexcept;
 

@@ -18,6 +18,7 @@
 #include "core/rt/clock.h"
 #include "store/vars/block.h"
 #include "store/vars/node_lock.h"
+#include "store/vars/previous_block.h"
 #include "store/vars/process.h"
 #include "store/vars/scalar.h"
 #include "store/vars/tear_free_ring.h"
@@ -49,13 +50,6 @@ namespace {
 constexpr std::int64_t kReadLimitNs = 50'000'000;
 constexpr int kSwapTries = 100;  // one millisecond each
 
-const DirectoryEntry* search(const std::vector<DirectoryEntry>& directory, std::uint64_t name_hash) noexcept {
-  const auto at =
-      std::lower_bound(directory.begin(), directory.end(), name_hash,
-                       [](const DirectoryEntry& entry, std::uint64_t hash) { return entry.name_hash < hash; });
-  return at != directory.end() && at->name_hash == name_hash ? &*at : nullptr;
-}
-
 // The node may have been killed while it held locks, or a process overwrote them.
 bool rings_work(const ShmFile& file, const std::vector<DirectoryEntry>& directory) noexcept {
   return std::all_of(directory.begin(), directory.end(), [&](const DirectoryEntry& entry) {
@@ -72,36 +66,6 @@ void sign_in(BlockHeader& header, std::uint64_t generation) noexcept {
   header.generation.store(generation, std::memory_order_release);
 }
 
-// An older block under the node's name, as far as it is usable. Without `index` nothing in it can be trusted.
-struct Previous {
-  std::optional<ShmFile> file;
-  std::optional<BlockIndex> index;
-};
-
-Result<Previous> find_previous(const std::string& node) {
-  Previous previous;
-  auto file = ShmFile::open(block_file(node), Mode::ReadWrite);
-  if (!file) {
-    const Errc code = file.error().code;
-    if (code == Errc::NotFound || code == Errc::Corrupt) {
-      return previous;
-    }
-    return file.error();
-  }
-  if (auto index = check_block({file->data(), file->size()}); index && file->trusted()) {
-    previous.index = std::move(index.value());
-  }
-  previous.file = std::move(file.value());
-  return previous;
-}
-
-// Makes attached processes look for the new block.
-void retire(const Previous& previous) noexcept {
-  if (previous.index) {
-    header_of(previous.file->data())->state.store(BlockState::Retired, std::memory_order_release);
-  }
-}
-
 void fill_slot(unsigned char* slot, std::size_t size, std::span<const std::uint8_t> initial) noexcept {
   static constexpr std::array<unsigned char, 4096> kZero{};
   if (!initial.empty()) {  // else data() may be null, which memcpy must not get
@@ -109,39 +73,6 @@ void fill_slot(unsigned char* slot, std::size_t size, std::span<const std::uint8
   }
   for (std::size_t at = initial.size(); at < size; at += kZero.size()) {
     detail::copy_to_shared(slot + at, kZero.data(), std::min(kZero.size(), size - at));
-  }
-}
-
-void carry_over(const Previous& previous, const BlockPlan& plan, std::byte* memory) {
-  std::vector<std::uint8_t> value;
-  for (const DirectoryEntry& to : plan.directory) {
-    const DirectoryEntry* from = search(previous.index->directory, to.name_hash);
-    if (from == nullptr || from->type_hash != to.type_hash || from->kind != to.kind ||
-        from->value_size != to.value_size) {
-      continue;
-    }
-    std::byte* const old_entry = previous.file->data() + from->offset;
-    value.resize(to.value_size);
-    if (to.kind == abi::Kind::Scalar) {
-      read_scalar(old_entry, to.value_size, 0, value);
-      write_scalar(memory + to.offset, to.value_size, 0, value);
-    } else if (try_read(*reinterpret_cast<abi::RingHeader*>(old_entry), to.value_size, 0, value.data(),
-                        to.value_size)) {
-      auto& ring = *reinterpret_cast<abi::RingHeader*>(memory + to.offset);
-      if (void* slot = begin_write(ring, 0, to.value_size); slot != nullptr) {
-        std::memcpy(slot, value.data(), value.size());
-        commit(ring);
-      }
-    }
-  }
-}
-
-// Variables that an earlier run mirrored from another board belong to this board until a mirror marks them again.
-void own_everything(const Previous& previous) noexcept {
-  for (const DirectoryEntry& entry : previous.index->directory) {
-    std::byte* const at = previous.file->data() + entry.offset;
-    abi::confirmed_of(at, entry.kind).store(0, std::memory_order_release);
-    abi::update_offset_of(at, entry.kind).store(0, std::memory_order_release);
   }
 }
 
@@ -155,7 +86,7 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
   if (!plan) {
     return plan.error();
   }
-  auto previous = find_previous(node);
+  auto previous = PreviousBlock::find(node);
   if (!previous) {
     return previous.error();
   }
@@ -165,7 +96,7 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
     generation = old.generation.load(std::memory_order_acquire) + 1;
     if (old.layout_hash == plan->layout_hash && rings_work(*previous->file, previous->index->directory)) {
       static_cast<void>(remove_unfinished(block_file(node)));
-      own_everything(*previous);
+      previous->own_everything();
       release_all(old, previous->index->directory);
       sign_in(old, generation);
       old.state.store(BlockState::Ready, std::memory_order_release);
@@ -180,8 +111,8 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
     return status.error();
   }
   if (previous->index) {
-    retire(*previous);
-    carry_over(*previous, *plan, file->data());
+    previous->retire();
+    previous->carry_over(*plan, file->data());
   }
   BlockHeader& header = *header_of(file->data());
   sign_in(header, generation);
@@ -255,7 +186,7 @@ ShmFile::Named Store::named() const noexcept {
 }
 
 const DirectoryEntry* Store::find(std::uint64_t name_hash) const noexcept {
-  return search(impl_->index.directory, name_hash);
+  return find_entry(impl_->index.directory, name_hash);
 }
 
 std::span<const DirectoryEntry> Store::directory() const noexcept {
