@@ -104,7 +104,7 @@ const char* flaw_of(FormulaOp op) noexcept {
       return "this has no value: an array has no such element; the first one is [0]";
     case FormulaOp::Divide:
     case FormulaOp::Modulo:
-      return "this has no value: it divides by 0, or the result is too large; look at the divisor before, with IF";
+      return "this has no value: it divides by 0, or the result is too large; check the divisor before, with IF";
     case FormulaOp::Sqrt:
       return "this has no value: SQRT of a number below 0";
     case FormulaOp::Asin:

@@ -91,7 +91,7 @@ inline RandomJob random_job(const Arm& arm, std::mt19937& random) {
 }
 
 // The same job with places that it computes, offsets that turn, settings on the lines of motions, and motions that end
-// by themselves after a time.
+// after a time.
 inline RandomJob computing(RandomJob job, const Arm& arm, std::mt19937& random) {
   const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   const auto small = [&] { return fmt::format("{:.3f}, {:.3f}, {:.3f}", in(-60, 60), in(-60, 60), in(-60, 60)); };

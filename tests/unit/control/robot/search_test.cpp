@@ -35,7 +35,7 @@ class Search_motion : public testing::Test {
     cell = std::make_unique<Cell>(kGantryPoints + job, period_ms, 0, true, Settings{}, urdf_of("gantry"));
     ASSERT_TRUE(cell->serve(Service::GroupEnable));
     judge = std::make_unique<Judge>(period_ms / 1000, urdf_of("gantry"));
-    looked_at = cell->periods;
+    seen = cell->periods;
     cell->in.service.job = 1;
     cell->ask(Service::JobStart);
   }
@@ -44,8 +44,8 @@ class Search_motion : public testing::Test {
   bool follow(double x, const Condition& condition) {
     return cell->until(
         [&] {
-          if (looked_at != cell->periods) {
-            looked_at = cell->periods;
+          if (seen != cell->periods) {
+            seen = cell->periods;
             EXPECT_EQ(judge->look(*cell, 1), "");
           }
           cell->values[0] = cell->out.position[0] >= x ? 1 : 0;
@@ -60,7 +60,7 @@ class Search_motion : public testing::Test {
   bool ended() const { return cell->out.done == cell->in.service.number; }
   std::unique_ptr<Cell> cell;
   std::unique_ptr<Judge> judge;
-  int looked_at = 0;  // period
+  int seen = 0;  // period
 };
 
 TEST_F(Search_motion, Stops_within_the_closed_form_of_a_stop_and_two_periods) {
