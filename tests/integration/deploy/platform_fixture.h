@@ -63,7 +63,10 @@ class PlatformTest : public AgentsTest {
     return all.contains(board("a")) && all.contains(board("b")) && so(all[board("a")], all[board("b")]);
   }
   bool in_phase(const std::string& name, const std::string& phase) {
-    return wait_until([&] { return platform()[board(name)].value("phase", "") == phase; });
+    return wait_until([&] {
+      const Json one = platform()[board(name)];
+      return one.is_object() && one.value("phase", "") == phase;
+    });
   }
   // A board that has begun to go back says so while its node still runs the release that it leaves.
   static bool runs_release(const Json& one, const std::string& version) {

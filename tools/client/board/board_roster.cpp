@@ -121,6 +121,9 @@ Result<std::string, Failure> choose_plant(const BoardRoster& roster, const std::
       plants.insert(entry.report.plant);
     }
   }
+  if (plants.size() > 1) {
+    plants.erase("");  // of boards that have no plant, or do not know it yet, since their agents have just started
+  }
   if (!wanted.empty() && plants.contains(wanted)) {
     return wanted;
   }
