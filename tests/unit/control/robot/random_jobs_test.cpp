@@ -150,7 +150,7 @@ TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
 // The same of jobs that compute places and end motions by conditions.
 TEST_F(Random_jobs, That_compute_and_search_break_no_limit_either) {
   const int first = setting("INDUROP_ROBOT_SEED", 1);
-  const int jobs = setting("INDUROP_ROBOT_JOBS", 1500) / 10;
+  const int jobs = setting("INDUROP_ROBOT_JOBS", 1500) / 50;
   constexpr std::array kArms{"", "gantry", "scara", "ur5", "iiwa14"};
   for (int i = 0; i < jobs; ++i) {
     const auto seed = static_cast<unsigned>(first + i);
