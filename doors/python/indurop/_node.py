@@ -10,6 +10,7 @@ from typing import Any, AsyncIterator, Iterator, Mapping
 
 from indurop import _layout
 from indurop._binding import ffi, lib
+from indurop._by_name import ByName
 from indurop._described import Described
 from indurop._errors import Error, Gone, Timeout
 from indurop._library import CHANGED, check, error, text
@@ -219,7 +220,7 @@ class Stream:
         self.close()
 
 
-class Node:
+class Node(ByName[Variable]):
     """A node of this machine. `node["name"]` reads a value, `node["name"] = value` sets it; names may leave leading
     namespaces out, and name parts: "joints[1].y"."""
 
@@ -241,12 +242,6 @@ class Node:
         ffi.release(self._handle)
         self._handle = ffi.NULL
         self._known.clear()
-
-    def __enter__(self) -> "Node":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     @property
     def running(self) -> bool:
@@ -273,17 +268,14 @@ class Node:
         about.struct_size = ffi.sizeof("irp_variable")
         return bool(lib.irp_describe(self._handle, one._id, about) == 0)
 
-    def variable(self, name: str) -> Variable:
-        known = self._known.get(name)
-        if known is None:
-            id_ = ffi.new("uint32_t*")
+    def _find(self, name: str) -> Variable:
+        id_ = ffi.new("uint32_t*")
+        code = lib.irp_find(self._handle, name.encode(), id_)
+        if code == CHANGED:
+            self.refresh()
             code = lib.irp_find(self._handle, name.encode(), id_)
-            if code == CHANGED:
-                self.refresh()
-                code = lib.irp_find(self._handle, name.encode(), id_)
-            check(code)
-            known = self._known[name] = Variable(self, id_[0])
-        return known
+        check(code)
+        return Variable(self, id_[0])
 
     def __getitem__(self, name: str) -> Any:
         return self.variable(name).value

@@ -9,8 +9,9 @@ from typing import Any, Iterator, NamedTuple, Sequence
 
 from indurop import _layout
 from indurop._binding import ffi, lib
+from indurop._by_name import ByName
 from indurop._described import Described
-from indurop._errors import Invalid, NotFound
+from indurop._errors import Invalid
 from indurop._library import check, text
 
 _MOST_BYTES = 4 << 20  # of the values that are taken at a time
@@ -35,7 +36,7 @@ class RecordedVariable(Described):
         self._take(about)
 
 
-class Recording:
+class Recording(ByName[RecordedVariable]):
     """The variables of a recording over time. Names may leave leading namespaces out, and name parts. Of a file of
     several boards a name begins with its board: "sensor/encoder". Needs numpy.
 
@@ -56,12 +57,6 @@ class Recording:
         self._handle = ffi.NULL
         self._known.clear()
 
-    def __enter__(self) -> "Recording":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
     def _note_damages(self) -> None:
         while (damage := lib.irp_recording_damage(self._handle, len(self.damages))) != ffi.NULL:
             self.damages.append(text(damage))
@@ -74,20 +69,10 @@ class Recording:
         check(lib.irp_recording_span(self._handle, times, times + 1))
         return int(times[0]), int(times[1])
 
-    def variable(self, name: str) -> RecordedVariable:
-        known = self._known.get(name)
-        if known is None:
-            id_ = ffi.new("uint32_t*")
-            check(lib.irp_recording_find(self._handle, name.encode(), id_))
-            known = self._known[name] = RecordedVariable(self, id_[0])
-        return known
-
-    def __contains__(self, name: str) -> bool:
-        try:
-            self.variable(name)
-        except NotFound:
-            return False
-        return True
+    def _find(self, name: str) -> RecordedVariable:
+        id_ = ffi.new("uint32_t*")
+        check(lib.irp_recording_find(self._handle, name.encode(), id_))
+        return RecordedVariable(self, id_[0])
 
     def __iter__(self) -> Iterator[str]:
         return (text(lib.irp_recording_name(self._handle, i)) for i in range(len(self)))

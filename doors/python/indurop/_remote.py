@@ -7,6 +7,7 @@ import asyncio
 import time
 from typing import Any, AsyncIterator, Iterator
 
+from indurop._by_name import ByName
 from indurop._described import Described
 from indurop._errors import Error, Forced, Invalid, NotFound, OutOfRange, Timeout
 from indurop._form import layout_of, text_of, value_of
@@ -123,7 +124,7 @@ class RemoteVariable(Described):
                     return
 
 
-class RemoteNode:
+class RemoteNode(ByName[RemoteVariable]):
     """A board of a server. `node["name"]` reads a value, `node["name"] = value` sets it, as for a node of this
     machine. Each is a request."""
 
@@ -140,12 +141,6 @@ class RemoteNode:
     def close(self) -> None:
         self._server.close()
 
-    def __enter__(self) -> "RemoteNode":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
     @property
     def running(self) -> bool:
         return any(one["board"] == self.name and one["alive"] for one in self._server.get("boards")["boards"])
@@ -154,24 +149,14 @@ class RemoteNode:
         """Forgets what is known of variables, after a deployment changed them."""
         self._known.clear()
 
-    def variable(self, name: str) -> RemoteVariable:
-        known = self._known.get(name)
-        if known is None:
-            known = self._known[name] = RemoteVariable(self, name)
-        return known
+    def _find(self, name: str) -> RemoteVariable:
+        return RemoteVariable(self, name)
 
     def __getitem__(self, name: str) -> Any:
         return self.variable(name).value
 
     def __setitem__(self, name: str, value: Any) -> None:
         self.variable(name).write(value)
-
-    def __contains__(self, name: str) -> bool:
-        try:
-            self.variable(name)
-        except NotFound:
-            return False
-        return True
 
     def keys(self) -> list[str]:
         found = self._server.get("boards", self.name, "variables", values="false")
