@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "config/xml/element_rules.h"
+
 namespace indurop::config {
 namespace {
 
@@ -28,16 +30,8 @@ std::string manifest_title(const Element& element) {
     return "module " +
            (name.empty() ? std::filesystem::path(text_of_child(element, kFileNameElement)).stem().string() : name);
   }
-  const auto name = std::find_if(element.attributes.begin(), element.attributes.end(),
-                                 [](const Attribute& attribute) { return attribute.name == "name"; });
-  return name == element.attributes.end() ? fmt::format("<{}>", element.name)
-                                          : fmt::format("{} {}", element.name, name->value);
-}
-
-const Attribute* attribute_of(const Element& element, const std::string& name) {
-  const auto found = std::find_if(element.attributes.begin(), element.attributes.end(),
-                                  [&name](const Attribute& one) { return one.name == name; });
-  return found == element.attributes.end() ? nullptr : &*found;
+  const Attribute* const name = find_attribute(element, "name");
+  return name == nullptr ? fmt::format("<{}>", element.name) : fmt::format("{} {}", element.name, name->value);
 }
 
 class ManifestComparison {
@@ -48,7 +42,7 @@ class ManifestComparison {
       return fmt::format("{}{} is in place of {}", where, manifest_title(after), manifest_title(before));
     }
     for (const Attribute& attribute : after.attributes) {
-      const Attribute* const then = attribute_of(before, attribute.name);
+      const Attribute* const then = find_attribute(before, attribute.name);
       if (then == nullptr || then->value != attribute.value) {
         return fmt::format("{}{}: {} was '{}' and is '{}'", where, manifest_title(after), attribute.name,
                            then == nullptr ? "" : then->value, attribute.value);
