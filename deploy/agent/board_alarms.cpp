@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/rt/fixed_text.h"
 #include "deploy/transaction/write_words.h"
 #include "history/alarms/alarm_list.h"
 #include "history/alarms/alarm_orders.h"
@@ -31,11 +32,6 @@ std::vector<alarms::DeclaredAlarm> declared_in(const Result<vars::Store>& store)
   return store ? alarms::declared_alarms(*store) : std::vector<alarms::DeclaredAlarm>();
 }
 
-template <std::size_t N>
-std::string text_of(const char (&text)[N]) {
-  return {text, ::strnlen(text, N)};
-}
-
 // Returns nothing while the node is not running, or if its run block is invalid.
 std::optional<std::vector<alarms::ModuleNow>> modules_of(const std::string& board) {
   using scheduler::ModuleRecord;
@@ -53,8 +49,8 @@ std::optional<std::vector<alarms::ModuleNow>> modules_of(const std::string& boar
     const ModuleRecord& module = block->at<ModuleRecord>(offset)[i];
     const auto state = module.state.load(std::memory_order_acquire);
     const char* const down = scheduler::down_text(state);
-    all.push_back({text_of(module.name), down != nullptr ? down : "",
-                   scheduler::is_down_by_fault(state) ? text_of(module.last_fault) : std::string()});
+    all.push_back({rt::text_of(module.name), down != nullptr ? down : "",
+                   scheduler::is_down_by_fault(state) ? rt::text_of(module.last_fault) : std::string()});
   }
   return all;
 }

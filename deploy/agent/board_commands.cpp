@@ -11,6 +11,7 @@
 #include "deploy/agent/action_kinds.h"
 #include "deploy/agent/board_alarms.h"
 #include "deploy/agent/board_audit.h"
+#include "deploy/agent/running_node.h"
 #include "store/operate/journal.h"
 #include "store/vars/box_request.h"
 
@@ -199,24 +200,12 @@ CommandReply BoardCommands::perform(const Command& command, const WriteOrder& wo
 }
 
 bool BoardCommands::open_run() {
-  auto file = vars::RunFile::open(board_, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
-  const auto* block = file ? static_cast<const scheduler::RunBlock*>(file.value().data()) : nullptr;
-  if (block == nullptr || block->abi != scheduler::kRunAbi || block->total_size > file.value().size() ||
-      block->state.load() != scheduler::NodeState::Running) {
-    return false;
-  }
-  run_ = std::move(file).value();
-  return true;
+  run_ = open_running_node(board_);
+  return run_.has_value();
 }
 
 scheduler::ModuleRecord* BoardCommands::find(const std::string& module) {
-  auto& block = *static_cast<scheduler::RunBlock*>(run_->data());
-  for (std::uint32_t i = 0; i < block.module_count; ++i) {
-    if (module == block.modules()[i].name) {
-      return &block.modules()[i];
-    }
-  }
-  return nullptr;
+  return find_module_record(run_block(*run_), module);
 }
 
 CommandReply BoardCommands::write(const Command& command) {
@@ -278,7 +267,7 @@ CommandReply BoardCommands::begin_module(const Command& command, const WriteOrde
   module_ = find(name);
   if (module_ == nullptr) {
     std::string names;
-    auto& block = *static_cast<scheduler::RunBlock*>(run_->data());
+    auto& block = run_block(*run_);
     for (std::uint32_t i = 0; i < block.module_count; ++i) {
       names += (i > 0 ? ", " : "") + std::string(block.modules()[i].name);
     }

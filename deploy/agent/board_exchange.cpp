@@ -5,10 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <utility>
 
+#include "core/rt/fixed_text.h"
+#include "deploy/agent/running_node.h"
 #include "store/vars/node_lock.h"
 
 namespace indurop::deploy {
@@ -23,18 +24,10 @@ constexpr std::int64_t kLongestGridNs = rt::kNanosPerSecond;  // longer macro pe
 constexpr std::chrono::seconds kToSettle{2};
 constexpr std::chrono::milliseconds kSettlePoll{10};
 
+// A node without modules has nothing that could take a command.
 std::optional<vars::RunFile> run_of(const std::string& board) {
-  auto file = vars::RunFile::open(board, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(RunBlock));
-  const auto* const block = file ? static_cast<const RunBlock*>(file.value().data()) : nullptr;
-  if (block == nullptr || block->abi != scheduler::kRunAbi || block->total_size > file.value().size() ||
-      block->state.load() != scheduler::NodeState::Running || block->module_count == 0) {
-    return std::nullopt;
-  }
-  return std::move(file).value();
-}
-
-std::string text_of_id(const char (&id)[72]) {
-  return {id, ::strnlen(id, sizeof id)};
+  auto file = open_running_node(board);
+  return file && run_block(*file).module_count > 0 ? std::move(file) : std::nullopt;
 }
 
 std::map<std::string, std::string> running_versions(const RunBlock& block) {
@@ -43,7 +36,7 @@ std::map<std::string, std::string> running_versions(const RunBlock& block) {
     const scheduler::ModuleRecord& module = block.modules()[i];
     const std::uint64_t version = module.version.load(std::memory_order_acquire);
     if (version > 0) {
-      digests[module.name] = text_of_id(module.digests[version % 2]);
+      digests[module.name] = rt::text_of(module.digests[version % 2]);
     }
   }
   return digests;
@@ -73,7 +66,7 @@ std::string why_of(const operate::ReloadReport& report) {
 }  // namespace
 
 RunBlock& BoardExchange::run() const noexcept {
-  return *static_cast<RunBlock*>(run_->data());
+  return run_block(*run_);
 }
 
 bool BoardExchange::open_run() {
@@ -93,7 +86,7 @@ void BoardExchange::begin_load() {
   load_is_due_ = false;
   drop();
   const bool runs = task_.node_runs && open_run();
-  const bool same = runs && text_of_id(run().deployment) == task_.from;
+  const bool same = runs && rt::text_of(run().deployment) == task_.from;
   DeploymentChange change = change_between(state_, board_, task_.from, task_.to,
                                            runs ? running_versions(run()) : std::map<std::string, std::string>());
   if (change.plan.restart.empty() && !same) {
@@ -286,7 +279,7 @@ std::optional<BoardExchange::Answer> BoardExchange::decided() {
   if (early_.empty() && state == State::Leaving) {
     return std::nullopt;
   }
-  const bool runs = text_of_id(run().deployment) == decided_ && state != State::Stuck;
+  const bool runs = rt::text_of(run().deployment) == decided_ && state != State::Stuck;
   return done(runs ? "" : "its node runs another deployment");
 }
 
@@ -309,7 +302,7 @@ void BoardExchange::settle(const std::string& board, const std::string& deployme
   if (!file || !operate::write_set_request(board, {SetRequest::Act::Decide, deployment, {}, 0})) {
     return;
   }
-  scheduler::ModuleRecord& first = static_cast<RunBlock*>(file->data())->modules()[0];
+  scheduler::ModuleRecord& first = run_block(*file).modules()[0];
   std::optional<scheduler::CommandTicket> ticket;
   for (const rt::MonoTime end = rt::MonoClock::now() + kToSettle; rt::MonoClock::now() < end;) {
     const auto report = operate::read_set_report(board);

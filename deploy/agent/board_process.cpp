@@ -15,6 +15,7 @@
 #include "core/base/exit_code.h"
 #include "core/base/spawn.h"
 #include "core/rt/clock.h"
+#include "core/rt/fixed_text.h"
 #include "deploy/agent/node_program.h"
 #include "deploy/agent/options.h"
 #include "deploy/agent/release_programs.h"
@@ -39,11 +40,6 @@ const scheduler::RunBlock* block_of(const vars::RunFile& file) {
 
 const scheduler::RunBlock& present(const std::optional<vars::RunFile>& file) {
   return *static_cast<const scheduler::RunBlock*>(file->data());
-}
-
-template <std::size_t N>
-std::string text_of_fixed(const char (&text)[N]) {
-  return {text, ::strnlen(text, N)};
 }
 
 std::string describe(int status) {
@@ -99,7 +95,7 @@ void BoardProcess::go_on_as(const std::filesystem::path& manifest, const std::st
 std::filesystem::path BoardProcess::manifest_of_node(const std::string& board) {
   const auto file = vars::RunFile::open(board, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
   const auto* const block = file && vars::running_node(board) > 0 ? block_of(file.value()) : nullptr;
-  return block != nullptr ? text_of_fixed(block->plant_file) : std::string();
+  return block != nullptr ? rt::text_of(block->plant_file) : std::string();
 }
 
 void BoardProcess::hold(const std::string& reason) {
@@ -126,7 +122,7 @@ bool BoardProcess::adopt() {
   const auto* block = file ? block_of(file.value()) : nullptr;
   const bool same_release = release_folder_in(fs::read_symlink(fmt::format("/proc/{}/exe", pid), error)) ==
                             release_folder_in(node_program_path(program_));
-  running_ = same_release && block != nullptr && block->node_pid.load() == pid ? text_of_fixed(block->deployment)
+  running_ = same_release && block != nullptr && block->node_pid.load() == pid ? rt::text_of(block->deployment)
                                                                                : std::string{};
   pid_ = pid;
   adopted_ = true;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/read_file.h"
+#include "core/rt/fixed_text.h"
 #include "history/explain/facts_json.h"
 #include "history/explain/kernel_log.h"
 #include "history/explain/run_facts.h"
@@ -85,11 +86,6 @@ void log_box(const Result<std::filesystem::path, base::Problem>& box, const std:
   }
 }
 
-template <std::size_t N>
-std::string text_of(const char (&text)[N]) {
-  return {text, ::strnlen(text, N)};
-}
-
 std::string facts_of_crashed(const std::string& node, const scheduler::RunBlock& run, std::size_t size) {
   explain::Facts facts = explain::facts_of(run, size, false);
   explain::add_kernel(node, facts);
@@ -98,7 +94,7 @@ std::string facts_of_crashed(const std::string& node, const scheduler::RunBlock&
     explain::add_boards(*boards, facts);
   }
   facts.orders = operate::read_orders(node, run.started_wall_ns);
-  facts.board = text_of(run.board);
+  facts.board = rt::text_of(run.board);
   facts.stop_reason = "its process died in the middle of its work";
   facts.now_ns = run.epoch_ns + static_cast<std::int64_t>(run.tick.load()) * run.basic_period_ns;
   facts.wall_minus_node_ns = rt::wall_ns() - rt::now_ns();
@@ -109,10 +105,10 @@ recorder::About about_crashed(const std::string& node, const scheduler::RunBlock
                               const vars::Store& store) {
   recorder::About about;
   about.node = node;
-  const std::string config = text_of(run.config_file);
-  about.board = text_of(run.board);
-  about.config = about.board.empty() ? config : text_of(run.plant_file);
-  about.deployment = text_of(run.deployment);
+  const std::string config = rt::text_of(run.config_file);
+  about.board = rt::text_of(run.board);
+  about.config = about.board.empty() ? config : rt::text_of(run.plant_file);
+  about.deployment = rt::text_of(run.deployment);
   about.basic_period_ns = run.basic_period_ns;
   about.real_minus_node_ns = rt::wall_ns() - rt::to_ns(store.now());
   if (auto text = base::read_file(config)) {
@@ -123,7 +119,7 @@ recorder::About about_crashed(const std::string& node, const scheduler::RunBlock
   }
   const std::uint64_t end = run.modules_offset + run.module_count * sizeof(scheduler::ModuleRecord);
   for (std::uint32_t i = 0; run.modules_offset < size && end <= size && i < run.module_count; ++i) {
-    about.modules.push_back(text_of(run.modules()[i].name));
+    about.modules.push_back(rt::text_of(run.modules()[i].name));
   }
   return about;
 }
