@@ -72,12 +72,19 @@ wait_for EMERGENCY_STOP.bActive 0 10
 
 say "A visitor starts the cell, walks through the light curtain and hits the emergency stop; its job goes on after that"
 indurop set --node $node -q CELL::tour true
-second=0
-while [ $second -lt 20 ]; do
-  sleep 2
-  second=$((second + 2))
-  printf '%3d s  job %-6s %-22s %s on the pallet, visitor %s\n' $second "$(value ROBOT_JOB.name)" \
-    "$(value ROBOT_MODULE_STATE.eState)" "$(value CELL::world.placed)" "$(value CELL::world.doing)"
+# A line every two seconds, and one whenever the visitor does something else.
+begin=$(date +%s)
+next=2
+shown='""'
+while second=$(($(date +%s) - begin)) && [ $second -le 20 ]; do
+  doing=$(value CELL::world.doing)
+  if [ $second -ge $next ] || [ "$doing" != "$shown" ]; then
+    printf '%3d s  job %-6s %-22s %s on the pallet, visitor %s\n' $second "$(value ROBOT_JOB.name)" \
+      "$(value ROBOT_MODULE_STATE.eState)" "$(value CELL::world.placed)" "$doing"
+    next=$((second / 2 * 2 + 2))
+    shown=$doing
+  fi
+  sleep 0.1
 done
 wait_for ROBOT_MODULE_STATE.eState ROBOT_GROUP_MOVING 10
 

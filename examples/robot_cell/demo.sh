@@ -43,7 +43,7 @@ watch_alarms() {
   done
 }
 
-# tour ROBOT_NODE STATION_NODE RECORDING: twenty seconds, a line every two
+# tour ROBOT_NODE STATION_NODE RECORDING: twenty seconds, a line every two and whenever the visitor does something else
 tour() {
   wait_for "$2" I14 1
   wait_for "$1" EMERGENCY_STOP.bActive 0
@@ -51,13 +51,19 @@ tour() {
     EMERGENCY_STOP.bActive I4 I5 O8 O9 O10 --hz 50 --timeout 21s -o csv --units >"$3" &
   recorder=$!
   indurop set --node "$2" CELL::tour true
-  second=0
-  while [ $second -lt 20 ]; do
-    sleep 2
-    second=$((second + 2))
-    printf '%3d s  job %-6s %-22s %s on the pallet, visitor %s\n' $second "$(indurop get --node "$1" ROBOT_JOB.name)" \
-      "$(indurop get --node "$1" ROBOT_MODULE_STATE.eState)" "$(indurop get --node "$2" CELL::world.placed)" \
-      "$(indurop get --node "$2" CELL::world.doing)"
+  begin=$(date +%s)
+  next=2
+  shown='""'
+  while second=$(($(date +%s) - begin)) && [ $second -le 20 ]; do
+    doing=$(indurop get --node "$2" CELL::world.doing)
+    if [ $second -ge $next ] || [ "$doing" != "$shown" ]; then
+      printf '%3d s  job %-6s %-22s %s on the pallet, visitor %s\n' $second \
+        "$(indurop get --node "$1" ROBOT_JOB.name)" "$(indurop get --node "$1" ROBOT_MODULE_STATE.eState)" \
+        "$(indurop get --node "$2" CELL::world.placed)" "$doing"
+      next=$((second / 2 * 2 + 2))
+      shown=$doing
+    fi
+    sleep 0.1
   done
   wait $recorder || true
   recorder=
