@@ -31,6 +31,7 @@ class Binder {
     bound.device = device;
     bound.quality = whole(device.quality, device.quality_place, "quality");
     bound.errors = whole(device.errors, device.errors_place, "errors");
+    bound.cut = whole(device.cut, device.cut_place, "cut");
     for (const IoPoint& point : device.points) {
       add(point, bound);
     }

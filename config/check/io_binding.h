@@ -23,6 +23,7 @@ struct BoundDevice {
   std::vector<BoundPoint> points;
   std::optional<schema::Place> quality;
   std::optional<schema::Place> errors;
+  std::optional<schema::Place> cut;
 };
 // Finds the variables and reports errors. `schema` must outlive the returned devices.
 std::vector<BoundDevice> bind_io(const IoConfig& config, const schema::Schema& schema,

@@ -170,10 +170,12 @@ struct IoDevice {
   IoCsv csv;
   std::string quality;  // variables about the device as a whole; empty: none
   std::string errors;
+  std::string cut;  // Ethercat on a ring
   std::vector<IoPoint> points;
   base::SourcePlace place;
   base::SourcePlace quality_place;
   base::SourcePlace errors_place;
+  base::SourcePlace cut_place;
 };
 
 struct IoConfig {

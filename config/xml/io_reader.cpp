@@ -195,6 +195,12 @@ class DeviceReader {
     if (attributes_.need("slave", "slave=\"0\"", &place)) {
       device_.slave.position = static_cast<int>(attributes_.integer("slave", 0, kMaxSlaves).value_or(0));
     }
+    device_.cut = attributes_.text("cut", &device_.cut_place).value_or("");
+    if (!device_.cut.empty() && device_.address.find(',') == std::string::npos) {
+      report_.error(device_.cut_place,
+                    fmt::format("cut: {} is no ring; name both of its interfaces, address=\"eth1,eth2\"",
+                                base::in_quotes(device_.address)));
+    }
     device_.slave.vendor = read_identity("vendor");
     device_.slave.product = read_identity("product");
     device_.slave.revision = read_identity("revision");

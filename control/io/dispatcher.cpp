@@ -82,6 +82,7 @@ std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, 
   if (phase != Phase::Outputs || output_points.size() == bound.points.size()) {
     line.quality = report_to(bound.quality);
     line.errors = report_to(bound.errors);
+    line.cut = report_to(bound.cut);
   }
   if (line.driver->in_tick()) {
     line.in_tick.emplace(inputs, outputs);
@@ -132,6 +133,14 @@ void Dispatcher::write_quality(const std::optional<Report>& to, Quality quality)
   variables_.set(to->part, bits);
 }
 
+void Dispatcher::write_count(const std::optional<Report>& to, std::uint64_t count) noexcept {
+  if (to) {
+    std::uint64_t bits = 0;
+    (void)to_variable(to->base, static_cast<Number>(count), bits);
+    variables_.set(to->part, bits);
+  }
+}
+
 void Dispatcher::give(const Line& line, const InputImage& image) noexcept {
   for (std::size_t i = 0; i < line.to.size(); ++i) {
     if (image.inputs[i].is_set) {
@@ -143,11 +152,8 @@ void Dispatcher::give(const Line& line, const InputImage& image) noexcept {
     write_quality(line.output_qualities[i], image.outputs[i]);
   }
   write_quality(line.quality, image.device);
-  if (line.errors) {
-    std::uint64_t bits = 0;
-    (void)to_variable(line.errors->base, static_cast<Number>(image.errors), bits);
-    variables_.set(line.errors->part, bits);
-  }
+  write_count(line.errors, image.errors);
+  write_count(line.cut, line.driver->cut());
 }
 
 void Dispatcher::run(std::chrono::nanoseconds elapsed) noexcept {

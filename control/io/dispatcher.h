@@ -58,6 +58,7 @@ class Dispatcher {
     std::vector<std::optional<Report>> output_qualities;
     std::optional<Report> quality;
     std::optional<Report> errors;
+    std::optional<Report> cut;
   };
   Dispatcher() = default;
   // Returns the errors of the device.
@@ -66,6 +67,7 @@ class Dispatcher {
   void take(Line& line, OutputImage& into) noexcept;
   void give(const Line& line, const InputImage& image) noexcept;
   void write_quality(const std::optional<Report>& to, Quality quality) noexcept;
+  void write_count(const std::optional<Report>& to, std::uint64_t count) noexcept;
 
   Variables variables_;
   EthercatBuses buses_;

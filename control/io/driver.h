@@ -42,6 +42,10 @@ class Driver {
   enum class Outcome { Good, Partly, Lost };  // unless Good, problem() returns the reason
   virtual Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) = 0;
 
+  // The cable of a ring that is cut: 1 is that from the first interface to the first slave. 0: none is, or the device
+  // is not on a ring. Real-time safe.
+  [[nodiscard]] virtual std::uint32_t cut() const noexcept { return 0; }
+
   virtual void close() noexcept = 0;
 
   [[nodiscard]] virtual std::string problem() const = 0;

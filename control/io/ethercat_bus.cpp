@@ -164,6 +164,11 @@ void EthercatBus::end_turn() noexcept {
   }
 }
 
+std::uint32_t EthercatBus::cut() const noexcept {
+  const std::uint64_t cut = cut_.load(std::memory_order_relaxed);
+  return cut == kWhole ? 0 : static_cast<std::uint32_t>(cut >> 32U) + 1;
+}
+
 // That of the slave which is farthest from where it shall be.
 void EthercatBus::report_pulse(const ethercat::Master& master) noexcept {
   ethercat::Clock after{0};

@@ -54,6 +54,8 @@ class EthercatBus {
   // yet. Real-time safe.
   ethercat::Master* begin_turn() noexcept;
   void end_turn() noexcept;
+  // As Driver::cut(); of the latest turn.
+  [[nodiscard]] std::uint32_t cut() const noexcept;
   // Where the points of a member are in its process data; only after begin_turn() returned a master.
   using Fields = std::vector<std::optional<EthercatField>>;
   [[nodiscard]] const Fields& outputs(std::size_t member) const noexcept { return running_->outputs[member]; }

@@ -18,6 +18,7 @@ class EthercatDriver final : public Driver {
   [[nodiscard]] bool in_tick() const noexcept override { return true; }
   bool open() override { return bus_->start(); }
   Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) override;
+  [[nodiscard]] std::uint32_t cut() const noexcept override { return bus_->cut(); }
   void close() noexcept override { bus_->stop(); }
   [[nodiscard]] std::string problem() const override { return "the system has no thread for the bus"; }
 

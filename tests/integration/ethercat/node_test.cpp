@@ -81,13 +81,16 @@ TEST_F(EthercatNode, A_cut_ring_is_named_and_the_drive_moves_on) {
   drives_ = io::ethercat::start_drives(2, (folder() / "frames.pcap").string(), {"--ring", "ec3"});
   Program& sut = run_node(
       "<device name='axis1' driver='ethercat' address='ec0,ec2' slave='1' in='TEST_CELL::AXIS1_IN'\n"
-      "  out='TEST_CELL::AXIS1_OUT'/>");
+      "  out='TEST_CELL::AXIS1_OUT' cut='TEST_CELL::I0_quality'/>");
   EXPECT_TRUE(moves()) << sut.out() << sut.err();
+  EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 0; }));
   drives_->input("0s cable_cut slave=1 for=2s\n");
   EXPECT_TRUE(sut.prints("EtherCAT ec0,ec2: the cable is cut between slave 0 and slave 1; all slaves are reached"))
       << sut.out();
+  EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 2; })) << "the second cable";
   EXPECT_TRUE(moves()) << sut.out() << sut.err();
   EXPECT_TRUE(sut.prints("EtherCAT ec0,ec2: the cable is whole again")) << sut.out();
+  EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 0; }));
 }
 
 TEST_F(EthercatNode, A_ring_has_no_clocks) {
