@@ -1,5 +1,5 @@
 #!/bin/sh
-# The service: what systemd finds wrong with it, and that it has the two rights it needs and no others.
+# The services: what systemd finds wrong with them, and that a board has the two rights it needs and no others.
 # Usage: unit_test.sh SOURCE_DIR PROGRAM_DIR
 set -eu
 unit=$1/cmake/packaging/systemd/indurop-agent@.service.in
@@ -20,6 +20,15 @@ fi
 command -v systemd-analyze >/dev/null || { echo "skipped: no systemd-analyze"; exit 0; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-sed -e "s|@INDUROP_PROGRAMS@|$2|" -e "s|@INDUROP_DOCS@|$1/docs|" "$unit" >"$work/indurop-agent@.service"
-said=$(systemd-analyze verify "$work/indurop-agent@.service" 2>&1 | grep -F "$work" || true)
-[ -z "$said" ] || fail "$said"
+for unit in "$1"/cmake/packaging/systemd/*.service.in; do
+  name=$(basename "$unit" .in)
+  sed -e "s|@INDUROP_PROGRAMS@|$2|" -e "s|@INDUROP_DOCS@|$1/docs|" "$unit" >"$work/$name"
+  said=$(systemd-analyze verify "$work/$name" 2>&1 | grep -F "$work" || true)
+  [ -z "$said" ] || fail "$said"
+done
+
+# Those that only speak over the network and need no right at all.
+for name in serve mqtt opcua; do
+  said=$(systemd-analyze security --offline=true --threshold=40 "$work/indurop-$name.service" 2>&1) ||
+    fail "can do too much: $(echo "$said" | tail -n 2)"
+done
