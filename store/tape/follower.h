@@ -14,31 +14,10 @@
 
 #include "store/tape/check.h"
 #include "store/tape/layout.h"
+#include "store/tape/track_reader.h"
 #include "store/vars/shm_file.h"
 
 namespace indurop::tape {
-
-struct Value {
-  EntryKind kind{};
-  std::uint32_t variable = 0;  // index in the store's directory
-  std::span<const std::uint8_t> bytes;
-};
-
-// The answer of a call or a channel to a run.
-struct Answer {
-  std::int64_t code = 0;  // kTooLongToTell: the rest was not recorded
-  std::span<const std::uint8_t> bytes;
-};
-
-struct Run {
-  std::uint32_t module = 0;  // index in the run block, or kOthers
-  std::uint32_t flags = 0;
-  RunTail tail;
-  std::vector<Value> values;         // in the order of the track
-  std::vector<std::int64_t> clock;   // results of irp::now_ns()
-  std::vector<Answer> answers;       // in the order of its calls
-  std::vector<std::uint64_t> words;  // the data that the values point into
-};
 
 class Follower {
  public:
@@ -50,8 +29,8 @@ class Follower {
   [[nodiscard]] std::span<const TapeVariable> variables() const noexcept { return index_.variables; }
   // The value before any module was started.
   [[nodiscard]] std::span<const std::uint8_t> first_value(std::uint32_t variable) const noexcept;
-  [[nodiscard]] std::size_t tracks() const noexcept { return places_.size(); }
-  [[nodiscard]] std::uint32_t module_of(std::size_t track) const noexcept { return places_[track].module; }
+  [[nodiscard]] std::size_t tracks() const noexcept { return tracks_.size(); }
+  [[nodiscard]] std::uint32_t module_of(std::size_t track) const noexcept { return tracks_[track].module(); }
 
   // The variables on a track: those that its module only reads, and those it writes.
   struct Items {
@@ -61,34 +40,17 @@ class Follower {
   [[nodiscard]] Items items_of(std::size_t track) const noexcept;
 
   // Reads the next run of a track; `run` is reused. Returns false if there is none yet.
-  bool next(std::size_t track, Run& run);
+  bool next(std::size_t track, Run& run) { return tracks_[track].next(run); }
   // Runs of the track that were overwritten before they were read.
-  [[nodiscard]] std::uint64_t lost(std::size_t track) const noexcept { return places_[track].lost; }
+  [[nodiscard]] std::uint64_t lost(std::size_t track) const noexcept { return tracks_[track].lost(); }
 
  private:
-  struct Place {
-    const TapeTrack* shared = nullptr;
-    const std::uint64_t* words = nullptr;
-    std::uint64_t mask = 0;
-    std::uint32_t module = 0;
-    std::uint64_t at = 0;
-    std::uint64_t next_number = 0;
-    std::uint64_t lost = 0;
-    bool any = false;  // a run was read, so the numbers show what is lost
-  };
-  enum class Reading { Whole, Overtaken, Corrupt };
-
   Follower(vars::ShmFile&& file, TapeIndex&& index) : file_(std::move(file)), index_(std::move(index)) {}
-  void find_tracks();
-  void point_to(const std::vector<std::pair<EntryHead, std::size_t>>& found, Run& run) const;
-  Reading read_run(const Place& place, std::uint64_t head, Run& run, std::uint64_t& length) const;
-  [[nodiscard]] static std::uint64_t oldest(const Place& place, std::uint64_t head) noexcept;
-  // Returns false if the words at this place in the track have been overwritten.
-  static bool copy(const Place& place, std::uint64_t from, std::uint64_t count, std::vector<std::uint64_t>& to);
+  void find_tracks(bool from_start);
 
   vars::ShmFile file_;
   TapeIndex index_;
-  std::vector<Place> places_;
+  std::vector<TrackReader> tracks_;
 };
 
 }  // namespace indurop::tape
