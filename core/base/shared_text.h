@@ -28,22 +28,27 @@ class SharedText {
   // Returns an empty text if it is changed again and again meanwhile.
   [[nodiscard]] std::string get() const {
     constexpr int kTries = 100;
+    std::string text;
     for (int i = 0; i < kTries; ++i) {
-      const std::uint32_t before = version_.load(std::memory_order_acquire);
-      std::string copy;
-      for (const std::atomic<char>& letter : text_) {
-        const char c = letter.load(std::memory_order_relaxed);
-        if (c == '\0') {
-          break;
-        }
-        copy += c;
-      }
-      std::atomic_thread_fence(std::memory_order_acquire);
-      if (before % 2 == 0 && version_.load(std::memory_order_relaxed) == before) {
-        return copy;
+      if (try_get(text)) {
+        return text;
       }
     }
     return {};
+  }
+  // Returns false if it was changed meanwhile.
+  bool try_get(std::string& text) const {
+    const std::uint32_t before = version_.load(std::memory_order_acquire);
+    text.clear();
+    for (const std::atomic<char>& letter : text_) {
+      const char c = letter.load(std::memory_order_relaxed);
+      if (c == '\0') {
+        break;
+      }
+      text += c;
+    }
+    std::atomic_thread_fence(std::memory_order_acquire);
+    return before % 2 == 0 && version_.load(std::memory_order_relaxed) == before;
   }
 
  private:
