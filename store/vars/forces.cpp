@@ -78,6 +78,16 @@ const ForceTable& table_of(const void* entry, std::int64_t offset) noexcept {
   return *reinterpret_cast<const ForceTable*>(static_cast<const std::byte*>(entry) + offset);
 }
 
+// The forced part of a scalar.
+std::optional<Held> scalar_part(void* entry) noexcept {
+  std::optional<Held> found;
+  const std::int64_t offset = abi::forces_offset_of(entry, abi::Kind::Scalar).load(kRelaxed);
+  if (offset != 0) {
+    for_each_of(table_of(entry, offset), entry, [&](const Held& part) { found = part; });
+  }
+  return found;
+}
+
 void write_word(void* entry, std::uint32_t size, std::uint64_t value) noexcept {
   const auto put = [&](auto zero) {
     std::memcpy(&zero, &value, sizeof zero);
@@ -275,15 +285,20 @@ std::vector<Force> forces_of(const BlockHeader& header, std::span<const Director
 }
 
 bool hold_scalar(void* entry) noexcept {
-  const std::int64_t offset = abi::forces_offset_of(entry, abi::Kind::Scalar).load(kRelaxed);
-  bool held = false;
-  if (offset != 0) {
-    for_each_of(table_of(entry, offset), entry, [&](const Held& part) {
-      write_word(entry, part.size, part.value);
-      held = true;
-    });
+  constexpr int kTries = 4;  // a force takes a barrier on all processors, so two during one write are rare
+  std::optional<Held> held = scalar_part(entry);
+  for (int i = 0; held && i < kTries; ++i) {
+    write_word(entry, held->size, held->value);
+    // Another value that was forced in between is in the table before the barrier of force(): it is seen here, or
+    // force() writes it after this one.
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+    const auto now = scalar_part(entry);
+    if (!now || now->value == held->value) {
+      return true;
+    }
+    held = now;
   }
-  return held;
+  return held.has_value();
 }
 
 void hold_parts(abi::RingHeader& ring, unsigned char* version) noexcept {
