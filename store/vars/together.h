@@ -10,7 +10,8 @@
 
 namespace indurop::vars {
 
-// Fills every piece's `to`. Variables of this board: as they were at one moment, between two commits. Variables of
+// Fills every piece's `to`. Variables of this board: as they were at one moment, between two commits (a scalar has no
+// version: one that changes and changes back twice meanwhile passes for unchanged). Variables of
 // other boards: after one update of their board, if it sends them together. Returns false if this failed within some
 // tens of tries; then each value is consistent in itself only. Needs writable memory, as tear_free_ring.h's
 // read_slow().
