@@ -133,7 +133,8 @@ struct IoSync {
 
 // A slave of an EtherCAT bus; the address of the device is the network interface.
 struct IoSlave {
-  int position = 0;                     // on the cable, from 0
+  int position = 0;                     // on the cable, from 0, unless it has an alias
+  std::optional<std::uint16_t> alias;   // the slave with this number, wherever it is
   std::optional<std::uint32_t> vendor;  // has to be found there; empty: any
   std::optional<std::uint32_t> product;
   std::optional<std::uint32_t> revision;
@@ -143,6 +144,9 @@ struct IoSlave {
   std::string description_as_written;  // relative names start at the folder of ioconfig.xml
   base::SourcePlace description_place;
 };
+
+// "slave 3", "the slave with alias 5"
+std::string describe(const IoSlave& slave);
 
 struct IoCsv {
   std::filesystem::path file;  // relative names start at the folder of ioconfig.xml

@@ -245,6 +245,10 @@ void check_overlaps(std::vector<Span>& spans, base::Diagnostics& report) {
 
 }  // namespace
 
+std::string describe(const IoSlave& slave) {
+  return slave.alias ? fmt::format("the slave with alias {}", *slave.alias) : fmt::format("slave {}", slave.position);
+}
+
 const char* name_of(IoDriver driver) noexcept {
   switch (driver) {
     case IoDriver::ModbusTcp:

@@ -190,9 +190,15 @@ class DeviceReader {
 
   void read_slave() {
     constexpr int kMaxSlaves = 1000;
+    constexpr int kMaxAlias = std::numeric_limits<std::uint16_t>::max();
     device_.address = attributes_.need("address", "address=\"eth1\"").value_or("");
     base::SourcePlace place;
-    if (attributes_.need("slave", "slave=\"0\"", &place)) {
+    if (attributes_.text("alias", &place)) {
+      device_.slave.alias = static_cast<std::uint16_t>(attributes_.integer("alias", 1, kMaxAlias).value_or(0));
+      if (attributes_.text("slave", &place)) {
+        report_.error(place, "slave: the device is found by its alias; remove one of the two");
+      }
+    } else if (attributes_.need("slave", "slave=\"0\", or alias=\"5\"", &place)) {
       device_.slave.position = static_cast<int>(attributes_.integer("slave", 0, kMaxSlaves).value_or(0));
     }
     device_.cut = attributes_.text("cut", &device_.cut_place).value_or("");
@@ -303,9 +309,9 @@ void check_device(const IoDevice& device, const base::Element& element, base::Di
 void check_slave(const IoDevice& device, const IoConfig& config, base::Diagnostics& report) {
   for (const IoDevice& other : config.devices) {
     if (device.driver == IoDriver::Ethercat && other.driver == IoDriver::Ethercat && device.address == other.address &&
-        device.slave.position == other.slave.position) {
-      report.error(device.place, fmt::format("slave {} of {} has the device in line {} already; move its points there",
-                                             device.slave.position, device.address, other.place.line));
+        device.slave.alias == other.slave.alias && device.slave.position == other.slave.position) {
+      report.error(device.place, fmt::format("{} of {} has the device in line {} already; move its points there",
+                                             describe(device.slave), device.address, other.place.line));
     }
     if (device.slave.sync.activate != 0 && other.slave.sync.activate != 0 && device.address != other.address) {
       report.error(device.place,

@@ -62,9 +62,9 @@ std::string refusal_of(const EthercatMember& member, const ethercat::Unmapped& u
   const auto point = std::find_if(points.begin(), points.end(), [&unmapped](const config::IoPoint& other) {
     return other.object.index == unmapped.object.index && other.object.subindex == unmapped.object.subindex;
   });
-  return fmt::format("slave {} ({}), device {}: {} {} ({}) cannot be exchanged: {}; its {} are {}",
-                     member.slave.position, sii.name, member.device, unmapped.output ? "output" : "input", point->at,
-                     name_of_object(point->object), unmapped.reason, unmapped.output ? "outputs" : "inputs",
+  return fmt::format("{} ({}), device {}: {} {} ({}) cannot be exchanged: {}; its {} are {}",
+                     config::describe(member.slave), sii.name, member.device, unmapped.output ? "output" : "input",
+                     point->at, name_of_object(point->object), unmapped.reason, unmapped.output ? "outputs" : "inputs",
                      objects_of(unmapped.output ? sii.outputs : sii.inputs));
 }
 
@@ -261,7 +261,11 @@ std::string EthercatBus::prepare() {
   if (std::string wrong = check(*found); !wrong.empty()) {
     return wrong;
   }
-  if (std::string wrong = map(*found); !wrong.empty()) {
+  auto places = find_members(members_, *found, interface_);
+  if (!places) {
+    return places.error();
+  }
+  if (std::string wrong = map(*found, *places); !wrong.empty()) {
     return wrong;
   }
   std::vector<ethercat::SlavePlan> plans;
@@ -270,8 +274,10 @@ std::string EthercatBus::prepare() {
     plans.push_back(ethercat::plan_of(slave.sii, logical));
     logical += static_cast<std::uint32_t>(plans.back().output_bytes + plans.back().input_bytes);
   }
-  for (const EthercatMember& member : members_) {
-    ethercat::SlavePlan& plan = plans[static_cast<std::size_t>(member.slave.position)];
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const EthercatMember& member = members_[i];
+    ethercat::SlavePlan& plan = plans[(*places)[i]];
+    plan.alias = member.slave.alias.value_or(0);
     // The mapping comes after what the file sets, so that nothing in the file changes it.
     std::vector<ethercat::StartObject> objects;
     for (const config::IoObjectValue& value : member.slave.values) {
@@ -282,7 +288,7 @@ std::string EthercatBus::prepare() {
     plan.sync = {sync.activate, sync.cycle, sync.shift, sync.sync1};
   }
   wire_ = std::move(*wire);
-  owned_ = std::make_unique<Running>(wire_->link(), std::move(plans), period_);
+  owned_ = std::make_unique<Running>(wire_->link(), std::move(plans), period_, std::move(*places));
   make_fields(*found, *owned_);
   return {};
 }
@@ -294,43 +300,25 @@ std::string EthercatBus::check(const std::vector<ethercat::FoundSlave>& found) c
     }
   }
   for (const EthercatMember& member : members_) {
-    const auto place = static_cast<std::size_t>(member.slave.position);
-    if (place >= found.size()) {
-      return fmt::format(
-          "device {} is slave {}, and {} answer, from 0 on; check the cable after the last one, or the "
-          "position in the file",
-          member.device, place, found.size());
-    }
     if (member.slave.sync.activate != 0 && interface_.find(',') != std::string::npos) {
-      return fmt::format("slave {}, device {}: a ring has no clocks; leave out <sync>, or name one interface only",
-                         place, member.device);
+      return fmt::format("{}, device {}: a ring has no clocks; leave out <sync>, or name one interface only",
+                         config::describe(member.slave), member.device);
     }
     if (period_.count() > 0 && member.slave.sync.cycle % period_ != std::chrono::nanoseconds(0)) {
       return fmt::format(
-          "slave {}, device {}: the cycle of <sync> is {} us, which is no multiple of the module's period, {} us",
-          place, member.device, member.slave.sync.cycle / std::chrono::microseconds(1),
+          "{}, device {}: the cycle of <sync> is {} us, which is no multiple of the module's period, {} us",
+          config::describe(member.slave), member.device, member.slave.sync.cycle / std::chrono::microseconds(1),
           period_ / std::chrono::microseconds(1));
-    }
-    const ethercat::Identity& identity = found[place].sii.identity;
-    const auto differs = [](const std::optional<std::uint32_t>& wanted, std::uint32_t is) {
-      return wanted && *wanted != is;
-    };
-    if (differs(member.slave.vendor, identity.vendor) || differs(member.slave.product, identity.product) ||
-        differs(member.slave.revision, identity.revision)) {
-      return fmt::format(
-          "slave {}, device {}: it is {}, vendor 0x{:x}, product 0x{:x}, revision 0x{:x}, and the file "
-          "says another one; `indurop io scan {}` shows what is there",
-          place, member.device, found[place].sii.name, identity.vendor, identity.product, identity.revision,
-          interface_);
     }
   }
   return {};
 }
 
 // Chooses the process data of each slave by the points of its device. Returns what is wrong.
-std::string EthercatBus::map(std::vector<ethercat::FoundSlave>& found) const {
-  for (const EthercatMember& member : members_) {
-    ethercat::Sii& sii = found[static_cast<std::size_t>(member.slave.position)].sii;
+std::string EthercatBus::map(std::vector<ethercat::FoundSlave>& found, const EthercatPlaces& places) const {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const EthercatMember& member = members_[i];
+    ethercat::Sii& sii = found[places[i]].sii;
     add_excludes(member.excludes, sii);
     auto mapped =
         ethercat::map_objects(sii, config::wanted_objects(member.outputs), config::wanted_objects(member.inputs));
@@ -343,12 +331,13 @@ std::string EthercatBus::map(std::vector<ethercat::FoundSlave>& found) const {
 }
 
 void EthercatBus::make_fields(const std::vector<ethercat::FoundSlave>& found, Running& running) const {
-  for (const EthercatMember& member : members_) {
-    const ethercat::Sii& sii = found[static_cast<std::size_t>(member.slave.position)].sii;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const EthercatMember& member = members_[i];
+    const ethercat::Sii& sii = found[running.places[i]].sii;
     running.outputs.push_back(fields_of(member, member.outputs, sii.outputs));
     running.inputs.push_back(fields_of(member, member.inputs, sii.inputs));
     // What the file sets stays set although the object is exchanged, unless a point writes it.
-    const auto outputs = running.master.outputs(static_cast<std::size_t>(member.slave.position));
+    const auto outputs = running.master.outputs(running.places[i]);
     for (const config::IoObjectValue& value : member.slave.values) {
       const auto field = find_field(sii.outputs, value.object);
       if (field && field->bits == 8 * value.bytes.size()) {

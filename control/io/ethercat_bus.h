@@ -18,21 +18,10 @@
 #include "control/io/ethercat/master/master.h"
 #include "control/io/ethercat/master/scan.h"
 #include "control/io/ethercat_field.h"
+#include "control/io/ethercat_members.h"
 #include "core/rt/thread.h"
 
 namespace indurop::io {
-
-// PDOs that cannot be assigned with one, by its index.
-using Excludes = std::map<std::uint16_t, std::vector<std::uint16_t>>;
-
-// What a device wants of its slave.
-struct EthercatMember {
-  std::string device;
-  config::IoSlave slave;
-  std::vector<config::IoPoint> outputs;
-  std::vector<config::IoPoint> inputs;
-  Excludes excludes;  // as the maker's description says
-};
 
 class EthercatBus {
  public:
@@ -60,13 +49,16 @@ class EthercatBus {
   using Fields = std::vector<std::optional<EthercatField>>;
   [[nodiscard]] const Fields& outputs(std::size_t member) const noexcept { return running_->outputs[member]; }
   [[nodiscard]] const Fields& inputs(std::size_t member) const noexcept { return running_->inputs[member]; }
+  // Its position on the cable, from 0.
+  [[nodiscard]] std::size_t place(std::size_t member) const noexcept { return running_->places[member]; }
 
  private:
   struct Running {
-    Running(ethercat::Link& link, std::vector<ethercat::SlavePlan> plans, ethercat::Clock period)
-        : master(link, std::move(plans), period) {}
+    Running(ethercat::Link& link, std::vector<ethercat::SlavePlan> plans, ethercat::Clock period, EthercatPlaces at)
+        : master(link, std::move(plans), period), places(std::move(at)) {}
     ethercat::Master master;
-    std::vector<Fields> outputs;  // by member
+    EthercatPlaces places;  // by member, as the following
+    std::vector<Fields> outputs;
     std::vector<Fields> inputs;
   };
   // What the tick tells the thread: one writes, one reads.
@@ -87,7 +79,7 @@ class EthercatBus {
   void work();
   [[nodiscard]] std::string prepare();
   [[nodiscard]] std::string check(const std::vector<ethercat::FoundSlave>& found) const;
-  [[nodiscard]] std::string map(std::vector<ethercat::FoundSlave>& found) const;
+  [[nodiscard]] std::string map(std::vector<ethercat::FoundSlave>& found, const EthercatPlaces& places) const;
   void make_fields(const std::vector<ethercat::FoundSlave>& found, Running& running) const;
   [[nodiscard]] Fields fields_of(const EthercatMember& member, const std::vector<config::IoPoint>& points,
                                  const std::vector<ethercat::Pdo>& pdos) const;

@@ -14,8 +14,7 @@ EthercatDriver::EthercatDriver(const config::IoDevice& device, std::span<const c
                          device.slave,
                          {outputs.begin(), outputs.end()},
                          {inputs.begin(), inputs.end()},
-                         std::move(excludes)})),
-      place_(static_cast<std::size_t>(device.slave.position)) {}
+                         std::move(excludes)})) {}
 
 Driver::Outcome EthercatDriver::exchange(std::span<Sample> outputs, std::span<Sample> inputs,
                                          std::chrono::nanoseconds /*elapsed*/) {
@@ -32,9 +31,10 @@ Driver::Outcome EthercatDriver::exchange(std::span<Sample> outputs, std::span<Sa
 
 Driver::Outcome EthercatDriver::exchange(ethercat::Master& master, std::span<Sample> outputs,
                                          std::span<Sample> inputs) const noexcept {
+  const std::size_t place = bus_->place(member_);
   bool is_whole = true;
   const auto& output_fields = bus_->outputs(member_);
-  const auto to = master.outputs(place_);
+  const auto to = master.outputs(place);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     Sample& sample = outputs[i];
     if (!output_fields[i]) {
@@ -44,12 +44,12 @@ Driver::Outcome EthercatDriver::exchange(ethercat::Master& master, std::span<Sam
       sample.quality = Quality::OutOfRange;
     }
   }
-  master.set_outputs_good(place_, true);
-  if (!master.is_fresh(place_)) {
+  master.set_outputs_good(place, true);
+  if (!master.is_fresh(place)) {
     return Outcome::Lost;
   }
   const auto& input_fields = bus_->inputs(member_);
-  const auto from = master.inputs(place_);
+  const auto from = master.inputs(place);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (!input_fields[i]) {
       inputs[i].quality = Quality::Refused;

@@ -27,7 +27,6 @@ class EthercatDriver final : public Driver {
 
   std::shared_ptr<EthercatBus> bus_;
   std::size_t member_;
-  std::size_t place_;
 };
 
 }  // namespace indurop::io

@@ -135,9 +135,11 @@ void add_objects(ObjectDictionary& objects) {
 
 }  // namespace
 
-ethercat::SlaveConfig Drive::slave() {
+ethercat::SlaveConfig Drive::slave(std::uint16_t alias) {
   ethercat::SlaveConfig config;
-  config.esc.eeprom = ethercat::sii_image(sii_of_drive());
+  ethercat::Sii sii = sii_of_drive();
+  sii.alias = alias;
+  config.esc.eeprom = ethercat::sii_image(sii);
   add_objects(config.objects);
   return config;
 }

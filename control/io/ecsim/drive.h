@@ -16,8 +16,8 @@ class Drive {
  public:
   explicit Drive(const config::IoAxis& axis) : drive_(axis) {}
 
-  // The slave, without its application.
-  static ethercat::SlaveConfig slave();
+  // The slave, without its application. `alias`: a number by which a master can find it; 0: none.
+  static ethercat::SlaveConfig slave(std::uint16_t alias = 0);
   // The slave that it is part of, before compute(); borrowed until the end.
   void attach(ethercat::Slave& slave);
   // The application of the slave: moves the axis up to this time, with what it has got, and fills in where it is then.

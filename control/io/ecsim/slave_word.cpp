@@ -25,33 +25,41 @@ using Model = Result<SlaveModel, std::string>;
 
 constexpr std::string_view kDrive = "drive";
 
-struct AxisValue {
-  std::string_view name;
-  double config::IoAxis::*value;
-  double least;
+struct DriveValues {
+  config::IoAxis axis;
+  double alias = 0;
 };
-constexpr std::array<AxisValue, 5> kAxisValues{{{"start", &config::IoAxis::start, -1e6},
-                                                {"speed", &config::IoAxis::speed, 1e-9},
-                                                {"acceleration", &config::IoAxis::acceleration, 1e-9},
-                                                {"following", &config::IoAxis::following, 1e-9},
-                                                {"counts", &config::IoAxis::counts, 4}}};
+struct DriveValue {
+  std::string_view name;
+  double& (*of)(DriveValues& drive);
+  double least;
+  double most;
+};
+constexpr double kMaxReal = 1e9;
+constexpr std::array<DriveValue, 6> kDriveValues{
+    {{"start", [](DriveValues& drive) -> double& { return drive.axis.start; }, -1e6, kMaxReal},
+     {"speed", [](DriveValues& drive) -> double& { return drive.axis.speed; }, 1e-9, kMaxReal},
+     {"acceleration", [](DriveValues& drive) -> double& { return drive.axis.acceleration; }, 1e-9, kMaxReal},
+     {"following", [](DriveValues& drive) -> double& { return drive.axis.following; }, 1e-9, kMaxReal},
+     {"counts", [](DriveValues& drive) -> double& { return drive.axis.counts; }, 4, kMaxReal},
+     {"alias", [](DriveValues& drive) -> double& { return drive.alias; }, 1, 65535}}};
 
 // Returns what is wrong with "start=-20".
-std::string read_value(std::string_view part, config::IoAxis& axis) {
+std::string read_value(std::string_view part, DriveValues& drive) {
   const std::size_t equals = std::min(part.find('='), part.size());
   const std::string_view text = part.substr(std::min(equals + 1, part.size()));
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   std::vector<std::string> names;
-  for (const AxisValue& known : kAxisValues) {
+  for (const DriveValue& known : kDriveValues) {
     names.emplace_back(known.name);
     if (known.name != part.substr(0, equals)) {
       continue;
     }
-    if (error != std::errc() || end != text.data() + text.size() || !(number >= known.least && number <= 1e9)) {
+    if (error != std::errc() || end != text.data() + text.size() || !(number >= known.least && number <= known.most)) {
       return fmt::format("{} is no {} of a drive; write {}=220", base::in_quotes(text), known.name, known.name);
     }
-    axis.*known.value = number;
+    known.of(drive) = number;
     return {};
   }
   return fmt::format("a drive has no {}{}", base::in_quotes(part.substr(0, equals)),
@@ -59,16 +67,17 @@ std::string read_value(std::string_view part, config::IoAxis& axis) {
 }
 
 Model drive_of(std::string_view values) {
-  config::IoAxis axis;
+  DriveValues wanted;
   while (!values.empty()) {
     const std::size_t comma = std::min(values.find(','), values.size());
-    if (std::string wrong = read_value(values.substr(0, comma), axis); !wrong.empty()) {
+    if (std::string wrong = read_value(values.substr(0, comma), wanted); !wrong.empty()) {
       return wrong;
     }
     values.remove_prefix(std::min(comma + 1, values.size()));
   }
-  const auto drive = std::make_shared<Drive>(axis);
-  return SlaveModel{Drive::slave(), [drive](ethercat::Slave& slave) { drive->attach(slave); },
+  const auto drive = std::make_shared<Drive>(wanted.axis);
+  return SlaveModel{Drive::slave(static_cast<std::uint16_t>(wanted.alias)),
+                    [drive](ethercat::Slave& slave) { drive->attach(slave); },
                     [drive](ethercat::Bytes outputs, std::span<std::uint8_t> inputs, ethercat::Time now) {
                       drive->compute(outputs, inputs, now);
                     }};

@@ -93,6 +93,34 @@ TEST_F(EthercatNode, A_cut_ring_is_named_and_the_drive_moves_on) {
   EXPECT_TRUE(wait_until([&] { return value<std::uint8_t>("TEST_CELL::I0_quality") == 0; }));
 }
 
+TEST_F(EthercatNode, A_device_is_found_by_its_alias) {
+  const auto start_drives = [this](const std::string& first, const std::string& second) {
+    drives_ = std::make_unique<Program>(std::vector<std::string>{ECSIM_PROGRAM, "ec1", "drive:alias=" + first,
+                                                                 "drive:alias=" + second, "--script", "-"});
+    ASSERT_TRUE(drives_->prints("slaves at")) << drives_->err();
+  };
+  const std::string device =
+      "<device name='axis1' driver='ethercat' address='ec0' alias='7' in='TEST_CELL::AXIS1_IN'\n"
+      "  out='TEST_CELL::AXIS1_OUT'/>";
+  start_drives("9", "8");
+  Program& sut = run_node(device);
+  EXPECT_TRUE(
+      sut.prints("EtherCAT ec0: device axis1 is the slave with alias 7, and 2 answer, none of them with it; "
+                 "`indurop io scan` shows their aliases"))
+      << sut.out();
+  drives_.reset();
+  start_drives("7", "7");
+  EXPECT_TRUE(sut.prints("device axis1 is the slave with alias 7, and several have it")) << sut.out();
+  drives_.reset();
+  start_drives("9", "7");
+  EXPECT_TRUE(moves()) << sut.out() << sut.err();
+  EXPECT_TRUE(sut.prints("EtherCAT ec0: slave 1 (InduRoP simulated drive): operates"));
+  // Equal drives in another order while the node runs.
+  drives_.reset();
+  start_drives("7", "9");
+  EXPECT_TRUE(sut.prints("slave 1 (InduRoP simulated drive): another device is at its position: alias 9")) << sut.out();
+}
+
 TEST_F(EthercatNode, A_ring_has_no_clocks) {
   ASSERT_TRUE(io::ethercat::make_way_back());
   drives_ = io::ethercat::start_drives(1, (folder() / "frames.pcap").string(), {"--ring", "ec3"});

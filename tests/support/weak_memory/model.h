@@ -3,8 +3,8 @@
 // processor that runs the test: x86 hides a missing barrier. Model: Lahav et al., "Repairing sequential consistency in
 // C/C++11" (RC11, PLDI 2017), by messages and views as in Kang et al., "A promising semantics" (POPL 2017) without
 // promises: a load may take each write that its thread has not seen to be replaced. Not covered: a load that takes a
-// value from a store that comes after it in its own thread's order, by way of another thread (load buffering), and bytes
-// of one place that are accessed in several sizes.
+// value from a store that comes after it in its own thread's order, by way of another thread (load buffering), and
+// bytes of one place that are accessed in several sizes.
 
 #pragma once
 

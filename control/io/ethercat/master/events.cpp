@@ -20,6 +20,8 @@ std::string words(const Event& event) {
                          event.detail);
     case Problem::WrongIdentity:
       return fmt::format("another device is at its position: product code {:08x}h", event.detail);
+    case Problem::WrongAlias:
+      return fmt::format("another device is at its position: alias {}", event.detail);
     case Problem::EepromBusy:
       return "its EEPROM does not answer";
     case Problem::StateRefused:

@@ -31,6 +31,7 @@ struct SyncPlan {
 struct SlavePlan {
   std::string name;
   Identity identity;          // revision and serial 0: any
+  std::uint16_t alias = 0;    // 0: any
   std::uint32_t logical = 0;  // address of its process data
   MailboxArea mailbox;
   std::vector<std::uint8_t> mailbox_managers;  // register bytes; empty without a mailbox

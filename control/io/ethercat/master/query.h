@@ -38,6 +38,7 @@ enum class Problem : std::uint8_t {
   Missing,        // no answer at its position
   Moved,          // another slave of the configuration answers there
   WrongIdentity,  // product code that was found
+  WrongAlias,     // alias that was found
   EepromBusy,
   StateRefused,   // AL status code
   StateTimeout,   // requested state

@@ -16,6 +16,7 @@ constexpr Clock kRefusedPause = milliseconds(200);  // for what a new try hardly
 constexpr Clock kStateCheck = milliseconds(10);
 constexpr std::size_t kStateBytes = 6;  // AL status, two bytes, AL status code
 constexpr std::size_t kCodeAt = 4;
+constexpr std::size_t kStationBytes = 4;  // station address, alias
 constexpr std::size_t kMaxChannels = 16;  // FMMUs, SyncManagers
 constexpr std::array<std::uint8_t, kMaxChannels * kFmmuBytes> kZeros{};
 
@@ -83,7 +84,7 @@ std::optional<Query> SlaveControl::query(Clock now) noexcept {
     case Step::Pause:
       return std::nullopt;
     case Step::Find:
-      return Query{Command::Aprd, address_of(position(place_), reg::kStation), {}, 2};
+      return Query{Command::Aprd, address_of(position(place_), reg::kStation), {}, kStationBytes};
     case Step::Address:
       store<std::uint16_t>(word_, 0, station);
       return Query{Command::Apwr, address_of(position(place_), reg::kStation), word_, 0};
@@ -174,7 +175,7 @@ void SlaveControl::answer(Bytes data, bool is_answered, Clock now) noexcept {
 void SlaveControl::finish_step(Bytes data, Clock now) noexcept {
   switch (step_) {
     case Step::Find:
-      found(load<std::uint16_t>(data, 0), now);
+      found(load<std::uint16_t>(data, 0), load<std::uint16_t>(data, 2), now);
       return;
     case Step::Address:
       sync_.slave_found(now);
@@ -227,11 +228,15 @@ void SlaveControl::finish_step(Bytes data, Clock now) noexcept {
   }
 }
 
-void SlaveControl::found(std::uint16_t station, Clock now) noexcept {
+void SlaveControl::found(std::uint16_t station, std::uint16_t alias, Clock now) noexcept {
   // A slave that has one of our names already, but not this one's, is elsewhere in the configuration: giving it a
   // second name would hide it.
   if (station != station_of(place_) && station >= station_of(0) && station < 0x2000) {
     fail(Problem::Moved, station, kFindAgain, now);
+    return;
+  }
+  if (plan_.alias != 0 && alias != plan_.alias) {
+    fail(Problem::WrongAlias, alias, kRefusedPause, now);
     return;
   }
   enter(Step::Address, now);

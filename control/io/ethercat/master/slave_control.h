@@ -66,7 +66,7 @@ class SlaveControl {
   void finish_step(Bytes data, Clock now) noexcept;
   void reached(Clock now) noexcept;
   void fail(Problem problem, std::uint32_t detail, Clock pause, Clock now) noexcept;
-  void found(std::uint16_t station, Clock now) noexcept;
+  void found(std::uint16_t station, std::uint16_t alias, Clock now) noexcept;
   void check_identity(Bytes data, bool is_answered, Clock now) noexcept;
   void check_state(Bytes data, Clock now) noexcept;
   void monitor(Bytes data, bool is_answered, Clock now) noexcept;
