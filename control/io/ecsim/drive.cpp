@@ -31,7 +31,10 @@ constexpr ethercat::Time kMaxStep = std::chrono::milliseconds(20);
 constexpr std::uint8_t kInt8 = 2;
 constexpr std::uint8_t kInt16 = 3;
 constexpr std::uint8_t kInt32 = 4;
+constexpr std::uint8_t kUint8 = 5;
 constexpr std::uint8_t kUint16 = 6;
+constexpr std::uint8_t kUint32 = 7;
+constexpr std::uint8_t kVisibleString = 9;
 
 struct Object {
   std::uint16_t index;
@@ -71,7 +74,7 @@ ethercat::Sii sii_of_drive() {
   sii.order = "ECSIM-DRIVE";
   sii.mailbox = {0x1000, kMailboxBytes, 0x1080, kMailboxBytes};
   sii.protocols = kProtocolCoe;
-  sii.coe_details = kCoeSdo | kCoePdoAssign | kCoePdoConfiguration | kCoeCompleteAccess;
+  sii.coe_details = kCoeSdo | kCoeSdoInfo | kCoePdoAssign | kCoePdoConfiguration | kCoeCompleteAccess;
   sii.fmmus = {FmmuUse::Outputs, FmmuUse::Inputs};
   sii.outputs = {pdo_of(0x1600, kOutputManager, 0, "Outputs", {kControl, kMode, kTarget}),
                  pdo_of(0x1601, kNotAssigned, 0, "More outputs", {}),
@@ -131,6 +134,13 @@ void add_objects(ObjectDictionary& objects) {
   visit(command, [&objects](std::uint16_t index, auto value) { objects.add_number(index, 0, value); });
   DriveFeedback feedback;
   visit(feedback, [&objects](std::uint16_t index, auto value) { objects.add_number(index, 0, value, false); });
+  for (const Object& object : {kControl, kMode, kTarget, kTargetVelocity, kTargetTorque, kTorqueOffset, kError, kStatus,
+                               kModeShown, kPosition, kVelocity, kTorque}) {
+    objects.describe(object.index, 0, object.type, object.name);
+  }
+  objects.describe(0x1000, 0, kUint32, "Device type");
+  objects.describe(0x1008, 0, kVisibleString, "Device name");
+  objects.describe(0x1018, 0, kUint8, "Identity");
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ void add_entries(const std::vector<ethercat::Pdo>& pdos, bool writable, ObjectDi
     for (const ethercat::PdoEntry& entry : pdo.entries) {
       if (entry.index != 0 && objects.storage(entry.index, entry.subindex).empty()) {
         objects.add(entry.index, entry.subindex, std::vector<std::uint8_t>((entry.bits + 7U) / 8U), writable);
+        objects.describe(entry.index, entry.subindex, entry.type, entry.name);
         last[entry.index] = std::max(last[entry.index], entry.subindex);
       }
     }

@@ -13,7 +13,7 @@
 namespace indurop::io::ethercat {
 
 enum class MailboxType : std::uint8_t { Error = 0, Aoe = 1, Eoe = 2, Coe = 3, Foe = 4, Soe = 5 };
-enum class CoeService : std::uint8_t { Emergency = 1, SdoRequest = 2, SdoResponse = 3 };
+enum class CoeService : std::uint8_t { Emergency = 1, SdoRequest = 2, SdoResponse = 3, SdoInformation = 8 };
 
 inline constexpr std::size_t kMailboxHeader = 6;
 inline constexpr std::size_t kCoeHeader = kMailboxHeader + 2;

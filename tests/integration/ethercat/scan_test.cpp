@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `indurop io scan`: the slaves of a bus, before a node, while it runs and after it.
 #include <fstream>
+#include <iomanip>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "node_of_drives.h"
 
@@ -33,6 +35,36 @@ TEST_F(EthercatScan, A_scan_lists_the_slaves_and_writes_a_file_for_them) {
   EXPECT_EQ(json["slaves"][1]["state"], "INIT");
   EXPECT_EQ(json["slaves"][1]["outputs"][2]["at"], "607a:0");
   EXPECT_EQ(json["slaves"][1]["outputs"][2]["type"], "int32");
+}
+
+TEST_F(EthercatScan, The_objects_of_a_slave_are_listed_as_tshark_sees_them) {
+  simulate(2);
+  const Outcome table = indurop({"io", "objects", "ec0", "--slave", "1"});
+  EXPECT_EQ(table.code, 0) << table.err;
+  EXPECT_CONTAINS(table.out, "607a:0");
+  const auto listed = indurop({"io", "objects", "ec0", "-o", "json"}).json()["objects"];
+  drives_->signal(SIGTERM);
+  ASSERT_EQ(drives_->wait(), 0) << drives_->err();
+  const std::string frames = (folder() / "frames.pcap").string();
+  const Outcome seen =
+      Program({"/usr/bin/env", "tshark", "-r", frames, "-Y", "ecat_mailbox.coe.sdoinfoopcode == 6", "-T", "fields",
+               "-e", "ecat_mailbox.coe.sdoinfoindex", "-e", "ecat_mailbox.coe.sdoinfosubindex", "-e",
+               "ecat_mailbox.coe.sdoinfobitlen", "-e", "ecat_mailbox.coe.sdoinfoname"})
+          .finish();
+  if (seen.code != 0) {
+    GTEST_SKIP() << "no tshark";
+  }
+  for (const auto& object : listed) {
+    const std::string at = object["at"];
+    const std::size_t colon = at.find(':');
+    std::ostringstream wanted;
+    wanted << std::hex << std::setfill('0') << "0x" << at.substr(0, colon) << "\t0x" << std::setw(2)
+           << std::stoi(at.substr(colon + 1), nullptr, 16) << "\t0x" << std::setw(4) << object["bits"].get<int>()
+           << '\t';
+    const std::string line = wanted.str();
+    EXPECT_NE(seen.out.find(line), std::string::npos) << line;
+  }
+  EXPECT_NE(seen.out.find("\tTarget position"), std::string::npos);
 }
 
 TEST_F(EthercatScan, A_node_that_ends_leaves_its_slaves_in_init) {

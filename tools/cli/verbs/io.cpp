@@ -6,6 +6,7 @@
 #include "core/base/replace_file.h"
 #include "core/rt/clock.h"
 #include "tools/cli/fieldbus/import_esi.h"
+#include "tools/cli/fieldbus/objects_table.h"
 #include "tools/cli/fieldbus/scan_file.h"
 #include "tools/cli/verbs/verbs.h"
 
@@ -16,37 +17,17 @@ using io::ethercat::FoundSlave;
 using io::ethercat::Pdo;
 using io::ethercat::PdoEntry;
 
+constexpr double kMaxSlave = 1000;
+
 struct IoOptions {
   std::string interface;
+  int slave = 0;
   std::filesystem::path file;
   std::string space = "IO";
 };
 
 std::string hex(std::uint32_t number) {
   return fmt::format("0x{:x}", number);
-}
-
-// As CoE numbers them.
-std::string type_name(std::uint8_t type, std::uint8_t bits) {
-  switch (type) {
-    case 0x01:
-      return "bool";
-    case 0x02:
-    case 0x03:
-    case 0x04:
-    case 0x15:
-      return fmt::format("int{}", bits);
-    case 0x05:
-    case 0x06:
-    case 0x07:
-    case 0x1B:
-      return fmt::format("uint{}", bits);
-    case 0x08:
-    case 0x11:
-      return fmt::format("float{}", bits);
-    default:
-      return fmt::format("{} bits", bits);
-  }
 }
 
 struct Object {  // of the process data
@@ -60,7 +41,7 @@ std::vector<Object> objects_of(const std::vector<Pdo>& pdos) {
   for (const Pdo& pdo : pdos) {
     for (const PdoEntry& entry : pdo.entries) {
       if (entry.index != 0 && pdo.sync_manager != 0xFF) {
-        all.push_back({fmt::format("{:04x}:{:x}", entry.index, entry.subindex), type_name(entry.type, entry.bits),
+        all.push_back({fmt::format("{:04x}:{:x}", entry.index, entry.subindex), coe_type_name(entry.type, entry.bits),
                        entry.name.empty() ? pdo.name : entry.name});
       }
     }
@@ -123,25 +104,69 @@ void print_slaves(Context& context, const std::vector<FoundSlave>& slaves) {
   }
 }
 
-int scan(Context& context, const IoOptions& options) {
-  auto wire = io::ethercat::Wire::open(options.interface);
+using Wire = io::ethercat::Wire;
+
+// Waits until a frame may have come.
+io::ethercat::Clock wait_for_frame(Wire& wire) {
+  wire.wait(std::chrono::milliseconds(1));
+  return rt::MonoClock::now().time_since_epoch();
+}
+
+// Opens the interface and lists the slaves there; says why not and returns the exit code if that fails.
+struct Bus {
+  std::unique_ptr<Wire> wire;
+  std::vector<FoundSlave> slaves;
+};
+Result<Bus, int> open_bus(Context& context, const std::string& interface) {
+  auto wire = Wire::open(interface);
   if (!wire) {
     context.out.error(wire.error());
+    return int{kFailed};
+  }
+  auto found = io::ethercat::Scan((*wire)->link(), [&wire] { return wait_for_frame(**wire); }).run();
+  if (!found) {
+    context.out.error(fmt::format("{}: {}", interface, found.error()));
+    return int{kUnreachable};
+  }
+  return Bus{std::move(*wire), std::move(*found)};
+}
+
+int objects(Context& context, const IoOptions& options) {
+  const auto bus = open_bus(context, options.interface);
+  if (!bus) {
+    return bus.error();
+  }
+  const auto place = static_cast<std::size_t>(options.slave);
+  if (place >= bus->slaves.size()) {
+    context.out.error(fmt::format("{} has {} slaves, numbered from 0; `indurop io scan {}` lists them",
+                                  options.interface, bus->slaves.size(), options.interface));
     return kFailed;
   }
-  const auto found = io::ethercat::Scan((*wire)->link(), [&wire] {
-                       (*wire)->wait(std::chrono::milliseconds(1));
-                       return rt::MonoClock::now().time_since_epoch();
-                     }).run();
+  const FoundSlave& slave = bus->slaves[place];
+  const auto found = slave.problem.empty()
+                         ? io::ethercat::DictionaryReader(
+                               bus->wire->link(), [&bus] { return wait_for_frame(*bus->wire); }, place, slave)
+                               .run()
+                         : Result<std::vector<io::ethercat::DescribedObject>, std::string>(slave.problem);
   if (!found) {
-    context.out.error(fmt::format("{}: {}", options.interface, found.error()));
+    context.out.error(fmt::format("{}: slave {} ({}): {}", options.interface, place, slave.sii.name, found.error()));
     return kUnreachable;
   }
-  print_slaves(context, *found);
+  print_objects(context, *found);
+  return kOk;
+}
+
+int scan(Context& context, const IoOptions& options) {
+  const auto bus = open_bus(context, options.interface);
+  if (!bus) {
+    return bus.error();
+  }
+  const std::vector<FoundSlave>& slaves = bus->slaves;
+  print_slaves(context, slaves);
   if (options.file.empty()) {
     return kOk;
   }
-  const std::string text = scan_file(*found, options.interface, options.space);
+  const std::string text = scan_file(slaves, options.interface, options.space);
   if (const auto written = base::replace_file(options.file, text, base::Durable::No); !written) {
     context.out.error(base::cannot_write(options.file, written.error()));
     return kFailed;
@@ -165,6 +190,17 @@ Action declare_io(base::Options& app, Context& context) {
   scanning.details(
       "Reads the EEPROM of each slave by its position. No state and no output changes; still, it is one more talker\n"
       "on the bus: do not scan a bus that moves a machine. Needs root or CAP_NET_RAW.\n");
+  base::Options& describing =
+      app.command("objects", "List the objects of an EtherCAT slave, as it describes them itself",
+                  [options, chosen] { *chosen = [options](Context& c) { return objects(c, *options); }; });
+  describing.add("interface", "INTERFACE", options->interface, "Where the cable is; of a ring two: eth1,eth2")
+      .required();
+  describing.add("--slave", "NUMBER", options->slave, "Position on the cable, from 0 (default 0)").range(0, kMaxSlave);
+  add_format_option(describing, context, {Format::Table, Format::Json, Format::Csv});
+  describing.details(
+      "Takes the slave to PREOP, reads its object dictionary by SDO information, and leaves it in INIT. A slave that "
+      "a\n"
+      "master runs is refused. Needs root or CAP_NET_RAW.\n");
   base::Options& importing =
       app.command("import", "List the devices that makers describe (ESI), and write them",
                   [request, chosen] { *chosen = [request](Context& c) { return import_esi(c, *request); }; });
@@ -182,6 +218,7 @@ const Verb kIoVerb{"io", "Before it runs", "Field devices, without a node: scan 
                    "Examples:\n"
                    "  indurop io scan eth1\n"
                    "  indurop io scan eth1 --write ioconfig.xml\n"
+                   "  indurop io objects eth1 --slave 2\n"
                    "  indurop io import drives.xml\n"
                    "  indurop io import drives.xml --write ioconfig.xml --device AKD --device AKD\n",
                    &declare_io};

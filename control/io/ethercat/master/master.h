@@ -13,9 +13,6 @@
 
 namespace indurop::io::ethercat {
 
-// Locally given, so that the first slave's mark in it changes nothing.
-inline constexpr Mac kMasterMac = {0x02, 0x49, 0x52, 0x50, 0, 0x01};
-
 struct BusCounters {
   std::uint64_t sent = 0;
   std::uint64_t lost = 0;        // did not come back before the next cycle

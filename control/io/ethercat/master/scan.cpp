@@ -16,9 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Clock kFramePatience = milliseconds(50);
 constexpr Clock kEepromPatience = milliseconds(200);
-constexpr int kTries = 3;
 constexpr std::size_t kMaxImage = 64 * std::size_t{1024};
 
 // Where the image ends as far as it was read: after the category that says so. Nothing: more has to be read first.
@@ -35,65 +33,28 @@ std::optional<std::size_t> end_of(Bytes image) {
 
 }  // namespace
 
-Scan::Scan(Link& link, Wait wait) : link_(link), wait_(std::move(wait)), builder_(kMasterMac) {}
-
-std::optional<Scan::Answer> Scan::exchange(Command command, std::uint32_t address, Bytes data) {
-  std::array<std::uint8_t, kMaxFrame> buffer{};
-  for (int i = 0; i < kTries; ++i) {
-    ++index_;
-    builder_.clear();
-    builder_.add(command, index_, address, data);
-    link_.send(builder_.finish());
-    const Clock deadline = wait_() + kFramePatience;
-    for (Clock now{0}; now < deadline; now = wait_()) {
-      while (const std::size_t size = link_.receive(buffer)) {
-        const Bytes frame = Bytes(buffer).first(size);
-        FrameReader reader(frame);
-        Datagram datagram;
-        if (reader.next(datagram) && datagram.index == index_ && datagram.command == command &&
-            datagram.length == data.size()) {
-          const Bytes found = datagram.data(frame);
-          return Answer{datagram.wkc, {found.begin(), found.end()}};
-        }
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<Scan::Answer> Scan::read(std::size_t place, std::uint16_t offset, std::size_t length) {
-  const std::vector<std::uint8_t> zeros(length);
-  auto answer = exchange(Command::Aprd, address_of(position(place), offset), zeros);
-  return answer && answer->wkc == 1 ? std::move(answer) : std::nullopt;
-}
-
-bool Scan::write(std::size_t place, std::uint16_t offset, Bytes data) {
-  const auto answer = exchange(Command::Apwr, address_of(position(place), offset), data);
-  return answer && answer->wkc == 1;
-}
-
 bool Scan::read_eeprom(std::size_t place, std::size_t word, std::vector<std::uint8_t>& into) {
   std::array<std::uint8_t, 6> command{};
   store<std::uint16_t>(command, 0, kEepromRead);
   store<std::uint32_t>(command, 2, static_cast<std::uint32_t>(word));
-  if (!write(place, reg::kEepromControl, command)) {
+  if (!requester_.write(place, reg::kEepromControl, command)) {
     return false;
   }
-  const Clock deadline = wait_() + kEepromPatience;
-  for (Clock now{0}; now < deadline; now = wait_()) {
-    const auto status = read(place, reg::kEepromControl, 2);
+  const Clock deadline = requester_.wait() + kEepromPatience;
+  for (Clock now{0}; now < deadline; now = requester_.wait()) {
+    const auto status = requester_.read(place, reg::kEepromControl, 2);
     if (!status) {
       return false;
     }
-    const auto bits = load<std::uint16_t>(status->data, 0);
+    const auto bits = load<std::uint16_t>(*status, 0);
     if ((bits & kEepromBusy) != 0) {
       continue;
     }
-    const auto found = read(place, reg::kEepromData, (bits & kEepromEightBytes) != 0 ? 8 : 4);
+    const auto found = requester_.read(place, reg::kEepromData, (bits & kEepromEightBytes) != 0 ? 8 : 4);
     if ((bits & kEepromErrors) != 0 || !found) {
       return false;
     }
-    into.insert(into.end(), found->data.begin(), found->data.end());
+    into.insert(into.end(), found->begin(), found->end());
     return true;
   }
   return false;
@@ -103,7 +64,7 @@ std::optional<std::vector<std::uint8_t>> Scan::read_image(std::size_t place) {
   const std::array<std::uint8_t, 1> force = {kEepromForce};
   const std::array<std::uint8_t, 1> own = {kEepromOfMaster};
   std::vector<std::uint8_t> image;
-  if (!write(place, reg::kEepromConfig, force) || !write(place, reg::kEepromConfig, own)) {
+  if (!requester_.write(place, reg::kEepromConfig, force) || !requester_.write(place, reg::kEepromConfig, own)) {
     return std::nullopt;
   }
   while (!end_of(image) && image.size() < kMaxImage) {
@@ -116,14 +77,14 @@ std::optional<std::vector<std::uint8_t>> Scan::read_image(std::size_t place) {
 
 FoundSlave Scan::identify(std::size_t place) {
   FoundSlave found;
-  const auto alias = read(place, reg::kAlias, 2);
-  const auto state = read(place, reg::kAlStatus, 2);
+  const auto alias = requester_.read(place, reg::kAlias, 2);
+  const auto state = requester_.read(place, reg::kAlStatus, 2);
   if (!alias || !state) {
     found.problem = "it does not answer any more";
     return found;
   }
-  found.alias = load<std::uint16_t>(alias->data, 0);
-  found.state = static_cast<AlState>(state->data[0] & kAlStateMask);
+  found.alias = load<std::uint16_t>(*alias, 0);
+  found.state = static_cast<AlState>((*state)[0] & kAlStateMask);
   const auto image = read_image(place);
   if (!image) {
     found.problem = "its EEPROM does not answer";
@@ -140,7 +101,7 @@ FoundSlave Scan::identify(std::size_t place) {
 
 Result<std::vector<FoundSlave>, std::string> Scan::run() {
   const std::array<std::uint8_t, 1> nothing{};
-  const auto count = exchange(Command::Brd, address_of(0, reg::kType), nothing);
+  const auto count = requester_.request(Command::Brd, address_of(0, reg::kType), nothing);
   if (!count || count->wkc == 0) {
     return std::string("no slave answers; check the cable, and the power of the first slave");
   }

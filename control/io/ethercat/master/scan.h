@@ -6,11 +6,12 @@
 
 #include <indurop/result.h>
 
-#include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "control/io/ethercat/master/query.h"
+#include "control/io/ethercat/master/requester.h"
 #include "control/io/ethercat/sii.h"
 
 namespace indurop::io::ethercat {
@@ -24,29 +25,17 @@ struct FoundSlave {
 
 class Scan {
  public:
-  // Waits until a frame may have come, and returns what time it is then.
-  using Wait = std::function<Clock()>;
-  Scan(Link& link, Wait wait);
+  Scan(Link& link, Requester::Wait wait) : requester_(link, std::move(wait)) {}
 
   // The slaves in the order of the cable. Errors: none answers, or they stop to answer.
   Result<std::vector<FoundSlave>, std::string> run();
 
  private:
-  struct Answer {
-    std::uint16_t wkc = 0;
-    std::vector<std::uint8_t> data;
-  };
-  std::optional<Answer> exchange(Command command, std::uint32_t address, Bytes data);
-  std::optional<Answer> read(std::size_t place, std::uint16_t offset, std::size_t length);
-  bool write(std::size_t place, std::uint16_t offset, Bytes data);
   FoundSlave identify(std::size_t place);
   bool read_eeprom(std::size_t place, std::size_t word, std::vector<std::uint8_t>& into);
   std::optional<std::vector<std::uint8_t>> read_image(std::size_t place);
 
-  Link& link_;
-  Wait wait_;
-  FrameBuilder builder_;
-  std::uint8_t index_ = 0;
+  Requester requester_;
 };
 
 }  // namespace indurop::io::ethercat

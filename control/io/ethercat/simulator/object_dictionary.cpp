@@ -42,8 +42,34 @@ std::uint64_t number_of(Bytes bytes) {
 }  // namespace
 
 void ObjectDictionary::add(std::uint16_t index, std::uint8_t subindex, std::vector<std::uint8_t> value, bool writable) {
-  objects_[{index, subindex}] = {std::move(value), writable};
+  objects_[{index, subindex}] = {std::move(value), writable, 0, {}};
   ++changes_;
+}
+
+void ObjectDictionary::describe(std::uint16_t index, std::uint8_t subindex, std::uint8_t type, std::string name) {
+  if (const auto found = objects_.find({index, subindex}); found != objects_.end()) {
+    found->second.type = type;
+    found->second.name = std::move(name);
+  }
+}
+
+std::vector<std::uint16_t> ObjectDictionary::indices() const {
+  std::vector<std::uint16_t> all;
+  for (const auto& [at, object] : objects_) {
+    if (all.empty() || all.back() != at.first) {
+      all.push_back(at.first);
+    }
+  }
+  return all;
+}
+
+std::vector<ObjectDictionary::Known> ObjectDictionary::entries(std::uint16_t index) const {
+  std::vector<Known> all;
+  for (auto found = objects_.lower_bound({index, 0}); found != objects_.end() && found->first.first == index; ++found) {
+    const Object& object = found->second;
+    all.push_back({found->first.second, object.value.size(), object.writable, object.type, object.name});
+  }
+  return all;
 }
 
 std::uint64_t ObjectDictionary::number(std::uint16_t index, std::uint8_t subindex) const {

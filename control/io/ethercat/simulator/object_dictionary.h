@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,17 @@ class ObjectDictionary {
     store<T>(bytes, 0, value);
     add(index, subindex, std::move(bytes), writable);
   }
+  // What it is called, and its type as CoE numbers them; for those that ask for a description. Only of what was added.
+  void describe(std::uint16_t index, std::uint8_t subindex, std::uint8_t type, std::string name);
+  struct Known {
+    std::uint8_t subindex = 0;
+    std::size_t bytes = 0;
+    bool writable = true;
+    std::uint8_t type = 0;  // 0: not described
+    std::string name;
+  };
+  [[nodiscard]] std::vector<std::uint16_t> indices() const;
+  [[nodiscard]] std::vector<Known> entries(std::uint16_t index) const;
   // The value as a number, 0 if it is not there.
   [[nodiscard]] std::uint64_t number(std::uint16_t index, std::uint8_t subindex) const;
   [[nodiscard]] bool has(std::uint16_t index) const;
@@ -47,6 +59,8 @@ class ObjectDictionary {
   struct Object {
     std::vector<std::uint8_t> value;
     bool writable = true;
+    std::uint8_t type = 0;
+    std::string name;
   };
   std::optional<std::uint32_t> put(std::uint16_t index, std::uint8_t subindex, Bytes value);
 

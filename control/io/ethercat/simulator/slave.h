@@ -80,6 +80,7 @@ class Slave {
   [[nodiscard]] std::size_t process_bytes(SyncManagerUse use) const;
   [[nodiscard]] Area area_of(unsigned sync_manager) const noexcept;
   void receive_mailbox(Time now);
+  void answer_with(Bytes bytes, Time now);
   void deliver_mailbox(Time now);
 
   unsigned dl_status_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "control/io/ethercat/simulator/information_server.h"
 #include "control/io/ethercat/simulator/slave.h"
 
 namespace indurop::io::ethercat {
@@ -18,13 +19,19 @@ void Slave::receive_mailbox(Time now) {
     return;  // the same again: its answer was lost, or it was
   }
   last_counter_ = mailbox->counter;
-  if (service_of(*mailbox) != CoeService::SdoRequest) {
-    return;
+  if (service_of(*mailbox) == CoeService::SdoInformation && (sii().coe_details & kCoeSdoInfo) != 0) {
+    for (const auto& bytes : answer_information(mailbox->data, objects_, sii(), area_of(kMailboxIn).length)) {
+      answer_with(bytes, now);
+    }
   }
-  const auto bytes = sdo_.answer(mailbox->data, objects_, area_of(kMailboxIn).length);
-  if (bytes.empty()) {
-    return;
+  if (service_of(*mailbox) == CoeService::SdoRequest) {
+    if (const auto bytes = sdo_.answer(mailbox->data, objects_, area_of(kMailboxIn).length); !bytes.empty()) {
+      answer_with(bytes, now);
+    }
   }
+}
+
+void Slave::answer_with(Bytes bytes, Time now) {
   own_counter_ = next_counter(own_counter_);
   std::vector<std::uint8_t> message(kMailboxHeader);
   write_mailbox_header(message, bytes.size(), MailboxType::Coe, own_counter_);
