@@ -1,13 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # The arm of the robot cell on an EtherCAT bus: two terminals and six drives, simulated at the other end of a cable
-# without hardware. A tour of twenty seconds, then a drive without power. Needs the programs in PATH, and root or the
-# rights to make a network interface and to use raw sockets.
+# without hardware. A tour of twenty seconds, then a drive without power. With "plant", the PLC program is on a board of
+# its own. Needs the programs in PATH, and root or the rights to make a network interface and to use raw sockets.
 set -e
 here=$(cd "$(dirname "$0")" && pwd)
 folder=${INDUROP_DEMO_DIR:-$here/../../build/examples/ethercat_arm}
 cd "$folder"
 node=${INDUROP_DEMO_NODE:-arm}
+[ "$1" != plant ] || node=arm_bus
 runner=
 slaves=
 
@@ -18,7 +19,7 @@ cleanup() {
   for pid in $runner $slaves; do wait "$pid" 2>/dev/null || true; done
   ip link delete ecarm0 2>/dev/null || true
   rm -f bus.fifo
-  indurop clean --node $node >/dev/null 2>&1 || true
+  for name in $node arm_ladder; do indurop clean --node $name >/dev/null 2>&1 || true; done
 }
 trap cleanup EXIT
 trap 'exit 130' INT TERM HUP
@@ -61,31 +62,43 @@ $urgent indurop-ecsim ecarm1 terminals.xml:SAMPLE-DI16 terminals.xml:SAMPLE-DO16
 slaves=$!
 say "\$ indurop io scan ecarm0"
 indurop io scan ecarm0 | sed '/^$/,$d'
-say "\$ indurop check module.xml"
-indurop check module.xml -q | tail -n 1
-
-say "\$ indurop run module.xml --node $node &"
-indurop run module.xml --node $node -q &
+if [ "$1" = plant ]; then
+  say "\$ indurop check plant.xml"
+  indurop check plant.xml -q | tail -n 1
+  say "\$ indurop run plant.xml --local &"
+  indurop run plant.xml --local -q &
+else
+  say "\$ indurop check module.xml"
+  indurop check module.xml -q | tail -n 1
+  say "\$ indurop run module.xml --node $node &"
+  indurop run module.xml --node $node -q &
+fi
 runner=$!
 wait_for I14 1 20
 wait_for EMERGENCY_STOP.bActive 0 10
 
-say "A visitor starts the cell, walks through the light curtain and hits the emergency stop; its job goes on after that"
-indurop set --node $node -q CELL::tour true
-# A line every two seconds, and one whenever the visitor does something else.
-begin=$(date +%s)
-next=2
-shown='""'
-while second=$(($(date +%s) - begin)) && [ $second -le 20 ]; do
-  doing=$(value CELL::world.doing)
-  if [ $second -ge $next ] || [ "$doing" != "$shown" ]; then
-    printf '%3d s  job %-6s %-22s %s on the pallet, visitor %s\n' $second "$(value ROBOT_JOB.name)" \
-      "$(value ROBOT_MODULE_STATE.eState)" "$(value CELL::world.placed)" "$doing"
-    next=$((second / 2 * 2 + 2))
-    shown=$doing
-  fi
-  sleep 0.1
-done
+if [ "$1" = plant ]; then
+  say "A visitor starts the cell; the ladder program on the other board sees to it that a part is placed"
+  indurop set --node $node -q CELL::tour true
+  wait_for CELL::world.placed 1 30
+else
+  say "A visitor starts the cell, walks through the light curtain and hits the emergency stop; its job goes on after that"
+  indurop set --node $node -q CELL::tour true
+  # A line every two seconds, and one whenever the visitor does something else.
+  begin=$(date +%s)
+  next=2
+  shown='""'
+  while second=$(($(date +%s) - begin)) && [ $second -le 20 ]; do
+    doing=$(value CELL::world.doing)
+    if [ $second -ge $next ] || [ "$doing" != "$shown" ]; then
+      printf '%3d s  job %-6s %-22s %s on the pallet, visitor %s\n' $second "$(value ROBOT_JOB.name)" \
+        "$(value ROBOT_MODULE_STATE.eState)" "$(value CELL::world.placed)" "$doing"
+      next=$((second / 2 * 2 + 2))
+      shown=$doing
+    fi
+    sleep 0.1
+  done
+fi
 wait_for ROBOT_MODULE_STATE.eState ROBOT_GROUP_MOVING 10
 
 say "Drive 3 loses its power for two seconds, and with it the cable to those after it: everything stops"
@@ -110,6 +123,6 @@ if [ -t 0 ] && [ -t 1 ]; then
   say "The arm goes on. Type faults (indurop-ecsim --help lists them), Ctrl-D ends it: power_off slave=4 for=2s"
   while read -r line; do fault "$line"; done
 fi
-indurop stop --node $node >/dev/null
+if [ "$1" = plant ]; then kill $runner; else indurop stop --node $node >/dev/null; fi
 wait $runner || true
 runner=

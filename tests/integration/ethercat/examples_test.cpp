@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The examples of EtherCAT in a network of their own. ethercat_arm: a tour of the arm on simulated drives to its end,
-// then a drive without power, which is named, stops all, and comes back. ethercat_33: all of its axes move.
+// then a drive without power, which is named, stops all, and comes back, on one board and on two. ethercat_33: all of
+// its axes move.
+#include <filesystem>
 #include <string>
 
 #include "tests/support/program.h"
@@ -41,6 +43,21 @@ TEST_F(EthercatExamples, Works_to_the_end_of_a_tour_and_stops_while_a_drive_is_a
   EXPECT_THAT(after, testing::HasSubstr("ROBOT_GROUP_ERRORSTOP"));
   EXPECT_THAT(after, testing::HasSubstr("slave 4 (InduRoP simulated drive): operates"));
   EXPECT_THAT(after, testing::HasSubstr("ROBOT_GROUP_MOVING"));
+}
+
+TEST_F(EthercatExamples, Works_with_the_bus_on_one_of_two_boards) {
+  // Its folder has a pipe to the simulation in it, so each of two demos at a time needs one of its own.
+  const auto folder = std::filesystem::temp_directory_path() / ("indurop_arm_" + std::to_string(::getpid()));
+  std::filesystem::copy(ARM_FOLDER, folder, std::filesystem::copy_options::recursive);
+  test::Program sut({ARM_DEMO, "plant"}, environment(folder.string()));
+  const int code = sut.wait(std::chrono::seconds(150));
+  std::filesystem::remove_all(folder);
+  ASSERT_EQ(code, 0) << sut.out();
+  const std::string out = sut.out();
+  const std::size_t pulled = out.find("Drive 3 loses its power");
+  ASSERT_NE(pulled, std::string::npos) << out;
+  EXPECT_THAT(out.substr(pulled), testing::HasSubstr("ROBOT_GROUP_ERRORSTOP"));
+  EXPECT_THAT(out.substr(pulled), testing::HasSubstr("ROBOT_GROUP_MOVING"));
 }
 
 TEST_F(EthercatExamples, Thirty_three_axes_move) {
