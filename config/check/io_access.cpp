@@ -117,6 +117,7 @@ IoAccess io_access_of(const Module& module, CheckContext& context) {
     add(device.quality, access.writes);
     add(device.errors, access.writes);
     add(device.cut, access.writes);
+    add(device.cable_errors, access.writes);
     for (const BoundPoint& bound : device.points) {
       if (word == (bound.point.output ? "inputs" : "outputs")) {
         continue;

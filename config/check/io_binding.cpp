@@ -32,6 +32,7 @@ class Binder {
     bound.quality = whole(device.quality, device.quality_place, "quality");
     bound.errors = whole(device.errors, device.errors_place, "errors");
     bound.cut = whole(device.cut, device.cut_place, "cut");
+    bound.cable_errors = whole(device.cable_errors, device.cable_errors_place, "cable_errors");
     for (const IoPoint& point : device.points) {
       add(point, bound);
     }

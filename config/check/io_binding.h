@@ -24,6 +24,7 @@ struct BoundDevice {
   std::optional<schema::Place> quality;
   std::optional<schema::Place> errors;
   std::optional<schema::Place> cut;
+  std::optional<schema::Place> cable_errors;
 };
 // Finds the variables and reports errors. `schema` must outlive the returned devices.
 std::vector<BoundDevice> bind_io(const IoConfig& config, const schema::Schema& schema,

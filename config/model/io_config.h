@@ -174,12 +174,14 @@ struct IoDevice {
   IoCsv csv;
   std::string quality;  // variables about the device as a whole; empty: none
   std::string errors;
-  std::string cut;  // Ethercat on a ring
+  std::string cut;           // Ethercat on a ring
+  std::string cable_errors;  // Ethercat
   std::vector<IoPoint> points;
   base::SourcePlace place;
   base::SourcePlace quality_place;
   base::SourcePlace errors_place;
   base::SourcePlace cut_place;
+  base::SourcePlace cable_errors_place;
 };
 
 struct IoConfig {

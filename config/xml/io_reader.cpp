@@ -207,6 +207,7 @@ class DeviceReader {
                     fmt::format("cut: {} is no ring; name both of its interfaces, address=\"eth1,eth2\"",
                                 base::in_quotes(device_.address)));
     }
+    device_.cable_errors = attributes_.text("cable_errors", &device_.cable_errors_place).value_or("");
     device_.slave.vendor = read_identity("vendor");
     device_.slave.product = read_identity("product");
     device_.slave.revision = read_identity("revision");

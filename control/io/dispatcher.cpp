@@ -83,6 +83,7 @@ std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, 
     line.quality = report_to(bound.quality);
     line.errors = report_to(bound.errors);
     line.cut = report_to(bound.cut);
+    line.cable_errors = report_to(bound.cable_errors);
   }
   if (line.driver->in_tick()) {
     line.in_tick.emplace(inputs, outputs);
@@ -154,6 +155,7 @@ void Dispatcher::give(const Line& line, const InputImage& image) noexcept {
   write_quality(line.quality, image.device);
   write_count(line.errors, image.errors);
   write_count(line.cut, line.driver->cut());
+  write_count(line.cable_errors, line.driver->cable_errors());
 }
 
 void Dispatcher::run(std::chrono::nanoseconds elapsed) noexcept {

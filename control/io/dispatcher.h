@@ -59,6 +59,7 @@ class Dispatcher {
     std::optional<Report> quality;
     std::optional<Report> errors;
     std::optional<Report> cut;
+    std::optional<Report> cable_errors;
   };
   Dispatcher() = default;
   // Returns the errors of the device.

@@ -46,6 +46,9 @@ class Driver {
   // is not on a ring. Real-time safe.
   [[nodiscard]] virtual std::uint32_t cut() const noexcept { return 0; }
 
+  // Broken frames and lost links that the device has counted at its plugs. Real-time safe.
+  [[nodiscard]] virtual std::uint64_t cable_errors() const noexcept { return 0; }
+
   virtual void close() noexcept = 0;
 
   [[nodiscard]] virtual std::string problem() const = 0;

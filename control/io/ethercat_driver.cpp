@@ -20,6 +20,9 @@ Driver::Outcome EthercatDriver::exchange(std::span<Sample> outputs, std::span<Sa
                                          std::chrono::nanoseconds /*elapsed*/) {
   ethercat::Master* const master = bus_->begin_turn();
   const Outcome outcome = master != nullptr ? exchange(*master, outputs, inputs) : Outcome::Lost;
+  if (master != nullptr) {
+    cable_errors_ = master->slave(bus_->place(member_)).port_errors();
+  }
   bus_->end_turn();
   if (outcome == Outcome::Lost) {
     for (const std::span<Sample> samples : {outputs, inputs}) {

@@ -19,6 +19,7 @@ class EthercatDriver final : public Driver {
   bool open() override { return bus_->start(); }
   Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) override;
   [[nodiscard]] std::uint32_t cut() const noexcept override { return bus_->cut(); }
+  [[nodiscard]] std::uint64_t cable_errors() const noexcept override { return cable_errors_; }
   void close() noexcept override { bus_->stop(); }
   [[nodiscard]] std::string problem() const override { return "the system has no thread for the bus"; }
 
@@ -27,6 +28,7 @@ class EthercatDriver final : public Driver {
 
   std::shared_ptr<EthercatBus> bus_;
   std::size_t member_;
+  std::uint64_t cable_errors_ = 0;  // as of the last exchange
 };
 
 }  // namespace indurop::io

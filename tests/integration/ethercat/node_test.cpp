@@ -30,6 +30,19 @@ TEST_F(EthercatNode, A_pulled_drive_is_named_and_comes_back) {
   EXPECT_TRUE(moves());
 }
 
+TEST_F(EthercatNode, A_bad_cable_is_named) {
+  simulate(2);
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0' slave='1' in='TEST_CELL::AXIS1_IN'\n"
+      "  out='TEST_CELL::AXIS1_OUT' cable_errors='TEST_CELL::link_errors'/>");
+  ASSERT_TRUE(moves()) << sut.out() << sut.err();
+  EXPECT_EQ(value<std::uint32_t>("TEST_CELL::link_errors"), 0U);
+  drives_->input("0s frames_broken slave=1 for=40ms\n");
+  EXPECT_TRUE(sut.prints("EtherCAT ec0: slave 1 (InduRoP simulated drive): port 0 received ")) << sut.out();
+  EXPECT_TRUE(wait_until([&] { return value<std::uint32_t>("TEST_CELL::link_errors") > 0; }));
+  EXPECT_TRUE(moves());
+}
+
 TEST_F(EthercatNode, A_bus_that_is_not_there_yet_is_waited_for) {
   Program& sut = run_node_with_two_drives();
   EXPECT_TRUE(

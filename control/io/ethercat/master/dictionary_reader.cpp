@@ -18,8 +18,6 @@ using std::chrono::milliseconds;
 
 constexpr Clock kStatePatience = milliseconds(3000);
 constexpr Clock kAnswerPatience = milliseconds(1000);
-constexpr std::size_t kStateBytes = 6;  // AL status, two bytes, AL status code
-constexpr std::size_t kStateCodeAt = 4;
 constexpr std::uint16_t kAnswerStatus = reg::kSyncManager + kSyncManagerBytes + 5;
 constexpr std::uint8_t kMailboxFull = 0x08;
 const std::string kSilent = "it does not answer any more";

@@ -41,6 +41,12 @@ std::string words(const Event& event) {
       return fmt::format("wrong working counter {}", event.detail);
     case Problem::NoClock:
       return "has no distributed clock, and the file wants pulses of it; remove <sync>";
+    case Problem::BrokenFrames:
+      return fmt::format("port {} received {} broken frames within a second; check the cable and the plug there",
+                         event.detail >> 16U, event.detail & 0xFFFFU);
+    case Problem::LostLink:
+      return fmt::format("port {} lost its link {} times within a second; check the cable and the plug there",
+                         event.detail >> 16U, event.detail & 0xFFFFU);
     case Problem::ClockNotInStep:
       return fmt::format("its clock does not follow the reference clock: {} ns ahead of it",
                          static_cast<std::int32_t>(event.detail));

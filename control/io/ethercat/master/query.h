@@ -23,6 +23,13 @@ struct Query {
 // Locally given, so that the first slave's mark in it changes nothing.
 inline constexpr Mac kMasterMac = {0x02, 0x49, 0x52, 0x50, 0, 0x01};
 
+// Of a slave in its state machine: AL status, and its code at kStateCodeAt.
+inline constexpr std::size_t kStateBytes = 6;
+inline constexpr std::size_t kStateCodeAt = 4;
+inline Query state_query(std::uint16_t station) noexcept {
+  return {Command::Fprd, address_of(station, reg::kAlStatus), {}, kStateBytes};
+}
+
 // The wire: sends and receives whole Ethernet frames, never waits.
 class Link {
  public:
@@ -51,6 +58,8 @@ enum class Problem : std::uint8_t {
   WrongCounter,   // working counter that came
   EmergencySent,  // error code
   NoClock,
+  BrokenFrames,   // number of the port * 65536 + how many in the last second
+  LostLink,       // the same of its link
   ClockNotInStep  // how far it is ahead of the reference, ns, as a signed number
 };
 

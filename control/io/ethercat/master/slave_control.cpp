@@ -13,11 +13,8 @@ using std::chrono::milliseconds;
 constexpr Clock kAnswerLimit = milliseconds(50);  // without an answer, the slave is missing
 constexpr Clock kFindAgain = milliseconds(20);
 constexpr Clock kRefusedPause = milliseconds(200);  // for what a new try hardly mends
-constexpr Clock kStateCheck = milliseconds(10);
-constexpr std::size_t kStateBytes = 6;  // AL status, two bytes, AL status code
-constexpr std::size_t kCodeAt = 4;
-constexpr std::size_t kStationBytes = 4;  // station address, alias
-constexpr std::size_t kMaxChannels = 16;  // FMMUs, SyncManagers
+constexpr std::size_t kStationBytes = 4;            // station address, alias
+constexpr std::size_t kMaxChannels = 16;            // FMMUs, SyncManagers
 constexpr std::array<std::uint8_t, kMaxChannels * kFmmuBytes> kZeros{};
 
 // How long a slave may take to a state, as the standard's defaults are.
@@ -32,7 +29,8 @@ SlaveControl::SlaveControl(const SlavePlan& plan, std::size_t place, Events& eve
       place_(static_cast<std::uint16_t>(place)),
       events_(events),
       expected_(static_cast<std::uint16_t>((plan.output_bytes > 0 ? 2 : 0) + (plan.input_bytes > 0 ? 1 : 0))),
-      sync_(plan.sync, place, clocks) {
+      sync_(plan.sync, place, clocks),
+      operation_(place_, station_of(place), mailbox_, sync_, events) {
   if (!plan.mailbox_managers.empty()) {
     mailbox_.open(station_of(place), plan.mailbox);
   }
@@ -70,10 +68,6 @@ bool SlaveControl::start(SdoTransfer& transfer, Clock now) noexcept {
   return true;
 }
 
-Query SlaveControl::state_query() const noexcept {
-  return {Command::Fprd, address_of(station_of(place_), reg::kAlStatus), {}, kStateBytes};
-}
-
 std::optional<Query> SlaveControl::query(Clock now) noexcept {
   const std::uint16_t station = station_of(place_);
   if (step_ == Step::Pause && now >= resume_at_) {
@@ -100,7 +94,7 @@ std::optional<Query> SlaveControl::query(Clock now) noexcept {
     case Step::Request:
       return Query{Command::Fpwr, address_of(station, reg::kAlControl), word_, 0};
     case Step::Wait:
-      return state_query();
+      return state_query(station);
     case Step::Release:
       word_[0] = kEepromOfDevice;
       return Query{Command::Fpwr, address_of(station, reg::kEepromConfig), Bytes(word_).first(1), 0};
@@ -123,20 +117,11 @@ std::optional<Query> SlaveControl::query(Clock now) noexcept {
     case Step::Operate:
       break;
   }
-  if (is_suspect_ || now >= check_at_) {
-    asks_ = Asks::State;
-    return state_query();
-  }
-  if (sync_.wants_pulse(now)) {
-    asks_ = Asks::Pulse;
-    return sync_.pulse_query(now);
-  }
-  asks_ = Asks::Mailbox;
-  return mailbox_.is_open() ? mailbox_.query(now) : std::nullopt;
+  return operation_.query(now);
 }
 
 void SlaveControl::lost(Clock now) noexcept {
-  if (step_ == Step::Objects || (step_ == Step::Operate && asks_ == Asks::Mailbox)) {
+  if (step_ == Step::Objects || (step_ == Step::Operate && operation_.asks_mailbox())) {
     mailbox_.lost(now);
   }
   if (step_ != Step::Pause && now - answered_at_ > kAnswerLimit) {
@@ -147,7 +132,9 @@ void SlaveControl::lost(Clock now) noexcept {
 void SlaveControl::answer(Bytes data, bool is_answered, Clock now) noexcept {
   answered_at_ = now;
   if (step_ == Step::Operate) {
-    monitor(data, is_answered, now);
+    if (const auto verdict = operation_.answer(data, is_answered, now); verdict.problem != Problem::None) {
+      fail(verdict.problem, verdict.detail, Clock(0), now);
+    }
     return;
   }
   if (step_ == Step::Objects) {
@@ -279,7 +266,7 @@ void SlaveControl::check_state(Bytes data, Clock now) noexcept {
   if ((status & kAlStateMask) == static_cast<unsigned>(target_) && !has_error) {
     reached(now);
   } else if (has_error) {
-    fail(Problem::StateRefused, load<std::uint16_t>(data, kCodeAt), kRefusedPause, now);
+    fail(Problem::StateRefused, load<std::uint16_t>(data, kStateCodeAt), kRefusedPause, now);
   } else if (now - since_ > limit_of(target_)) {
     fail(Problem::StateTimeout, static_cast<std::uint32_t>(target_), kRefusedPause, now);
   }
@@ -303,8 +290,7 @@ void SlaveControl::reached(Clock now) noexcept {
       events_.push({now, place_, Problem::None, 0});
       problem_ = Problem::None;
       detail_ = 0;
-      is_suspect_ = false;
-      check_at_ = now + kStateCheck;
+      operation_.begin(now);
       enter(Step::Operate, now);
       return;
   }
@@ -362,38 +348,12 @@ void SlaveControl::judge_sync(SyncSetup::Outcome outcome, Clock now) noexcept {
   }
 }
 
-void SlaveControl::monitor(Bytes data, bool is_answered, Clock now) noexcept {
-  if (asks_ == Asks::Pulse) {
-    if (is_answered) {
-      sync_.take_pulse(data);
-    }
-    return;
-  }
-  if (asks_ == Asks::Mailbox) {
-    mailbox_.answer(data, is_answered, now);
-    if (const auto emergency = mailbox_.take_emergency()) {
-      events_.push({now, place_, Problem::EmergencySent, emergency->code});
-    }
-    return;
-  }
-  check_at_ = now + kStateCheck;
-  is_suspect_ = false;
-  if (!is_answered) {
-    fail(Problem::Missing, 0, Clock(0), now);
-  } else if (data[0] != static_cast<unsigned>(AlState::Op)) {
-    fail(Problem::StateLost, load<std::uint16_t>(data, kCodeAt), Clock(0), now);
-  }
-}
-
 void SlaveControl::check_counter(std::uint16_t wkc, Clock now) noexcept {
   if (!operates() || wkc == expected_) {
     return;
   }
   ++wrong_counters_;
-  if (!is_suspect_) {
-    events_.push({now, place_, Problem::WrongCounter, wkc});
-  }
-  is_suspect_ = true;
+  operation_.suspect(wkc, now);
 }
 
 }  // namespace indurop::io::ethercat

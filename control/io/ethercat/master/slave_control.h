@@ -8,6 +8,7 @@
 
 #include "control/io/ethercat/master/eeprom_reader.h"
 #include "control/io/ethercat/master/events.h"
+#include "control/io/ethercat/master/operation_watch.h"
 #include "control/io/ethercat/master/plan.h"
 #include "control/io/ethercat/master/sdo_client.h"
 #include "control/io/ethercat/master/sync_setup.h"
@@ -33,6 +34,8 @@ class SlaveControl {
   [[nodiscard]] Problem problem() const noexcept { return problem_; }
   [[nodiscard]] std::uint16_t expected_counter() const noexcept { return expected_; }
   [[nodiscard]] std::uint64_t wrong_counters() const noexcept { return wrong_counters_; }
+  // Broken frames and lost links at its ports since it was found first.
+  [[nodiscard]] std::uint64_t port_errors() const noexcept { return operation_.port_errors(); }
   // How long after the frame of a tick its pulse (SYNC0) is, as the slave says; nothing if it does not know or has
   // none.
   [[nodiscard]] std::optional<Clock> pulse_after() const noexcept {
@@ -69,11 +72,9 @@ class SlaveControl {
   void found(std::uint16_t station, std::uint16_t alias, Clock now) noexcept;
   void check_identity(Bytes data, bool is_answered, Clock now) noexcept;
   void check_state(Bytes data, Clock now) noexcept;
-  void monitor(Bytes data, bool is_answered, Clock now) noexcept;
   void next_object(Clock now) noexcept;
   void judge_object(Clock now) noexcept;
   void judge_sync(SyncSetup::Outcome outcome, Clock now) noexcept;
-  [[nodiscard]] Query state_query() const noexcept;
 
   const SlavePlan& plan_;
   std::uint16_t place_;
@@ -96,9 +97,7 @@ class SlaveControl {
   SyncSetup sync_;
   std::size_t object_ = 0;
   SdoTransfer transfer_;
-  enum class Asks { Mailbox, State, Pulse } asks_ = Asks::Mailbox;  // the query on its way in Operate
-  bool is_suspect_ = false;
-  Clock check_at_{0};
+  OperationWatch operation_;
   std::uint64_t wrong_counters_ = 0;
 };
 
