@@ -24,6 +24,8 @@ constexpr DocumentKind kIoConfigXml{"ioconfig.xml", "<ioconfig> with one <device
 constexpr std::array<IoDriver, 6> kDrivers{IoDriver::ModbusTcp, IoDriver::ModbusRtu, IoDriver::ModbusServer,
                                            IoDriver::Cia402,    IoDriver::Ethercat,  IoDriver::Csv};
 constexpr base::Nanos kMillisecond{1'000'000};
+constexpr base::Nanos kMinCycle{50'000};
+constexpr base::Nanos kMaxSlaveCycle{50 * kMillisecond};  // half of the time in which slaves miss their master
 constexpr base::Nanos kSecond{1'000'000'000};
 constexpr base::Nanos kMinute{60 * kSecond};
 
@@ -201,6 +203,7 @@ class DeviceReader {
     } else if (attributes_.need("slave", "slave=\"0\", or alias=\"5\"", &place)) {
       device_.slave.position = static_cast<int>(attributes_.integer("slave", 0, kMaxSlaves).value_or(0));
     }
+    device_.slave.cycle = attributes_.duration("cycle", kMinCycle, kMaxSlaveCycle).value_or(base::Nanos{0});
     device_.cut = attributes_.text("cut", &device_.cut_place).value_or("");
     if (!device_.cut.empty() && device_.address.find(',') == std::string::npos) {
       report_.error(device_.cut_place,

@@ -278,6 +278,7 @@ std::string EthercatBus::prepare() {
     const EthercatMember& member = members_[i];
     ethercat::SlavePlan& plan = plans[(*places)[i]];
     plan.alias = member.slave.alias.value_or(0);
+    plan.every = period_.count() > 0 ? std::max(1U, static_cast<unsigned>(member.slave.cycle / period_)) : 1U;
     // The mapping comes after what the file sets, so that nothing in the file changes it.
     std::vector<ethercat::StartObject> objects;
     for (const config::IoObjectValue& value : member.slave.values) {
@@ -303,6 +304,11 @@ std::string EthercatBus::check(const std::vector<ethercat::FoundSlave>& found) c
     if (member.slave.sync.activate != 0 && interface_.find(',') != std::string::npos) {
       return fmt::format("{}, device {}: a ring has no clocks; leave out <sync>, or name one interface only",
                          config::describe(member.slave), member.device);
+    }
+    if (period_.count() > 0 && member.slave.cycle % period_ != std::chrono::nanoseconds(0)) {
+      return fmt::format("{}, device {}: its cycle is {} us, which is no multiple of the module's period, {} us",
+                         config::describe(member.slave), member.device,
+                         member.slave.cycle / std::chrono::microseconds(1), period_ / std::chrono::microseconds(1));
     }
     if (period_.count() > 0 && member.slave.sync.cycle % period_ != std::chrono::nanoseconds(0)) {
       return fmt::format(

@@ -30,6 +30,25 @@ TEST_F(EthercatNode, A_pulled_drive_is_named_and_comes_back) {
   EXPECT_TRUE(moves());
 }
 
+TEST_F(EthercatNode, A_device_with_a_cycle_of_its_own_moves_and_one_that_does_not_fit_is_refused) {
+  simulate(2);
+  const auto device = [](const std::string& cycle) {
+    return "<device name='axis1' driver='ethercat' address='ec0' slave='0' cycle='" + cycle +
+           "'\n  in='TEST_CELL::AXIS1_IN' out='TEST_CELL::AXIS1_OUT' quality='TEST_CELL::link_good'\n"
+           "  errors='TEST_CELL::link_errors'/>";
+  };
+  Program& refused = run_node(device("3ms"));
+  EXPECT_TRUE(
+      refused.prints("EtherCAT ec0: slave 0, device axis1: its cycle is 3000 us, which is no multiple of the "
+                     "module's period, 2000 us"))
+      << refused.out();
+  refused.signal(SIGTERM);
+  EXPECT_EQ(refused.wait(), 0);
+  Program& sut = run_node(device("8ms"));
+  EXPECT_TRUE(moves()) << sut.out() << sut.err();
+  EXPECT_TRUE(wait_until([&] { return value<bool>("TEST_CELL::link_good"); })) << sut.out();
+}
+
 TEST_F(EthercatNode, A_bad_cable_is_named) {
   simulate(2);
   Program& sut = run_node(

@@ -2,6 +2,7 @@
 #include "control/io/ethercat/master/master.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace indurop::io::ethercat {
@@ -51,17 +52,38 @@ Master::Master(Link& link, std::vector<SlavePlan> plans, Clock period)
 }
 
 void Master::plan_frames() {
+  std::set<unsigned> rates = {1};  // the first frame is sent in each cycle: it counts the slaves and has the clock
+  for (const SlavePlan& plan : plans_) {
+    rates.insert(plan.every);
+  }
+  for (const unsigned every : rates) {
+    plan_frames(every);
+  }
+}
+
+// Frames of one rate take turns, so that cycles are filled evenly.
+void Master::plan_frames(unsigned every) {
   std::size_t room = 0;
+  unsigned frames = 0;
+  const auto begin_frame = [&] {
+    Frame& frame = process_.emplace_back();
+    frame.every = every;
+    frame.phase = frames++ % every;
+    room = kMaxFrame - kFrameHeader - kDatagramOverhead - kStatusWord - kDatagramOverhead - kClockBytes;
+  };
+  if (process_.empty()) {
+    begin_frame();
+  }
   for (std::size_t i = 0; i < plans_.size(); ++i) {
     const std::size_t size = process_size(plans_[i]);
-    if (process_.empty() || size + kDatagramOverhead > room) {
-      process_.emplace_back();
-      room = kMaxFrame - kFrameHeader - kDatagramOverhead - kStatusWord - kDatagramOverhead - kClockBytes;
+    if (plans_[i].every != every || size == 0) {
+      continue;
     }
-    if (size > 0) {
-      process_.back().items.push_back({static_cast<std::uint16_t>(i), 0, size});
-      room -= size + kDatagramOverhead;
+    if (size + kDatagramOverhead > room) {
+      begin_frame();
     }
+    process_.back().items.push_back({static_cast<std::uint16_t>(i), 0, size});
+    room -= size + kDatagramOverhead;
   }
 }
 
@@ -73,8 +95,12 @@ void Master::send(Clock now) noexcept {
 }
 
 void Master::receive(Clock now) noexcept {
-  for (Data& data : data_) {
-    data.fresh = false;
+  for (Frame& frame : process_) {
+    if (std::exchange(frame.was_sent, false)) {
+      for (const Item& item : frame.items) {
+        data_[item.place].fresh = false;
+      }
+    }
   }
   take_frames(now);
   if (const auto lost = clocks_.take_lost()) {
@@ -231,7 +257,12 @@ void Master::take_clock(Bytes bytes, Clock now) noexcept {
 }
 
 void Master::send_process(Clock now) noexcept {
+  const std::uint64_t cycle = cycles_++;
   for (Frame& frame : process_) {
+    if (cycle % frame.every != frame.phase) {
+      continue;
+    }
+    frame.was_sent = true;
     frame.index = next_index_++;
     frame.builder.clear();
     frame.builder.add(Command::Brd, frame.index, address_of(0, reg::kAlStatus), kStatusWord);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The master of one bus. cycle() belongs to the tick: it takes what came back, sends the process data of all slaves,
-// and one more frame in which each slave that is not in OP gets its next datagram. Real-time safe after construction.
+// The master of one bus. cycle() belongs to the tick: it takes what came back, sends the process data of all slaves
+// (or of those whose turn it is, if they are exchanged less often), and one more frame in which each slave that is not
+// in OP gets its next datagram. Real-time safe after construction.
 
 #pragma once
 
@@ -46,8 +47,10 @@ class Master {
   [[nodiscard]] std::span<std::uint8_t> outputs(std::size_t place) noexcept { return data_[place].outputs; }
   void set_outputs_good(std::size_t place, bool good) noexcept { data_[place].outputs_good = good; }
   [[nodiscard]] Bytes inputs(std::size_t place) const noexcept { return data_[place].inputs; }
-  // The inputs came with the last cycle, from a slave in OP with the right working counter.
-  [[nodiscard]] bool is_fresh(std::size_t place) const noexcept { return data_[place].fresh; }
+  // The inputs came with the last cycle in which they are exchanged, from a slave in OP with the right working counter.
+  [[nodiscard]] bool is_fresh(std::size_t place) const noexcept {
+    return data_[place].fresh && slaves_[place].operates();
+  }
   bool start(std::size_t place, SdoTransfer& transfer, Clock now) noexcept {
     return slaves_[place].start(transfer, now);
   }
@@ -68,6 +71,9 @@ class Master {
   struct Frame {
     FrameBuilder builder{kMasterMac};
     std::vector<Item> items;
+    unsigned every = 1;     // of process data: sent in cycles whose number divided by this
+    unsigned phase = 0;     // leaves this rest
+    bool was_sent = false;  // in the last cycle
     std::uint8_t index = 0;
     bool is_out = false;
     unsigned age = 0;  // cycles since it was sent
@@ -81,6 +87,7 @@ class Master {
   enum class Slot : std::uint8_t { Free, Out, Lost, Back };
 
   void plan_frames();
+  void plan_frames(unsigned every);
   void take_frames(Clock now) noexcept;
   void take_frame(Bytes bytes, Clock now) noexcept;
   void take_process(const Frame& frame, Bytes bytes, Clock now) noexcept;
@@ -107,6 +114,7 @@ class Master {
   std::size_t next_service_ = 0;  // the slave whose turn it is
   std::array<Slot, 256> slots_{};
   std::uint8_t next_index_ = 0;
+  std::uint64_t cycles_ = 0;
   BusCounters counters_;
   std::uint16_t slaves_seen_ = 0;
   std::size_t clock_at_ = 0;  // of the reference's time in the first frame; 0: it is not in it

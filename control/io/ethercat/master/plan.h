@@ -42,6 +42,7 @@ struct SlavePlan {
   std::size_t input_bytes = 0;
   std::vector<std::uint8_t> safe_outputs;  // sent while the application gives none
   std::vector<StartObject> start_objects;
+  unsigned every = 1;  // its process data is exchanged once in so many cycles
   SyncPlan sync;
 };
 
