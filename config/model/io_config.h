@@ -138,7 +138,7 @@ struct IoSlave {
   std::optional<std::uint32_t> vendor;  // has to be found there; empty: any
   std::optional<std::uint32_t> product;
   std::optional<std::uint32_t> revision;
-  base::Nanos cycle{0};  // from one exchange to the next; 0: each run of the module
+  base::Nanos cycle{0};               // from one exchange to the next; 0: each run of the module
   std::vector<IoObjectValue> values;  // in the order in which they are set
   IoSync sync;
   std::filesystem::path description;   // the maker's file (ESI); empty: none

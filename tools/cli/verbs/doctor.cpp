@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <set>
 
+#include "core/rt/machine.h"
 #include "core/rt/thread.h"
 #include "scheduler/quantile.h"
 #include "store/vars/retain.h"
+#include "tools/cli/doctor/bus_interface.h"
 #include "tools/cli/doctor/doctor_checks.h"
 #include "tools/cli/doctor/doctor_latency.h"
 #include "tools/cli/doctor/interrupts.h"
@@ -27,6 +29,7 @@ struct DoctorOptions {
   LatencyTest test;
   bool no_test = false;
   bool apply = false;
+  std::vector<std::string> buses;
   std::optional<int> core;
 };
 
@@ -197,6 +200,10 @@ int tune(Context& context, const DoctorOptions& options) {
 int check(Context& context, const DoctorOptions& options) {
   auto findings = examine_machine();
   findings.push_back(examine_interrupts(cores_of_ticks(options)));
+  for (const std::string& bus : options.buses) {
+    const auto more = examine_interface(bus, facts_of_interface(bus), rt::kernel_is_preempt_rt());
+    findings.insert(findings.end(), more.begin(), more.end());
+  }
   if (context.format == Format::Table) {
     for (const Finding& finding : findings) {
       print_finding(context, finding);
@@ -232,6 +239,8 @@ Action declare_doctor(base::Options& app, Context& context) {
   base::Options& checking = verb("check", "Check the machine and measure how late threads are woken", &check);
   with_test(checking);
   checking.add("--core", "N", options->core, "Core that interrupts must not reach (default: those of running nodes)");
+  checking.add("--bus", "INTERFACE ...", options->buses,
+               "Network interfaces of an EtherCAT bus, to be checked as well");
   base::Options& tuning = verb("tune", "Show kernel settings that real time needs and that differ here", &tune);
   tuning.flag("--apply", options->apply, "Apply these settings until the next reboot (needs root)");
   tuning.add("--core", "N", options->core, "Core to keep free of interrupts (default: the last)");
@@ -255,6 +264,7 @@ const Verb kDoctorVerb{
     "Examples:\n"
     "  indurop doctor\n"
     "  indurop doctor -o json\n"
+    "  indurop doctor check --bus eth1\n"
     "  indurop doctor tune\n"
     "  sudo indurop doctor tune --apply\n"
     "  sudo indurop doctor undo\n",
