@@ -73,7 +73,8 @@ ethercat::Sii sii_of_drive() {
   sii.name = kName;
   sii.order = "ECSIM-DRIVE";
   sii.mailbox = {0x1000, kMailboxBytes, 0x1080, kMailboxBytes};
-  sii.protocols = kProtocolCoe;
+  sii.bootstrap = sii.mailbox;
+  sii.protocols = kProtocolCoe | kProtocolFoe;
   sii.coe_details = kCoeSdo | kCoeSdoInfo | kCoePdoAssign | kCoePdoConfiguration | kCoeCompleteAccess;
   sii.fmmus = {FmmuUse::Outputs, FmmuUse::Inputs};
   sii.outputs = {pdo_of(0x1600, kOutputManager, 0, "Outputs", {kControl, kMode, kTarget}),
@@ -156,6 +157,8 @@ ethercat::SlaveConfig Drive::slave(std::uint16_t alias) {
 
 void Drive::attach(ethercat::Slave& slave) {
   objects_ = &slave.objects();
+  constexpr std::string_view kLog = "a simulated drive has nothing to tell\n";
+  slave.foe().files()["log.txt"] = {kLog.begin(), kLog.end()};
   mapped_.emplace(*objects_, slave.sii());
 }
 

@@ -87,6 +87,8 @@ std::string_view to_string(AlState state) noexcept;
 inline constexpr std::uint16_t kAlNoError = 0x0000;
 inline constexpr std::uint16_t kAlInvalidChange = 0x0011;
 inline constexpr std::uint16_t kAlUnknownState = 0x0012;
+inline constexpr std::uint16_t kAlNoBoot = 0x0013;
+inline constexpr std::uint16_t kAlInvalidBootMailbox = 0x0015;
 inline constexpr std::uint16_t kAlInvalidMailbox = 0x0016;
 inline constexpr std::uint16_t kAlSyncWatchdog = 0x001B;
 inline constexpr std::uint16_t kAlInvalidOutputs = 0x001D;

@@ -67,6 +67,39 @@ TEST_F(EthercatScan, The_objects_of_a_slave_are_listed_as_tshark_sees_them) {
   EXPECT_NE(seen.out.find("\tTarget position"), std::string::npos);
 }
 
+TEST_F(EthercatScan, A_file_goes_to_a_slave_and_back_as_tshark_sees_it) {
+  simulate(1);
+  const std::string sent = (folder() / "sent").string();
+  const std::string received = (folder() / "received").string();
+  std::string content;
+  for (int i = 0; i < 1000; ++i) {
+    content += std::to_string(i * i) + "\n";
+  }
+  std::ofstream(sent) << content;
+  const Outcome refused = indurop({"io", "write-file", "ec0", "firmware.efw", sent});
+  EXPECT_EQ(refused.code, 6);
+  EXPECT_CONTAINS(refused.err, "slave 0 (InduRoP simulated drive): it refuses: only in the state BOOT (8008h)");
+  const Outcome written = indurop({"io", "write-file", "ec0", "firmware.efw", sent, "--boot"});
+  EXPECT_EQ(written.code, 0) << written.err;
+  const Outcome read = indurop({"io", "read-file", "ec0", "firmware.efw", received});
+  EXPECT_EQ(read.code, 0) << read.err;
+  std::ifstream file(received);
+  EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), content);
+  drives_->signal(SIGTERM);
+  ASSERT_EQ(drives_->wait(), 0) << drives_->err();
+  const std::string frames = (folder() / "frames.pcap").string();
+  const auto tshark = [&frames](const std::string& filter, const std::string& field) {
+    return Program({"/usr/bin/env", "tshark", "-r", frames, "-Y", filter, "-T", "fields", "-e", field}).finish();
+  };
+  const Outcome names = tshark("ecat_mailbox.foe_opmode == 2", "ecat_mailbox.foe_filename");
+  if (names.code != 0) {
+    GTEST_SKIP() << "no tshark";
+  }
+  EXPECT_CONTAINS(names.out, "firmware.efw\n");
+  EXPECT_CONTAINS(tshark("ecat_mailbox.foe_opmode == 5", "ecat_mailbox.foe_errcode").out, "32776\n");  // 8008h
+  EXPECT_EQ(tshark("ecat_mailbox.foe.invalid", "frame.number").out, "");
+}
+
 TEST_F(EthercatScan, A_node_that_ends_leaves_its_slaves_in_init) {
   simulate(2);
   Program& sut = run_node_with_two_drives();

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "control/io/ethercat/link/wire.h"
+#include "control/io/ethercat/master/foe_client.h"
+#include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 #include "core/rt/clock.h"
 #include "tools/cli/fieldbus/import_esi.h"
@@ -18,10 +20,14 @@ using io::ethercat::Pdo;
 using io::ethercat::PdoEntry;
 
 constexpr double kMaxSlave = 1000;
+constexpr double kMaxPassword = 4294967295;  // 32 bits
 
 struct IoOptions {
   std::string interface;
   int slave = 0;
+  std::string name;  // of a file of the slave
+  double password = 0;
+  bool boot = false;
   std::filesystem::path file;
   std::string space = "IO";
 };
@@ -104,7 +110,8 @@ void print_slaves(Context& context, const std::vector<FoundSlave>& slaves) {
   }
 }
 
-using Wire = io::ethercat::Wire;
+using io::ethercat::MailboxSession;
+using io::ethercat::Wire;
 
 // Waits until a frame may have come.
 io::ethercat::Clock wait_for_frame(Wire& wire) {
@@ -131,6 +138,18 @@ Result<Bus, int> open_bus(Context& context, const std::string& interface) {
   return Bus{std::move(*wire), std::move(*found)};
 }
 
+int no_such_slave(Context& context, const IoOptions& options, const Bus& bus) {
+  context.out.error(fmt::format("{} has {} slaves, numbered from 0; `indurop io scan {}` lists them", options.interface,
+                                bus.slaves.size(), options.interface));
+  return kFailed;
+}
+
+int slave_failed(Context& context, const IoOptions& options, const Bus& bus, const std::string& why) {
+  const auto place = static_cast<std::size_t>(options.slave);
+  context.out.error(fmt::format("{}: slave {} ({}): {}", options.interface, place, bus.slaves[place].sii.name, why));
+  return kUnreachable;
+}
+
 int objects(Context& context, const IoOptions& options) {
   const auto bus = open_bus(context, options.interface);
   if (!bus) {
@@ -138,9 +157,7 @@ int objects(Context& context, const IoOptions& options) {
   }
   const auto place = static_cast<std::size_t>(options.slave);
   if (place >= bus->slaves.size()) {
-    context.out.error(fmt::format("{} has {} slaves, numbered from 0; `indurop io scan {}` lists them",
-                                  options.interface, bus->slaves.size(), options.interface));
-    return kFailed;
+    return no_such_slave(context, options, *bus);
   }
   const FoundSlave& slave = bus->slaves[place];
   const auto found = slave.problem.empty()
@@ -149,10 +166,79 @@ int objects(Context& context, const IoOptions& options) {
                                .run()
                          : Result<std::vector<io::ethercat::DescribedObject>, std::string>(slave.problem);
   if (!found) {
-    context.out.error(fmt::format("{}: slave {} ({}): {}", options.interface, place, slave.sii.name, found.error()));
-    return kUnreachable;
+    return slave_failed(context, options, *bus, found.error());
   }
   print_objects(context, *found);
+  return kOk;
+}
+
+// A session with the chosen slave and a client of its files; says why not and returns the exit code if that fails.
+struct FileAccess {
+  std::unique_ptr<MailboxSession> session;
+  std::unique_ptr<io::ethercat::FoeClient> client;
+};
+Result<FileAccess, int> open_files(Context& context, const IoOptions& options, const Bus& bus) {
+  const auto place = static_cast<std::size_t>(options.slave);
+  if (place >= bus.slaves.size()) {
+    return no_such_slave(context, options, bus);
+  }
+  const FoundSlave& slave = bus.slaves[place];
+  FileAccess files;
+  Wire& wire = *bus.wire;
+  files.session = std::make_unique<MailboxSession>(
+      wire.link(), [&wire] { return wait_for_frame(wire); }, place, slave);
+  const auto state = options.boot ? io::ethercat::AlState::Boot : io::ethercat::AlState::PreOp;
+  const std::string wrong =
+      slave.problem.empty() ? files.session->open(state, io::ethercat::kProtocolFoe) : slave.problem;
+  if (!wrong.empty()) {
+    return slave_failed(context, options, bus, wrong);
+  }
+  files.client =
+      std::make_unique<io::ethercat::FoeClient>(*files.session, static_cast<std::uint32_t>(options.password));
+  return files;
+}
+
+int read_slave_file(Context& context, const IoOptions& options) {
+  const auto bus = open_bus(context, options.interface);
+  if (!bus) {
+    return bus.error();
+  }
+  const auto files = open_files(context, options, *bus);
+  if (!files) {
+    return files.error();
+  }
+  const auto content = files->client->read(options.name);
+  if (!content) {
+    return slave_failed(context, options, *bus, content.error());
+  }
+  const std::string_view bytes(reinterpret_cast<const char*>(content->data()), content->size());
+  if (const auto written = base::replace_file(options.file, bytes, base::Durable::No); !written) {
+    context.out.error(base::cannot_write(options.file, written.error()));
+    return kFailed;
+  }
+  context.out.note(fmt::format("{}: {} bytes", options.file.string(), content->size()));
+  return kOk;
+}
+
+int write_slave_file(Context& context, const IoOptions& options) {
+  const auto content = base::read_file(options.file);
+  if (!content) {
+    context.out.error(base::cannot_read(options.file, content.error()));
+    return kFailed;
+  }
+  const auto bus = open_bus(context, options.interface);
+  if (!bus) {
+    return bus.error();
+  }
+  const auto files = open_files(context, options, *bus);
+  if (!files) {
+    return files.error();
+  }
+  const std::vector<std::uint8_t> bytes(content->begin(), content->end());
+  if (const std::string wrong = files->client->write(options.name, bytes); !wrong.empty()) {
+    return slave_failed(context, options, *bus, wrong);
+  }
+  context.out.note(fmt::format("the slave has taken {} bytes as {}", bytes.size(), options.name));
   return kOk;
 }
 
@@ -201,6 +287,22 @@ Action declare_io(base::Options& app, Context& context) {
       "Takes the slave to PREOP, reads its object dictionary by SDO information, and leaves it in INIT. A slave that "
       "a\n"
       "master runs is refused. Needs root or CAP_NET_RAW.\n");
+  const auto files = [&](const char* name, const char* help, int (*act)(Context&, const IoOptions&)) {
+    base::Options& made = app.command(
+        name, help, [options, chosen, act] { *chosen = [options, act](Context& c) { return act(c, *options); }; });
+    made.add("interface", "INTERFACE", options->interface, "Where the cable is; of a ring two: eth1,eth2").required();
+    made.add("name", "NAME", options->name, "Name of the file in the slave, as its manual says").required();
+    made.add("file", "FILE", options->file, "The file here").required().completes(base::Completion::File);
+    made.add("--slave", "NUMBER", options->slave, "Position on the cable, from 0 (default 0)").range(0, kMaxSlave);
+    made.add("--password", "NUMBER", options->password, "That of the slave, if it has one").range(0, kMaxPassword);
+    made.flag("--boot", options->boot, "In the state BOOT, as most firmware has to be written");
+    made.details(
+        "Takes the slave to PREOP or BOOT, transfers the file (FoE), and leaves it in INIT. A slave that a master "
+        "runs\n"
+        "is refused. Needs root or CAP_NET_RAW.\n");
+  };
+  files("read-file", "Read a file of an EtherCAT slave", &read_slave_file);
+  files("write-file", "Write a file or firmware into an EtherCAT slave", &write_slave_file);
   base::Options& importing =
       app.command("import", "List the devices that makers describe (ESI), and write them",
                   [request, chosen] { *chosen = [request](Context& c) { return import_esi(c, *request); }; });
@@ -219,6 +321,7 @@ const Verb kIoVerb{"io", "Before it runs", "Field devices, without a node: scan 
                    "  indurop io scan eth1\n"
                    "  indurop io scan eth1 --write ioconfig.xml\n"
                    "  indurop io objects eth1 --slave 2\n"
+                   "  indurop io write-file eth1 firmware.efw new.efw --slave 2 --boot\n"
                    "  indurop io import drives.xml\n"
                    "  indurop io import drives.xml --write ioconfig.xml --device AKD --device AKD\n",
                    &declare_io};

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "control/io/ethercat/master/requester.h"
-#include "control/io/ethercat/master/scan.h"
+#include "control/io/ethercat/master/mailbox_session.h"
 #include "control/io/ethercat/sdo_information.h"
 
 namespace indurop::io::ethercat {
@@ -31,18 +30,12 @@ class DictionaryReader {
  private:
   using Message = std::vector<std::uint8_t>;
 
-  std::string take_to(AlState state);
-  std::string open_mailbox();
-  std::string send(InformationCode code, Bytes data);
-  Result<Message, std::string> receive();
   Result<Message, std::string> ask(InformationCode code, Bytes data, InformationCode wanted);
   Result<std::vector<DescribedObject>, std::string> read_all();
   Result<DescribedObject, std::string> read_one(std::uint16_t index);
 
-  Requester requester_;
-  std::size_t place_;
+  MailboxSession session_;
   const FoundSlave& slave_;
-  std::uint8_t counter_ = 0;
 };
 
 }  // namespace indurop::io::ethercat

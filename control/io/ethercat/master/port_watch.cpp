@@ -11,7 +11,7 @@ constexpr Clock kPeriod = std::chrono::seconds(1);
 constexpr std::size_t kBytes = 0x14;  // from kRxErrors to the last lost link
 constexpr std::size_t kLostLinksAt = reg::kLostLinks - reg::kRxErrors;
 constexpr std::uint8_t kHigh = 0x80;
-constexpr std::array<std::uint8_t, kBytes> kZeros{};
+constexpr std::array<std::uint8_t, kBytes> kNoErrors{};
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Query PortWatch::query(std::uint16_t station, Clock now) noexcept {
   is_clearing_ = clears_;
   clears_ = false;
   if (is_clearing_) {
-    return {Command::Fpwr, address, kZeros, 0};
+    return {Command::Fpwr, address, kNoErrors, 0};
   }
   due_at_ = now + kPeriod;
   return {Command::Fprd, address, {}, kBytes};

@@ -245,6 +245,7 @@ void Slave::change_state(std::uint8_t request) {
   if (to == AlState::Init) {
     answers_.clear();
     sdo_.reset();
+    foe_.reset();
     last_counter_ = 0;
   }
   is_due_ = true;
@@ -271,8 +272,11 @@ void Slave::emulate_state() noexcept {
 }
 
 std::uint16_t Slave::check_change(AlState from, AlState to) const {
+  if (to == AlState::Boot || from == AlState::Boot) {
+    return check_boot(from, to);
+  }
   if (to != AlState::Init && to != AlState::PreOp && to != AlState::SafeOp && to != AlState::Op) {
-    return to == AlState::Boot ? 0x0013 : kAlUnknownState;
+    return kAlUnknownState;
   }
   if (to <= from) {
     return kAlNoError;
@@ -281,7 +285,7 @@ std::uint16_t Slave::check_change(AlState from, AlState to) const {
     if (to != AlState::PreOp) {
       return kAlInvalidChange;
     }
-    return mailbox_fits() ? kAlNoError : kAlInvalidMailbox;
+    return mailbox_fits(sii_.mailbox) ? kAlNoError : kAlInvalidMailbox;
   }
   if (from == AlState::PreOp) {
     if (to != AlState::SafeOp) {
@@ -303,14 +307,25 @@ Slave::Area Slave::area_of(unsigned sync_manager) const noexcept {
   return {esc_.value<std::uint16_t>(at), esc_.value<std::uint16_t>(at + 2)};
 }
 
-bool Slave::mailbox_fits() const {
-  if (sii_.mailbox.receive_size == 0) {
+bool Slave::mailbox_fits(const MailboxArea& area) const {
+  if (area.receive_size == 0) {
     return true;
   }
   const Area out = area_of(kMailboxOut);
   const Area in = area_of(kMailboxIn);
-  return out.start == sii_.mailbox.receive_at && out.length == sii_.mailbox.receive_size &&
-         in.start == sii_.mailbox.send_at && in.length == sii_.mailbox.send_size;
+  return out.start == area.receive_at && out.length == area.receive_size && in.start == area.send_at &&
+         in.length == area.send_size;
+}
+
+// BOOT is between INIT and INIT.
+std::uint16_t Slave::check_boot(AlState from, AlState to) const {
+  if (sii_.bootstrap.receive_size == 0) {
+    return kAlNoBoot;
+  }
+  if (to == AlState::Boot && from == AlState::Init) {
+    return mailbox_fits(sii_.bootstrap) ? kAlNoError : kAlInvalidBootMailbox;
+  }
+  return to == AlState::Init || to == from ? kAlNoError : kAlInvalidChange;
 }
 
 std::size_t Slave::process_bytes(SyncManagerUse use) const {

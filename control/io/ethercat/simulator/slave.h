@@ -16,6 +16,7 @@
 #include "control/io/ethercat/frame.h"
 #include "control/io/ethercat/sii.h"
 #include "control/io/ethercat/simulator/esc.h"
+#include "control/io/ethercat/simulator/foe_server.h"
 #include "control/io/ethercat/simulator/object_dictionary.h"
 
 namespace indurop::io::ethercat {
@@ -56,6 +57,7 @@ class Slave {
   [[nodiscard]] const Sii& sii() const noexcept { return sii_; }
   [[nodiscard]] ObjectDictionary& objects() noexcept { return objects_; }
   [[nodiscard]] SdoServer& sdo() noexcept { return sdo_; }
+  [[nodiscard]] FoeServer& foe() noexcept { return foe_; }
 
  private:
   static constexpr unsigned kMailboxOut = 0;  // SyncManagers
@@ -75,12 +77,14 @@ class Slave {
   void emulate_state() noexcept;
   [[nodiscard]] std::uint16_t take_refusal(AlState to) noexcept;
   [[nodiscard]] std::uint16_t check_change(AlState from, AlState to) const;
-  [[nodiscard]] bool mailbox_fits() const;
+  [[nodiscard]] std::uint16_t check_boot(AlState from, AlState to) const;
+  [[nodiscard]] bool mailbox_fits(const MailboxArea& area) const;
   [[nodiscard]] bool process_data_fits(SyncManagerUse use, unsigned number) const;
   [[nodiscard]] std::size_t process_bytes(SyncManagerUse use) const;
   [[nodiscard]] Area area_of(unsigned sync_manager) const noexcept;
   void receive_mailbox(Time now);
-  void answer_with(Bytes bytes, Time now);
+  void answer_with(MailboxType type, Bytes bytes, Time now);
+  void answer_coe(const Mailbox& mailbox, Time now);
   void deliver_mailbox(Time now);
 
   unsigned dl_status_;
@@ -94,6 +98,7 @@ class Slave {
   unsigned output_manager_ = 2;
   unsigned input_manager_ = 3;
   SdoServer sdo_;
+  FoeServer foe_;
   bool on_ = true;
   std::optional<Time> state_due_;
   struct Message {

@@ -19,22 +19,36 @@ void Slave::receive_mailbox(Time now) {
     return;  // the same again: its answer was lost, or it was
   }
   last_counter_ = mailbox->counter;
-  if (service_of(*mailbox) == CoeService::SdoInformation && (sii().coe_details & kCoeSdoInfo) != 0) {
-    for (const auto& bytes : answer_information(mailbox->data, objects_, sii(), area_of(kMailboxIn).length)) {
-      answer_with(bytes, now);
+  if (mailbox->type == MailboxType::Foe && (sii().protocols & kProtocolFoe) != 0) {
+    const FoeServer::Room room{area_of(kMailboxOut).length - kMailboxHeader,
+                               area_of(kMailboxIn).length - kMailboxHeader};
+    if (const auto bytes = foe_.answer(mailbox->data, state() == AlState::Boot, room); !bytes.empty()) {
+      answer_with(MailboxType::Foe, bytes, now);
     }
   }
-  if (service_of(*mailbox) == CoeService::SdoRequest) {
-    if (const auto bytes = sdo_.answer(mailbox->data, objects_, area_of(kMailboxIn).length); !bytes.empty()) {
-      answer_with(bytes, now);
+  if (state() != AlState::Boot) {
+    answer_coe(*mailbox, now);
+  }
+}
+
+void Slave::answer_coe(const Mailbox& mailbox, Time now) {
+  const std::size_t room = area_of(kMailboxIn).length;
+  if (service_of(mailbox) == CoeService::SdoInformation && (sii().coe_details & kCoeSdoInfo) != 0) {
+    for (const auto& bytes : answer_information(mailbox.data, objects_, sii(), room)) {
+      answer_with(MailboxType::Coe, bytes, now);
+    }
+  }
+  if (service_of(mailbox) == CoeService::SdoRequest) {
+    if (const auto bytes = sdo_.answer(mailbox.data, objects_, room); !bytes.empty()) {
+      answer_with(MailboxType::Coe, bytes, now);
     }
   }
 }
 
-void Slave::answer_with(Bytes bytes, Time now) {
+void Slave::answer_with(MailboxType type, Bytes bytes, Time now) {
   own_counter_ = next_counter(own_counter_);
   std::vector<std::uint8_t> message(kMailboxHeader);
-  write_mailbox_header(message, bytes.size(), MailboxType::Coe, own_counter_);
+  write_mailbox_header(message, bytes.size(), type, own_counter_);
   message.insert(message.end(), bytes.begin(), bytes.end());
   answers_.push_back({now + mailbox_time_, std::move(message)});
 }
