@@ -212,6 +212,16 @@ TEST_F(EthercatNode, An_object_that_the_slave_refuses_is_named) {
   EXPECT_TRUE(
       sut.prints("EtherCAT ec0: slave 0 (InduRoP simulated drive): refused object 2001:03: there is no such object"))
       << sut.out();
+  sut.signal(SIGTERM);
+  sut.wait();
+  drives_->signal(SIGTERM);
+  ASSERT_EQ(drives_->wait(), 0) << drives_->err();
+  const Outcome seen = Program({"/usr/bin/env", "tshark", "-r", (folder() / "frames.pcap").string(), "-Y",
+                                "ecat_mailbox.coe.abortcode", "-T", "fields", "-e", "ecat_mailbox.coe.abortcode"})
+                           .finish();
+  if (seen.code == 0) {
+    EXPECT_CONTAINS(seen.out, "0x06020000");
+  }
 }
 
 // The mapping that the drive comes with has neither the torque nor the digital inputs, and no PDO of it has the latter.

@@ -16,10 +16,10 @@ constexpr std::size_t kAnswerData = 6;
 constexpr std::size_t kAnswerBytes = kAnswerData + 4;
 constexpr std::size_t kSegmentData = 3;
 
-std::vector<std::uint8_t> sdo_answer(std::uint8_t command, std::uint16_t index, std::uint8_t subindex,
-                                     std::uint32_t data) {
+std::vector<std::uint8_t> sdo_message(CoeService service, std::uint8_t command, std::uint16_t index,
+                                      std::uint8_t subindex, std::uint32_t data) {
   std::vector<std::uint8_t> bytes(kAnswerBytes);
-  store<std::uint16_t>(bytes, 0, static_cast<std::uint16_t>(static_cast<unsigned>(CoeService::SdoResponse) << 12U));
+  store<std::uint16_t>(bytes, 0, static_cast<std::uint16_t>(static_cast<unsigned>(service) << 12U));
   bytes[kAnswerCommand] = command;
   store<std::uint16_t>(bytes, kAnswerIndex, index);
   bytes[kAnswerSubindex] = subindex;
@@ -27,8 +27,14 @@ std::vector<std::uint8_t> sdo_answer(std::uint8_t command, std::uint16_t index, 
   return bytes;
 }
 
+std::vector<std::uint8_t> sdo_answer(std::uint8_t command, std::uint16_t index, std::uint8_t subindex,
+                                     std::uint32_t data) {
+  return sdo_message(CoeService::SdoResponse, command, index, subindex, data);
+}
+
+// An abort is a request, also from a slave.
 std::vector<std::uint8_t> sdo_abort(std::uint16_t index, std::uint8_t subindex, std::uint32_t code) {
-  return sdo_answer(kSdoAbort, index, subindex, code);
+  return sdo_message(CoeService::SdoRequest, kSdoAbort, index, subindex, code);
 }
 
 std::uint64_t number_of(Bytes bytes) {

@@ -51,6 +51,16 @@ void add_assignment(const std::vector<Pdo>& pdos, std::size_t manager, ObjectDic
   }
 }
 
+// What each SyncManager is for: some masters look for mappings of those only that are named here.
+void add_manager_types(const Sii& sii, ObjectDictionary& objects) {
+  constexpr std::uint16_t kManagerTypes = 0x1C00;
+  objects.add_number(kManagerTypes, 0, static_cast<std::uint8_t>(sii.sync_managers.size()), false);
+  for (std::size_t i = 0; i < sii.sync_managers.size(); ++i) {
+    objects.add_number(kManagerTypes, static_cast<std::uint8_t>(i + 1),
+                       static_cast<std::uint8_t>(sii.sync_managers[i].use), false);
+  }
+}
+
 // PDOs that are exchanged now.
 std::vector<std::uint64_t> assigned(const ObjectDictionary& objects, std::uint16_t assignment, std::uint64_t count) {
   std::vector<std::uint64_t> pdos;
@@ -140,6 +150,7 @@ void add_pdo_objects(const Sii& sii, ObjectDictionary& objects) {
   if ((sii.protocols & kProtocolCoe) == 0) {
     return;
   }
+  add_manager_types(sii, objects);
   for (std::size_t i = 0; i < sii.sync_managers.size(); ++i) {
     const SyncManagerEntry& manager = sii.sync_managers[i];
     const auto& pdos = pdos_of(sii, manager);
