@@ -9,7 +9,7 @@ PREFIX ?= /usr/local
 # those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(TEST_JOBS) $(if $(CI),--repeat until-pass:2)
 
-.PHONY: all with-tests demo test quick soak rt-proof target-proof deb-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs deb apt install uninstall clean help
+.PHONY: all with-tests demo test quick soak rt-proof target-proof deb-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs deb apt arm64 install uninstall clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -115,6 +115,9 @@ deb-proof: ## build the packages again elsewhere and compare; install, upgrade, 
 	@tests/integration/packaging/compare_builds.sh build/deb build/deb-again
 	@tests/integration/packaging/prove_packages.sh build/deb build/deb-proof
 
+arm64: ## programs, examples and unit tests for ARM64 in build-arm64, cross-compiled in a Debian of its own; as root, on x86-64
+	@cmake/arm64_root.sh sh -c 'cmake --preset arm64 --log-level=WARNING >/dev/null && cmake --build --preset arm64 -j $(JOBS)'
+
 install: all ## install to PREFIX (default /usr/local)
 	@cmake --install build --prefix "$(PREFIX)" --strip
 
@@ -124,8 +127,8 @@ uninstall: ## remove what the last `make install` wrote
 	@sed 's|/[^/]*$$||' build/install_manifest.txt | sort -ur | xargs -d '\n' rmdir --ignore-fail-on-non-empty -p 2>/dev/null || true
 	@rm build/install_manifest.txt
 
-clean: ## remove all build directories
-	@rm -rf build build-dev build-asan build-tsan build-bench
+clean: ## remove all build directories; the Debian of make arm64 stays (build-arm64-root)
+	@rm -rf build build-dev build-asan build-tsan build-bench build-arm64
 
 help: ## this list
-	@grep -hE '^[a-z][a-z -]*:.*## ' Makefile | sed -E 's/^([a-z-]+)[^#]*## /\1\t/' | expand -t 16
+	@grep -hE '^[a-z][a-z0-9 -]*:.*## ' Makefile | sed -E 's/^([a-z0-9-]+)[^#]*## /\1\t/' | expand -t 16
