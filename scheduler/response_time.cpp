@@ -12,8 +12,13 @@ constexpr std::int64_t kMaxSteps = 20'000'000;  // one step is a module in a tic
 
 class Walk {
  public:
-  Walk(std::span<const Demand> demands, Nanos basic, const DispatchCost& cost, bool with_offsets)
-      : demands_(demands), basic_(basic), cost_(cost), with_offsets_(with_offsets), jobs_(demands.size()) {
+  Walk(std::span<const Demand> demands, Nanos basic, const DispatchCost& cost, bool with_offsets, bool across)
+      : demands_(demands),
+        basic_(basic),
+        cost_(cost),
+        with_offsets_(with_offsets),
+        across_(across),
+        jobs_(demands.size()) {
     found_.worst.resize(demands.size());
     std::map<int, std::size_t> known;
     for (const Demand& demand : demands) {
@@ -22,8 +27,9 @@ class Walk {
     used_.resize(known.size());
   }
 
-  // Number of ticks until they repeat: one without offsets, else after the longest offset and two macro periods (Leung
-  // and Merrill, 1980). 0: beyond kMaxSteps.
+  // Number of ticks with the longest response of all: on one core the first release without offsets (Liu and Layland,
+  // 1973). Who waits for another core can be worse off at a later one, when it is released together with others. With
+  // offsets they repeat after the longest one and two macro periods (Leung and Merrill, 1980). 0: beyond kMaxSteps.
   [[nodiscard]] std::int64_t ticks() const {
     std::int64_t macro = 1;
     std::int64_t longest = 1;
@@ -33,8 +39,8 @@ class Walk {
       longest = std::max(longest, period);
       macro = macro > most ? macro : std::lcm(macro, period);
     }
-    const std::int64_t needed = with_offsets_ ? longest + 2 * macro : longest;
-    return macro > most && with_offsets_ ? 0 : needed > most ? 0 : needed;
+    const std::int64_t needed = with_offsets_ ? longest + 2 * macro : across_ ? macro : longest;
+    return macro > most && (with_offsets_ || across_) ? 0 : needed > most ? 0 : needed;
   }
 
   WorstResponses run(std::int64_t ticks) {
@@ -43,8 +49,9 @@ class Walk {
       execute(tick);
     }
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      // The first of all releases is the worst one; some later ones are not finished.
-      if (jobs_[i].left > Nanos::zero() && jobs_[i].released == Nanos::zero() && !with_offsets_) {
+      // All are released again now. On one core the first of all releases is the worst one; some later ones are not
+      // finished.
+      if (jobs_[i].left > Nanos::zero() && (jobs_[i].released == Nanos::zero() || across_) && !with_offsets_) {
         found_.worst[i] = WorstResponses::kNotDone;
       }
     }
@@ -106,6 +113,7 @@ class Walk {
   Nanos basic_;
   DispatchCost cost_;
   bool with_offsets_;
+  bool across_;  // some wait for another core
   std::vector<Job> jobs_;
   std::vector<std::size_t> cores_;  // by demand, into used_
   std::vector<Nanos> used_;
@@ -117,11 +125,18 @@ class Walk {
 WorstResponses worst_responses(std::span<const Demand> demands, Nanos basic_period, const DispatchCost& cost) {
   const bool offsets =
       std::any_of(demands.begin(), demands.end(), [](const Demand& demand) { return demand.offset != Nanos::zero(); });
-  Walk exact(demands, basic_period, cost, offsets);
+  const bool across =
+      std::any_of(demands.begin(), demands.end(), [](const Demand& demand) { return !demand.after.empty(); });
+  Walk exact(demands, basic_period, cost, offsets, across);
   if (const std::int64_t ticks = exact.ticks(); ticks > 0) {
     return exact.run(ticks);
   }
-  Walk together(demands, basic_period, cost, false);
+  std::vector<Demand> simpler(demands.begin(), demands.end());
+  for (Demand& demand : simpler) {
+    demand.core = across ? 0 : demand.core;
+    demand.after.clear();
+  }
+  Walk together(simpler, basic_period, cost, false, false);
   WorstResponses found = together.run(std::max<std::int64_t>(together.ticks(), 1));
   found.with_offsets = false;
   return found;

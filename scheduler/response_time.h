@@ -4,7 +4,8 @@
 // later ones, and with shorter executions no module ends later (fixed priorities on one processor are sustainable:
 // Baruah and Burns, "Sustainable scheduling analysis", 2006). A module that waits for another core is assumed to keep
 // the later ones on its own core waiting, too; they do not wait, but the result is never too short: when all modules
-// before it on its core and all it waits for are done, nothing keeps a module from running. Pure arithmetic.
+// before it on its core and all it waits for are done, nothing keeps a module from running. For the same reason none
+// ends later than it would if all ran on one core. Pure arithmetic.
 
 #pragma once
 
@@ -36,8 +37,10 @@ struct DispatchCost {
 struct WorstResponses {
   static constexpr Nanos kNotDone{-1};  // not done before its next release
   std::vector<Nanos> worst;             // parallel to the demands
-  Nanos busiest{};           // from the begin of a tick until a core is done with everything released so far, at most
-  bool with_offsets = true;  // false: too many ticks to check; computed as if all were released at once
+  Nanos busiest{};  // from the begin of a tick until a core is done with everything released so far, at most
+  // false: too many ticks to check; computed as if all were released at once, and were on one core if any waits for
+  // another one. No response is longer than this.
+  bool with_offsets = true;
 };
 
 // `demands`: in order of execution, offsets within their periods. Not real-time safe.

@@ -122,7 +122,8 @@ std::vector<Task> random_tasks(Random& random, std::vector<Access>& access) {
   const int count = random.upto(2, 9);
   std::vector<Task> tasks;
   for (int i = 0; i < count; ++i) {
-    Task task = of(static_cast<std::uint32_t>(i), random.upto(1, 5), 0, kBasic / count - random.upto(1, 50) * 1000);
+    const int priority = random.upto(1, 5);  // compilers evaluate arguments in different orders
+    Task task = of(static_cast<std::uint32_t>(i), priority, 0, kBasic / count - random.upto(1, 50) * 1000);
     task.period_ns = kBasic * std::array{1, 1, 2, 3, 4}.at(static_cast<std::size_t>(random.upto(0, 4)));
     task.offset_ns = random.upto(0, 3) == 0 ? task.period_ns - kBasic : 0;
     tasks.push_back(task);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace indurop::scheduler {
@@ -54,6 +55,28 @@ TEST(ResponseTime, Too_many_ticks_are_taken_as_if_all_were_released_at_once) {
   const WorstResponses found = worst_responses(demands, kBasic, {});
   EXPECT_FALSE(found.with_offsets);
   EXPECT_EQ(found.worst.back(), microseconds(50));
+}
+
+Demand on(int core, Demand demand, std::vector<std::uint32_t> after = {}) {
+  demand.core = core;
+  demand.after = std::move(after);
+  return demand;
+}
+
+TEST(ResponseTime, Who_waits_for_another_core_may_be_worse_off_at_a_later_release) {
+  const std::vector<Demand> demands{on(0, demand(400, 130)), on(1, demand(300, 50)), on(1, demand(400, 20), {0})};
+  // At 0 the last one begins at 130. At 800 the second one is released at 900, and it begins at 950.
+  EXPECT_EQ(worst_responses(demands, kBasic, {}).worst[2], microseconds(170));
+}
+
+TEST(ResponseTime, Too_many_ticks_with_waits_between_cores_are_taken_as_if_all_were_on_one) {
+  std::vector<Demand> demands;
+  for (const std::int64_t prime : {101, 103, 107, 109, 113}) {
+    demands.push_back(on(static_cast<int>(prime), demand(prime * 100, 10)));
+  }
+  EXPECT_EQ(worst_responses(demands, kBasic, {}).worst.back(), microseconds(10)) << "without waits";
+  demands.back().after = {0};
+  EXPECT_EQ(worst_responses(demands, kBasic, {}).worst.back(), microseconds(50));
 }
 
 struct Random {
