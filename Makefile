@@ -100,11 +100,16 @@ docs: ## API pages of the public headers, in build/docs/html/index.html
 	@mkdir -p build
 	@INDUROP_VERSION=$$(sed -n 's/^project(InduRoP VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt) doxygen docs/Doxyfile
 
-deb: ## Debian packages of the committed tree in build/deb, checked by lintian
+ifeq ($(ARCH),arm64)
+deb:
+	@JOBS=$(JOBS) ARCH=arm64 nice cmake/packaging/make_deb.sh build/deb-arm64
+else
+deb: ## Debian packages of the committed tree in build/deb, checked by lintian; ARCH=arm64: cross-compiled, in build/deb-arm64, as root
 	@.ci/install-deps build deb
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
 	@cmake --build --preset release -j $(JOBS) --target indurop_page || true
 	@JOBS=$(JOBS) nice cmake/packaging/make_deb.sh
+endif
 
 apt: ## a signed apt repository of these packages in build/apt
 	@.ci/install-deps deb

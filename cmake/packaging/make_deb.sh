@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # make_deb.sh [FOLDER]: builds the Debian packages of the committed tree, in build/deb or FOLDER; symbols go to dbgsym/.
 # The page of indurop serve and indurop-opcua are taken from build/: a build of a package has no network. JOBS: compilers side by side.
+# ARCH=arm64: built for that architecture in the Debian of cmake/arm64_root.sh.
 set -eu
 top=$(cd "$(dirname "$0")/../.." && pwd)
 cd "$top"
@@ -10,6 +11,9 @@ page=build/share/indurop/web
 opcua=build/share/indurop/opcua
 version=$(sed -n 's/^project(InduRoP VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 jobs=${JOBS:-$(nproc)}
+arch=${ARCH:-$(dpkg --print-architecture)}
+inside=
+[ "$arch" = "$(dpkg --print-architecture)" ] || inside=$top/cmake/arm64_root.sh
 
 [ -e $opcua/package.json ] || { echo "make deb: there is no indurop-opcua in $opcua; it needs nodejs and npm: make builds it" >&2; exit 1; }
 [ -e $page/index.html ] || { echo "make deb: there is no page in $page; it needs nodejs and npm: make demo builds it" >&2; exit 1; }
@@ -35,15 +39,16 @@ cp -r $opcua "$fresh/debian/opcua"
   echo " -- $(sed -n 's/^Maintainer: //p' "$fresh/debian/control")  $(LC_ALL=C TZ=UTC0 git log -1 --date=rfc-local --format=%cd)"
 } >"$fresh/debian/changelog"
 chmod -R u=rwX,go=rX "$fresh"
-rsync -r --links --perms --checksum --delete --exclude '/obj-*' "$fresh/" "$tree/"
+$inside rsync -r --links --perms --checksum --delete --exclude '/obj-*' "$fresh/" "$tree/"
 rm -rf "$fresh"
 
 rm -rf "$out"/*.deb "$out"/*.changes "$out"/*.buildinfo "$out/dbgsym"
 cd "$tree"
-LC_ALL=C.UTF-8 DEB_BUILD_OPTIONS="parallel=$jobs nocheck ${DEB_BUILD_OPTIONS:-}" dpkg-buildpackage -b -us -uc
-if command -v lintian >/dev/null; then
-  lintian --fail-on error,warning --allow-root "$out"/indurop_"$version"_*.changes
+$inside env LC_ALL=C.UTF-8 DEB_BUILD_OPTIONS="parallel=$jobs nocheck ${DEB_BUILD_OPTIONS:-}" dpkg-buildpackage -b -us -uc -a "$arch"
+if $inside sh -c 'command -v lintian' >/dev/null; then
+  $inside lintian --fail-on error,warning --allow-root "$out"/indurop_"$version"_*.changes
 fi
+"$top/cmake/packaging/check_architecture.py" "$arch" "$out"/*.deb
 mkdir -p "$out/dbgsym"
 mv "$out"/*-dbgsym_*.deb "$out/dbgsym"
 echo "packages: $out/*.deb"

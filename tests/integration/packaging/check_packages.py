@@ -149,6 +149,28 @@ class Scripts(unittest.TestCase):
         self.assertEqual((state.st_uid, state.st_mode & 0o7777), (int(users[0].split(":")[2]), 0o750))
 
 
+@unittest.skipUnless(shutil.which("dpkg-deb"), "no dpkg-deb")
+class Architecture(unittest.TestCase):
+    def refused(self, written):
+        """What is said of a package with one of this machine's programs that has `written` as its architecture."""
+        root = work / "one"
+        shutil.rmtree(root, ignore_errors=True)
+        (root / "DEBIAN").mkdir(parents=True)
+        (root / "DEBIAN/control").write_text(
+            f"Package: one\nVersion: 1\nArchitecture: {written}\nMaintainer: one <one@example.org>\nDescription: one\n")
+        shutil.copy(sys.executable, root / "program")
+        subprocess.run(["dpkg-deb", "-b", root, work / "one.deb"], check=True, stdout=subprocess.DEVNULL)
+        said = subprocess.run([source / "cmake/packaging/check_architecture.py", "arm64" if written == "all" else written, work / "one.deb"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(said.returncode != 0, ": error: " in said.stdout, said.stdout + said.stderr)
+        return said.returncode != 0
+
+    def test_a_package_with_programs_of_another_one_is_refused(self):
+        own = subprocess.run(["dpkg", "--print-architecture"], capture_output=True, text=True, check=True).stdout.strip()
+        for written in ("amd64", "arm64", "all"):
+            self.assertEqual(self.refused(written), written != own, written)
+
+
 if __name__ == "__main__":
     source, build, work = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
     del sys.argv[1:4]
