@@ -187,8 +187,8 @@ TEST_F(SharedLock, A_holder_inherits_the_priority_of_who_waits) {
     become(10);
     lock_within(board_.lock);
     board_.there = true;
-    while (started < 2) {
-      ::sched_yield();
+    while (started < 2) {  // who starts the others may have this core only
+      sleep_until(now_ns() + 100'000);
     }
     // Now the high one waits and the middle one is ready: without inheritance the rest is never run.
     const std::int64_t until = now_ns() + 20'000'000;
