@@ -9,7 +9,7 @@ PREFIX ?= /usr/local
 # those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(TEST_JOBS) $(if $(CI),--repeat until-pass:2)
 
-.PHONY: all with-tests demo test quick soak rt-proof target-proof deb-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs deb apt arm64 install uninstall clean help
+.PHONY: all with-tests demo test quick soak rt-proof target-proof deb-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs deb apt arm64 arm64-test install uninstall clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -122,6 +122,9 @@ deb-proof: ## build the packages again elsewhere and compare; install, upgrade, 
 
 arm64: ## programs, examples and unit tests for ARM64 in build-arm64, cross-compiled in a Debian of its own; as root, on x86-64
 	@cmake/arm64_root.sh sh -c 'cmake --preset arm64 --log-level=WARNING >/dev/null && cmake --build --preset arm64 -j $(JOBS)'
+
+arm64-test: arm64 ## these unit tests and the chapter's example, by qemu-user and in QEMU with Debian's kernel for ARM64
+	@cmake/arm64_root.sh tests/arm64/arm64_test.py build-arm64
 
 install: all ## install to PREFIX (default /usr/local)
 	@cmake --install build --prefix "$(PREFIX)" --strip

@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Unit tests that were cross-compiled for ARM64, and the chapter's example. qemu-user runs what it can. What shares memory
+runs in a machine (machine.py), since qemu-user knows no robust mutexes with priority inheritance. Runs in the Debian of
+cmake/arm64_root.sh (make arm64-test) and prints what failed.
+arm64_test.py BUILD [PATTERN...]: only programs whose names match."""
+
+import contextlib
+import fnmatch
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree as xml
+
+import machine
+
+# What qemu-user does not know: robust mutexes, on their own or by our library. And rooms that ask for real time.
+UNKNOWN = (b"pthread_mutexattr_setrobust", b"libindurop.so")
+REAL_TIME = ("rt_*", "scheduler_engine_*", "*_posix")
+CHAPTER_SECONDS = 5
+PATIENCE = 3600  # seconds a program may take: a limit for one that hangs, however busy this machine is
+# Nanoseconds per instruction, as powers of two. Tests that spin for a time are cheaper on a slower processor, which has to be
+# fast enough for the chapter's 100 us.
+SLOW, FAST = 3, 1
+BEGIN = "cd /tmp; export HOME=/tmp INDUROP_STATE_DIR=/tmp/state"
+# Everything is in the guest's memory before it runs: fetching a page from this machine takes no counted time, but what waits for
+# it with a deadline counts.
+PROGRAM = """cat {path} >/dev/null
+{path} --gtest_output=xml:/mnt/{name}.xml >/mnt/{name}.log 2>&1"""
+CHAPTER = """cat {build}/examples/chapter/*.* {build}/bin/indurop-node {build}/lib/*.so >/dev/null 2>&1
+cd {build}/examples/chapter
+{build}/bin/indurop-node module.xml --node chapter -q --duration {seconds}s --report /mnt/chapter.json >/mnt/chapter.log 2>&1"""
+
+
+def needs_machine(program):
+    content = program.read_bytes()
+    return any(fnmatch.fnmatch(program.name, pattern) for pattern in REAL_TIME) or any(text in content for text in UNKNOWN)
+
+
+class Result:
+    def __init__(self, name, where, reports):
+        self.name = name
+        self.where = where
+        self.failed, self.count, self.skipped, self.seconds = [], 0, 0, 0.0
+        log = reports / f"{name}.log"
+        self.log = log.read_text(errors="replace") if log.exists() else "it was not started\n"
+        try:
+            cases = xml.parse(reports / f"{name}.xml").getroot()
+        except (OSError, xml.ParseError):
+            begun = re.findall(r"\[ RUN      \] (\S+)", self.log)
+            self.failed = [f"no report; it crashed or did not end in {begun[-1] if begun else 'its beginning'}"]
+            return
+        self.seconds = float(cases.get("time"))
+        for case in cases.iter("testcase"):
+            self.count += 1
+            self.skipped += case.get("result") == "skipped"
+            if case.find("failure") is not None:
+                self.failed.append(f"{case.get('classname')}.{case.get('name')}")
+
+    def show(self):
+        skipped = f", {self.skipped} skipped" if self.skipped else ""
+        print(f"{self.where:8}{self.name:30}{self.count:5} tests{skipped}, {self.seconds:.0f} s"
+              f"{', FAILED ' + str(len(self.failed)) if self.failed else ''}", flush=True)
+
+
+def by_user(program, reports):
+    """One program in qemu-user."""
+    with tempfile.TemporaryDirectory() as folder, open(reports / f"{program.name}.log", "w", encoding="utf-8") as log:
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            subprocess.run(["qemu-aarch64", program, f"--gtest_output=xml:{reports / program.name}.xml"],
+                           cwd=folder, stdout=log, stderr=log, stdin=subprocess.DEVNULL, timeout=PATIENCE, check=False)
+    return Result(program.name, "user", reports)
+
+
+def chapter_faults(build, reports):
+    """What is wrong with Figure 1 of the chapter, in a machine of its own."""
+    machine.run(f"{BEGIN}\n{CHAPTER.format(build=build, seconds=CHAPTER_SECONDS)}\n", reports, FAST, PATIENCE)
+    try:
+        report = json.loads((reports / "chapter.json").read_text())
+    except (OSError, ValueError):
+        log = reports / "chapter.log"
+        return ["chapter: no report; " + (log.read_text() if log.exists() else "it was not started")]
+    late = report["tick_lateness_ns"]
+    print(f"machine chapter: {report['ticks']} ticks, {report['lost_ticks']} lost, lateness p50 {late['p50']} ns, "
+          f"p99 {late['p99']} ns, max {late['max']} ns", flush=True)
+    counted = {"lost ticks": report["lost_ticks"]}
+    for what in ("overruns", "deadline_misses", "faults"):
+        counted[what] = sum(module[what] for module in report["modules"])
+    wrong = [f"chapter: {count} {what}" for what, count in counted.items() if count]
+    if not report["rt"]["fifo"]:
+        wrong.append(f"chapter: no real time: {report['rt']['why']}")
+    return wrong
+
+
+def in_machine(programs, reports):
+    """All of them in one machine."""
+    script = [BEGIN] + [PROGRAM.format(path=program, name=program.name) for program in programs]
+    machine.run("\n".join(script) + "\n", reports, SLOW, PATIENCE * len(programs))
+    return [Result(program.name, "machine", reports) for program in programs]
+
+
+def main():
+    build = pathlib.Path(sys.argv[1]).resolve()
+    patterns = sys.argv[2:]
+    reports = build / "reports"
+    shutil.rmtree(reports, ignore_errors=True)
+    reports.mkdir()
+    started = time.monotonic()
+    programs = [path for path in sorted((build / "tests").glob("*_test*")) if os.access(path, os.X_OK) and path.is_file()
+                and (not patterns or any(fnmatch.fnmatch(path.name, pattern) for pattern in patterns))]
+    shared = [path for path in programs if needs_machine(path)]
+    results = []
+    for program in programs:
+        if program not in shared:
+            results.append(by_user(program, reports))
+            results[-1].show()
+    if shared:
+        for result in in_machine(shared, reports):
+            result.show()
+            results.append(result)
+    chapter = not patterns or "chapter" in patterns
+    wrong = chapter_faults(build, reports) if chapter else []
+    for result in results:
+        wrong += [f"{result.name}: {case}" for case in result.failed]
+    print(f"{sum(result.count for result in results)} tests of {len(results)} programs, {len(wrong)} failed, "
+          f"{time.monotonic() - started:.0f} s; what they said: {reports}")
+    for text in wrong:
+        print(f"FAILED {text}")
+    return 1 if wrong or not (results or chapter) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
