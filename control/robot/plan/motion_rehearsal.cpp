@@ -19,6 +19,11 @@ bool MotionRehearsal::is_fine() const noexcept {
   return draft_.segment.chain != nullptr || draft_.work.settles_slowly() || findings_.nearly_singular();
 }
 
+// s between two instants, at most.
+double MotionRehearsal::step() const noexcept {
+  return is_fine() ? kFineInstantStep : kInstantStep;
+}
+
 void MotionRehearsal::begin_timing(bool narrow_first) noexcept {
   timed_ = true;
   stretches_ = narrow_first ? findings_.narrow().size() + 1 : 1;
@@ -44,6 +49,13 @@ bool MotionRehearsal::check_next() noexcept {
   }
   time_ = rehearsal_.time();
   return rehearsal_.look(draft_.segment, place_at(time_));
+}
+
+bool MotionRehearsal::steps() noexcept {
+  int places = 0;
+  const bool found = rehearsal_.steps(draft_.segment, places);
+  draft_.work.add_on_path(places);
+  return found;
 }
 
 bool MotionRehearsal::advance() noexcept {
@@ -83,13 +95,14 @@ bool MotionRehearsal::begin_stretch(const NarrowPlace& narrow) noexcept {
       return false;
     }
   }
-  rehearsal_.begin_stretch(q, first, std::min(middle + kAround, rehearsal_.count()) - first);
+  rehearsal_.begin_stretch(q, place_at(rehearsal_.step() * first), first,
+                           std::min(middle + kAround, rehearsal_.count()) - first);
   return true;
 }
 
 // Begins to rehearse the next narrow place or, after all of them, the whole motion.
 void MotionRehearsal::next_stretch(double duration) noexcept {
-  rehearsal_.begin(draft_.segment.from, duration, is_fine() ? kFineInstantStep : kInstantStep, timed_);
+  rehearsal_.begin(draft_.segment.from, duration, step(), timed_);
   while (--stretches_ > 0 && rehearsal_.count() > kShort) {
     if (begin_stretch(findings_.narrow()[stretches_ - 1])) {
       return;

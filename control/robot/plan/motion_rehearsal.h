@@ -25,6 +25,10 @@ class MotionRehearsal {
   void begin_profile(const Profile& profile, bool narrow_first) noexcept;
   // Checks the next instant. Returns whether the arm reaches its place there.
   [[nodiscard]] bool check_next() noexcept;
+  // Returns whether a joint steps there, which no slower motion mends.
+  [[nodiscard]] bool steps() noexcept;
+  // Instants in which a motion of `duration` s is checked.
+  [[nodiscard]] double instants(double duration) const noexcept { return duration / step(); }
   // Continues with the next narrow place or, after all of them, the whole motion, if the present one is at its end.
   // Returns false if that was the whole motion.
   [[nodiscard]] bool advance() noexcept;
@@ -35,6 +39,7 @@ class MotionRehearsal {
   [[nodiscard]] const Rehearsal& result() const noexcept { return rehearsal_; }
 
  private:
+  [[nodiscard]] double step() const noexcept;
   [[nodiscard]] double place_at(double time) const noexcept;
   [[nodiscard]] int instant_of(double place) const noexcept;
   bool begin_stretch(const NarrowPlace& narrow) noexcept;

@@ -67,7 +67,7 @@ int MotionTiming::search() noexcept {
 
 void MotionTiming::rehearse_timing() noexcept {
   Segment& s = draft_.segment;
-  if (draft_.work.may_refuse() && s.timing.duration() * kSlowestPace > least()) {
+  if (is_too_slow(s.timing.duration())) {
     s.timing = {};
     rehearse_profile();
     return;
@@ -90,13 +90,20 @@ void MotionTiming::rehearse_profile() noexcept {
 
 // What is too slow already is rejected before it is rehearsed: it only becomes slower. Returns false then.
 bool MotionTiming::begin_rehearsal(double duration) noexcept {
-  if (draft_.work.may_refuse() && duration * kSlowestPace > least()) {
+  if (is_too_slow(duration)) {
     unseen_ = true;
     stage_ = Stage::Done;
     return false;
   }
   most_factor_ = std::max(kNearlyOne, least() / (kSlowestPace * duration));
   return true;
+}
+
+// Returns whether a motion of that duration is rejected for being slow: soon, or else before a rehearsal that takes
+// more work than any motion is worth.
+bool MotionTiming::is_too_slow(double duration) const noexcept {
+  return duration * kSlowestPace > least() &&
+         (draft_.work.may_refuse() || !draft_.work.may_take(rehearsal_.instants(duration)));
 }
 
 void MotionTiming::rehearse() noexcept {
@@ -108,7 +115,7 @@ void MotionTiming::rehearse() noexcept {
     search_.note(rehearsal_.time(), result.last_factor());
   }
   const bool hopeless = result.factor() > (may_search ? kHopeless : most_factor_) && draft_.work.may_refuse();
-  if (seen ? hopeless || result.jumped() : !timing) {
+  if (seen ? hopeless || result.jumped() || rehearsal_.steps() : !timing) {
     unseen_ = true;  // whatever the rest of it would show
     stage_ = Stage::Done;
   } else if (!seen) {

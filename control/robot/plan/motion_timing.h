@@ -32,6 +32,7 @@ class MotionTiming {
   void rehearse_timing() noexcept;
   void rehearse_profile() noexcept;
   [[nodiscard]] bool begin_rehearsal(double duration) noexcept;
+  [[nodiscard]] bool is_too_slow(double duration) const noexcept;
   void end_rehearsal() noexcept;
   void end_profile(double slower, bool sure) noexcept;
   void end_timing(double slower, bool sure) noexcept;

@@ -8,9 +8,11 @@ namespace indurop::robot {
 // All functions are real-time safe.
 class PlanningWork {
  public:
-  // Work after which no motion is rejected for being slow, nor for torques of its movement: it is planned to its end,
-  // however slow it becomes. In places in closed form, of which each takes 15 000 instructions at most.
+  // Work after which no motion is rejected for being slow, nor for torques of its movement, if it can be planned to its
+  // end. In places in closed form, of which each takes 15 000 instructions at most.
   static constexpr int kMaxRefusalWork = 12000;
+  // Work for a motion that is too slow to be accepted sooner: what takes more is rejected before it is done.
+  static constexpr int kMaxSlowWork = 1'000'000;
 
   // Begins with none. `closed_form`: whether the arm's inverse kinematics are.
   void begin(bool closed_form) noexcept {
@@ -26,9 +28,11 @@ class PlanningWork {
   [[nodiscard]] bool settles_slowly() const noexcept { return weight_ == kSettlesSlowly; }
   // Work so far, in places in closed form.
   [[nodiscard]] int places() const noexcept { return places_; }
-  // Afterwards a motion is rejected only for collisions, and for what only the whole rehearsal or check of torques
-  // finds in a place.
+  // Afterwards a motion is rejected only for collisions, for work beyond kMaxSlowWork, and for what only the whole
+  // rehearsal or check of torques finds in a place.
   [[nodiscard]] bool may_refuse() const noexcept { return places_ <= kMaxRefusalWork; }
+  // Returns whether a slow motion may take this many more places on its path.
+  [[nodiscard]] bool may_take(double places) const noexcept { return places_ + weight_ * places <= kMaxSlowWork; }
 
  private:
   // What a place takes by iteration, in places in closed form: if the pose is reached, and if its orientation is missed

@@ -13,12 +13,13 @@ namespace {
 constexpr double kSure = 0.99;        // of the limits, margin for the motion between two instants
 constexpr int kFewestInstants = 300;  // instants: jerk of short motions peaks between the knots of their timing
 constexpr int kMaxInstants = 1 << 26;
-constexpr int kLong = 20000;        // instants; longer motions have calm stretches
-constexpr int kVeryLong = 1 << 20;  // instants
-constexpr int kFewSkipped = 16;     // instants
-constexpr int kMoreSkipped = 64;    // instants of long motions
-constexpr int kManySkipped = 1024;  // instants of very long ones
-constexpr double kQuiet = 0.5;      // factor of the last instant below which some may be skipped
+constexpr int kLong = 20000;         // instants; longer motions have calm stretches
+constexpr int kVeryLong = 1 << 20;   // instants
+constexpr int kFewSkipped = 16;      // instants
+constexpr int kMoreSkipped = 64;     // instants of long motions
+constexpr int kManySkipped = 1024;   // instants of very long ones
+constexpr double kQuiet = 0.5;       // factor of the last instant below which some may be skipped
+constexpr double kSuspicious = 1.1;  // factor of jerk above which a joint may step
 
 }  // namespace
 
@@ -27,11 +28,12 @@ void Rehearsal::begin(const Joints& from, double duration, double step, bool tim
   step_ = duration / count_;
   next_ = 1;
   end_ = count_ + 3;
-  worst_ = 0;
+  worst_ = last_jerk_ = suspected_ = 0;
   acceleration_share_ = timed ? TimingShares::kAcceleration : Shares::kBending;
   jerk_share_ = timed ? TimingShares::kJerk : Shares::kBendingJerk;
   pace_ = {};
   seen_.fill(from);
+  at_.fill(0);
   skip_ = wait_ = kFewSkipped;
   unknown_ = 0;
   tip_far_ = 0;
@@ -39,10 +41,11 @@ void Rehearsal::begin(const Joints& from, double duration, double step, bool tim
   tip_.begin(from);
 }
 
-void Rehearsal::begin_stretch(const Joints& from, int first, int instants) noexcept {
+void Rehearsal::begin_stretch(const Joints& from, double place, int first, int instants) noexcept {
   next_ = first + 1;
   end_ = first + instants;
   seen_.fill(from);
+  at_.fill(place);
   unknown_ = 2;
 }
 
@@ -56,20 +59,23 @@ bool Rehearsal::look(const Segment& segment, double place) noexcept {
     return false;
   }
   seen_ = {here, seen_[0], seen_[1], seen_[2]};
+  at_ = {place, at_[0], at_[1], at_[2]};
   tip_.note(here);
   ++next_;
   wait_ = std::max(0, wait_ - 1);
   if (unknown_ > 0) {
     --unknown_;
+    last_jerk_ = 0;
     return true;
   }
   const auto& q = seen_;
   const Joints first = ((q[0] - q[1]) / step_).cwiseAbs();
   const Joints second = ((q[0] - 2 * q[1] + q[2]) / (step_ * step_)).cwiseAbs();
   const Joints third = ((q[0] - 3 * q[1] + 3 * q[2] - q[3]) / (step_ * step_ * step_)).cwiseAbs();
-  last_ = std::max({first.cwiseQuotient(joints_.velocity).maxCoeff(),
-                    std::sqrt(second.cwiseQuotient(acceleration_share_ * joints_.acceleration).maxCoeff()),
-                    std::cbrt(third.cwiseQuotient(jerk_share_ * joints_.jerk).maxCoeff())});
+  last_jerk_ = std::cbrt(third.cwiseQuotient(jerk_share_ * joints_.jerk).maxCoeff());
+  last_ =
+      std::max({first.cwiseQuotient(joints_.velocity).maxCoeff(),
+                std::sqrt(second.cwiseQuotient(acceleration_share_ * joints_.acceleration).maxCoeff()), last_jerk_});
   worst_ = std::max(worst_, last_);
   note(first, second);
   return true;
@@ -107,6 +113,7 @@ void Rehearsal::skip(const Segment& segment, double far_place) noexcept {
   tip_far_ = std::max(tip_far_, kFaster * tip.farthest() / skip_);
   tip_.go_on_from(far);
   seen_.fill(far);
+  at_.fill(far_place);
   unknown_ = 2;
   next_ += skip_;
   skip_ = std::min(2 * skip_, count_ < kVeryLong ? kMoreSkipped : kManySkipped);
@@ -145,6 +152,44 @@ bool Rehearsal::calm(const Joints& far) const noexcept {
 bool Rehearsal::jumped() const noexcept {
   constexpr double kJump = radians(30);
   return (seen_[0] - seen_[1]).cwiseAbs().maxCoeff() > kJump;
+}
+
+bool Rehearsal::steps(const Segment& segment, int& places) noexcept {
+  constexpr double kWorse = 1.5;
+  if (last_jerk_ < std::max(kSuspicious, kWorse * suspected_)) {
+    return false;
+  }
+  suspected_ = last_jerk_;
+  return steps_before(0, segment, places) || steps_before(1, segment, places) || steps_before(2, segment, places);
+}
+
+// Halves the way from the instant before, and goes on where joints move more, until they move too little for a step.
+bool Rehearsal::steps_before(std::size_t instant, const Segment& segment, int& places) const noexcept {
+  constexpr int kHalves = 40;
+  const Joints least = jerk_share_ * std::pow(step_, 3) / 2 * joints_.jerk;
+  const auto moved = [&](const Joints& from, const Joints& to) {
+    return (to - from).cwiseAbs().cwiseQuotient(least).maxCoeff();
+  };
+  Joints before = seen_[instant + 1];
+  Joints behind = seen_[instant];
+  double from = at_[instant + 1];
+  double to = at_[instant];
+  for (int half = 0; moved(before, behind) > 1; ++half) {
+    const double place = (from + to) / 2;
+    Joints here = before;
+    ++places;
+    if (half == kHalves || places_.on(segment, place, before, here) != Reach::Ok) {
+      return true;
+    }
+    if (moved(before, here) > moved(here, behind)) {
+      to = place;
+      behind = here;
+    } else {
+      from = place;
+      before = here;
+    }
+  }
+  return false;
 }
 
 double Rehearsal::last_factor() const noexcept {

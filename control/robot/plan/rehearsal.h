@@ -20,8 +20,8 @@ class Rehearsal {
   // Begins a motion from rest to rest, with or without a timing. `step`: maximum time from one instant to the next.
   // Real-time safe, like all functions of this class.
   void begin(const Joints& from, double duration, double step, bool timed) noexcept;
-  // Checks a stretch of it only: `instants` from `first` on, where the joints are at `from`.
-  void begin_stretch(const Joints& from, int first, int instants) noexcept;
+  // Checks a stretch of it only: `instants` from `first` on, where the motion is at `place` and the joints at `from`.
+  void begin_stretch(const Joints& from, double place, int first, int instants) noexcept;
   [[nodiscard]] bool done() const noexcept { return next_ > end_; }
   [[nodiscard]] int count() const noexcept { return count_; }
   [[nodiscard]] double step() const noexcept { return step_; }
@@ -39,6 +39,10 @@ class Rehearsal {
   [[nodiscard]] double factor() const noexcept;
   // Returns whether the last instant is in another posture than the one before it: no slower motion mends that.
   [[nodiscard]] bool jumped() const noexcept;
+  // Returns whether a joint steps near the last instant: between places that are as close as numbers can be, it changes
+  // by more than its jerk allows between two instants. No slower motion mends that, either. Only worth asking where
+  // jerk is worse than it was; adds to `places` how many it needed.
+  [[nodiscard]] bool steps(const Segment& segment, int& places) noexcept;
   // m/s, of the tool's tip or the arm's end, whichever is faster.
   [[nodiscard]] double tip_speed() const noexcept { return std::max(tip_.farthest(), tip_far_) / step_; }
   // Limits for changes of the pace at which the motion is followed.
@@ -46,6 +50,7 @@ class Rehearsal {
 
  private:
   [[nodiscard]] bool calm(const Joints& far) const noexcept;
+  [[nodiscard]] bool steps_before(std::size_t instant, const Segment& segment, int& places) const noexcept;
   void note(const Joints& first, const Joints& second) noexcept;
 
   const Places& places_;
@@ -55,14 +60,16 @@ class Rehearsal {
   int end_ = 0;
   double step_ = 0;
   double last_ = 0, worst_ = 0;
+  double last_jerk_ = 0, suspected_ = 0;  // the part of it that jerk has, and the worst that steps() has checked
   double acceleration_share_ = 1, jerk_share_ = 1;
   PaceLimits pace_;
   TipSpeed tip_;
   std::array<Joints, 4> seen_;
-  int skip_ = 0;        // instants to skip next time
-  int wait_ = 0;        // instants to check before that
-  int unknown_ = 0;     // instants after skipped ones whose differences are not known
-  double tip_far_ = 0;  // m that the tip or the arm's end moves at most in one skipped step
+  std::array<double, 4> at_{};  // the places where they were seen
+  int skip_ = 0;                // instants to skip next time
+  int wait_ = 0;                // instants to check before that
+  int unknown_ = 0;             // instants after skipped ones whose differences are not known
+  double tip_far_ = 0;          // m that the tip or the arm's end moves at most in one skipped step
 };
 
 }  // namespace indurop::robot

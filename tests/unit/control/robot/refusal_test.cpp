@@ -162,6 +162,26 @@ INSTANTIATE_TEST_SUITE_P(Of_all_kinds, Refusal,
                          testing::Values("cell", "ur5", "scara", "offset_wrist", "five_axis", "palletiser", "iiwa14",
                                          "rail", "irb4600", "scara_spec", "xarm6", "panda"));
 
+class RefusalOfStretchedArms : public Refusal {};
+
+// Where an arm without inverse kinematics in closed form is stretched, it stays as it is while the pose is near enough,
+// and then its joints step: slower motions do so, too, and were rehearsed slower and slower.
+TEST_P(RefusalOfStretchedArms, Comes_before_they_are_rehearsed_again) {
+  for (const double far : {0.05, 0.2, 0.5}) {
+    const Joints from = Joints::Zero();
+    MoveCommand command;
+    command.move = Move::Line;
+    command.target.is_pose = true;
+    command.target.pose = arm.forward(from);
+    command.target.pose.position += far * Vec3(-0.6, 0.4, arm.count() < 6 ? 0 : -0.5);
+    const Fault fault = plan(command, from);
+    EXPECT_EQ(fault.code, ErrorCode::Singular) << far << ": " << to_string(fault.code);
+    EXPECT_LE(planner->work(), PlanningWork::kMaxRefusalWork) << far;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(From_rest, RefusalOfStretchedArms, testing::Values("scara", "iiwa14"));
+
 class RefusalOfFiveAxes : public Refusal {};
 
 // An arm of five axes comes as close to the orientation as it can, from place to place by iteration. What that leaves
