@@ -10,19 +10,29 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kKept = 0.97;        // of the jerk when planning ahead: covers the error of the polynomials
-constexpr double kWithin = 1 - 2e-5;  // of the limits: covers rounding
-constexpr int kParts = 8;             // of the time in which braking is released
+constexpr double kKept = 0.97;         // of the jerk when planning ahead: covers the error of the polynomials
+constexpr double kWithin = 1 - 2e-5;   // of the limits: covers rounding
+constexpr double kExactly = 1 + 5e-5;  // the same on a path that may use all of them: half of what the last gate allows
+constexpr int kParts = 8;              // of the time in which braking is released
 constexpr double kTooLate = -1;
+constexpr double kMostBeyond = 1000;  // of the limits that cannot be kept
+constexpr int kBeyondHalves = 24;
 constexpr double kDropped = 0.3;  // of a period's jerk: the speed that is left for the last one
 
 }  // namespace
 
 void PathBrake::begin(double hardness) noexcept {
   hardness_ = hardness;
-  acceleration_ = kWithin * hardness * most_.acceleration;
-  jerk_ = kWithin * hardness * hardness * most_.jerk;
   length_ = gone_ = changed_ = 0;
+}
+
+// A motion may use all of the limits where its path is known exactly. If less than that counted, it would be too fast
+// for its own path, and get faster to stay within what counts.
+void PathBrake::set_path(const PathAhead& path) noexcept {
+  exact_ = path.has_shape() ? &path : nullptr;
+  const double part = exact_ != nullptr ? kExactly : kWithin;
+  acceleration_ = part * hardness_ * most_.acceleration;
+  jerk_ = part * hardness_ * hardness_ * most_.jerk;
 }
 
 Reach PathBrake::fit(const PathAhead& path, Joints& near, double from, double length) noexcept {
@@ -147,14 +157,21 @@ PathBrake::Span PathBrake::distances(const PathHistory& past, const Joints& ther
   const auto& q = past.joints;
   const Joints first = rates(gone_ + distance).first;
   const double square = period * period;
-  const Span spans[] = {span_of(first, there - q[0], period * most_.velocity),
-                        span_of(first, there - 2 * q[0] + q[1], square * acceleration_),
-                        span_of(first, there - 3 * q[0] + 3 * q[1] - q[2], square * period * jerk_)};
-  Span all{-HUGE_VAL, HUGE_VAL};
-  for (const Span& span : spans) {
-    all = {std::max(all.low, distance + span.low), std::min(all.high, distance + span.high)};
-  }
-  return all;
+  const auto within = [&](double part) {
+    const Span spans[] = {span_of(first, there - q[0], part * period * most_.velocity),
+                          span_of(first, there - 2 * q[0] + q[1], part * square * acceleration_),
+                          span_of(first, there - 3 * q[0] + 3 * q[1] - q[2], part * square * period * jerk_)};
+    Span all{-HUGE_VAL, HUGE_VAL};
+    for (const Span& span : spans) {
+      all = {std::max(all.low, distance + span.low), std::min(all.high, distance + span.high)};
+    }
+    return all;
+  };
+  const auto possible = [&](double part) {
+    const Span span = within(part);
+    return span.low <= span.high;
+  };
+  return possible(1) ? within(1) : within(bisect({kMostBeyond, 1}, kBeyondHalves, possible).holds);
 }
 
 PathBrake::Motion PathBrake::after(double distance, const PathHistory& past, double period) const noexcept {
@@ -163,7 +180,7 @@ PathBrake::Motion PathBrake::after(double distance, const PathHistory& past, dou
 
 PathBrake::Span PathBrake::jerks(const Rates& r, const Motion& m) const noexcept {
   return span_of(r.first, 3 * m.speed * m.acceleration * r.second + m.speed * m.speed * m.speed * r.third,
-                 kKept * jerk_);
+                 (exact_ != nullptr ? 1 : kKept) * jerk_);
 }
 
 // Steps through as many periods as it takes, several at a time if there are many; computed as differences between
@@ -267,10 +284,10 @@ Reach PathBrake::next(const PathAhead& path, const PathHistory& past, double per
   constexpr double kInset = 1e-3;  // of the possible span: the polynomials are not that exact
   distance = 0;
   q = past.joints[0];
+  set_path(path);
   if (can_stand(past, period) || path.left() <= 0) {
     return Reach::Ok;
   }
-  exact_ = path.has_shape() ? &path : nullptr;
   if (exact_ == nullptr) {
     if (const Reach reach = keep_in_sight(path, past, period); reach != Reach::Ok) {
       return reach;
@@ -280,7 +297,7 @@ Reach PathBrake::next(const PathAhead& path, const PathHistory& past, double per
   // repeated from the resulting place.
   const double as_before = std::max(0.0, 2 * past.moved[0] - past.moved[1] + changed_);
   Span guessed = distances(past, q + joints_at(gone_ + as_before) - joints_at(gone_), as_before, period);
-  double wanted = choose(inside(guessed, kInset), past, period);
+  double wanted = choose(inside(guessed, exact_ != nullptr ? 0 : kInset), past, period);
   for (int tries = 0; tries < kTries; ++tries) {
     distance = std::max(0.0, wanted);
     q = past.joints[0];

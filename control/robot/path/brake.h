@@ -74,6 +74,7 @@ class PathBrake {
     double low, high;
   };
 
+  void set_path(const PathAhead& path) noexcept;
   [[nodiscard]] bool can_stand(const PathHistory& past, double period) const noexcept;
   [[nodiscard]] double far(const PathHistory& past, double period) const noexcept;
   Reach keep_in_sight(const PathAhead& path, const PathHistory& past, double period) noexcept;

@@ -62,6 +62,10 @@ class FollowedPath final : public PathAhead {
   [[nodiscard]] const Segment& last() const noexcept;
   // Returns whether the present segment is a joint motion that follows its timing.
   [[nodiscard]] bool joints_timed() const noexcept { return segment().timed && segment().move == Move::Joint; }
+  // Returns whether the rest of the path is a straight line between joint angles, with the same limits everywhere.
+  [[nodiscard]] bool is_straight() const noexcept {
+    return segment().move == Move::Joint && !segment().timed && !is_blended();
+  }
   [[nodiscard]] const Blend& blend() const noexcept { return pieces_.blend; }
   [[nodiscard]] bool in_blend() const noexcept { return pieces_.in_blend; }
   // Decides whether the first two segments are blended, as long as the blend's speed can still be reached. Returns

@@ -92,7 +92,14 @@ void Follower::stop_hard(double hardness) noexcept {
   brake_.begin(hardness);
   if (at_rest()) {
     reset(q_);
+  } else if (brakes_by_profile()) {
+    replan();
   }
+}
+
+// What can be stopped as hard by a profile needs no search for the hardest braking, which ends a little later.
+bool Follower::brakes_by_profile() const noexcept {
+  return mode_ == Mode::HardStop && path_.is_straight();
 }
 
 double Follower::to_go() const noexcept {
@@ -152,6 +159,7 @@ void Follower::replan() noexcept {
     next = Profile::to_position(state, path_.piece_end(), exit, limits);
     to_end = !next.overshoots();
   } else {
+    limits = brakes_by_profile() ? path_.segment().straight_limits(joint_motions_.limits(), brake_.hardness()) : limits;
     next = Profile::to_velocity(state, 0, limits);
   }
   if (!to_end && !path_.in_blend() && blend.zone > 0 && next.end().position > path_.piece_end()) {
@@ -170,7 +178,7 @@ void Follower::next_piece() noexcept {
   if (path_.next_piece()) {
     begin_blend();
   }
-  if (!idle() && mode_ != Mode::HardStop) {
+  if (!idle()) {
     begin_piece();
   }
 }
@@ -331,7 +339,7 @@ Fault Follower::step(double seconds) noexcept {
     return {};
   }
   period_ = seconds;
-  if (mode_ == Mode::HardStop) {
+  if (mode_ == Mode::HardStop && !brakes_by_profile()) {
     return brake(seconds);
   }
   const Joints end = path_.last().to;
@@ -341,14 +349,14 @@ Fault Follower::step(double seconds) noexcept {
     if (fault.ok()) {
       q_ = end;
     }
-    mode_ = mode_ == Mode::Stop ? Mode::Run : mode_;
+    mode_ = stopping() ? Mode::Run : mode_;
     note_step(moved);
     return fault;
   }
   const Fault fault = place(seconds);
   note_step(moved);
   note_speed(seconds);
-  if (mode_ == Mode::Stop && path_.state().velocity <= 0) {
+  if (stopping() && path_.state().velocity <= 0) {
     reset(q_);
   }
   return fault;

@@ -82,6 +82,7 @@ class Follower {
   void begin_blend() noexcept;
   void next_piece() noexcept;
   void replan() noexcept;
+  [[nodiscard]] bool brakes_by_profile() const noexcept;
   Profile pace_of_timing(double seconds) noexcept;
   double advance(double seconds) noexcept;  // returns the distance
   Fault place(double seconds) noexcept;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/robot/path/rates.h"
+
 namespace indurop::robot {
 
 Joints Segment::joints_at(double place) const noexcept {
@@ -26,6 +28,16 @@ JointLimits Segment::slowed(const JointLimits& joints) const noexcept {
   const JointLimits part = gentler(joints, acceleration);
   const double square = slowness * slowness;
   return {part.velocity / slowness, part.acceleration / square, part.jerk / (square * slowness)};
+}
+
+LineLimits Segment::straight_limits(const JointLimits& joints, double hardness) const noexcept {
+  LineLimits result{limits.velocity, HUGE_VAL, HUGE_VAL};
+  for (int i = 0; i < kAxes; ++i) {
+    const double rate = std::abs(to[i] - from[i]) / length;
+    result.acceleration = std::min(result.acceleration, shared(hardness * joints.acceleration[i], rate));
+    result.jerk = std::min(result.jerk, shared(hardness * hardness * joints.jerk[i], rate));
+  }
+  return result;
 }
 
 double Segment::duration() const noexcept {

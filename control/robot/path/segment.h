@@ -99,6 +99,9 @@ struct Segment {
   static Segment together_to(const Joints& to, double speed) noexcept;
   // The part of the joints' limits that a joint motion may use.
   [[nodiscard]] JointLimits slowed(const JointLimits& joints) const noexcept;
+  // Limits of the speed along a straight line between joint angles, of nonzero length. `hardness` multiplies the
+  // joints' accelerations, its square their jerks.
+  [[nodiscard]] LineLimits straight_limits(const JointLimits& joints, double hardness) const noexcept;
   // Switches to the timing; only from rest at the start of the segment.
   void take_timing() noexcept;
   // Makes the timing of a joint motion, from any state. The limits are those of the joints.
