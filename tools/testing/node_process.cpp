@@ -5,12 +5,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <filesystem>
 #include <stdexcept>
@@ -28,11 +30,12 @@ constexpr const char* kProgram = "indurop-node";
 constexpr std::chrono::microseconds kLook{20};
 constexpr std::chrono::seconds kEnd{5};
 
-// Searches in bin/ of the build tree or of the installation that this library belongs to, then in PATH.
-std::filesystem::path find_program() {
+}  // namespace
+
+std::filesystem::path find_node_program() {
   Dl_info info{};
   std::error_code error;
-  if (::dladdr(reinterpret_cast<const void*>(&find_program), &info) != 0 && info.dli_fname != nullptr) {
+  if (::dladdr(reinterpret_cast<const void*>(&find_node_program), &info) != 0 && info.dli_fname != nullptr) {
     auto folder = std::filesystem::canonical(info.dli_fname, error).parent_path();
     for (int up = 0; up < 4 && !folder.empty(); ++up, folder = folder.parent_path()) {
       for (const auto& place : {folder / kProgram, folder / "bin" / kProgram}) {
@@ -45,20 +48,19 @@ std::filesystem::path find_program() {
   return {};
 }
 
-}  // namespace
-
 NodeProcess::NodeProcess(const std::string& node, bool plant, const std::vector<std::string>& arguments,
-                         std::chrono::seconds patience)
+                         std::chrono::seconds patience, const std::filesystem::path& program)
     : node_(node), patience_(patience), output_(::memfd_create("output of a node", MFD_CLOEXEC)), plant_(plant) {
   std::array<int, 2> ends{-1, -1};
-  if (output_ < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    throw std::runtime_error("cannot make a pipe to a node");
+  // A socket: a write to a node that has ended raises no signal in this process.
+  if (output_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    throw std::runtime_error("cannot make a connection to a node");
   }
   commands_ = ends[1];
   base::Launch launch;
   launch.words = {kProgram, "--sim", "--step", "--node", node};
   launch.words.insert(launch.words.end(), arguments.begin(), arguments.end());
-  launch.program = find_program();
+  launch.program = program;
   launch.input = ends[0];
   launch.output = output_;
   launch.fresh_signals = true;
@@ -99,8 +101,12 @@ void NodeProcess::end() noexcept {
 }
 
 bool NodeProcess::has_ended() {
-  if (pid_ > 0 && ::waitpid(pid_, nullptr, WNOHANG) == pid_) {
-    pid_ = -1;
+  if (pid_ > 0) {
+    const pid_t ended = ::waitpid(pid_, nullptr, WNOHANG);
+    if (ended == pid_ ||
+        (ended < 0 && errno == ECHILD && ::kill(pid_, 0) != 0)) {  // no child: the program ignores SIGCHLD
+      pid_ = -1;
+    }
   }
   return pid_ <= 0;
 }
@@ -123,8 +129,11 @@ void NodeProcess::find_boards() {
     if (plant_ && !node.starts_with(prefix)) {
       continue;
     }
-    if (auto opened =
-            vars::RunFile::open(node, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock))) {
+    auto opened = vars::RunFile::open(node, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+    if (opened) {
+      if (static_cast<scheduler::RunBlock*>(opened->data())->abi != scheduler::kRunAbi) {
+        fail("indurop-node is of another version of InduRoP: make what uses it with the same version");
+      }
       boards_.push_back({plant_ ? node.substr(prefix.size()) : "", node, std::move(opened).value()});
     }
   }
@@ -163,12 +172,12 @@ bool NodeProcess::stands() const {
   });
 }
 
-std::string NodeProcess::printed() const {
+std::string NodeProcess::printed(std::size_t after) const {
   struct stat status {};
   std::string text;
-  if (::fstat(output_, &status) == 0) {
-    text.resize(static_cast<std::size_t>(status.st_size));
-    const ssize_t count = ::pread(output_, text.data(), text.size(), 0);
+  if (::fstat(output_, &status) == 0 && static_cast<std::size_t>(status.st_size) > after) {
+    text.resize(static_cast<std::size_t>(status.st_size) - after);
+    const ssize_t count = ::pread(output_, text.data(), text.size(), static_cast<off_t>(after));
     text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
   }
   return text;
@@ -212,8 +221,7 @@ void NodeProcess::go(std::uint64_t ticks) {
   }
   ticks_ += ticks;
   const std::string command = fmt::format("{}\n", ticks);
-  (void)::signal(SIGPIPE, SIG_IGN);
-  if (::write(commands_, command.data(), command.size()) != static_cast<ssize_t>(command.size())) {
+  if (::send(commands_, command.data(), command.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(command.size())) {
     fail(fmt::format("the node ended before tick {}", ticks_));
   }
   wait_until_it_stands();

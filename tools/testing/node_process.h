@@ -7,7 +7,9 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,12 +18,17 @@
 
 namespace indurop::testing {
 
+// Returns indurop-node in bin/ of the build tree or of the installation that this library belongs to; empty if it is
+// not there.
+std::filesystem::path find_node_program();
+
 class NodeProcess {
  public:
   // Starts the node and waits until it has stopped before its first tick. `plant`: the configuration has several
-  // boards, whose nodes are called `node`-BOARD. Throws std::runtime_error.
+  // boards, whose nodes are called `node`-BOARD. `program`: indurop-node; empty: the one in PATH. Throws
+  // std::runtime_error.
   NodeProcess(const std::string& node, bool plant, const std::vector<std::string>& arguments,
-              std::chrono::seconds patience);
+              std::chrono::seconds patience, const std::filesystem::path& program);
   ~NodeProcess();
   NodeProcess(const NodeProcess&) = delete;
   NodeProcess& operator=(const NodeProcess&) = delete;
@@ -40,7 +47,8 @@ class NodeProcess {
   [[nodiscard]] const std::vector<Board>& boards() const noexcept { return boards_; }
   // Period of the ticks that go() counts: the shortest of all boards.
   [[nodiscard]] std::int64_t basic_period_ns() const noexcept;
-  [[nodiscard]] std::string printed() const;
+  // Returns what the node and its modules printed, without the first `after` bytes.
+  [[nodiscard]] std::string printed(std::size_t after = 0) const;
   // Throws with the reason and the last output of the node.
   [[noreturn]] void fail(const std::string& what) const;
 

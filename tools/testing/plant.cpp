@@ -72,7 +72,7 @@ struct Plant::Impl {
   Impl(const std::filesystem::path& configuration, const Settings& settings)
       : name(new_name()),
         node(name, settings.board.empty() && is_plant(configuration), arguments_of(configuration, settings),
-             settings.patience) {
+             settings.patience, indurop::testing::find_node_program()) {
     attach();
     if (node.boards().size() == 1) {
       (void)irp::attach(node.boards()[0].node.c_str());  // prints to stderr what this program uses and the node lacks
