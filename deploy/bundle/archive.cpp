@@ -15,10 +15,12 @@ constexpr std::size_t kPortionBytes = std::size_t{1} << 18U;
 
 ArchiveWriter::ArchiveWriter() : archive_(::archive_write_new(), &::archive_write_free) {}
 
-bool ArchiveWriter::open(const std::filesystem::path& file) {
-  return ::archive_write_set_format_pax_restricted(archive_.get()) == ARCHIVE_OK &&
-         ::archive_write_add_filter_zstd(archive_.get()) == ARCHIVE_OK &&
-         ::archive_write_open_filename(archive_.get(), file.c_str()) == ARCHIVE_OK;
+bool ArchiveWriter::open(const std::filesystem::path& file, ArchiveForm form) {
+  const bool has_form = form == ArchiveForm::Zip
+                            ? ::archive_write_set_format_zip(archive_.get()) == ARCHIVE_OK
+                            : ::archive_write_set_format_pax_restricted(archive_.get()) == ARCHIVE_OK &&
+                                  ::archive_write_add_filter_zstd(archive_.get()) == ARCHIVE_OK;
+  return has_form && ::archive_write_open_filename(archive_.get(), file.c_str()) == ARCHIVE_OK;
 }
 
 bool ArchiveWriter::begin(const std::string& member, std::uint64_t size, bool executable) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tar archives compressed by zstd, with libarchive: written with the same bytes for the same content, and read from
-// anybody.
+// Archives with libarchive: written with the same bytes for the same content, as tar with zstd or as ZIP for other
+// programs; tar with zstd is read, from anybody.
 
 #pragma once
 
@@ -17,11 +17,13 @@ struct archive_entry;
 
 namespace indurop::deploy {
 
+enum class ArchiveForm { TarZstd, Zip };
+
 // Functions that return false have failed; message() says why.
 class ArchiveWriter {
  public:
   ArchiveWriter();
-  bool open(const std::filesystem::path& file);
+  bool open(const std::filesystem::path& file, ArchiveForm form = ArchiveForm::TarZstd);
   // Begins a member with `size` bytes, which add() gives.
   bool begin(const std::string& member, std::uint64_t size, bool executable = false);
   bool add(std::string_view bytes);
