@@ -151,10 +151,14 @@ Status remove_node(const std::string& node) {
   }
   retire_block(node);
   Status result;
-  // Remove the lock file last: until then no other process can start a node of this name.
-  for (const std::string& name : {block_file(node), run_file(node), tape_file(node), batch_file(node),
-                                  custody_file(node), mirror_file(node), external_file(node), keyframe_file(node),
-                                  replay_input_file(node), block_file(node) + ".kernel", lock_file(node)}) {
+  std::vector<std::string> names{block_file(node),        run_file(node),
+                                 tape_file(node),         batch_file(node),
+                                 custody_file(node),      mirror_file(node),
+                                 external_file(node),     keyframe_file(node),
+                                 replay_input_file(node), block_file(node) + ".kernel"};
+  std::ranges::move(pool_files(node), std::back_inserter(names));
+  names.push_back(lock_file(node));  // the last one: until then no other process can start a node of this name
+  for (const std::string& name : names) {
     for (const Status& status : {remove_unfinished(name), remove_shm_file(name)}) {
       if (!status && result.ok()) {
         result = status;

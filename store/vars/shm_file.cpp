@@ -13,6 +13,8 @@
 #include <iceoryx_hoofs/internal/posix_wrapper/shared_memory_object/memory_map.hpp>
 
 #include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <utility>
 
 #include "core/rt/lost_pages.h"
@@ -144,6 +146,24 @@ std::string replay_input_file(const std::string& node) {
 }
 std::string lock_file(const std::string& node) {
   return "indurop." + node + ".lock";
+}
+
+std::string pool_file(const std::string& node, std::uint64_t name_hash) {
+  char hash[2 * sizeof(name_hash) + 1];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(name_hash));
+  return "indurop." + node + ".pool." + hash;
+}
+
+std::vector<std::string> pool_files(const std::string& node) {
+  const std::string beginning = "indurop." + node + ".pool.";
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(kShmDirectory, error)) {
+    if (std::string name = entry.path().filename(); name.starts_with(beginning)) {
+      files.push_back(std::move(name));
+    }
+  }
+  return files;
 }
 
 std::uint64_t store_number(const std::string& node) noexcept {

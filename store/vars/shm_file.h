@@ -24,14 +24,17 @@ inline constexpr const char* kShmDirectory = "/dev/shm";
 // [A-Za-z0-9_-]{1,40}
 bool valid_node_name(std::string_view node) noexcept;
 // File names of a node in kShmDirectory.
-std::string block_file(const std::string& node);         // indurop.<node>
-std::string run_file(const std::string& node);           // indurop.<node>.run
-std::string mirror_file(const std::string& node);        // indurop.<node>.mirror
-std::string external_file(const std::string& node);      // indurop.<node>.external
-std::string tape_file(const std::string& node);          // indurop.<node>.tape
-std::string keyframe_file(const std::string& node);      // indurop.<node>.keyframes
-std::string replay_input_file(const std::string& node);  // indurop.<node>.retold
-std::string lock_file(const std::string& node);          // indurop.<node>.lock
+std::string block_file(const std::string& node);                          // indurop.<node>
+std::string run_file(const std::string& node);                            // indurop.<node>.run
+std::string mirror_file(const std::string& node);                         // indurop.<node>.mirror
+std::string external_file(const std::string& node);                       // indurop.<node>.external
+std::string tape_file(const std::string& node);                           // indurop.<node>.tape
+std::string keyframe_file(const std::string& node);                       // indurop.<node>.keyframes
+std::string replay_input_file(const std::string& node);                   // indurop.<node>.retold
+std::string lock_file(const std::string& node);                           // indurop.<node>.lock
+std::string pool_file(const std::string& node, std::uint64_t name_hash);  // indurop.<node>.pool.<hash in hex>
+// The files of all pools of a node, finished or not. Not real-time safe.
+std::vector<std::string> pool_files(const std::string& node);
 
 // Permissions: the owner and its group write, everyone reads. Set explicitly, independent of the umask.
 inline constexpr mode_t kShmMode = 0664;
