@@ -122,7 +122,12 @@ struct Define {
   std::string description;
 };
 
-using Item = std::variant<Namespace, Include, Define, Declaration>;
+// "pool" in front of a declaration.
+struct Pool {
+  Declaration declaration;
+};
+
+using Item = std::variant<Namespace, Include, Define, Declaration, Pool>;
 
 struct File {
   std::vector<Item> items;

@@ -11,6 +11,7 @@
 #include "core/schema/idl_word.h"
 #include "glb2idl/initial.h"
 #include "glb2idl/notes.h"
+#include "glb2idl/pool_checker.h"
 #include "glb2idl/text.h"
 #include "glb2idl/types.h"
 
@@ -60,6 +61,8 @@ class Checker {
     }
     add_constant(found.name, std::move(value), std::nullopt, found.description, true);
   }
+
+  void operator()(const ast::Pool& found) { check_pool(context_, types_, found.declaration); }
 
   void operator()(const ast::Declaration& found) {
     switch (found.kind) {
@@ -204,11 +207,6 @@ class Checker {
     }
   }
 
-  [[nodiscard]] std::string source(const ast::Name& name) const {
-    const std::string& path = context_.sources.file(context_.file).path;
-    return fmt::format("{}:{}", path.substr(path.rfind('/') + 1), context_.sources.line_of(name.at));
-  }
-
   // Declares the name; returns false if anything about it is wrong.
   bool declare(const ast::Name& name, NameRole role, bool good) {
     const auto kind = role == NameRole::Variable ? Symbol::Kind::Variable : Symbol::Kind::Function;
@@ -241,7 +239,7 @@ class Checker {
     result.alarms = std::move(notes.alarms);
     result.retain = notes.retain;
     result.maxage_ns = notes.maxage_ns;
-    result.source = source(name);
+    result.source = context_.source(name);
     if (declarator.initial) {
       result.initial = bytes(*whole, *declarator.initial, notes.range);
       result.given = true;
@@ -301,7 +299,7 @@ class Checker {
                                    NoteTarget::Function, found.description);
     result.description = notes.description;
     result.result = *result_type;
-    result.source = source(name);
+    result.source = context_.source(name);
     result.type_hash = schema::hash_of(result);
     context_.add(std::move(result));
   }

@@ -10,6 +10,11 @@
 
 namespace indurop::glb2idl {
 
+std::string Context::source(const ast::Name& name) const {
+  const std::string& path = sources.file(file).path;
+  return fmt::format("{}:{}", path.substr(path.rfind('/') + 1), sources.line_of(name.at));
+}
+
 bool Context::check_name(const ast::Name& name, NameRole role) {
   const bool inner = role == NameRole::Field || role == NameRole::Parameter;
   const bool global = !inner && current.empty();

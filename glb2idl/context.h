@@ -43,6 +43,8 @@ struct Context {
   void add(Item item) { program.units[unit].items.push_back(std::move(item)); }
   [[nodiscard]] std::string full(std::string_view name) const { return qualified(current, name); }
 
+  // Returns "knuRobot.glb:3", for descriptions.
+  [[nodiscard]] std::string source(const ast::Name& name) const;
   // Returns false with a message if the name cannot be used.
   bool check_name(const ast::Name& name, NameRole role);
   // Declares `name` in the current namespace.

@@ -54,7 +54,8 @@ class CppWriter {
         hidden_names_(hidden),
         hidden_(hidden[unit]),
         variables_(all_of<schema::Variable>(unit_)),
-        functions_(all_of<schema::Function>(unit_)) {}
+        functions_(all_of<schema::Function>(unit_)),
+        pools_(all_of<schema::Pool>(unit_)) {}
 
   std::string run() {
     head();
@@ -75,6 +76,9 @@ class CppWriter {
     if (!functions_.empty()) {
       out_.line("#include <indurop/function.h>");
     }
+    if (!pools_.empty()) {
+      out_.line("#include <indurop/pool.h>");
+    }
     out_.line("");
     out_.line("#include <array>");
     out_.line("#include <cstddef>");
@@ -87,7 +91,7 @@ class CppWriter {
       out_.line("");
       out_.line("#include \"{}.glb.h\"", program_.units[other].stem);
     }
-    if (!variables_.empty() || !functions_.empty()) {
+    if (!variables_.empty() || !functions_.empty() || !pools_.empty()) {
       schema_text();
     }
   }
@@ -120,6 +124,9 @@ class CppWriter {
     }
     for (const schema::Function* function : functions_) {
       function_tag(*function);
+    }
+    for (const schema::Pool* pool : pools_) {
+      pool_tag(*pool);
     }
     out_.line("}}  // namespace {}", hidden_);
   }
@@ -241,6 +248,15 @@ class CppWriter {
     out_.line("}};");
   }
 
+  void pool_tag(const schema::Pool& pool) {
+    out_.line("struct pool_{} {{", mangled(pool.name));
+    out_.line("  using chunk_type = ::{};", pool.type.name);
+    out_.line("  static constexpr const char* kName = \"{}\";", pool.name);
+    out_.line("  static constexpr ::std::uint64_t kNameHash = {};", hex(pool.name_hash()));
+    out_.line("  static constexpr ::std::uint64_t kTypeHash = {};", hex(pool.type_hash));
+    out_.line("}};");
+  }
+
   // ---- what modules use
 
   void objects() {
@@ -262,6 +278,10 @@ class CppWriter {
         }
         out_.line("inline constexpr ::indurop::Function<::{}::fn_{}, {}({})> {}{{}};{}", hidden_, mangled(f->name),
                   result_type(*f), types, last_of(f->name), HeaderText::comment(f->description));
+      } else if (const auto* p = std::get_if<schema::Pool>(&item)) {
+        out_.enter(scope_of(p->name));
+        out_.line("inline constexpr ::indurop::Pool<::{}::pool_{}> {}{{}};{}", hidden_, mangled(p->name),
+                  last_of(p->name), HeaderText::comment(p->description));
       }
     }
     out_.enter("");
@@ -273,6 +293,7 @@ class CppWriter {
   std::string hidden_;
   std::vector<const schema::Variable*> variables_;
   std::vector<const schema::Function*> functions_;
+  std::vector<const schema::Pool*> pools_;
   HeaderText out_;
 };
 

@@ -116,6 +116,10 @@ class IdlWriter {
     remark("shared function {}: called on its board only, no DDS type", function.name);
   }
 
+  void operator()(const schema::Pool& pool) {
+    remark("pool {}: chunks of {} that stay on their board, no topic", pool.name, pool.type.name);
+  }
+
  private:
   template <class... Argument>
   void line(fmt::format_string<Argument...> format, Argument&&... arguments) {

@@ -120,6 +120,7 @@ std::string emit_layout(const Program& program, const GlbFile& unit) {
   std::string structs;
   std::uint64_t bytes = 0;
   std::string functions;
+  std::string pools;
   for (const Item& item : unit.items) {
     if (const auto* v = std::get_if<schema::Variable>(&item)) {
       bytes += v->type.size();
@@ -137,6 +138,9 @@ std::string emit_layout(const Program& program, const GlbFile& unit) {
       functions +=
           fmt::format("{}: {} bytes of arguments, {} bytes of result\n", f->name,
                       is_void(f->arguments) ? 0 : f->arguments.size(), is_void(f->result) ? 0 : f->result.size());
+    } else if (const auto* p = std::get_if<schema::Pool>(&item)) {
+      pools +=
+          fmt::format("{}: {} chunks of {} bytes, {}\n", p->name, p->type.dims[0], p->type.element_size, p->type.name);
     }
   }
   std::string out = fmt::format("Layout of {}.glb, written by glb2idl: {} variables, {} bytes\n", unit.stem,
@@ -150,6 +154,9 @@ std::string emit_layout(const Program& program, const GlbFile& unit) {
   out += structs;
   if (alarms.size() > 1) {
     out += fmt::format("\n{}", table(alarms, ""));
+  }
+  if (!pools.empty()) {
+    out += fmt::format("\npools\n{}", pools);
   }
   return functions.empty() ? out : fmt::format("{}\nshared functions\n{}", out, functions);
 }

@@ -66,6 +66,7 @@ class TypesWriter {
   }
 
   void operator()(const schema::Variable& /*unused*/) {}
+  void operator()(const schema::Pool& /*unused*/) {}
 
   void operator()(const schema::Function& function) {
     out_.enter(scope_of(function.name));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parses the items of a file: namespaces, includes, #define; everything else is a declaration.
+// Parses the items of a file: namespaces, includes, #define, pools; everything else is a declaration.
 
 #include "glb2idl/parser.h"
 
@@ -7,6 +7,7 @@
 
 #include "glb2idl/declaration_parser.h"
 #include "glb2idl/text.h"
+#include "glb2idl/type_words.h"
 
 namespace indurop::glb2idl {
 namespace {
@@ -53,11 +54,35 @@ class Parser {
       in_.error(in_.take().at, "this '}' closes nothing, remove it");
       return true;
     }
+    if (in_.peek().is("pool") && in_.peek(1).kind == TokenKind::Identifier && in_.peek(2).is("{") &&
+        !in_.peek(1).is("struct")) {
+      in_.error(
+          in_.peek(1).at,
+          fmt::format("the type of a pool's chunks comes first, write pool struct {{ ... }} {}[4];", in_.peek(1).text));
+      return false;
+    }
+    const bool is_pool = pool_follows();
+    if (is_pool) {
+      in_.take();
+    }
     auto found = declarations_.declaration(false);
-    if (found) {
+    if (found && is_pool) {
+      out_.items.emplace_back(ast::Pool{std::move(*found)});
+    } else if (found) {
       out_.items.emplace_back(std::move(*found));
     }
     return found.has_value();
+  }
+
+  // "pool" is a word in front of a type only; elsewhere it is a name, also that of a type: pool x;
+  [[nodiscard]] bool pool_follows() const {
+    const Token& type = in_.peek(1);
+    if (!in_.peek().is("pool") || type.newline_before) {
+      return false;
+    }
+    const bool is_named = type.kind == TokenKind::Identifier &&
+                          (in_.peek(2).kind == TokenKind::Identifier || in_.peek(2).is(".") || in_.peek(2).is("::"));
+    return is_named || type.is("struct") || type.is("@") || is_type_word(type.text);
   }
 
   bool name_space() {

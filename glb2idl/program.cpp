@@ -40,6 +40,7 @@ std::string_view scope_of(const Item& item) noexcept {
     std::string_view operator()(const Alias& a) const noexcept { return scope_of(a.name); }
     std::string_view operator()(const schema::Variable& v) const noexcept { return scope_of(v.name); }
     std::string_view operator()(const schema::Function& f) const noexcept { return scope_of(f.name); }
+    std::string_view operator()(const schema::Pool& p) const noexcept { return scope_of(p.name); }
   };
   return std::visit(Visitor{}, item);
 }
@@ -51,6 +52,8 @@ schema::Schema schema_of(const GlbFile& unit) {
       out.variables.push_back(*variable);
     } else if (const auto* function = std::get_if<schema::Function>(&item)) {
       out.functions.push_back(*function);
+    } else if (const auto* pool = std::get_if<schema::Pool>(&item)) {
+      out.pools.push_back(*pool);
     }
   }
   return out;

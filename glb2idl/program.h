@@ -40,7 +40,7 @@ struct Alias {
   schema::Type type;
 };
 
-using Item = std::variant<Constant, Enumeration, Structure, Alias, schema::Variable, schema::Function>;
+using Item = std::variant<Constant, Enumeration, Structure, Alias, schema::Variable, schema::Function, schema::Pool>;
 
 // One .glb file.
 struct GlbFile {

@@ -48,12 +48,15 @@ void check_agreement(std::span<const BoardView> boards, base::Diagnostics& repor
   Agreement<schema::Variable> variables(report, "variable");
   for (const BoardView& board : boards) {
     Agreement<schema::Function> functions(report, "shared function");  // calls do not leave a board
+    Agreement<schema::Pool> pools(report, "pool");                     // nor do pools
     for (std::size_t i = 0; i < board.result.facts.size(); ++i) {
       const Module& module = board.config.modules[i];
       const schema::Schema& schema = *board.result.facts[i].schema;
       const std::string name = module.name + (board.name.empty() ? "" : "@" + board.name);
       variables.add(name, module.places.file, schema.variables,
                     [](const auto& a, const auto& b) { return schema::first_difference(a.type, b.type); });
+      pools.add(name, module.places.file, schema.pools,
+                [](const auto& a, const auto& b) { return schema::first_difference(a.type, b.type); });
       functions.add(name, module.places.file, schema.functions, [](const auto& a, const auto& b) {
         const std::string arguments = schema::first_difference(a.arguments, b.arguments);
         return !arguments.empty() ? "arguments: " + arguments

@@ -317,6 +317,17 @@ bool read_function(const json& object, Function& to) {
          read_string(object, "source", to.source);
 }
 
+bool read_pool(const json& object, Pool& to) {
+  const json* type = object.is_object() ? member(object, "type") : nullptr;
+  if (type == nullptr || !read_string(object, "name", to.name) || !is_full_name(to.name) ||
+      !read_type(*type, to.type, 0) || to.type.base != Base::Struct || to.type.fields.empty() ||
+      to.type.dims.size() != 1 || to.type.dims[0] < kMinChunks || to.type.dims[0] > kMaxChunks) {
+    return false;
+  }
+  to.type_hash = hash_of(to.type);
+  return read_string(object, "description", to.description) && read_string(object, "source", to.source);
+}
+
 template <class T>
 bool read_list(const json& object, const char* key, bool (*read)(const json&, T&), std::vector<T>& to) {
   const json* list = member(object, key);
@@ -342,7 +353,8 @@ Errc read_line(std::string_view line, Schema& to) {
     return Errc::VersionMismatch;
   }
   const bool good = read_list(object, "variables", read_variable, to.variables) &&
-                    read_list(object, "functions", read_function, to.functions);
+                    read_list(object, "functions", read_function, to.functions) &&
+                    read_list(object, "pools", read_pool, to.pools);
   return good ? Errc::Ok : Errc::Corrupt;
 }
 
@@ -379,16 +391,6 @@ Result<Schema> from_json(std::string_view text) {
     return Error{Errc::TypeMismatch, 0, "one module declares a variable with two types; rebuild all of it"};
   }
   return merged;
-}
-
-std::uint32_t abi_of_json(std::string_view text) noexcept {
-  constexpr std::string_view kKey = "\"abi\":";
-  const std::size_t found = text.substr(0, 64).find(kKey);
-  std::uint32_t abi = 0;
-  if (found != std::string_view::npos) {
-    std::from_chars(text.data() + found + kKey.size(), text.data() + text.size(), abi);
-  }
-  return abi;
 }
 
 }  // namespace indurop::schema

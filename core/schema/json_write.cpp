@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a schema as JSON.
+// Writes a schema as JSON, and reads the version in it.
 
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -130,6 +131,17 @@ ordered_json function_json(const Function& function) {
   return out;
 }
 
+ordered_json pool_json(const Pool& pool) {
+  ordered_json out{{"name", pool.name}, {"type", type_json(pool.type)}};
+  if (!pool.description.empty()) {
+    out["description"] = pool.description;
+  }
+  if (!pool.source.empty()) {
+    out["source"] = pool.source;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string to_json(const Schema& schema) {
@@ -146,7 +158,24 @@ std::string to_json(const Schema& schema) {
       list.push_back(function_json(function));
     }
   }
+  if (!schema.pools.empty()) {
+    ordered_json& list = out["pools"] = ordered_json::array();
+    for (const Pool& pool : schema.pools) {
+      list.push_back(pool_json(pool));
+    }
+  }
   return out.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+}
+
+// The text begins with the two numbers.
+std::uint32_t abi_of_json(std::string_view text) noexcept {
+  constexpr std::string_view kKey = "\"abi\":";
+  const std::size_t found = text.substr(0, 64).find(kKey);
+  std::uint32_t abi = 0;
+  if (found != std::string_view::npos) {
+    std::from_chars(text.data() + found + kKey.size(), text.data() + text.size(), abi);
+  }
+  return abi;
 }
 
 }  // namespace indurop::schema

@@ -100,6 +100,10 @@ std::string difference(const Variable& a, const Variable& b) {
   return types;
 }
 
+std::string difference(const Pool& a, const Pool& b) {
+  return first_difference(a.type, b.type);
+}
+
 std::string difference(const Function& a, const Function& b) {
   const std::string arguments = first_difference(a.arguments, b.arguments);
   if (!arguments.empty()) {
@@ -141,6 +145,7 @@ std::string first_difference(const Type& a, const Type& b) {
 void merge(Schema& into, const Schema& from, std::vector<std::string>& differences) {
   merge_list(into.variables, from.variables, differences);
   merge_list(into.functions, from.functions, differences);
+  merge_list(into.pools, from.pools, differences);
 }
 
 }  // namespace indurop::schema

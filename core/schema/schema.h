@@ -124,9 +124,22 @@ struct Function {
   std::string source;
 };
 
+// A pool of large data: chunks that are filled and read in place, next to the store.
+struct Pool {
+  std::string name;  // full name
+  Type type;         // Base::Struct with one dimension, the number of chunks
+  std::uint64_t type_hash = 0;
+  std::string description;
+  std::string source;
+  [[nodiscard]] std::uint64_t name_hash() const noexcept { return abi::fnv1a64(name.data(), name.size()); }
+};
+inline constexpr std::uint32_t kMinChunks = 2;  // the newest one and one to fill
+inline constexpr std::uint32_t kMaxChunks = 64;
+
 struct Schema {
   std::vector<Variable> variables;
   std::vector<Function> functions;
+  std::vector<Pool> pools;
 };
 
 // Returns the canonical text of a type: everything that must agree for two programs to share its bytes (base types,
@@ -162,8 +175,8 @@ std::uint32_t abi_of_json(std::string_view text) noexcept;
 // Returns the variable with this full name, or nullptr.
 const Variable* find_variable(const Schema& schema, std::string_view name) noexcept;
 
-// Adds `from` to `into`. A variable or function present in both with the same type is kept once; with different types
-// the one in `into` stays and `differences` gets one line, naming the first differing field.
+// Adds `from` to `into`. A variable, function or pool present in both with the same type is kept once; with different
+// types the one in `into` stays and `differences` gets one line, naming the first differing field.
 void merge(Schema& into, const Schema& from, std::vector<std::string>& differences);
 // Returns "field y: double at 8 / float at 8", or empty if equal.
 std::string first_difference(const Type& a, const Type& b);

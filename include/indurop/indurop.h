@@ -9,6 +9,7 @@
 #include <indurop/irp.h>
 #include <indurop/lock.h>
 #include <indurop/module.h>
+#include <indurop/pool.h>
 #include <indurop/print.h>
 #include <indurop/result.h>
 #include <indurop/snapshot.h>

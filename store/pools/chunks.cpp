@@ -180,6 +180,15 @@ std::uint32_t Chunks::release_all(std::uint32_t seat) noexcept {
   return released;
 }
 
+bool Chunks::has_any(std::uint32_t seat) const noexcept {
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    if (header_->holds[i][seat].load(kRelaxed) != 0 || header_->states[i].load(kRelaxed) == filled_by(seat)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::uint32_t Chunks::free() const noexcept {
   const auto latest = newest();
   std::uint32_t free = 0;

@@ -43,6 +43,8 @@ class Chunks {
   // chunks these were. May be repeated, after a call that was interrupted too.
   std::uint32_t release_all(std::uint32_t seat) noexcept;
 
+  // Returns true if the seat has something in its hand.
+  [[nodiscard]] bool has_any(std::uint32_t seat) const noexcept;
   [[nodiscard]] bool is_held(std::uint32_t chunk) const noexcept;
   // Returns how many chunks take() could return now.
   [[nodiscard]] std::uint32_t free() const noexcept;

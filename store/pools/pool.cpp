@@ -237,6 +237,18 @@ void Pool::remove() noexcept {
   (void)vars::remove_shm_file(file_name_);
 }
 
+void remove_others(const std::string& node, const std::vector<std::string>& files) {
+  for (const std::string& name : vars::pool_files(node)) {
+    if (std::ranges::find(files, name) != files.end()) {
+      continue;
+    }
+    if (const auto file = ShmFile::open(name, Mode::ReadWrite); file && check(*file)) {
+      reinterpret_cast<PoolHeader*>(file->data())->retired.store(1, std::memory_order_release);
+    }
+    (void)vars::remove_shm_file(name);
+  }
+}
+
 Shape Pool::shape() const {
   return {std::string(name_in(header())), header().type_hash, header().chunk_bytes, chunk_count_};
 }

@@ -66,6 +66,9 @@ class Pool {
   // were. Called by the node in the background. Does nothing while another process does it.
   std::uint32_t sweep() noexcept;
 
+  // Returns false if the node has another file for this pool, or none. Not real-time safe.
+  [[nodiscard]] bool is_current() const noexcept { return !retired() && file_.named() == vars::ShmFile::Named::Whole; }
+
   // For its creator at the end: processes that use it find it retired, and the file is removed.
   void remove() noexcept;
   [[nodiscard]] bool retired() const noexcept { return header().retired.load(std::memory_order_acquire) != 0; }
@@ -91,5 +94,8 @@ class Pool {
   std::uint64_t stride_;
   std::uint64_t data_offset_;
 };
+
+// Retires and removes the files of a node's pools that are not among `files`. Only for the holder of the node lock.
+void remove_others(const std::string& node, const std::vector<std::string>& files);
 
 }  // namespace indurop::pools

@@ -107,6 +107,10 @@ void detach_process() {
   Process::get().unhost();
 }
 
+void release_chunks_of(std::uint32_t module) noexcept {
+  Process::get().release_chunks_of(module);
+}
+
 std::vector<std::string> take_binding_errors() {
   return Process::get().take_errors();
 }

@@ -114,6 +114,9 @@ Status start_function_servers(int fifo_priority, int core);
 void stop_function_servers();
 // For a thread that left a module because of a fault: abandons the call it was waiting in. Real-time safe.
 void release_calls_of_this_thread() noexcept;
+// For a module that left its code because of a fault: frees the chunks of pools that it had in its hand. Real-time
+// safe.
+void release_chunks_of(std::uint32_t module) noexcept;
 // For the handlers of the node: a fault in a shared function served here, or inside irp::guarded(), is caught by a
 // jump; else it returns. Real-time safe.
 bool catch_fault(int number, void* address) noexcept;

@@ -85,8 +85,12 @@ Process::Process() {
   hot.process_module.store(index, std::memory_order_relaxed);
 }
 
-void Process::register_refs(abi::Ref* refs, std::uint32_t count) {
-  const std::lock_guard lock(mutex_);
+std::string Process::node_in_use() const {
+  const Attachment* attachment = hot.attachment.load(std::memory_order_relaxed);
+  return attachment != nullptr ? attachment->node() : "";
+}
+
+void Process::attach_at_load() {
   if (!std::exchange(tried_at_load_, true) && !hosted() && binds_at_load()) {
     std::size_t unbound = 0;
     const Status status = attach_locked(default_node(), unbound);
@@ -95,6 +99,11 @@ void Process::register_refs(abi::Ref* refs, std::uint32_t count) {
                          to_string(status.error().code), status.error().where));
     }
   }
+}
+
+void Process::register_refs(abi::Ref* refs, std::uint32_t count) {
+  const std::lock_guard lock(mutex_);
+  attach_at_load();
   report_all(tables_.add(refs, count, hot.attachment.load(std::memory_order_relaxed)));
 }
 
@@ -103,8 +112,36 @@ void Process::unregister_refs(const abi::Ref* refs) {
   tables_.remove(refs);
 }
 
+void Process::register_pool(abi::PoolUse& use) {
+  const std::lock_guard lock(mutex_);
+  attach_at_load();
+  report_all(pools_.add(use, current_module(), node_in_use()));
+}
+
+void Process::unregister_pool(abi::PoolUse& use) {
+  const std::lock_guard lock(mutex_);
+  pools_.remove(use);
+}
+
+bool Process::pool_is_missing() noexcept {
+  constexpr std::int64_t kSearchNs = 100'000'000;
+  const std::int64_t now = rt::now_ns();
+  if (hosted() || now < next_search_ns_.load(std::memory_order_relaxed)) {
+    return false;
+  }
+  next_search_ns_.store(now + kSearchNs, std::memory_order_relaxed);
+  if (hot.process_module.load(std::memory_order_relaxed) != kNoModule) {
+    pools_missing_.store(true, std::memory_order_relaxed);
+    return false;
+  }
+  const std::lock_guard lock(mutex_);
+  report_all(pools_.search(node_in_use()));
+  return true;
+}
+
 void Process::bind_apart(const void* inside) {
   const std::lock_guard lock(mutex_);
+  pools_.bind_apart(inside);
   if (const Attachment* attachment = hot.attachment.load(std::memory_order_relaxed); attachment != nullptr) {
     tables_.bind_apart(inside, *attachment);
   }
@@ -114,6 +151,7 @@ void Process::bind_back(const void* inside) {
   const std::lock_guard lock(mutex_);
   if (const Attachment* attachment = hot.attachment.load(std::memory_order_relaxed); attachment != nullptr) {
     tables_.bind_back(inside, *attachment);
+    pools_.bind_back(inside, attachment->node());
   }
 }
 
@@ -133,7 +171,7 @@ Status Process::attach_locked(const std::string& node, std::size_t& unbound) {
     current = keep(attachments_, std::move(opened).value());
     hot.attachment.store(current, std::memory_order_release);
   }
-  unbound = report_all(tables_.bind(current));
+  unbound = report_all(tables_.bind(current)) + report_all(pools_.bind(current->node()));
   return {};
 }
 
@@ -142,6 +180,10 @@ void Process::refresh() noexcept {
   if (current != nullptr && current->retired() && !hosted()) [[unlikely]] {
     std::size_t unbound = 0;
     (void)attach(current->node(), unbound);  // not there at this moment: the old block stays usable, retried later
+  } else if (pools_missing_.load(std::memory_order_relaxed)) [[unlikely]] {
+    const std::lock_guard lock(mutex_);
+    pools_missing_.store(false, std::memory_order_relaxed);
+    report_all(pools_.search(node_in_use()));
   }
 }
 
@@ -164,6 +206,9 @@ std::vector<std::string> Process::host(vars::Store& store, scheduler::RunBlock& 
   for (const BindingProblem& problem : tables_.bind(attachment)) {
     lines.push_back(problem.text);
   }
+  for (const BindingProblem& problem : pools_.bind(attachment->node())) {
+    lines.push_back(problem.text);
+  }
   return lines;
 }
 
@@ -172,6 +217,7 @@ void Process::unhost() {
   hot.run.store(nullptr, std::memory_order_release);
   hot.attachment.store(nullptr, std::memory_order_release);
   (void)tables_.bind(nullptr);
+  (void)pools_.bind("");
   attachments_.clear();  // they borrow the store, which the node is about to close
   hosted_.store(false, std::memory_order_release);
 }

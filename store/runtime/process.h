@@ -19,6 +19,7 @@
 
 #include "store/runtime/attachment.h"
 #include "store/runtime/call_server.h"
+#include "store/runtime/pool_bindings.h"
 #include "store/runtime/ref_tables.h"
 #include "store/runtime/run_mapping.h"
 
@@ -45,6 +46,14 @@ class Process {
   // At load: binds to the default node if it exists. Later calls bind to whatever the process is bound to.
   void register_refs(abi::Ref* refs, std::uint32_t count);
   void unregister_refs(const abi::Ref* refs);
+  // The same for pools.
+  void register_pool(abi::PoolUse& use);
+  void unregister_pool(abi::PoolUse& use);
+  // A use found no pool, or a retired one. A process that waits for periods searches for it there; another one does it
+  // now, at most ten times a second. Returns true if it did. Real-time safe in modules.
+  bool pool_is_missing() noexcept;
+  // See host.h.
+  void release_chunks_of(std::uint32_t module) noexcept { pools_.release_of(module); }
 
   // See host.h.
   void bind_apart(const void* inside);
@@ -74,11 +83,16 @@ class Process {
 
  private:
   Process();
+  void attach_at_load();
+  [[nodiscard]] std::string node_in_use() const;
   std::size_t report_all(const std::vector<BindingProblem>& problems);
   Status attach_locked(const std::string& node, std::size_t& unbound);
 
   std::recursive_mutex mutex_;
   RefTables tables_;
+  PoolBindings pools_;
+  std::atomic<bool> pools_missing_{false};
+  std::atomic<std::int64_t> next_search_ns_{0};  // for pools
   bool tried_at_load_ = false;
   std::atomic<bool> hosted_{false};
   std::deque<std::unique_ptr<Attachment>> attachments_;  // the newest is in use

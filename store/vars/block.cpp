@@ -161,6 +161,7 @@ Result<BlockPlan> plan_block(const schema::Schema& schema) {
   const auto by_name = [](const auto& a, const auto& b) { return a.name < b.name; };
   std::sort(plan.schema.variables.begin(), plan.schema.variables.end(), by_name);
   std::sort(plan.schema.functions.begin(), plan.schema.functions.end(), by_name);
+  std::sort(plan.schema.pools.begin(), plan.schema.pools.end(), by_name);
   if (Status status = plan_entries(plan); !status) {
     return status.error();
   }
