@@ -49,18 +49,26 @@ Ending no_memory(const char* what, const Error& error, const Console& console) {
   return Ending{kFailed};
 }
 
-// Values of the last run are kept after a crash; an orderly new run begins with initial and retained ones.
-void begin_values(vars::Store& store, Retainer& retainer, bool previous_run_ended_well, Console& console) {
+// Values of the last run are kept after a crash; an orderly new run begins with initial and retained ones, a simulation
+// with initial ones. Returns what retains values, null in a simulation.
+std::unique_ptr<Retainer> begin_values(const Options& options, vars::Store& store, bool previous_run_ended_well,
+                                       Console& console) {
+  if (options.simulation.on) {
+    store.reset(false);
+    return nullptr;
+  }
+  auto retainer = std::make_unique<Retainer>(store, options.node);
   if (store.origin() == vars::Origin::Fresh) {
-    retainer.load(console, false);
-    return;
+    retainer->load(console, false);
+    return retainer;
   }
   if (previous_run_ended_well) {
     store.reset(true);
   }
   if (store.origin() == vars::Origin::CarriedOver) {
-    retainer.load(console, true);
+    retainer->load(console, true);
   }
+  return retainer;
 }
 
 void begin_run(scheduler::RunBlock& run, const scheduler::RunBlockSetup& setup, const scheduler::Obtained& obtained) {
@@ -173,6 +181,10 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
   if (!rights) {
     return std::move(rights).error();
   }
+  auto pools = PoolsPart::create(options.node, checked.check.schema);  // before the store: who sees that, finds them
+  if (!pools) {
+    return no_memory("the pools", pools.error(), console);
+  }
   auto made = vars::Store::create(options.node, checked.check.schema);
   if (!made) {
     return no_memory("the shared variables", made.error(), console);
@@ -190,13 +202,7 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
     (void)vars::remove_shm_file(vars::mirror_file(options.node));  // left by an earlier run as a board
   }
   auto failsafe = std::make_unique<FailSafe>(*store, checked.config);
-  std::unique_ptr<Retainer> retainer;
-  if (options.simulation.on) {
-    store->reset(false);
-  } else {
-    retainer = std::make_unique<Retainer>(*store, options.node);
-    begin_values(*store, *retainer, previous_run_ended_well, console);
-  }
+  auto retainer = begin_values(options, *store, previous_run_ended_well, console);
   auto tape = make_tape(options, checked, setup.basic_period_ns, *store, console);
   if (!tape) {
     return no_memory("the tape", tape.error(), console);
@@ -209,9 +215,9 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
   if (const auto custody = vars::Custody::create(options.node); !custody) {
     return no_memory("its write lock", custody.error(), console);
   }
-  return Prepared{std::move(name).value(), std::move(rights).value(), std::move(setup),
-                  std::move(store),        std::move(file).value(),   std::move(failsafe),
-                  std::move(retainer),     std::move(tape).value(),   std::move(batch).value()};
+  return Prepared{std::move(name).value(), std::move(rights).value(), std::move(setup),    std::move(pools).value(),
+                  std::move(store),        std::move(file).value(),   std::move(failsafe), std::move(retainer),
+                  std::move(tape).value(), std::move(batch).value()};
 }
 
 }  // namespace indurop::node

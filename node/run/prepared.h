@@ -10,6 +10,7 @@
 
 #include "node/modules/failsafe.h"
 #include "node/modules/retainer.h"
+#include "node/parts/pools_part.h"
 #include "node/run/checked.h"
 #include "node/run/rights.h"
 #include "scheduler/run_block_setup.h"
@@ -46,6 +47,7 @@ struct Prepared {
   ClaimedName name;
   Rights rights;
   scheduler::RunBlockSetup setup;
+  PoolsPart pools;
   std::unique_ptr<vars::Store> store;
   vars::RunFile run_file;
   std::unique_ptr<FailSafe> failsafe;

@@ -252,6 +252,7 @@ Ending Running::supervise() {
     }
     const rt::MonoTime now = rt::MonoClock::now();
     prepared_.store->beat(now);
+    prepared_.pools.sweep(now);
     if (number != 0) {
       ending = {number == SIGINT ? kInterrupted : kOk, fmt::format("signal {} ({})", number, ::strsignal(number))};
       break;

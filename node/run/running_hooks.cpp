@@ -15,6 +15,7 @@ scheduler::Hooks Running::plain_hooks() {
     const Prepared& prepared = static_cast<Running*>(context)->prepared_;
     prepared.store->release_locks_of_this_thread();
     runtime::release_calls_of_this_thread();
+    runtime::release_chunks_of(module);
     prepared.failsafe->apply(module);
   };
   hooks.stop_node = [](void* context, std::uint32_t module, const char* /*reason*/) noexcept {
