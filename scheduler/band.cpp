@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scheduler/band.h"
 
+#include <algorithm>
 #include <csignal>
+#include <utility>
 
 #include "core/rt/relaxed.h"
 
@@ -24,10 +26,16 @@ Band::Band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<Task
       trace_(trace),
       runner_(block, kernel, hooks, trace, tasks_.size()),
       basic_period_ns_(basic_period_ns),
-      period_ticks_(static_cast<std::uint64_t>(plan.period_ns / basic_period_ns)),
-      offset_ticks_(static_cast<std::uint64_t>(plan.offset_ns / basic_period_ns)),
-      next_due_(offset_ticks_) {
+      grid_{static_cast<std::uint64_t>(plan.period_ns / basic_period_ns),
+            static_cast<std::uint64_t>(plan.offset_ns / basic_period_ns)},
+      next_due_(grid_.offset) {
   wake_.init(false);
+  arrived_.reserve(tasks_.size());
+}
+
+bool is_leaving(const TaskState& state) noexcept {
+  const Band* band = state.leaving.load(std::memory_order_seq_cst);
+  return band != nullptr && !band->has_done(band->released());
 }
 
 bool Band::any_enabled() const noexcept {
@@ -44,7 +52,7 @@ bool Band::outstanding() const noexcept {
   return done_.load(std::memory_order_seq_cst) != released_.load(std::memory_order_seq_cst);
 }
 
-bool Band::busy() const noexcept {
+bool Band::is_busy() const noexcept {
   if (outstanding()) {
     return true;
   }
@@ -63,19 +71,40 @@ std::uint64_t Band::activity() const noexcept {
   return 2 * done + (released_word.load(std::memory_order_acquire) != done ? 1 : 0);
 }
 
+void Band::skip(TaskState& state, std::uint64_t releases) noexcept {
+  if (state.task.operation == Operation::Periodic && !state.is_closed()) {
+    count(state.record->skipped, releases);
+  }
+}
+
 void Band::skip(std::uint64_t releases) noexcept {
   for (TaskState* state : tasks_) {
-    if (state->task.operation == Operation::Periodic && !state->is_closed()) {
-      count(state->record->skipped, releases);
+    skip(*state, releases);
+  }
+}
+
+// Once the last run by the schedule before is over, no other begins.
+std::span<TaskState* const> Band::tasks_to_run() noexcept {
+  if (!some_leave_) [[likely]] {
+    return tasks_;
+  }
+  arrived_.clear();
+  for (TaskState* state : tasks_) {
+    if (is_leaving(*state)) {
+      skip(*state, 1);
+    } else {
+      arrived_.push_back(state);
     }
   }
+  some_leave_ = arrived_.size() < tasks_.size();
+  return arrived_;
 }
 
 void Band::release_due(std::uint64_t tick, rt::MonoTime epoch) noexcept {
   if (tick >= next_due_) {
-    const std::uint64_t due_count = (tick - next_due_) / period_ticks_ + 1;
-    const std::uint64_t latest = next_due_ + (due_count - 1) * period_ticks_;
-    next_due_ = latest + period_ticks_;
+    const std::uint64_t due_count = (tick - next_due_) / grid_.period + 1;
+    const std::uint64_t latest = next_due_ + (due_count - 1) * grid_.period;
+    next_due_ = latest + grid_.period;
     if (due_count > 1) {
       skip(due_count - 1);
     }
@@ -88,12 +117,27 @@ void Band::release_due(std::uint64_t tick, rt::MonoTime epoch) noexcept {
 
 void Band::miss_due(std::uint64_t end_tick) noexcept {
   if (end_tick > next_due_) {
-    skip((end_tick - 1 - next_due_) / period_ticks_ + 1);
+    skip((end_tick - 1 - next_due_) / grid_.period + 1);
     next_due_ = end_tick;
   }
 }
 
+void Band::leave_at(std::uint64_t tick) noexcept {
+  miss_due(tick);
+  skip(std::exchange(owed_, 0));
+  decided_tick_.store(tick, std::memory_order_seq_cst);
+}
+
+void Band::begin_at(std::uint64_t tick) noexcept {
+  const std::uint64_t since = tick > grid_.offset ? tick - grid_.offset : 0;
+  next_due_ = grid_.offset + (since + grid_.period - 1) / grid_.period * grid_.period;
+  some_leave_ = std::any_of(tasks_.begin(), tasks_.end(), [](const TaskState* state) { return is_leaving(*state); });
+}
+
 void Band::release(const Release& release) noexcept {
+  if (plan_.kind == BandKind::Process && tasks_to_run().empty()) {
+    return;
+  }
   if (plan_.kind == BandKind::Process && !waits_for_others()) {
     release_process(*tasks_.front(), release);
     return;
@@ -176,10 +220,11 @@ void Band::run_inline(std::uint64_t tick, rt::MonoTime release, std::uint64_t lo
     }
   }
   released_.store(released_.load(kRelaxed) + 1, std::memory_order_seq_cst);
-  runner_.run(tasks_, tick, release);
+  running_ = tasks_to_run();
+  runner_.run(running_, tick, release);
   find_inline_overrun(tick, rt::to_ns(release));
   for (; owed_ > 0 && kernel_.now() < release + std::chrono::nanoseconds(basic_period_ns_); --owed_) {
-    runner_.run(tasks_, tick, release);
+    runner_.run(running_, tick, release);
   }
   done_.store(released_.load(kRelaxed), std::memory_order_seq_cst);
   next_due_ = tick + 1;
@@ -194,7 +239,7 @@ bool Band::gate_open(std::uint64_t tick, bool& poll) const noexcept {
       continue;
     }
     // All of them: two of equal priority on two cores do not wait for one another.
-    if (before.decided_tick_.load(std::memory_order_seq_cst) <= tick || before.busy()) {
+    if (before.decided_tick_.load(std::memory_order_seq_cst) <= tick || before.is_busy()) {
       poll = before.plan_.kind == BandKind::Process;
       return false;
     }
@@ -229,14 +274,15 @@ void Band::drain() noexcept {
     if (plan_.kind == BandKind::Process) {
       release_process(*tasks_.front(), now);
     } else {
-      runner_.run(tasks_, now.tick, now.time);
+      running_ = tasks_to_run();
+      runner_.run(running_, now.tick, now.time);
     }
     for (TaskState* process : processes_) {
       release_process(*process, now);
     }
     done_.store(number + 1, std::memory_order_seq_cst);
-    if (on_done_ != nullptr) {
-      on_done_(on_done_context_);
+    if (on_done_.function != nullptr) {
+      on_done_.function(on_done_.context);
     }
     if (hooks_.worked != nullptr) {
       hooks_.worked(hooks_.context);

@@ -21,6 +21,9 @@ struct Release {
   rt::MonoTime time;
 };
 
+// Returns true if a run of the module by the schedule before may be in progress. Real-time safe, any thread.
+bool is_leaving(const TaskState& state) noexcept;
+
 class Band {
  public:
   // Maximum number of outstanding releases under OverrunPolicy::CatchUp; more are skipped.
@@ -32,7 +35,7 @@ class Band {
 
   [[nodiscard]] const BandPlan& plan() const noexcept { return plan_; }
   [[nodiscard]] bool due(std::uint64_t tick) const noexcept {
-    return tick >= offset_ticks_ && (tick - offset_ticks_) % period_ticks_ == 0;
+    return tick >= grid_.offset && (tick - grid_.offset) % grid_.period == 0;
   }
 
   // Bands that must have finished their part of a tick before this one starts it, nearest last. Set once, before start.
@@ -51,6 +54,12 @@ class Band {
   // Tick thread, only for bands that run in it: runs the band at once. `lost` = ticks that never began.
   void run_inline(std::uint64_t tick, rt::MonoTime release, std::uint64_t lost) noexcept;
 
+  // Tick thread, when another schedule takes over with this tick. The band of the schedule before: what was due in
+  // earlier ticks and was not released never will be. That of the new one: nothing before the tick is due. Its tasks
+  // that are leaving are left out until they have left.
+  void leave_at(std::uint64_t tick) noexcept;
+  void begin_at(std::uint64_t tick) noexcept;
+
   // Body of the band thread (for a process: of the thread that waits in its place). Returns when stop() was called.
   void loop() noexcept;
   void stop() noexcept;
@@ -64,6 +73,9 @@ class Band {
     return done_.load(std::memory_order_seq_cst) >= release;
   }
 
+  // Returns true if releases have not been started, or a run is in progress. Any thread.
+  [[nodiscard]] bool is_busy() const noexcept;
+
   // If the band sleeps until a predecessor is done, it checks again. Any thread.
   void check_again() noexcept;
 
@@ -72,11 +84,9 @@ class Band {
 
   [[nodiscard]] Runner& runner() noexcept { return runner_; }
   [[nodiscard]] std::span<TaskState* const> tasks() const noexcept { return tasks_; }
+  [[nodiscard]] std::span<TaskState* const> processes() const noexcept { return processes_; }
   // Sets the callback for when the band has finished a tick and others may wait for it.
-  void set_done_callback(void (*callback)(void*) noexcept, void* context) noexcept {
-    on_done_ = callback;
-    on_done_context_ = context;
-  }
+  void set_done_callback(void (*callback)(void*) noexcept, void* context) noexcept { on_done_ = {callback, context}; }
   // Counts the last run of a process module and the samples the jitter reference still holds. After the threads ended.
   void finish() noexcept;
 
@@ -84,32 +94,42 @@ class Band {
   void release(const Release& release) noexcept;
   void overrun(const Release& release) noexcept;
   void skip(std::uint64_t releases) noexcept;
+  static void skip(TaskState& state, std::uint64_t releases) noexcept;
+  std::span<TaskState* const> tasks_to_run() noexcept;
   void release_process(TaskState& state, const Release& release) noexcept;
   void account_process(TaskState& state) noexcept;
   void find_inline_overrun(std::uint64_t tick, std::int64_t release_ns) noexcept;
   void apply_policy(TaskState& culprit, std::uint64_t tick, std::int64_t own_ns) noexcept;
   void record_overrun(TaskState& culprit, std::uint64_t tick, bool started, std::int64_t release_ns) noexcept;
   [[nodiscard]] bool outstanding() const noexcept;
-  [[nodiscard]] bool busy() const noexcept;
   [[nodiscard]] bool gate_open(std::uint64_t tick, bool& poll) const noexcept;
   [[nodiscard]] bool any_enabled() const noexcept;
 
   BandPlan plan_;
   std::vector<TaskState*> tasks_;
   std::vector<TaskState*> processes_;
+  std::vector<TaskState*> arrived_;      // while some are leaving: those that are not; never grows
+  std::span<TaskState* const> running_;  // those of the run in progress or the last one
+  bool some_leave_ = false;
   RunBlock& block_;
   Kernel& kernel_;
   Hooks hooks_;
   CoreTrace& trace_;
   Runner runner_;
   std::int64_t basic_period_ns_;
-  std::uint64_t period_ticks_;
-  std::uint64_t offset_ticks_;
+  struct Grid {
+    std::uint64_t period;
+    std::uint64_t offset;
+  };
+  Grid grid_;  // of releases, in ticks
   std::uint64_t next_due_;
   std::uint64_t owed_ = 0;  // inline catch-up: runs still to be made up for
   std::vector<Band*> predecessors_;
-  void (*on_done_)(void*) noexcept = nullptr;
-  void* on_done_context_ = nullptr;
+  struct DoneCallback {
+    void (*function)(void*) noexcept = nullptr;
+    void* context = nullptr;
+  };
+  DoneCallback on_done_;
 
   rt::SignalWord wake_{};
   std::array<Release, kBacklog> pending_{};

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -14,23 +15,12 @@
 #include <vector>
 
 #include "core/rt/thread.h"
-#include "scheduler/band.h"
-#include "scheduler/core_order.h"
-#include "scheduler/tick_wait.h"
+#include "scheduler/change_proposal.h"
+#include "scheduler/engine_settings.h"
+#include "scheduler/retirement.h"
+#include "scheduler/schedule.h"
 
 namespace indurop::scheduler {
-
-struct EngineSettings {
-  std::int64_t basic_period_ns = 0;
-  int primary_core = 0;
-  CoreOrder order = CoreOrder::Total;
-  bool realtime = true;  // false: SCHED_FIFO is not available; the order is then kept by waiting
-  SpinSettings spin;
-  // Tick 0 falls on a time that leaves the remainder `phase_ns` when divided by `grid_ns` (0: as soon as possible).
-  std::int64_t grid_ns = 0;
-  std::int64_t phase_ns = 0;
-  std::int64_t stop_grace_ns = 1'000'000'000;  // how long a module may still run once the node stops
-};
 
 class Engine {
  public:
@@ -77,31 +67,60 @@ class Engine {
   // Ends the runs in progress as faults of their modules, however short they have run. Any thread.
   void end_runs_in_progress() noexcept;
 
+  // Another schedule takes over while the engine runs, on all cores before the same tick. The same thread as for
+  // disable(), which is not called meanwhile from Waiting on.
+  enum class Change : std::uint8_t {
+    None,
+    Prepared,  // its bands and threads are there
+    Waiting,   // for its first tick
+    Leaving,   // it runs; runs of the schedule before may be in progress
+  };
+  // Adds a module that no schedule has yet, or replaces the code of one that none has any more. There is room for
+  // kSpareModules.
+  void offer(const Task& task);
+  // Returns true if modules can run on this core without a restart.
+  [[nodiscard]] bool has_core(int number) const noexcept;
+  // Builds the schedule of these tasks, which refer to modules of this engine on the cores on which they run; `run` and
+  // `condition` do not count. Errors: Busy (another change is in progress), InvalidArgument (another module,
+  // another core), those of rt::Thread::start().
+  Status prepare_change(std::span<const Task> tasks);
+  // From the first moment of `tick` on the prepared schedule counts; its releases are counted from tick 0, as all are.
+  // On one core it waits for a tick in which no run of the periodic modules is in progress, in steps of `step` ticks,
+  // and is Prepared again if there is none until `last`. On several cores it does not wait: a module whose run by the
+  // schedule before is in progress then is left out until it is over, and that is counted as skipped. Returns false if
+  // a core has begun that tick: nothing has changed, choose a later one.
+  bool change_at(const ChangeProposal::Time& time) noexcept;
+  // Ends what was prepared. Has no effect from Waiting on.
+  void drop_change() noexcept;
+  // Continues, and returns where it is. Called repeatedly until None.
+  Change follow_change() noexcept;
+  // First tick of the schedule that took over last.
+  [[nodiscard]] std::uint64_t changed_at() const noexcept { return changed_at_; }
+
   // After finished() or request_stop(): waits for all threads, ends modules that do not return, completes statistics.
   void join() noexcept;
 
   // Returns the band that runs a module, by its index in the block's records. Null: none, or the scheduler does not see
-  // the end of its runs (a process that handles events, or is woken by a signal). Lives as long as the engine.
-  [[nodiscard]] const Band* band_of(std::uint32_t module) const noexcept { return find_band(module); }
+  // the end of its runs (a process that handles events, or is woken by a signal). Lives until the schedule changes.
+  [[nodiscard]] const Band* band_of(std::uint32_t module) const noexcept { return schedule_->find_band(module); }
 
   // Runs one tick with everything on the calling thread and no threads: for tests with a clock of their own.
   void step(std::uint64_t tick, rt::MonoTime epoch) noexcept;
 
  private:
   struct Core;
-  void build_periodic(const std::vector<TaskState*>& periodic);
-  void build_sporadic(const std::vector<TaskState*>& sporadic);
-  void add_band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<TaskState*> processes = {});
-  void connect_predecessors();
   Core& core(int number);
+  void add_state(const Task& task);
+  [[nodiscard]] Schedule::Parts schedule_parts();
   [[nodiscard]] TaskState* thread_module(std::uint32_t module) const noexcept;
-  [[nodiscard]] Band* find_band(std::uint32_t module) const noexcept;
-  Status start_band_threads();
   Status start_watchdog();
   void tick_loop(Core& core, std::uint64_t ticks) noexcept;
   void end_run(Core& core, std::uint64_t ticks, std::uint64_t lost) noexcept;
   void do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept;
-  void wake_waiting() noexcept;
+  std::uint64_t follow(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept;
+  void take_over(Core& core, std::uint64_t tick) noexcept;
+  void note_change() noexcept;
+  bool follow_retirement() noexcept;
   void watchdog_loop() noexcept;
   [[nodiscard]] std::int64_t epoch_ns() const noexcept { return block_.epoch_ns.load(std::memory_order_relaxed); }
 
@@ -111,10 +130,16 @@ class Engine {
   Kernel& kernel_;
   std::vector<std::unique_ptr<TaskState>> states_;
   std::vector<std::unique_ptr<Core>> cores_;  // the primary core first
-  std::vector<std::unique_ptr<Band>> bands_;  // periodic ones in execution order, then after-base, then event handler
-  std::vector<std::unique_ptr<KernelThread>> threads_;
+  std::unique_ptr<Schedule> schedule_;
+  std::vector<std::unique_ptr<KernelThread>> threads_;  // of the ticks
   std::unique_ptr<KernelThread> watchdog_;
-  bool gated_ = false;  // bands wait for their predecessors explicitly
+  // A change of the schedule.
+  std::unique_ptr<Schedule> next_;  // prepared
+  ChangeProposal proposal_;         // its tick
+  std::uint64_t changed_at_ = 0;
+  Retirement retirement_;                                  // of the schedule before, or of one that was dropped
+  std::array<std::atomic<const Schedule*>, 2> watched_{};  // by the watchdog
+  std::atomic<std::uint64_t> watchdog_passes_{0};
   std::atomic<bool> stop_{false};
   std::atomic<bool> stop_watchdog_{false};
   std::atomic<int> ticking_{0};

@@ -16,18 +16,9 @@ TaskState* Engine::thread_module(std::uint32_t module) const noexcept {
   return nullptr;
 }
 
-Band* Engine::find_band(std::uint32_t module) const noexcept {
-  const auto found = std::find_if(bands_.begin(), bands_.end(), [module](const auto& band) {
-    return std::any_of(band->tasks().begin(), band->tasks().end(), [module](const TaskState* state) {
-      return state->task.index == module && state->task.legacy_signal == 0;
-    });
-  });
-  return found == bands_.end() ? nullptr : found->get();
-}
-
 bool Engine::disable(std::uint32_t module) noexcept {
   TaskState* state = thread_module(module);
-  const Band* band = state == nullptr ? nullptr : find_band(module);
+  const Band* band = state == nullptr ? nullptr : schedule_->find_band(module);
   if (band == nullptr) {
     return false;
   }
@@ -38,7 +29,7 @@ bool Engine::disable(std::uint32_t module) noexcept {
 
 bool Engine::watch(std::uint32_t module, Exchange& exchange) noexcept {
   TaskState* state = thread_module(module);
-  const Band* band = state == nullptr ? nullptr : find_band(module);
+  const Band* band = state == nullptr ? nullptr : schedule_->find_band(module);
   if (band == nullptr || state->is_closed()) {
     return false;
   }
@@ -51,7 +42,7 @@ bool Engine::watch(std::uint32_t module, Exchange& exchange) noexcept {
 
 bool Engine::unwatch(std::uint32_t module) noexcept {
   TaskState* state = thread_module(module);
-  const Band* band = state == nullptr ? nullptr : find_band(module);
+  const Band* band = state == nullptr ? nullptr : schedule_->find_band(module);
   if (band == nullptr) {
     return false;
   }
@@ -63,8 +54,8 @@ bool Engine::unwatch(std::uint32_t module) noexcept {
 
 bool Engine::has_passed(std::uint32_t module) const noexcept {
   const TaskState* state = thread_module(module);
-  const Band* band = state == nullptr ? nullptr : find_band(module);
-  return band == nullptr || band->has_done(state->last_release);
+  const Band* band = state == nullptr ? nullptr : schedule_->find_band(module);
+  return band == nullptr || (band->has_done(state->last_release) && !is_leaving(*state));
 }
 
 void Engine::replace_closed(std::uint32_t module, const Exchange::Code& code) noexcept {
@@ -76,12 +67,15 @@ void Engine::replace_closed(std::uint32_t module, const Exchange::Code& code) no
 
 bool Engine::at_rest(std::uint32_t module) noexcept {
   TaskState* state = thread_module(module);
-  Band* band = state == nullptr ? nullptr : find_band(module);
-  if (band == nullptr || band->has_done(state->last_release)) {
+  Band* band = state == nullptr ? nullptr : schedule_->find_band(module);
+  if (band == nullptr || has_passed(module)) {
     return true;
   }
-  if (band->runner().current() == state) {
-    band->runner().enforce_budget(kernel_.now(), true, settings_.stop_grace_ns);
+  for (const Schedule* schedule : {schedule_.get(), retirement_.schedule()}) {
+    Band* one = schedule == nullptr ? nullptr : schedule->find_band(module);
+    if (one != nullptr && one->runner().current() == state) {
+      one->runner().enforce_budget(kernel_.now(), true, settings_.stop_grace_ns);
+    }
   }
   return false;
 }
@@ -89,8 +83,8 @@ bool Engine::at_rest(std::uint32_t module) noexcept {
 // The thread sets the module as its current one before it counts the entry, so the count is read first.
 std::optional<std::uint64_t> Engine::entries_if_outside(std::uint32_t module) const noexcept {
   const TaskState* state = thread_module(module);
-  Band* band = state == nullptr ? nullptr : find_band(module);
-  if (band == nullptr) {
+  Band* band = state == nullptr ? nullptr : schedule_->find_band(module);
+  if (band == nullptr || next_ != nullptr || retirement_.schedule() != nullptr) {
     return std::nullopt;
   }
   const std::uint64_t entries = band->runner().entries();
@@ -100,8 +94,10 @@ std::optional<std::uint64_t> Engine::entries_if_outside(std::uint32_t module) co
 
 void Engine::end_runs_in_progress() noexcept {
   const rt::MonoTime late = kernel_.now() + std::chrono::nanoseconds(settings_.stop_grace_ns);
-  for (const auto& band : bands_) {
-    band->runner().enforce_budget(late, true, 0);
+  for (const auto& watched : watched_) {
+    if (const Schedule* schedule = watched.load(std::memory_order_acquire); schedule != nullptr) {
+      schedule->enforce_budgets(late, true, 0);
+    }
   }
 }
 

@@ -35,7 +35,7 @@ ModuleCommand waiting_command(const ModuleRecord& record) noexcept {
   const std::uint64_t command = record.command.load(std::memory_order_acquire);
   const std::uint64_t answer = record.answer.load(std::memory_order_relaxed);
   const std::uint64_t what = command & kWhat;
-  const bool known = what <= static_cast<std::uint64_t>(ModuleCommand::Exchange);
+  const bool known = what <= static_cast<std::uint64_t>(ModuleCommand::Schedule);
   return command >> kTicketShift != answer >> kTicketShift && known ? static_cast<ModuleCommand>(what)
                                                                     : ModuleCommand::None;
 }

@@ -21,6 +21,8 @@ enum class ModuleCommand : std::uint8_t {
   // Exchange several modules; it is placed at the first module of the node, and a request in the node's folder says
   // what (store/operate/exchange_set.h).
   Exchange,
+  // Another schedule, in the same way (store/operate/schedule_request.h).
+  Schedule,
 };
 enum class CommandResult : std::uint8_t {
   None,       // not answered yet

@@ -50,19 +50,19 @@ void Band::record_overrun(TaskState& culprit, std::uint64_t tick, bool started, 
 void Band::find_inline_overrun(std::uint64_t tick, std::int64_t release_ns) noexcept {
   const std::int64_t next = release_ns + basic_period_ns_;
   std::size_t i = 0;
-  while (i < tasks_.size() && runner_.times(i).end_ns <= next) {
+  while (i < running_.size() && runner_.times(i).end_ns <= next) {
     ++i;
   }
-  if (i == tasks_.size()) [[likely]] {
+  if (i == running_.size()) [[likely]] {
     return;
   }
   // The first to pass the next release is the culprit; those after it were only delayed.
-  TaskState& culprit = *tasks_[i];
+  TaskState& culprit = *running_[i];
   const RunTimes& times = runner_.times(i);
   count(culprit.record->overruns);
   OverrunLine line{tick, culprit.task.index, times.end_ns - times.start_ns, times.start_ns - release_ns, -1, 0, true};
   if (i > 0) {
-    line.previous = static_cast<std::int32_t>(tasks_[i - 1]->task.index);
+    line.previous = static_cast<std::int32_t>(running_[i - 1]->task.index);
     line.previous_ns = runner_.times(i - 1).end_ns - runner_.times(i - 1).start_ns;
   }
   log_overrun(block_, line);

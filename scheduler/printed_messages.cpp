@@ -49,7 +49,7 @@ std::vector<PrintedMessage> printed_messages(const RunBlock& block, std::uint64_
     all.push_back(
         {std::min(module, module_count), time_ns, std::string(text.substr(0, text.find_last_not_of("\r\n") + 1))});
   };
-  for (const MessageRing& ring : objects<MessageRing>(block, block.rings_offset, module_count + 1ULL, size)) {
+  for (const MessageRing& ring : objects<MessageRing>(block, block.rings_offset, block.module_capacity + 1ULL, size)) {
     const auto entries = objects<MessageEntry>(block, ring.entries_offset, ring.capacity, size);
     if (!entries.empty()) {
       read_ring(ring, entries, keep);

@@ -16,7 +16,7 @@
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
-inline constexpr std::uint32_t kRunAbi = 8;
+inline constexpr std::uint32_t kRunAbi = 9;
 inline constexpr std::size_t kTextLength = 160;
 
 enum class NodeState : std::uint32_t { Starting, Running, Stopping, Stopped, Failed };
@@ -37,6 +37,26 @@ enum class VersionState : std::uint32_t {
   Returned,  // the previous version runs again
 };
 
+// A number that one thread writes while others may read it; a sequence number elsewhere keeps related ones consistent.
+template <class T>
+class Relaxed {
+ public:
+  Relaxed() = default;
+  explicit Relaxed(T value) noexcept : value_(value) {}
+  Relaxed(const Relaxed& other) noexcept : value_(other.load()) {}
+  Relaxed& operator=(const Relaxed& other) noexcept { return *this = other.load(); }
+  ~Relaxed() = default;
+  Relaxed& operator=(T value) noexcept {
+    value_.store(value, std::memory_order_relaxed);
+    return *this;
+  }
+  [[nodiscard]] T load() const noexcept { return value_.load(std::memory_order_relaxed); }
+  operator T() const noexcept { return load(); }  // NOLINT(google-explicit-constructor)
+
+ private:
+  std::atomic<T> value_;
+};
+
 // One Distribution = one quantity in ns. Single writer (the thread that runs the module); readers may see a sample
 // counted in one field and not yet in the next.
 struct Distribution {
@@ -54,16 +74,18 @@ struct ModuleRecord {
   char file[256];
   ModuleType type;
   Operation operation;
-  OverrunPolicy overrun_policy;
-  std::int32_t priority;       // as in the XML: lowest value first
-  std::int32_t fifo_priority;  // 0: not SCHED_FIFO
-  std::int32_t core;           // -1: not pinned
-  std::int64_t period_ns;      // 0 if not periodic
-  std::int64_t offset_ns;
-  std::int64_t deadline_ns;       // 0: none
-  std::int64_t budget_ns;         // 0: none
+  std::int32_t core;              // -1: not pinned
   std::uint32_t property_offset;  // into the block: "name\0value\0name\0value\0"
   std::uint32_t property_size;
+  // What another schedule may change. Written by a normal thread of the node.
+  Relaxed<OverrunPolicy> overrun_policy;
+  Relaxed<std::int32_t> priority;       // as in the XML: lowest value first
+  Relaxed<std::int32_t> fifo_priority;  // 0: not SCHED_FIFO
+  Relaxed<std::int64_t> period_ns;      // 0 if not periodic
+  Relaxed<std::int64_t> offset_ns;
+  Relaxed<std::int64_t> deadline_ns;  // 0: none
+  Relaxed<std::int64_t> budget_ns;    // 0: none
+  Relaxed<bool> ended;                // the schedule is without it
   // Counters.
   std::atomic<ModuleState> state;
   std::atomic<std::int32_t> pid;  // process modules
@@ -108,20 +130,6 @@ struct ProcessSlot {
   std::atomic<std::uint32_t> stop;          // 1: waitPeriod() must return false / the process should end
   std::atomic<std::uint32_t> module;        // index
   std::atomic<std::int32_t> obtained_fifo;  // priority obtained, 0 none
-};
-
-// A number that one thread writes while others may read it; a sequence number elsewhere keeps related ones consistent.
-template <class T>
-class Relaxed {
- public:
-  Relaxed& operator=(T value) noexcept {
-    value_.store(value, std::memory_order_relaxed);
-    return *this;
-  }
-  operator T() const noexcept { return value_.load(std::memory_order_relaxed); }  // NOLINT(google-explicit-constructor)
-
- private:
-  std::atomic<T> value_;
 };
 
 // One entry of the slot log: which module ran when. Ring, newest overwrites oldest.
@@ -183,7 +191,8 @@ struct Obtained {
 struct RunBlock {
   std::atomic<std::uint64_t> magic;
   std::uint32_t abi;
-  std::uint32_t module_count;
+  std::atomic<std::uint32_t> module_count;  // grows when modules are added; then their records are complete
+  std::uint32_t module_capacity;            // there is room for so many
   std::uint64_t total_size;
   char node_name[48];
   char config_file[256];
@@ -195,8 +204,12 @@ struct RunBlock {
   std::int64_t started_wall_ns;   // CLOCK_REALTIME
   std::atomic<NodeState> state;
   std::int64_t basic_period_ns;
-  std::int64_t macro_period_ns;
-  std::uint64_t slot_count;
+  Relaxed<std::int64_t> macro_period_ns;
+  Relaxed<std::uint64_t> slot_count;
+  // The schedule. Written by a normal thread of the node, the number last.
+  std::atomic<std::uint64_t> schedule;       // 1: the one that the node started with; each change adds 1
+  std::atomic<std::uint64_t> schedule_tick;  // its first tick; 0 for schedule 1
+  char schedule_files[2][256];               // its configuration, at schedule_files[schedule % 2]
   // CLOCK_MONOTONIC of tick 0. A module whose devices have a clock of their own moves it a little, and all later ticks
   // with it.
   std::atomic<std::int64_t> epoch_ns;
@@ -210,9 +223,9 @@ struct RunBlock {
   std::atomic<std::int64_t> spin_margin_ns;
   Obtained obtained;
   char stop_reason[kTextLength];
-  std::uint64_t modules_offset;  // ModuleRecord[module_count]
-  std::uint64_t slots_offset;    // ProcessSlot[module_count]
-  std::uint64_t rings_offset;    // MessageRing[module_count + 1], the last one of the node itself
+  std::uint64_t modules_offset;  // ModuleRecord[module_capacity]
+  std::uint64_t slots_offset;    // ProcessSlot[module_capacity]
+  std::uint64_t rings_offset;    // MessageRing[module_capacity + 1], the last one of the node itself
   std::uint64_t slot_log_offset;
   std::uint32_t slot_log_capacity;  // power of two
   std::uint32_t overrun_log_capacity;

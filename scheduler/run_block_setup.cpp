@@ -38,7 +38,7 @@ std::size_t property_bytes(const ModuleSetup& module) noexcept {
 }
 
 Offsets offsets_of(const RunBlockSetup& setup) {
-  const std::size_t n = setup.modules.size();
+  const std::size_t n = setup.modules.size() + kSpareModules;
   Offsets at;
   at.modules = round_up(sizeof(RunBlock));
   at.slots = round_up(at.modules + n * sizeof(ModuleRecord));
@@ -47,7 +47,7 @@ Offsets offsets_of(const RunBlockSetup& setup) {
   at.overrun_log = round_up(at.slot_log + kSlotLogEntries * sizeof(SlotEntry));
   at.messages = round_up(at.overrun_log + kOverrunEntries * sizeof(OverrunEntry));
   at.properties = round_up(at.messages + (n * kModuleMessages + kNodeMessages) * sizeof(MessageEntry));
-  at.total = at.properties;
+  at.total = at.properties + kSpareModules * kSpareProperties;
   for (const ModuleSetup& module : setup.modules) {
     at.total += property_bytes(module);
   }
@@ -68,10 +68,9 @@ void fill_record(ModuleRecord& record, const ModuleSetup& module) {
   record.budget_ns = module.budget_ns;
 }
 
-void write_properties(RunBlock& block, ModuleRecord& record, const ModuleSetup& module, std::size_t offset) {
-  record.property_offset = static_cast<std::uint32_t>(offset);
+void write_properties(RunBlock& block, ModuleRecord& record, const ModuleSetup& module) {
   record.property_size = static_cast<std::uint32_t>(property_bytes(module));
-  char* to = block.at<char>(offset);
+  char* to = block.at<char>(record.property_offset);
   for (const auto& [name, value] : module.properties) {
     for (const std::string& text : {name, value}) {
       std::memcpy(to, text.c_str(), text.size() + 1);
@@ -93,9 +92,10 @@ std::size_t run_block_size(const RunBlockSetup& setup) {
 
 void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
   const Offsets at = offsets_of(setup);
-  const std::size_t n = setup.modules.size();
+  const std::size_t n = setup.modules.size() + kSpareModules;
   block.abi = kRunAbi;
-  block.module_count = static_cast<std::uint32_t>(n);
+  block.module_count = static_cast<std::uint32_t>(setup.modules.size());
+  block.module_capacity = static_cast<std::uint32_t>(n);
   block.total_size = at.total;
   rt::copy_text(block.node_name, setup.node_name);
   rt::copy_text(block.config_file, setup.config_file);
@@ -105,6 +105,8 @@ void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
   block.basic_period_ns = setup.basic_period_ns;
   block.macro_period_ns = setup.macro_period_ns;
   block.slot_count = setup.slot_count;
+  rt::copy_text(block.schedule_files[1], setup.config_file);
+  block.schedule.store(1, std::memory_order_relaxed);
   block.modules_offset = at.modules;
   block.slots_offset = at.slots;
   block.rings_offset = at.rings;
@@ -115,9 +117,14 @@ void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
   std::size_t properties = at.properties;
   for (std::size_t i = 0; i < n; ++i) {
     ModuleRecord& record = block.modules()[i];
-    fill_record(record, setup.modules[i]);
-    write_properties(block, record, setup.modules[i], properties);
-    properties += record.property_size;
+    record.property_offset = static_cast<std::uint32_t>(properties);
+    if (i < setup.modules.size()) {
+      fill_record(record, setup.modules[i]);
+      write_properties(block, record, setup.modules[i]);
+      properties += record.property_size;
+    } else {
+      properties += kSpareProperties;
+    }
     ProcessSlot& slot = block.process_slots()[i];
     slot.wake.init(true);
     slot.module.store(static_cast<std::uint32_t>(i), std::memory_order_relaxed);
@@ -125,6 +132,20 @@ void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
   }
   init_ring(block.rings()[n], at.messages + n * kModuleMessages * sizeof(MessageEntry), kNodeMessages);
   block.magic.store(kRunMagic, std::memory_order_release);
+}
+
+std::optional<std::uint32_t> add_module(RunBlock& block, const ModuleSetup& setup) {
+  const std::uint32_t index = block.module_count;
+  if (index == block.module_capacity || property_bytes(setup) > kSpareProperties) {
+    return std::nullopt;
+  }
+  ModuleRecord& record = block.modules()[index];
+  fill_record(record, setup);
+  write_properties(block, record, setup);
+  record.state = ModuleState::Stopped;
+  record.ended = true;
+  block.module_count.store(index + 1, std::memory_order_release);
+  return index;
 }
 
 }  // namespace indurop::scheduler

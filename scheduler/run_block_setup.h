@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,10 +41,18 @@ struct RunBlockSetup {
   std::vector<ModuleSetup> modules;
 };
 
+// How many modules can be added while the node runs, and the bytes of their properties.
+inline constexpr std::uint32_t kSpareModules = 8;
+inline constexpr std::size_t kSpareProperties = 4096;
+
 // Returns the size in bytes of a block for this setup.
 std::size_t run_block_size(const RunBlockSetup& setup);
 
 // `block` points to run_block_size() zero bytes. The magic is stored last.
 void init_run_block(RunBlock& block, const RunBlockSetup& setup);
+
+// Adds a module that no schedule has: it is stopped, and has ended. Returns its index; nothing if there is no room for
+// it or its properties. One thread of the node.
+std::optional<std::uint32_t> add_module(RunBlock& block, const ModuleSetup& setup);
 
 }  // namespace indurop::scheduler

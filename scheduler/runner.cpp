@@ -52,9 +52,8 @@ Runner::Runner(RunBlock& block, Kernel& kernel, const Hooks& hooks, CoreTrace& t
       trace_(trace),
       times_(max_tasks) {}
 
-void Runner::attach_thread() noexcept {
-  thread_ = ::pthread_self();
-  stack_ = rt::own_stack();
+void Runner::attach(const ModuleThread& thread) noexcept {
+  thread_ = thread;
   attached_.store(true, std::memory_order_release);
 }
 
@@ -209,7 +208,7 @@ void Runner::contain_jump() noexcept {
   } else if (guard_.signal_number() == SIGBUS && rt::is_guarded(guard_.fault_address())) {
     std::snprintf(text, sizeof text, "the node's shared memory was cut while it ran");
   } else {
-    rt::describe_fault(guard_, stack_, text, sizeof text);
+    rt::describe_fault(guard_, thread_.stack, text, sizeof text);
   }
   contain(kind, text);
 }
@@ -271,7 +270,7 @@ void Runner::enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_
     limit = grace_ns;
   }
   if (limited && rt::to_ns(now) - start > limit) {
-    guard_.order_end(thread_, run);
+    guard_.order_end(thread_.handle, run);
   }
 }
 

@@ -26,7 +26,10 @@ enum class Gate : std::uint8_t {
   Watched,  // its Exchange decides before each run which version is entered
 };
 
-// A task and its state while it runs. The address stays fixed for the life of the engine.
+class Band;
+
+// A task and its state while it runs. The address stays fixed for the life of the engine. Another schedule changes its
+// overrun policy, budget and work only: its order and times are those of the schedule's bands.
 struct TaskState {
   Task task;
   ModuleRecord* record = nullptr;
@@ -35,8 +38,10 @@ struct TaskState {
   std::atomic<Gate> gate{Gate::Open};
   Exchange* exchange = nullptr;    // while Watched; borrowed
   std::uint64_t last_release = 0;  // last release of its band that may have entered it before its gate was changed
-  std::uint64_t accounted = 0;     // process modules: last release whose run was counted
-  bool logged = true;              // false: its runs are not part of the schedule and stay out of the slot log
+  // Its band in the schedule before, whose runs may be in progress; null: there is none.
+  std::atomic<const Band*> leaving{nullptr};
+  std::uint64_t accounted = 0;  // process modules: last release whose run was counted
+  bool logged = true;           // false: its runs are not part of the schedule and stay out of the slot log
 
   [[nodiscard]] bool is_closed() const noexcept { return gate.load(std::memory_order_relaxed) == Gate::Closed; }
 };
@@ -76,12 +81,21 @@ void record_fault(ModuleRecord& record, FaultKind kind, std::uint64_t tick, std:
 // version can continue. Real-time safe.
 void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char* text, const Hooks& hooks) noexcept;
 
+// A thread that runs modules.
+struct ModuleThread {
+  pthread_t handle{};
+  rt::StackBounds stack;
+  // The calling one. Not real-time safe.
+  static ModuleThread own() noexcept { return {::pthread_self(), rt::own_stack()}; }
+};
+
 class Runner {
  public:
   Runner(RunBlock& block, Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::size_t max_tasks);
 
-  // Called on the thread that runs modules, before and after its loop.
-  void attach_thread() noexcept;
+  // Called on the thread that runs modules, before and after its loop. Real-time safe.
+  void attach(const ModuleThread& thread) noexcept;
+  void attach_thread() noexcept { attach(ModuleThread::own()); }  // not real-time safe
   void detach_thread() noexcept;
 
   // Runs the enabled tasks in order. Sporadic ones run only if condition() is true.
@@ -119,8 +133,7 @@ class Runner {
   Hooks hooks_;
   CoreTrace& trace_;
   rt::Guard guard_;
-  pthread_t thread_{};
-  rt::StackBounds stack_;
+  ModuleThread thread_;
   std::atomic<bool> attached_{false};
   // Members, not locals: they must keep their values when a fault jumps back into run().
   std::span<TaskState* const> tasks_;

@@ -38,7 +38,7 @@ std::optional<std::vector<alarms::ModuleNow>> modules_of(const std::string& boar
   const auto file = vars::RunFile::open(board, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
   const auto* const block = file ? static_cast<const scheduler::RunBlock*>(file->data()) : nullptr;
   const std::uint64_t offset = block != nullptr ? block->modules_offset : 0;
-  const std::uint32_t count = block != nullptr ? block->module_count : 0;
+  const std::uint32_t count = block != nullptr ? block->module_count.load() : 0;
   if (block == nullptr || block->abi != scheduler::kRunAbi || offset % alignof(ModuleRecord) != 0 ||
       offset > file->size() || count > (file->size() - offset) / sizeof(ModuleRecord) ||
       block->state.load(std::memory_order_relaxed) != scheduler::NodeState::Running) {

@@ -41,7 +41,8 @@ class Image {
 
   // Returns an empty text if the block is invalid.
   std::string make() {
-    const std::uint64_t modules = place<scheduler::ModuleRecord>(block_.modules_offset, block_.module_count);
+    const std::uint32_t count = block_.module_count;
+    const std::uint64_t modules = place<scheduler::ModuleRecord>(block_.modules_offset, count);
     const std::uint64_t slots = place<SlotEntry>(block_.slot_log_offset, block_.slot_log_capacity);
     const std::uint64_t overruns = place<OverrunEntry>(block_.overrun_log_offset, block_.overrun_log_capacity);
     if (!sound_) {
@@ -51,12 +52,13 @@ class Image {
     std::vector<std::uint64_t> words((end_ + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
     auto* const bytes = reinterpret_cast<std::byte*>(words.data());
     std::memcpy(bytes, &block_, sizeof block_);
-    std::memcpy(bytes + modules, block_.modules(), block_.module_count * sizeof(scheduler::ModuleRecord));
+    std::memcpy(bytes + modules, block_.modules(), count * sizeof(scheduler::ModuleRecord));
     auto& image = *reinterpret_cast<RunBlock*>(bytes);
     copy_log(block_.at<SlotEntry>(block_.slot_log_offset), image.at<SlotEntry>(slots), block_.slot_log_capacity);
     copy_log(block_.at<OverrunEntry>(block_.overrun_log_offset), image.at<OverrunEntry>(overruns),
              block_.overrun_log_capacity);
     image.total_size = end_;
+    image.module_count = count;
     image.modules_offset = modules;
     image.slot_log_offset = slots;
     image.overrun_log_offset = overruns;

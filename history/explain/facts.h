@@ -112,7 +112,9 @@ struct Facts {
   std::int64_t now_ns = 0;    // time when the facts were read
   std::uint64_t tick = 0;     // number of the last tick begun + 1
   std::uint64_t lost_ticks = 0;
-  std::uint64_t first_tick = 0;  // from this tick on all runs are known
+  std::uint64_t schedule = 0;       // number of the schedule that `modules` tell; 0: not known, 1: there was no other
+  std::uint64_t schedule_tick = 0;  // its first
+  std::uint64_t first_tick = 0;     // from this tick on all runs are known
   std::string stop_reason;
   bool closed = false;  // the facts are of a recording that did not end with the node, unless stop_reason is set
   std::int64_t wall_minus_node_ns = 0;

@@ -93,6 +93,8 @@ constexpr auto kOwn = [](auto&& visit, auto& facts) {
   visit("now_ns", facts.now_ns);
   visit("tick", facts.tick);
   visit("lost_ticks", facts.lost_ticks);
+  visit("schedule", facts.schedule);
+  visit("schedule_tick", facts.schedule_tick);
   visit("stop_reason", facts.stop_reason);
   visit("wall_minus_node_ns", facts.wall_minus_node_ns);
   visit("kernel_from_ns", facts.kernel_from_ns);

@@ -78,7 +78,7 @@ void make_sound(Facts& facts) noexcept {
   const auto ticks = [last](auto&... all) { ((all = std::min(all, last)), ...); };
   times(facts.epoch_ns, facts.now_ns, facts.kernel_from_ns, facts.kernel_to_ns);
   durations(facts.lease_ns);
-  ticks(facts.tick, facts.first_tick);
+  ticks(facts.tick, facts.first_tick, facts.schedule_tick);
   for (ModuleFact& module : facts.modules) {
     durations(module.period_ns, module.offset_ns, module.deadline_ns);
     ticks(module.fault_tick);
@@ -113,6 +113,8 @@ Facts facts_of(const scheduler::RunBlock& block, std::uint64_t size, bool with_r
   facts.epoch_ns = block.epoch_ns;
   facts.tick = block.tick.load();
   facts.lost_ticks = block.lost_ticks.load();
+  facts.schedule = block.schedule.load(std::memory_order_acquire);
+  facts.schedule_tick = block.schedule_tick.load();
   facts.stop_reason = text_of(block.stop_reason);
   std::transform(modules.begin(), modules.end(), std::back_inserter(facts.modules), fact_of);
   each(overruns, block.overrun_log_next.load(std::memory_order_acquire), [&](const scheduler::OverrunEntry& entry) {

@@ -56,8 +56,16 @@ class Question {
               fmt::format("{} is not part of the schedule: it runs in the background", module_.name),
               {}};
     }
-    if (const RunFact* run = find(tick_); run != nullptr) {
-      return run->faulted ? faulted(*run) : lateness_.explain(*run);
+    const RunFact* run = find(tick_);
+    if (run != nullptr && run->faulted) {
+      return faulted(*run);
+    }
+    if (tick_ < facts_.schedule_tick) {
+      return not_known(fmt::format("it belongs to another schedule; the one that is known counts since tick {}",
+                                   facts_.schedule_tick));
+    }
+    if (run != nullptr) {
+      return lateness_.explain(*run);
     }
     if (tick_ < facts_.first_tick) {
       return not_known(fmt::format("data is available from tick {} on", facts_.first_tick));
@@ -362,7 +370,8 @@ std::uint64_t last_trouble(const Facts& facts, const std::string& module) {
   const Known ends(facts, index);
   // The tick that has just begun may be under way, and a run within its time limit may still come.
   constexpr std::uint64_t kMaxTicks = 10'000'000;  // beyond this nothing is known, or the number is damaged
-  const std::uint64_t oldest = std::max(facts.first_tick, facts.tick - std::min(facts.tick, kMaxTicks));
+  const std::uint64_t oldest =
+      std::max({facts.first_tick, facts.schedule_tick, facts.tick - std::min(facts.tick, kMaxTicks)});
   for (std::uint64_t tick = facts.tick - 1; known->operation == "periodic" && tick-- > oldest;) {
     const bool over = facts.release_of(tick) + limit <= facts.now_ns;
     const bool known_to_end = ends.at(tick) && facts.hole_around(index, tick) == nullptr;

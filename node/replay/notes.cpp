@@ -37,6 +37,12 @@ void warn_about_format(const RecordedRuns& recorded, const Console& console) {
 
 // Runs are repeated at their recorded times: another period or priority has no effect.
 void warn_about_schedule(const config::Config& config, const explain::Facts& facts, const Console& console) {
+  if (facts.schedule > 1) {
+    console.warning(
+        "schedule {} took over in tick {}: runs come as recorded, but irp::period() returns what this configuration "
+        "says, before that tick and after it",
+        facts.schedule, facts.schedule_tick);
+  }
   for (const explain::ModuleFact& then : facts.modules) {
     for (const config::Module& now : config.modules) {
       const bool periodic = now.operation == scheduler::Operation::Periodic;

@@ -52,7 +52,7 @@ struct SummaryLine {
 
 void Console::watch(scheduler::RunBlock& run) {
   run_ = &run;
-  seen_.assign(run.module_count, Seen{});
+  seen_.assign(run.module_capacity, Seen{});
   reader_.emplace(run);
 }
 

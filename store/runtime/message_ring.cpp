@@ -27,7 +27,7 @@ TicketEntry place_of(RunBlock& run, const MessageRing& ring, std::uint64_t ticke
 }
 
 std::uint32_t ring_index(const RunBlock& run, std::uint32_t module) noexcept {
-  return module < run.module_count ? module : run.module_count;
+  return module < run.module_count ? module : run.module_capacity;
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ bool push_message(RunBlock& run, std::uint32_t module, std::string_view text, rt
                                                        std::memory_order_relaxed);
 }
 
-MessageReader::MessageReader(RunBlock& run) : run_(run), stuck_(std::size_t{run.module_count} + 1) {}
+MessageReader::MessageReader(RunBlock& run) : run_(run), stuck_(std::size_t{run.module_capacity} + 1) {}
 
 bool MessageReader::next(Message& message, rt::MonoTime now) {
   const auto rings = static_cast<std::uint32_t>(stuck_.size());

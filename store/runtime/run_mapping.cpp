@@ -18,8 +18,9 @@ bool fits(std::uint64_t offset, std::uint64_t count, std::uint64_t size) noexcep
 }
 
 bool is_sound(const RunBlock& run, std::uint64_t size) noexcept {
-  const std::uint64_t count = run.module_count;
-  if (run.total_size > size || !fits<scheduler::ModuleRecord>(run.modules_offset, count, size) ||
+  const std::uint64_t count = run.module_capacity;
+  if (run.total_size > size || run.module_count > count ||
+      !fits<scheduler::ModuleRecord>(run.modules_offset, count, size) ||
       !fits<scheduler::ProcessSlot>(run.slots_offset, count, size) ||
       !fits<scheduler::MessageRing>(run.rings_offset, count + 1, size)) {
     return false;

@@ -76,7 +76,7 @@ int attach(const char* node) {
 
 std::chrono::nanoseconds period() noexcept {
   const ModuleRecord* record = calling_module(current_run());
-  return std::chrono::nanoseconds(record != nullptr ? record->period_ns : 0);
+  return std::chrono::nanoseconds(record != nullptr ? record->period_ns.load() : 0);
 }
 
 std::uint64_t tick() noexcept {

@@ -26,7 +26,7 @@ std::string trace_json(const RunView& run, const std::string& node, std::span<co
                              {"name", "thread_sort_index"},
                              {"pid", pid},
                              {"tid", i + 1},
-                             {"args", {{"sort_index", module.priority}}}}
+                             {"args", {{"sort_index", module.priority.load()}}}}
                        .dump();
   }
   for (const SlotSample& sample : samples) {

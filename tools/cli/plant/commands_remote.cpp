@@ -36,6 +36,7 @@ Action action_of(ModuleCommand what, bool module) {
     case ModuleCommand::Reload:
     case ModuleCommand::Back:
     case ModuleCommand::Exchange:  // of this machine only
+    case ModuleCommand::Schedule:
       break;
   }
   return module ? Action::RestartModule : Action::RestartNode;

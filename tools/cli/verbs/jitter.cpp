@@ -116,12 +116,9 @@ JsonValue json_of(const RunView& run, const std::string& node, const std::vector
   JsonValue list = JsonValue::array();
   for (const std::uint32_t index : modules) {
     const auto& module = run.module(index);
-    JsonValue entry{{"name", fixed_text(module.name)},
-                    {"type", to_text(module.type)},
-                    {"operation", to_text(module.operation)},
-                    {"period_ns", module.period_ns},
-                    {"priority", module.priority},
-                    {"runs", module.runs.load(std::memory_order_relaxed)}};
+    JsonValue entry{{"name", fixed_text(module.name)},        {"type", to_text(module.type)},
+                    {"operation", to_text(module.operation)}, {"period_ns", module.period_ns.load()},
+                    {"priority", module.priority.load()},     {"runs", module.runs.load(std::memory_order_relaxed)}};
     for (const Quantity& quantity : chosen(options)) {
       entry[quantity.key] = summary_json(module.*quantity.distribution, options.histogram);
     }

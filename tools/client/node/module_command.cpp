@@ -90,6 +90,8 @@ const char* verb_of(ModuleCommand command) {
       return "reload";
     case ModuleCommand::Back:
       return "reload --back";
+    case ModuleCommand::Schedule:
+      return "reload --config";
     case ModuleCommand::None:
     case ModuleCommand::Exchange:
     case ModuleCommand::Restart:
@@ -108,6 +110,8 @@ const char* past_of(ModuleCommand command) {
     case ModuleCommand::Back:
     case ModuleCommand::Exchange:
       return "exchanged";
+    case ModuleCommand::Schedule:
+      return "rescheduled";
     case ModuleCommand::None:
     case ModuleCommand::Restart:
       break;

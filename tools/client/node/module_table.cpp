@@ -41,16 +41,17 @@ std::vector<Cell> module_row(const scheduler::ModuleRecord& module, bool alive) 
   const auto jitter = scheduler::summarize(module.jitter);
   const bool ran = exec.count > 0;
   const std::uint64_t version = module.version.load(std::memory_order_acquire);
+  const bool ended = module.ended && state == scheduler::ModuleState::Stopped;
+  const std::string word = ended ? "ended" : to_text(state);
   const bool real = module.operation != scheduler::Operation::NonReal;
   const std::string period =
       module.period_ns > 0 ? base::format_duration(base::Nanos(module.period_ns)) : to_text(module.operation);
   return {Cell(fixed_text(module.name), Style::Bold),
           Cell(to_text(module.type)),
-          {period, module.period_ns},
+          {period, module.period_ns.load()},
           {"", to_text(module.operation)},
-          {real ? std::to_string(module.priority) : "-", module.priority},
-          {alive ? to_text(state) : fmt::format("({})", to_text(state)), to_text(state),
-           alive ? style_of(state) : Style::Dim},
+          {real ? std::to_string(module.priority.load()) : "-", module.priority.load()},
+          {alive ? word : fmt::format("({})", word), word, alive ? style_of(state) : Style::Dim},
           {"", module.pid.load(kRelaxed)},
           counter(module.runs.load(kRelaxed)),
           counter(module.skipped.load(kRelaxed), Style::Warn),

@@ -17,7 +17,7 @@ using base::Problem;
 // Period at which a track is written; tracks without their own rate come last.
 std::int64_t period_of(const RunView& run, std::uint32_t module) {
   const bool known = module < run.module_count() && run.module(module).period_ns > 0;
-  return known ? run.module(module).period_ns : std::numeric_limits<std::int64_t>::max();
+  return known ? run.module(module).period_ns.load() : std::numeric_limits<std::int64_t>::max();
 }
 
 bool has(std::span<const std::uint32_t> indices, std::uint32_t one) {

@@ -55,9 +55,9 @@ base::Json summary_of(const Api& api, const Board& board) {
 
 base::Json module_of(base::Json row, const scheduler::ModuleRecord& record) {
   row["core"] = record.core;
-  row["offset_ns"] = record.offset_ns;
-  row["deadline_ns"] = record.deadline_ns;
-  row["budget_ns"] = record.budget_ns;
+  row["offset_ns"] = record.offset_ns.load();
+  row["deadline_ns"] = record.deadline_ns.load();
+  row["budget_ns"] = record.budget_ns.load();
   row["file"] = tools::fixed_text(record.file);
   return row;
 }

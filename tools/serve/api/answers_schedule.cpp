@@ -108,12 +108,12 @@ Reply schedule(Api& /*api*/, const Call& call) {
   const auto& [board, run] = *found;
   const auto& block = run.block();
   auto [plan, message] = board->remote() == nullptr
-                             ? plan_of(tools::fixed_text(block.config_file))
+                             ? plan_of(tools::fixed_text(block.schedule_files[block.schedule.load() % 2]))
                              : std::pair(base::Json(), std::string("The plan is in files on the board's host."));
   base::Json body = about(*board);
   body["basic_period_ns"] = block.basic_period_ns;
-  body["macro_period_ns"] = block.macro_period_ns;
-  body["slots"] = block.slot_count;
+  body["macro_period_ns"] = block.macro_period_ns.load();
+  body["slots"] = block.slot_count.load();
   body["epoch_ns"] = block.epoch_ns.load();
   body["plan"] = std::move(plan);
   body["message"] = message;

@@ -86,6 +86,7 @@ void TestNode::make_run(const std::vector<TestModule>& modules) {
   RunBlock& block = run();
   block.abi = kRunAbi;
   block.module_count = count;
+  block.module_capacity = count;
   block.total_size = at;
   std::strncpy(block.node_name, name_.c_str(), sizeof block.node_name - 1);
   block.node_pid = ::getpid();

@@ -108,7 +108,7 @@ TEST_F(RunViewTest, Missing_and_foreign_files_are_named_errors) {
 
 TEST_F(RunViewTest, Offsets_and_counts_that_lead_outside_are_refused) {
   const auto refused = [this](auto& field, auto value) {
-    const auto before = field;
+    const decltype(value) before = field;
     field = value;
     const bool ok = RunView::open(node_).ok();
     field = before;
