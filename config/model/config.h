@@ -23,6 +23,7 @@ struct Property {
   std::string name;
   std::string value;
   base::SourcePlace place{};  // of the <value>
+  bool operator==(const Property&) const = default;
 };
 
 // The restart rule of a process module that died: at most `max` restarts within `window`, then escalation.
@@ -31,6 +32,7 @@ struct Restart {
   std::uint32_t max = 3;
   base::Nanos window{std::chrono::seconds(60)};
   enum class Escalate { StopModule, StopNode } escalate = Escalate::StopModule;
+  bool operator==(const Restart&) const = default;
 };
 
 // A value written to a variable when the module faults: <failsafe variable="PLC_ROBOT::O0">0</failsafe>.
@@ -38,6 +40,7 @@ struct FailSafe {
   std::string variable;
   std::string value;
   base::SourcePlace place;
+  bool operator==(const FailSafe&) const = default;
 };
 
 // Places of the values of a module in the XML file, for diagnostics; line 0: not given.
@@ -55,6 +58,7 @@ struct ModulePlaces {
   std::vector<base::SourcePlace> after;   // parallel to Module::after
   std::vector<base::SourcePlace> reads;   // parallel to Module::reads
   std::vector<base::SourcePlace> writes;  // parallel to Module::writes
+  bool operator==(const ModulePlaces&) const = default;
 };
 
 struct Module {
@@ -84,12 +88,14 @@ struct Module {
   std::vector<Property> properties;
   base::SourcePlace place;  // of the <module>
   ModulePlaces places;
+  bool operator==(const Module&) const = default;
 };
 inline constexpr base::Nanos kNoBudget{-1};
 
 struct SpinSetting {
   enum class Mode { Auto, Off, Fixed } mode = Mode::Auto;
   base::Nanos fixed{};
+  bool operator==(const SpinSetting&) const = default;
 };
 
 // <cores>: modules without a <core> are distributed over several cores.
@@ -98,6 +104,7 @@ struct CoresSetting {
   bool split_sharing = false;   // also distribute modules that share data; they then wait for each other
   std::filesystem::path times;  // report with execution times of modules without <wcet>; empty: none
   base::SourcePlace place;
+  bool operator==(const CoresSetting&) const = default;
 };
 inline constexpr int kMaxSpreadCores = 64;
 
@@ -112,6 +119,7 @@ struct VariableRule {
   External external = External::Read;
   base::SourcePlace place;
   base::SourcePlace owner_place;
+  bool operator==(const VariableRule&) const = default;
 };
 
 // Libraries of indurop_add_glb(... TYPES), absolute paths; the other two vectors are parallel.
@@ -119,6 +127,7 @@ struct TypeFiles {
   std::vector<std::filesystem::path> types;
   std::vector<std::string> types_as_written;
   std::vector<base::SourcePlace> type_places;
+  bool operator==(const TypeFiles&) const = default;
 };
 
 // The settings of <root> of a module.xml for third-party tools; in a plant the manifest has them for all boards.
@@ -127,6 +136,7 @@ struct ExternalPlane : TypeFiles {
   bool ros2 = false;           // topics have the names and types of ROS 2
   std::string interface_name;  // network interface; empty: the only one
   std::vector<VariableRule> variables;
+  bool operator==(const ExternalPlane&) const = default;
 };
 
 struct Config {
@@ -140,6 +150,7 @@ struct Config {
   base::SourcePlace core_place;
   base::SourcePlace spin_place;
   ExternalPlane external;  // of a module.xml
+  bool operator==(const Config&) const = default;
 };
 inline constexpr base::Nanos kDefaultMinimumPeriod{std::chrono::microseconds(50)};
 

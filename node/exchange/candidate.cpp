@@ -91,7 +91,8 @@ class CandidateCheck {
     if (has("indurop_offer_function")) {
       error("it implements shared functions, which are served by the version that was loaded first; restart the node");
     }
-    if (has("pthread_create") || has("_ZNSt6thread15_M_start_thread") || has("thrd_create")) {
+    if (!task_.running.digest().empty() &&
+        (has("pthread_create") || has("_ZNSt6thread15_M_start_thread") || has("thrd_create"))) {
       error("it starts threads of its own, and those of both versions would run at once; restart the node");
     }
   }
@@ -109,7 +110,7 @@ Candidate make_candidate(const CandidateTask& task) {
   if (!candidate.errors.empty()) {
     return candidate;
   }
-  runtime::set_current_module(task.module);
+  runtime::set_current_module(task.index);
   const auto loaded = candidate.library.load(task.file, true);
   runtime::set_current_module(runtime::kNoModule);
   if (!loaded) {

@@ -28,7 +28,8 @@ struct CandidateTask {
   std::filesystem::path file;
   const vars::Store& store;
   const AllowedAccess& allowed;
-  const ModuleLibrary& running;
+  const ModuleLibrary& running;  // empty: there is none, it is a module that is added
+  std::uint32_t index = module;  // in the run block
 };
 
 struct Candidate {

@@ -25,10 +25,20 @@ Exchanges::Exchanges(const Parts& parts, const config::CheckResult& check, const
     if (i < check.facts.size()) {
       context_.allowed[i] = check.facts[i].file.access;
     }
-    context_.files.push_back(parts.config.modules[i].file);
-    rt::copy_text(record(i).digests[1], parts.libraries[i].digest());
-    record(i).version.store(parts.libraries[i].digest().empty() ? 0 : 1);
+    begin_version(i);
   }
+}
+
+void Exchanges::begin_version(std::uint32_t module) {
+  const std::string& digest = context_.parts.libraries[module].digest();
+  context_.files.push_back(context_.parts.config.modules[module].file);
+  rt::copy_text(record(module).digests[1], digest);
+  record(module).version.store(digest.empty() ? 0 : 1);
+}
+
+void Exchanges::add(const AllowedAccess& access) {
+  context_.allowed.push_back(access);
+  begin_version(static_cast<std::uint32_t>(context_.files.size()));
 }
 
 bool Exchanges::is_open(std::uint32_t module) const noexcept {
@@ -37,6 +47,12 @@ bool Exchanges::is_open(std::uint32_t module) const noexcept {
 
 std::string Exchanges::exchanged_module() const {
   return single_ ? record(module_).name : "";
+}
+
+std::string Exchanges::activity() const {
+  return single_               ? fmt::format("module {} is being exchanged", exchanged_module())
+         : set_.is_under_way() ? "a deployment exchanges modules"
+                               : "";
 }
 
 void Exchanges::poll(rt::MonoTime now) {
@@ -82,6 +98,8 @@ void Exchanges::accept(std::uint32_t module, ModuleCommand command) {
     answer(module, CommandResult::Refused,
            fmt::format("module {} is being exchanged; repeat the command when its health window is over",
                        exchanged_module()));
+  } else if (record(module).ended) {
+    answer(module, CommandResult::Refused, "it has ended: the schedule is without it");
   } else if (!request) {
     answer(module, CommandResult::Refused, "the request cannot be read; repeat the command");
   } else if (configured.type != scheduler::ModuleType::Thread) {

@@ -29,8 +29,13 @@ class Exchanges {
   void end();
   // Returns true while it is not settled which version of the module runs.
   [[nodiscard]] bool is_open(std::uint32_t module) const noexcept;
+  // A module was added, as the next one of the run block. `access`: what it may read and write.
+  void add(const AllowedAccess& access);
+  // Returns "module press is being exchanged"; empty: none is.
+  [[nodiscard]] std::string activity() const;
 
  private:
+  void begin_version(std::uint32_t module);
   void accept(std::uint32_t module, scheduler::ModuleCommand command);
   void accept_back(std::uint32_t module);
   void go_on(rt::MonoTime now);

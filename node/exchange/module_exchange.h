@@ -143,6 +143,8 @@ class ModuleExchange {
   scheduler::Exchange::Reason reason_ = scheduler::Exchange::Reason::Command;  // of `back_`
 };
 
+// Ticks of a macro period; of a longer one than a second 1, because it is not waited for.
+std::uint64_t macro_period_ticks(const scheduler::RunBlock& run) noexcept;
 // First tick of the next macro period; of a longer one than a second the next tick, because it is not waited for.
 std::uint64_t next_macro_period(const scheduler::RunBlock& run) noexcept;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a version that is ready to the end of its health window: the exchange between two runs, and the way back.
+#include <algorithm>
 #include <utility>
 
 #include "core/base/duration.h"
@@ -50,10 +51,15 @@ std::string text_of(Exchange::Reason reason, const scheduler::ModuleRecord& modu
 
 }  // namespace
 
+std::uint64_t macro_period_ticks(const scheduler::RunBlock& run) noexcept {
+  return run.macro_period_ns > kLongestGridNs ? 1 : std::max<std::uint64_t>(run.slot_count, 1);
+}
+
 // Modules that belong together meet there.
 std::uint64_t next_macro_period(const scheduler::RunBlock& run) noexcept {
   const std::uint64_t next = run.tick.load();
-  return run.macro_period_ns > kLongestGridNs ? next : (next + run.slot_count - 1) / run.slot_count * run.slot_count;
+  const std::uint64_t step = macro_period_ticks(run);
+  return (next + step - 1) / step * step;
 }
 
 void ModuleExchange::watch(std::uint64_t tick) {

@@ -2,22 +2,29 @@
 #include "node/modules/failsafe.h"
 
 #include "core/schema/place_index.h"
+#include "scheduler/run_block_setup.h"
 
 namespace indurop::node {
 
-FailSafe::FailSafe(vars::Store& store, const config::Config& config) : store_(store), writes_(config.modules.size()) {
-  const schema::PlaceIndex index(store.schema());
-  for (std::size_t i = 0; i < config.modules.size(); ++i) {
-    for (const config::FailSafe& declared : config.modules[i].failsafe) {
-      const auto place = index.find(declared.variable, schema::NearestName::Skip);
-      if (!place) {
-        continue;
-      }
-      Write write{store.find(place.value().variable->name_hash()), place.value().offset, {}};
-      write.bytes.resize(place.value().type.size());
-      if (write.variable != nullptr && schema::parse_value(place.value().type, declared.value, write.bytes)) {
-        writes_[i].push_back(std::move(write));
-      }
+FailSafe::FailSafe(vars::Store& store, const config::Config& config) : store_(store) {
+  writes_.reserve(config.modules.size() + scheduler::kSpareModules);
+  for (const config::Module& module : config.modules) {
+    add(module);
+  }
+}
+
+void FailSafe::add(const config::Module& module) {
+  std::vector<Write>& writes = writes_.emplace_back();
+  const schema::PlaceIndex index(store_.schema());
+  for (const config::FailSafe& declared : module.failsafe) {
+    const auto place = index.find(declared.variable, schema::NearestName::Skip);
+    if (!place) {
+      continue;
+    }
+    Write write{store_.find(place.value().variable->name_hash()), place.value().offset, {}};
+    write.bytes.resize(place.value().type.size());
+    if (write.variable != nullptr && schema::parse_value(place.value().type, declared.value, write.bytes)) {
+      writes.push_back(std::move(write));
     }
   }
 }

@@ -17,6 +17,8 @@ class FailSafe {
  public:
   // Values that do not resolve are left out: check_config has rejected them before. Not real-time safe.
   FailSafe(vars::Store& store, const config::Config& config);
+  // Adds a module: the index of the next one.
+  void add(const config::Module& module);
   // Writes all values of the module. Real-time safe.
   void apply(std::size_t module) noexcept;
 
@@ -27,7 +29,7 @@ class FailSafe {
     std::vector<std::uint8_t> bytes;
   };
   vars::Store& store_;
-  std::vector<std::vector<Write>> writes_;  // per module
+  std::vector<std::vector<Write>> writes_;  // per module; never moved
 };
 
 }  // namespace indurop::node

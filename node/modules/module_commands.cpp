@@ -16,6 +16,10 @@ using scheduler::Operation;
 constexpr std::chrono::seconds kLaunch{5};  // until a process is ready to be released
 constexpr std::chrono::milliseconds kCommandPoll{1};
 
+bool is_own(ModuleCommand command) noexcept {
+  return command == ModuleCommand::Stop || command == ModuleCommand::Start || command == ModuleCommand::Restart;
+}
+
 }  // namespace
 
 bool ModuleCommands::is_process(std::uint32_t module) const noexcept {
@@ -25,6 +29,10 @@ bool ModuleCommands::is_process(std::uint32_t module) const noexcept {
 bool ModuleCommands::answer(const Work& work, CommandResult result) {
   const char* done = work.command == ModuleCommand::Stop ? "stopped" : "started";
   const base::Log log = parts_.console.about(record(work.module).name);
+  if (record(work.module).ended) {
+    log.info("module {}: ended", record(work.module).name);
+    return true;
+  }
   if (result == CommandResult::Done) {
     log.info("module {}: {} by command", record(work.module).name, done);
   } else if (result == CommandResult::OldCode) {
@@ -39,14 +47,31 @@ bool ModuleCommands::answer(const Work& work, CommandResult result) {
   return true;
 }
 
+void ModuleCommands::poll_schedule(rt::MonoTime now) {
+  const std::string exchanged = exchanges_.activity();
+  schedule_.poll(now, works_.empty()
+                          ? exchanged
+                          : fmt::format("module {} is being started or stopped", record(works_.front().module).name));
+  for (const std::uint32_t module : schedule_.take_ended()) {
+    take(module, ModuleCommand::Stop, now);
+  }
+}
+
 void ModuleCommands::poll(rt::MonoTime now) {
+  poll_schedule(now);
+  if (schedule_.is_switching()) {
+    return;
+  }
   exchanges_.poll(now);
   for (std::uint32_t i = 0; i < parts_.run.module_count; ++i) {
     const ModuleCommand command = scheduler::waiting_command(record(i));
     const bool taken = std::any_of(works_.begin(), works_.end(), [i](const Work& work) { return work.module == i; });
-    const bool exchanges =
-        command == ModuleCommand::Reload || command == ModuleCommand::Back || command == ModuleCommand::Exchange;
-    if (command != ModuleCommand::None && !exchanges && !taken) {
+    if (!is_own(command) || taken) {
+      continue;
+    }
+    if (record(i).ended) {
+      scheduler::answer_command(record(i), CommandResult::Refused);
+    } else {
       take(i, command, now);
     }
   }
@@ -180,6 +205,7 @@ void ModuleCommands::end() {
     scheduler::answer_command(record(work.module), CommandResult::Ending);
   }
   works_.clear();
+  schedule_.end();
   exchanges_.end();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "node/exchange/exchanges.h"
+#include "node/exchange/schedule_change.h"
 #include "node/modules/failsafe.h"
 #include "node/modules/normal_threads.h"
 #include "node/modules/processes.h"
@@ -24,9 +25,10 @@ class ModuleCommands {
  public:
   // The parts of the node needed to execute commands.
   struct Parts {
-    const config::Config& config;
+    const Options& options;
+    config::Config& config;
     scheduler::RunBlock& run;
-    const std::vector<ModuleLibrary>& libraries;
+    std::vector<ModuleLibrary>& libraries;
     scheduler::Engine& engine;
     Processes& processes;
     NormalThreads& normal_threads;
@@ -34,10 +36,16 @@ class ModuleCommands {
     FailSafe& failsafe;
     Console& console;
     tape::Tape* tape;  // null: none
+    Placement placement;
   };
   // `check`: as the node starts. `apart`: for versions that do not run.
   ModuleCommands(const Parts& parts, const Exchanges::Parts& exchanges, const config::CheckResult& check, Phases apart)
-      : parts_(parts), exchanges_(exchanges, check, apart) {}
+      : parts_(parts),
+        exchanges_(exchanges, check, apart),
+        schedule_(ScheduleChange::Parts{parts.options, parts.config, parts.run, parts.libraries, parts.engine,
+                                        parts.console, parts.placement},
+                  Arrivals::Parts{parts.config, parts.run, parts.libraries, parts.engine, exchanges.store,
+                                  parts.failsafe, exchanges_, parts.phases, parts.tape}) {}
 
   // Accepts new commands and continues those in progress.
   void poll(rt::MonoTime now);
@@ -55,6 +63,7 @@ class ModuleCommands {
     rt::MonoTime began;
     Phases::CallPointer call;
   };
+  void poll_schedule(rt::MonoTime now);
   void take(std::uint32_t module, scheduler::ModuleCommand command, rt::MonoTime now);
   // Returns true when the command is finished.
   bool go_on(Work& work, rt::MonoTime now);
@@ -75,6 +84,7 @@ class ModuleCommands {
   Parts parts_;
   std::vector<Work> works_;
   Exchanges exchanges_;
+  ScheduleChange schedule_;
 };
 
 }  // namespace indurop::node

@@ -74,6 +74,10 @@ void take_core(const Options& options, config::Config& config) {
   }
 }
 
+config::CheckResult check_modules(const Options& options, config::Config& config) {
+  return config::check_config(config, {.adjust = options.adjust, .machine = !options.simulation.on});
+}
+
 Reading read_modules(const Options& options) {
   Reading out;
   config::ReadResult read = config::read_config(options.config);
@@ -87,7 +91,7 @@ Reading read_modules(const Options& options) {
     return out;
   }
   take_core(options, checked.config);
-  checked.check = config::check_config(checked.config, {.adjust = options.adjust, .machine = !options.simulation.on});
+  checked.check = check_modules(options, checked.config);
   out.add(checked.check.diagnostics);
   checked.external.configure(checked.config, checked.check);
   out.ok = checked.check.ok();
@@ -128,6 +132,26 @@ Reading read_plant(const Options& options) {
 }
 
 }  // namespace
+
+Rechecked recheck(const Options& options, const std::filesystem::path& file) {
+  config::ReadResult read = config::read_config(file);
+  if (!read.ok()) {
+    return {false, {}, {}, std::move(read.diagnostics)};
+  }
+  take_core(options, read.config);
+  Rechecked out = recheck(options, read.config);
+  out.diagnostics.insert(out.diagnostics.begin(), read.diagnostics.begin(), read.diagnostics.end());
+  return out;
+}
+
+Rechecked recheck(const Options& options, const config::Config& config) {
+  Rechecked out;
+  out.config = config;
+  out.check = check_modules(options, out.config);
+  out.ok = out.check.ok();
+  out.diagnostics = out.check.diagnostics;
+  return out;
+}
 
 Result<Checked, Ending> check(const Options& options, const Console& console) {
   const bool plant = config::is_plant_file(options.config);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,18 @@ struct Checked {
   std::vector<std::uint32_t> replaced;  // indices of modules with a file of --with
   std::optional<std::uint32_t> alone;   // index of the only module that is loaded, for Replay::report
 };
+
+// A configuration that was read and checked as the node does it at its start.
+struct Rechecked {
+  bool ok = false;
+  config::Config config;  // meaningful only if ok, as `check`
+  config::CheckResult check;
+  std::vector<base::Diagnostic> diagnostics;
+};
+// Of a module.xml.
+Rechecked recheck(const Options& options, const std::filesystem::path& file);
+// Of one that was checked before.
+Rechecked recheck(const Options& options, const config::Config& config);
 
 Result<Checked, Ending> check(const Options& options, const Console& console);
 

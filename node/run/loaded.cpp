@@ -15,6 +15,7 @@ using scheduler::Operation;
 // Returns false if some of the modules have errors, which were reported.
 bool load_libraries(const Checked& checked, std::vector<ModuleLibrary>& libraries, const Console& console) {
   const config::Config& config = checked.config;
+  libraries.reserve(config.modules.size() + scheduler::kSpareModules);
   libraries.resize(config.modules.size());
   std::set<std::filesystem::path> known;
   bool ok = true;

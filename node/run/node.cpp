@@ -20,6 +20,7 @@ bool replays(const Options& options) {
 
 Ending run_modules(const Options& options, Console& console, base::StopSignal& signals, Checked& checked,
                    Prepared& prepared) {
+  checked.config.modules.reserve(checked.config.modules.size() + scheduler::kSpareModules);
   auto loaded = load(options, checked, prepared, console, signals);
   if (!loaded) {
     return std::move(loaded).error();

@@ -108,8 +108,7 @@ class CoreChoice {
 };
 
 auto setup_of(const Options& options, const Checked& checked, const Rights& rights) {
-  auto setup = make_run_setup(checked.config, checked.check, options.node,
-                              {rights.core, rights.realtime() || options.simulation.on});
+  auto setup = make_run_setup(checked.config, checked.check, options.node, placement(options, rights));
   setup.deployment = options.deployment;
   setup.board = options.board;
   setup.plant_file = options.board.empty() ? "" : std::filesystem::absolute(options.config).string();

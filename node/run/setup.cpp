@@ -52,6 +52,10 @@ scheduler::ModuleSetup module_setup(const config::Module& module, const Placemen
 
 }  // namespace
 
+Placement placement(const Options& options, const Rights& rights) {
+  return {rights.core, rights.realtime() || options.simulation.on};
+}
+
 scheduler::RunBlockSetup make_run_setup(const config::Config& config, const config::CheckResult& check,
                                         const std::string& node, const Placement& placement) {
   // Without periodic modules the event handler still needs a period.
@@ -97,6 +101,15 @@ std::vector<scheduler::Task> make_tasks(const config::Config& config, const conf
     tasks.push_back(task);
   }
   return tasks;
+}
+
+void renumber(std::vector<scheduler::Task>& tasks, const std::vector<std::uint32_t>& indices) {
+  for (scheduler::Task& task : tasks) {
+    task.index = indices[task.index];
+    for (std::uint32_t& before : task.after) {
+      before = indices[before];
+    }
+  }
 }
 
 void set_work_times(std::vector<scheduler::Task>& tasks, const config::Config& config,

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "config/check/check.h"
+#include "node/run/options.h"
+#include "node/run/rights.h"
 #include "scheduler/run_block_setup.h"
 #include "scheduler/task.h"
 
@@ -16,12 +18,17 @@ struct Placement {
   bool realtime = true;  // without real-time rights nothing is pinned
 };
 
+// Where the modules of a node with these rights run.
+Placement placement(const Options& options, const Rights& rights);
+
 scheduler::RunBlockSetup make_run_setup(const config::Config& config, const config::CheckResult& check,
                                         const std::string& node, const Placement& placement);
 
 // One task per periodic and sporadic module; run and condition of thread modules are left empty.
 std::vector<scheduler::Task> make_tasks(const config::Config& config, const config::CheckResult& check,
                                         const scheduler::RunBlockSetup& setup, int default_core);
+// Replaces the indices of modules by others: `indices`, by module.
+void renumber(std::vector<scheduler::Task>& tasks, const std::vector<std::uint32_t>& indices);
 // In a simulation each run takes the time of <wcet>, else that of `times`, else no time.
 void set_work_times(std::vector<scheduler::Task>& tasks, const config::Config& config,
                     const config::CheckOptions::Times& times);

@@ -69,6 +69,10 @@ std::vector<std::string> header_lines(const NodeReport& report, const Output& ou
                                 base::format_duration(base::Nanos(report.macro_period_ns)), report.ticks,
                                 counted(report.lost_ticks, "lost tick")));
   }
+  if (report.schedule > 1) {
+    lines.push_back(fmt::format("            schedule {} since tick {}: {}", report.schedule, report.schedule_tick,
+                                printable(report.schedule_file)));
+  }
   if (report.lateness.count > 0) {
     lines.push_back(fmt::format("  lateness  p50 {}, p99 {}, max {}", human_ns(report.lateness.p50),
                                 human_ns(report.lateness.p99), human_ns(report.lateness.max)));

@@ -12,6 +12,7 @@
 #include "tools/cli/plant/roll_back.h"
 #include "tools/cli/shadow/shadow_run.h"
 #include "tools/cli/values/forcing.h"
+#include "tools/cli/verbs/reload_schedule.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/module_reload.h"
 #include "tools/client/node/node_choice.h"
@@ -31,6 +32,7 @@ constexpr std::int64_t kHealthPollNs = 10'000'000;
 struct ReloadOptions {
   std::string module;
   std::string file;
+  std::string config;  // another schedule; empty: a module is exchanged
   operate::ReloadRequest request;
   std::string board;  // empty: a node of this machine
   std::string plant;  // whose boards all go back; empty: one module does
@@ -217,12 +219,24 @@ int reload_plant(Context& context, const ReloadOptions& options) {
   return roll_back(context, all);
 }
 
+int reload_other_schedule(Context& context, const ReloadOptions& options) {
+  const bool both = !options.config.empty() && options.back;
+  if (both || !options.module.empty() || !options.board.empty() || options.shadow_ns > 0) {
+    context.out.error("--config FILE and --back are alone: indurop reload --config FILE [--dry-run]");
+    return kUsage;
+  }
+  return reload_schedule(context, {options.config, options.request.dry_run, options.timeout_ns});
+}
+
 int reload(Context& context, ReloadOptions& options) {
   if (!options.plant.empty()) {
     return reload_plant(context, options);
   }
+  if (!options.config.empty() || (options.back && options.module.empty())) {
+    return reload_other_schedule(context, options);
+  }
   if (options.module.empty()) {
-    context.out.error("name the module: indurop reload MODULE [FILE]");
+    context.out.error("name the module, indurop reload MODULE [FILE], or a schedule, indurop reload --config FILE");
     return kUsage;
   }
   if (options.back && (!options.file.empty() || options.request.dry_run || options.shadow_ns > 0)) {
@@ -239,7 +253,10 @@ Action declare_reload(base::Options& app, Context& context) {
   app.add("file", "FILE", options->file, "The file of its new version (default: that of the configuration)")
       .completes(base::Completion::File);
   app.flag("--dry-run", options->request.dry_run, "Load and compare it, and exchange nothing");
-  app.flag("--back", options->back, "Exchange it with the previous version");
+  app.flag("--back", options->back, "Exchange it with the previous version; without MODULE: the schedule before");
+  app.add("--config", "FILE", options->config,
+          "Another schedule takes over at the begin of a macro period: that of this configuration")
+      .completes(base::Completion::File);
   const base::Option shadow = add_time_option(
       app, "--shadow", options->shadow_ns,
       "First compare it with the running version: repeat the runs of this time, and exchange it if nothing differs");
@@ -277,6 +294,8 @@ const Verb kReloadVerb{
     "The new version is checked, loaded and started next to the running one. Between two runs of the module it\n"
     "follows with what the module keeps (INDUROP_STATE; PLC programs on their own); no run is left out. If it then\n"
     "faults, overruns or breaks the guard within the health window, the previous version runs again in the next tick.\n"
+    "With --config the schedule of the whole node follows: what becomes of each module is said, modules that stay\n"
+    "lose no tick, and what only a restart can do is refused.\n"
     "With --shadow the new version repeats the runs of the running one first, in another process and with the same\n"
     "inputs, and what it writes is compared.\n"
     "Exit code 0 if it runs, or was the same version; 1 if it could not be started or exchanged; 4 if it was refused:\n"
@@ -290,6 +309,8 @@ const Verb kReloadVerb{
     "  indurop reload press --health 10s --guard \"pressure < 80\"\n"
     "  indurop reload press build/press.so --reason \"faster ramp\"\n"
     "  indurop reload press --back\n"
+    "  indurop reload --config module.xml --dry-run\n"
+    "  indurop reload --back\n"
     "  indurop reload press build/press.so --board cell\n"
     "  indurop reload --back --plant cell\n",
     &declare_reload};

@@ -19,6 +19,8 @@ using scheduler::VersionState;
 constexpr std::int64_t kLockPollNs = 10'000'000;
 constexpr std::size_t kShownDigits = 12;
 
+}  // namespace
+
 // One exchange at a time: the request is a file of the node.
 Result<operate::ReloadLock, Failure> lock_when_free(const std::string& node, std::int64_t timeout_ns) {
   const std::int64_t end = rt::now_ns() + timeout_ns;
@@ -36,8 +38,6 @@ Result<operate::ReloadLock, Failure> lock_when_free(const std::string& node, std
     }
   }
 }
-
-}  // namespace
 
 Result<Reloaded, Failure> reload_module(const std::string& node, ModuleCommand command, const std::string& module,
                                         const operate::ReloadRequest& request, std::int64_t timeout_ns,

@@ -18,6 +18,9 @@ struct Reloaded {
   operate::ReloadReport report;
 };
 
+// Waits until no other process commands an exchange, at most `timeout_ns`.
+Result<operate::ReloadLock, Failure> lock_when_free(const std::string& node, std::int64_t timeout_ns);
+
 // Commands it and waits until the node has answered, at most `timeout_ns`; user and reason go to the node's journal.
 // `command`: Reload, or Back to the previous version.
 Result<Reloaded, Failure> reload_module(const std::string& node, scheduler::ModuleCommand command,

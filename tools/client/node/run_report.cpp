@@ -65,6 +65,9 @@ NodeReport report_of(const std::string& node, const RunView& run) {
   report.stop_reason = fixed_text(block.stop_reason);
   report.basic_period_ns = block.basic_period_ns;
   report.macro_period_ns = block.macro_period_ns;
+  report.schedule = block.schedule.load(std::memory_order_acquire);
+  report.schedule_tick = block.schedule_tick.load(kRelaxed);
+  report.schedule_file = fixed_text(block.schedule_files[report.schedule % 2]);
   report.ticks = block.tick.load(kRelaxed);
   report.lost_ticks = block.lost_ticks.load(kRelaxed);
   if (report.alive && block.epoch_ns > 0) {
@@ -107,6 +110,9 @@ JsonValue json_of(const NodeReport& report) {
           {"uptime_ns", report.uptime_ns},
           {"basic_period_ns", report.basic_period_ns},
           {"macro_period_ns", report.macro_period_ns},
+          {"schedule", report.schedule},
+          {"schedule_tick", report.schedule_tick},
+          {"schedule_file", report.schedule_file},
           {"ticks", report.ticks},
           {"lost_ticks", report.lost_ticks},
           {"lateness_ns",

@@ -25,6 +25,9 @@ struct NodeReport {
   std::int64_t macro_period_ns = 0;
   std::uint64_t ticks = 0;
   std::uint64_t lost_ticks = 0;
+  std::uint64_t schedule = 0;       // number; 1: the one that the node started with
+  std::uint64_t schedule_tick = 0;  // its first
+  std::string schedule_file;
   std::int64_t uptime_ns = 0;  // since tick 0; 0 if unknown or not running
   std::uint32_t modules = 0;
   std::uint64_t overruns = 0;  // sum over all modules

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The modules that another schedule adds to a running node: they are loaded next to those that run, get a place in the
+// node, and are started; then the schedule may enter them. Called by the thread that supervises the node.
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "node/exchange/candidate_thread.h"
+#include "node/exchange/exchanges.h"
+#include "node/exchange/schedule_plan.h"
+#include "node/modules/failsafe.h"
+#include "node/run/checked.h"
+#include "scheduler/run_block_setup.h"
+#include "store/tape/tape.h"
+
+namespace indurop::node {
+
+class Arrivals {
+ public:
+  // The parts of the node needed for it, borrowed.
+  struct Parts {
+    config::Config& config;  // as the modules run
+    scheduler::RunBlock& run;
+    std::vector<ModuleLibrary>& libraries;
+    scheduler::Engine& engine;
+    const vars::Store& store;
+    FailSafe& failsafe;
+    Exchanges& exchanges;
+    Phases& phases;
+    tape::Tape* tape;  // null: none
+  };
+
+  explicit Arrivals(const Parts& parts) : parts_(parts) {}
+
+  // Begins to load the added modules of a plan. `next` is borrowed until they have entered or are dropped.
+  void begin(const Rechecked& next, const SchedulePlan& plan);
+  // Continues. Returns true when all are loaded, or errors() says what is wrong.
+  bool is_loaded();
+  [[nodiscard]] const std::vector<std::string>& errors() const noexcept { return errors_; }
+  // Gives those that are new a place, and completes the plan's indices. Returns false if there is no room: nothing has
+  // changed.
+  bool place(SchedulePlan& plan, const scheduler::RunBlockSetup& setup, const std::vector<scheduler::Task>& tasks);
+  // Calls start(), one after the other. Returns true when that is over, or failure() says why it is not.
+  bool is_started(rt::MonoTime now);
+  [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
+  // The schedule that has them may begin.
+  void enter();
+  // They do not come. Returns those that have been started and have to be stopped.
+  std::vector<std::uint32_t> drop();
+  // The node ends: waits for a call in progress.
+  void end();
+
+ private:
+  struct One {
+    std::uint32_t place = 0;  // in the other configuration
+    std::uint32_t index = SchedulePlan::kNoModule;
+    bool loads = false;  // else it has ended, and its code is there
+    ModuleLibrary library;
+  };
+  void load_next();
+  std::uint32_t add(One& one, const scheduler::ModuleSetup& setup);
+  void replace_code(One& one);
+
+  Parts parts_;
+  const Rechecked* next_ = nullptr;
+  std::vector<One> all_;
+  std::vector<std::string> errors_;
+  std::size_t loaded_ = 0;
+  std::size_t started_ = 0;
+  std::string failure_;
+  const ModuleLibrary none_;
+  std::unique_ptr<CandidateThread> loading_;
+  Phases::CallPointer call_{nullptr, [](Phases::Call* /*none*/) {}};
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/exchange/schedule_change.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/duration.h"
+#include "core/keys/digest.h"
+#include "core/rt/clock.h"
+#include "core/rt/copy_text.h"
+#include "node/exchange/module_exchange.h"
+
+namespace indurop::node {
+namespace {
+
+using scheduler::CommandResult;
+using scheduler::Engine;
+using scheduler::ModuleCommand;
+using scheduler::ModuleType;
+
+constexpr std::size_t kCheckStack = std::size_t{8} * 1024 * 1024;
+constexpr std::int64_t kLongestWaitNs = 5 * rt::kNanosPerSecond;  // for a moment without a run in progress
+constexpr int kProposals = 10;                                    // each for a later macro period
+constexpr std::chrono::milliseconds kCheckPoll{1};
+
+// The configuration of the schedule that runs, as it was after its check.
+config::Config config_of_schedule(const config::Config& running, const scheduler::RunBlock& run) {
+  config::Config config = running;
+  std::vector<config::Module> modules;
+  for (std::uint32_t i = 0; i < running.modules.size(); ++i) {
+    if (!run.modules()[i].ended) {
+      modules.push_back(running.modules[i]);
+    }
+  }
+  config.modules = std::move(modules);
+  return config;
+}
+
+}  // namespace
+
+void ScheduleChange::poll(rt::MonoTime now, const std::string& others) {
+  if (scheduler::waiting_command(record(0)) == ModuleCommand::Schedule && step_ == Step::Idle) {
+    accept(others);
+  }
+  while (parts_.options.simulation.on && step_ == Step::Checking && !is_checked_.load()) {
+    rt::sleep_until(rt::MonoClock::now() + kCheckPoll);  // virtual time does not pass
+  }
+  switch (step_) {
+    case Step::Checking:
+      return is_checked_.load(std::memory_order_acquire) ? checked() : void();
+    case Step::Loading:
+      return arrivals_.is_loaded() ? loaded() : void();
+    case Step::Starting:
+      return start(now, others);
+    case Step::Waiting:
+    case Step::Leaving:
+      return follow();
+    case Step::Idle:
+      return;
+  }
+}
+
+void ScheduleChange::accept(const std::string& others) {
+  report_ = {};
+  const auto request = operate::take_schedule_request(parts_.options.node);
+  if (!request) {
+    answer(CommandResult::Refused, "the request cannot be read; repeat the command");
+  } else if (!parts_.options.board.empty()) {
+    answer(CommandResult::Refused, "it is a board of a plant: `indurop deploy` takes its manifest to all boards");
+  } else if (!others.empty()) {
+    answer(CommandResult::Refused, others + "; repeat the command when that is over");
+  } else if (request->back && !previous_) {
+    answer(CommandResult::Refused, "there was no other schedule: name a configuration, `indurop reload --config FILE`");
+  } else {
+    check(*request);
+  }
+}
+
+void ScheduleChange::check(const operate::ScheduleRequest& request) {
+  request_ = request;
+  is_checked_.store(false);
+  step_ = Step::Checking;
+  auto thread = rt::Thread::start({"irp-schedule", 0, -1, kCheckStack}, [this] {
+    next_ = request_.back ? recheck(parts_.options, *previous_) : recheck(parts_.options, request_.config);
+    is_checked_.store(true, std::memory_order_release);
+  });
+  if (!thread) {
+    return fail("no thread could be started to check the configuration");
+  }
+  thread_ = std::move(thread).value();
+}
+
+void ScheduleChange::checked() {
+  thread_.join();
+  for (const base::Diagnostic& diagnostic : next_.diagnostics) {
+    if (diagnostic.severity != base::Diagnostic::Severity::Note) {
+      report_.messages.push_back(base::to_string(diagnostic));
+    }
+  }
+  if (!next_.ok) {
+    return refuse("the configuration has errors");
+  }
+  make_plan();
+  report_.restarts = plan_.restarts;
+  for (const ModuleFate& fate : plan_.modules) {
+    report_.modules.push_back({fate.module, to_text(fate.kind), fate.text});
+  }
+  if (!report_.restarts.empty()) {
+    return refuse("the node has to be restarted with this configuration");
+  }
+  arrivals_.begin(next_, plan_);
+  step_ = Step::Loading;
+}
+
+void ScheduleChange::make_plan() {
+  plan_ = plan_schedule(parts_.config, parts_.run, next_.config, next_.check);
+  for (std::size_t i = 0; i < plan_.indices.size(); ++i) {
+    const std::uint32_t index = plan_.indices[i];
+    const config::Module& module = next_.config.modules[i];
+    if (index == SchedulePlan::kNoModule || module.type != ModuleType::Thread || record(index).ended) {
+      continue;
+    }
+    const auto digest = keys::digest_of_file(module.file);
+    if (!digest || digest->digest != parts_.libraries[index].digest()) {
+      plan_.restarts.push_back(fmt::format("module {} runs another version than {}; `indurop reload {}` exchanges it",
+                                           module.name, module.file.string(), module.name));
+    }
+  }
+  setup_ = make_run_setup(next_.config, next_.check, parts_.options.node, parts_.placement);
+  tasks_ = make_tasks(next_.config, next_.check, setup_, parts_.placement.core);
+  for (const scheduler::Task& task : tasks_) {
+    if (!parts_.engine.has_core(task.core)) {
+      plan_.restarts.push_back(fmt::format("module {} is for core {}, on which no module runs",
+                                           next_.config.modules[task.index].name, task.core));
+    }
+  }
+  if (parts_.options.simulation.on) {
+    set_work_times(tasks_, next_.config, parts_.options.simulation.measured);
+  }
+}
+
+void ScheduleChange::loaded() {
+  if (!arrivals_.errors().empty()) {
+    report_.messages.insert(report_.messages.end(), arrivals_.errors().begin(), arrivals_.errors().end());
+    return refuse("a module that is added cannot run here");
+  }
+  if (request_.dry_run) {
+    (void)arrivals_.drop();
+    step_ = Step::Idle;
+    return answer(CommandResult::Done, "would take over, " + summary());
+  }
+  if (!arrivals_.place(plan_, setup_, tasks_)) {
+    return refuse("there is no room for the properties of a module that is added; restart the node");
+  }
+  renumber(tasks_, plan_.indices);
+  step_ = Step::Starting;
+}
+
+// They start while the others run.
+void ScheduleChange::start(rt::MonoTime now, const std::string& others) {
+  const bool started = arrivals_.is_started(now);
+  if (!arrivals_.failure().empty()) {
+    fail(arrivals_.failure());
+  } else if (started) {
+    prepare(others);
+  }
+}
+
+void ScheduleChange::prepare(const std::string& others) {
+  if (!others.empty()) {
+    return fail(others);
+  }
+  if (const Status prepared = parts_.engine.prepare_change(tasks_); !prepared) {
+    return fail("its threads cannot be started: " + describe(prepared.error()));
+  }
+  arrivals_.enter();
+  waits_for_any_tick_ = false;
+  if (!propose(macro_period_ticks(parts_.run))) {
+    return fail("no macro period began in time");
+  }
+  step_ = Step::Waiting;
+}
+
+// The change is at the begin of a macro period, or `step` ticks later, and so on.
+bool ScheduleChange::propose(std::uint64_t step) {
+  const scheduler::RunBlock& run = parts_.run;
+  const auto wait = static_cast<std::uint64_t>(kLongestWaitNs / run.basic_period_ns);
+  for (int i = 0; i < kProposals; ++i) {
+    const std::uint64_t tick = next_macro_period(run) + static_cast<std::uint64_t>(i) * macro_period_ticks(run);
+    if (parts_.engine.change_at({tick, step, tick + wait})) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void ScheduleChange::follow() {
+  const Engine::Change change = parts_.engine.follow_change();
+  if (step_ == Step::Waiting && change == Engine::Change::Prepared) {
+    if (!std::exchange(waits_for_any_tick_, true) && propose(1)) {
+      return;
+    }
+    return fail(fmt::format("in {} no tick began without a run in progress; restart the node",
+                            base::format_duration(base::Nanos(kLongestWaitNs))));
+  }
+  if (step_ == Step::Waiting && change != Engine::Change::Waiting) {
+    settle();
+    step_ = Step::Leaving;
+  }
+  if (step_ == Step::Leaving && change == Engine::Change::None) {
+    ended_.insert(ended_.end(), plan_.ended.begin(), plan_.ended.end());
+    plan_.ended.clear();
+    step_ = Step::Idle;
+  }
+}
+
+// All cores run by it: from here on this is the configuration of the node.
+void ScheduleChange::settle() {
+  scheduler::RunBlock& run = parts_.run;
+  previous_ = config_of_schedule(parts_.config, run);
+  for (std::size_t i = 0; i < plan_.indices.size(); ++i) {
+    settle_module(i, plan_.indices[i]);
+  }
+  for (const std::uint32_t module : plan_.ended) {
+    record(module).ended = true;
+  }
+  parts_.config.file = next_.config.file;
+  parts_.config.minimum_period = next_.config.minimum_period;
+  follow_priorities();
+  run.macro_period_ns = setup_.macro_period_ns;
+  run.slot_count = static_cast<std::uint64_t>(setup_.macro_period_ns / run.basic_period_ns);
+  const std::uint64_t number = run.schedule.load() + 1;
+  rt::copy_text(run.schedule_files[number % 2], setup_.config_file);
+  run.schedule_tick.store(parts_.engine.changed_at());
+  run.schedule.store(number, std::memory_order_release);
+  parts_.console.info("schedule {} ({}) counts since tick {}: {}", number, parts_.config.file.filename().string(),
+                      parts_.engine.changed_at(), summary());
+  answer(CommandResult::Done, "took over, " + summary());
+}
+
+void ScheduleChange::settle_module(std::size_t place, std::uint32_t index) {
+  const scheduler::ModuleSetup& setup = setup_.modules[place];
+  scheduler::ModuleRecord& to = record(index);
+  to.overrun_policy = setup.overrun;
+  to.priority = setup.priority;
+  to.period_ns = setup.period_ns;
+  to.offset_ns = setup.offset_ns;
+  to.deadline_ns = setup.deadline_ns;
+  to.budget_ns = setup.budget_ns;
+  to.ended = false;
+  config::Module& module = parts_.config.modules[index];
+  next_.config.modules[place].file = module.file;
+  next_.config.modules[place].file_as_written = module.file_as_written;
+  module = std::move(next_.config.modules[place]);
+}
+
+// Real-time processes have obtained theirs on their own.
+void ScheduleChange::follow_priorities() const {
+  for (std::uint32_t i = 0; i < parts_.run.module_count; ++i) {
+    const std::int32_t pid = record(i).pid.load();
+    if (record(i).type == ModuleType::Process && record(i).fifo_priority > 0 && pid > 0 && !record(i).ended) {
+      (void)rt::set_fifo_of(pid, record(i).fifo_priority);
+    }
+  }
+}
+
+std::string ScheduleChange::summary() const {
+  std::string text;
+  using Kind = ModuleFate::Kind;
+  for (const Kind kind : {Kind::Kept, Kind::Rescheduled, Kind::Added, Kind::Ended}) {
+    const auto number =
+        std::count_if(plan_.modules.begin(), plan_.modules.end(), [kind](const auto& one) { return one.kind == kind; });
+    if (number > 0) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number, to_text(kind));
+    }
+  }
+  return "modules: " + text;
+}
+
+void ScheduleChange::fail(const std::string& why) {
+  parts_.engine.drop_change();
+  ended_ = arrivals_.drop();
+  step_ = parts_.engine.follow_change() == Engine::Change::None ? Step::Idle : Step::Leaving;
+  plan_.ended.clear();
+  answer(CommandResult::Failed, why);
+}
+
+// Nothing has begun.
+void ScheduleChange::refuse(const std::string& why) {
+  (void)arrivals_.drop();
+  step_ = Step::Idle;
+  answer(CommandResult::Refused, why);
+}
+
+void ScheduleChange::answer(CommandResult result, const std::string& text) {
+  report_.text = text;
+  report_.schedule = parts_.run.schedule.load();
+  report_.tick = parts_.run.schedule_tick.load();
+  (void)operate::write_schedule_report(parts_.options.node, report_);
+  scheduler::answer_command(record(0), result);
+  if (result != CommandResult::Done) {
+    parts_.console.warning("the schedule has not changed: {}", text);
+  }
+}
+
+std::vector<std::uint32_t> ScheduleChange::take_ended() {
+  return step_ == Step::Idle ? std::exchange(ended_, {}) : std::vector<std::uint32_t>();
+}
+
+void ScheduleChange::end() {
+  const bool unanswered = step_ != Step::Idle && step_ != Step::Leaving;
+  if (step_ == Step::Checking) {
+    thread_.join();
+  }
+  if (step_ == Step::Loading || step_ == Step::Starting) {
+    arrivals_.end();
+  }
+  step_ = Step::Idle;
+  if (unanswered) {
+    answer(CommandResult::Ending, "the node ends");
+  }
+}
+
+}  // namespace indurop::node

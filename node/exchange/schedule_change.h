@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Another schedule takes over while the node runs: its configuration is checked as at the start, compared with what
+// runs, built next to it, and counts from the begin of a macro period on. Called by the thread that supervises the
+// node.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/rt/thread.h"
+#include "node/exchange/arrivals.h"
+#include "node/exchange/schedule_plan.h"
+#include "node/run/checked.h"
+#include "node/run/console.h"
+#include "node/run/setup.h"
+#include "scheduler/engine.h"
+#include "scheduler/module_command.h"
+#include "store/operate/schedule_request.h"
+
+namespace indurop::node {
+
+class ScheduleChange {
+ public:
+  // The parts of the node needed for it, borrowed.
+  struct Parts {
+    const Options& options;
+    config::Config& config;  // as the modules run
+    scheduler::RunBlock& run;
+    const std::vector<ModuleLibrary>& libraries;
+    scheduler::Engine& engine;
+    Console& console;
+    Placement placement;
+  };
+
+  ScheduleChange(const Parts& parts, const Arrivals::Parts& arrivals) : parts_(parts), arrivals_(arrivals) {}
+  ScheduleChange(const ScheduleChange&) = delete;
+  ScheduleChange& operator=(const ScheduleChange&) = delete;
+  ~ScheduleChange() = default;
+
+  // Accepts a command and continues. `others`: what else is in progress, such as "module x is being exchanged"; the
+  // schedule does not change meanwhile. Empty: nothing.
+  void poll(rt::MonoTime now, const std::string& others);
+  // Returns true while commands to modules have to wait.
+  [[nodiscard]] bool is_switching() const noexcept { return step_ == Step::Waiting; }
+  // Returns the modules that have left the schedule and are to be stopped. Each once.
+  std::vector<std::uint32_t> take_ended();
+  // Called when the schedule has ended.
+  void end();
+
+ private:
+  enum class Step {
+    Idle,
+    Checking,  // on a thread of its own
+    Loading,   // modules that are added
+    Starting,  // their start() runs
+    Waiting,   // for its first tick
+    Leaving,   // runs of the schedule before may be in progress
+  };
+
+  void accept(const std::string& others);
+  void check(const operate::ScheduleRequest& request);
+  void checked();
+  void make_plan();
+  void loaded();
+  void start(rt::MonoTime now, const std::string& others);
+  void prepare(const std::string& others);
+  bool propose(std::uint64_t step);
+  void follow();
+  void settle();
+  void settle_module(std::size_t place, std::uint32_t index);
+  void follow_priorities() const;
+  void fail(const std::string& why);
+  void refuse(const std::string& why);
+  void answer(scheduler::CommandResult result, const std::string& text);
+  [[nodiscard]] std::string summary() const;
+  [[nodiscard]] scheduler::ModuleRecord& record(std::uint32_t module) const noexcept {
+    return parts_.run.modules()[module];
+  }
+
+  Parts parts_;
+  Step step_ = Step::Idle;
+  operate::ScheduleRequest request_;
+  operate::ScheduleReport report_;
+  rt::Thread thread_;
+  std::atomic<bool> is_checked_{false};
+  Rechecked next_;
+  SchedulePlan plan_;
+  scheduler::RunBlockSetup setup_;      // of `next_`
+  std::vector<scheduler::Task> tasks_;  // of `next_`, by the indices of the run block
+  Arrivals arrivals_;
+  bool waits_for_any_tick_ = false;         // in each macro period that began a run was in progress
+  std::vector<std::uint32_t> ended_;        // to be stopped
+  std::optional<config::Config> previous_;  // of the schedule before
+};
+
+}  // namespace indurop::node

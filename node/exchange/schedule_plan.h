@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What another configuration makes of the modules of a running node, and whether a change of its schedule is enough for
+// it. Pure comparison.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "config/check/check.h"
+#include "scheduler/run_block.h"
+
+namespace indurop::node {
+
+struct ModuleFate {
+  enum class Kind {
+    Kept,
+    Rescheduled,
+    Added,
+    Ended,
+  };
+  std::string module;
+  Kind kind = Kind::Kept;
+  std::string text;  // "period 2 ms -> 4 ms, priority 1 -> 3"; empty: nothing more to say
+};
+const char* to_text(ModuleFate::Kind kind) noexcept;
+
+struct SchedulePlan {
+  static constexpr std::uint32_t kNoModule = ~std::uint32_t{0};
+  std::vector<ModuleFate> modules;     // those of the other configuration, then those that end
+  std::vector<std::uint32_t> indices;  // in the run block, of the modules of the other configuration; kNoModule: new
+  std::vector<std::uint32_t> added;    // places in the other configuration
+  std::vector<std::uint32_t> ended;    // indices in the run block
+  std::vector<std::string> restarts;   // why only a restart leads there; empty: it does not need one
+};
+
+// `running`: by index in the run block, as the modules run now; those that have ended are marked there. `next` was
+// checked with the result `check`.
+SchedulePlan plan_schedule(const config::Config& running, const scheduler::RunBlock& run, const config::Config& next,
+                           const config::CheckResult& check);
+
+}  // namespace indurop::node
