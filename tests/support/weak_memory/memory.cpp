@@ -42,6 +42,7 @@ void Memory::reset(std::size_t threads) {
   places_.clear();
   mutexes_.clear();
   sequential_.clear();
+  sequential_writes_.clear();
   knew_all_ = true;
 }
 
@@ -70,8 +71,11 @@ std::uint64_t Memory::state() const {
       hash = mixed(hash, message.id);
     }
   }
-  for (const auto& [where, id] : sequential_) {
-    hash = mixed(mixed(hash, reinterpret_cast<std::uintptr_t>(where)), id);
+  for (const View* const view : {&sequential_, &sequential_writes_}) {
+    for (const auto& [where, id] : *view) {
+      hash = mixed(mixed(hash, reinterpret_cast<std::uintptr_t>(where)), id);
+    }
+    hash = mixed(hash, view->size());
   }
   return hash;
 }
@@ -90,9 +94,24 @@ std::size_t Memory::position(const Place& place, MessageId id) {
   return static_cast<std::size_t>(found - place.begin());
 }
 
-std::size_t Memory::seen_at(const Thread& thread, const void* where, const Place& place) {
-  const auto found = thread.seen.find(where);
-  return found == thread.seen.end() ? 0 : position(place, found->second);
+std::size_t Memory::seen_at(const View& view, const void* where, const Place& place) {
+  const auto found = view.find(where);
+  return found == view.end() ? 0 : position(place, found->second);
+}
+
+// A sequentially consistent access takes nothing that is older than the last such write, or than what was written
+// before the last such fence.
+std::size_t Memory::first_readable(const Thread& thread, const void* where, const Place& place, int order) const {
+  const std::size_t seen = seen_at(thread.seen, where, place);
+  return order != __ATOMIC_SEQ_CST || without_.no_sequential_accesses
+             ? seen
+             : std::max({seen, seen_at(sequential_writes_, where, place), seen_at(sequential_, where, place)});
+}
+
+void Memory::note_sequential(const void* where, const Place& place, MessageId id, int order) {
+  if (order == __ATOMIC_SEQ_CST && position(place, id) >= seen_at(sequential_writes_, where, place)) {
+    sequential_writes_[where] = id;
+  }
 }
 
 void Memory::join(View& into, const View& from) const {
@@ -121,7 +140,7 @@ Memory::View Memory::given(const Thread& thread, int order, const void* where, M
 std::uint64_t Memory::load(std::size_t thread, const void* place, std::size_t size, int order) {
   Thread& me = threads_[thread];
   const Place& from = at(place, size);
-  const std::size_t first = seen_at(me, place, from);
+  const std::size_t first = first_readable(me, place, from, order);
   // The latest one first: the execution that a test would meet.
   const std::size_t chosen = from.size() - 1 - choose_(from.size() - first);
   const Message message = from[chosen];
@@ -134,7 +153,7 @@ void Memory::store(std::size_t thread, void* place, std::uint64_t value, std::si
   Thread& me = threads_[thread];
   Place& to = at(place, size);
   std::vector<std::size_t> gaps;  // where it can stand in the order of writes, the last one first
-  for (std::size_t i = to.size(); i > seen_at(me, place, to); --i) {
+  for (std::size_t i = to.size(); i > seen_at(me.seen, place, to); --i) {
     if (i == to.size() || !to[i].tied) {
       gaps.push_back(i);
     }
@@ -144,6 +163,7 @@ void Memory::store(std::size_t thread, void* place, std::uint64_t value, std::si
   to.insert(to.begin() + static_cast<std::ptrdiff_t>(gap), {id, value, {}, false});
   me.seen[place] = id;
   to[gap].view = given(me, order, place, id);
+  note_sequential(place, to, id, order);
   me.note(id);
 }
 
@@ -151,7 +171,7 @@ std::uint64_t Memory::modify(std::size_t thread, void* place, std::size_t size, 
                              const Change& change) {
   Thread& me = threads_[thread];
   Place& of = at(place, size);
-  const std::size_t first = seen_at(me, place, of);
+  const std::size_t first = first_readable(me, place, of, order);
   std::vector<std::size_t> readable;
   for (std::size_t i = of.size(); i > first; --i) {
     std::uint64_t value = of[i - 1].value;
@@ -175,6 +195,7 @@ std::uint64_t Memory::modify(std::size_t thread, void* place, std::size_t size, 
   View view = given(me, order, place, id);
   join(view, before.view);  // a release sequence goes on
   of[chosen + 1].view = std::move(view);
+  note_sequential(place, of, id, order);
   me.note(id);
   return before.value;
 }
@@ -190,6 +211,7 @@ void Memory::fence(std::size_t thread, int order) {
     join(me.seen, me.acquirable);
   }
   if (is_sequential) {
+    join(me.seen, sequential_writes_);
     join(me.seen, sequential_);
     join(sequential_, me.seen);
   }

@@ -76,7 +76,10 @@ class Memory {
 
   Place& at(const void* place, std::size_t size);
   static std::size_t position(const Place& place, MessageId id);
-  [[nodiscard]] static std::size_t seen_at(const Thread& thread, const void* where, const Place& place);
+  [[nodiscard]] static std::size_t seen_at(const View& view, const void* where, const Place& place);
+  [[nodiscard]] std::size_t first_readable(const Thread& thread, const void* where, const Place& place,
+                                           int order) const;
+  void note_sequential(const void* where, const Place& place, MessageId id, int order);
   void join(View& into, const View& from) const;
   void take(Thread& thread, const void* where, const Message& message, int order);
   [[nodiscard]] View given(const Thread& thread, int order, const void* where, MessageId id) const;
@@ -87,7 +90,8 @@ class Memory {
   std::vector<Thread> threads_;
   std::map<const void*, Place> places_;
   std::map<const void*, Mutex> mutexes_;
-  View sequential_;  // what the last sequentially consistent fence knew
+  View sequential_;         // what the last sequentially consistent fence knew
+  View sequential_writes_;  // of each place the latest write that was a sequentially consistent one
   std::set<const void*> written_;
   bool knew_all_ = true;
 };

@@ -27,8 +27,9 @@ struct Program {
 struct Weakening {
   bool no_acquire_fences = false;
   bool no_release_fences = false;
-  bool no_acquire_loads = false;   // they are relaxed
-  bool no_release_stores = false;  // they are relaxed
+  bool no_sequential_accesses = false;  // they only acquire and release
+  bool no_acquire_loads = false;        // they are relaxed
+  bool no_release_stores = false;       // they are relaxed
 };
 
 struct Outcome {

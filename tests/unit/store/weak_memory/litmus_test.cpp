@@ -96,6 +96,42 @@ TEST_F(Litmus, SB_two_that_write_first_and_read_then_may_both_miss_it) {
   EXPECT_FALSE(both_miss(true));
 }
 
+TEST_F(Litmus, SB_sequential_accesses_do_not_both_miss_it_and_one_that_is_weaker_may) {
+  const auto both_miss = [this](std::memory_order read) {
+    const auto thread = [read](std::atomic<int>& to, std::atomic<int>& from, int& found) {
+      to.store(1, kSequential);
+      found = from.load(read);
+    };
+    return may_happen({[=, this] { thread(x, y, a); }, [=, this] { thread(y, x, b); }},
+                      [this] { return a == 0 && b == 0; });
+  };
+  EXPECT_FALSE(both_miss(kSequential));
+  EXPECT_TRUE(both_miss(kAcquire));
+}
+
+TEST_F(Litmus, IRIW_sequential_accesses_have_one_order) {
+  const auto reads = [](std::atomic<int>& from, std::atomic<int>& then, int& first, int& second) {
+    first = from.load(kSequential);
+    second = then.load(kSequential);
+  };
+  EXPECT_FALSE(may_happen({[this] { x.store(1, kSequential); }, [this] { y.store(1, kSequential); },
+                           [=, this] { reads(x, y, a, b); }, [=, this] { reads(y, x, c, d); }},
+                          [this] { return a == 1 && b == 0 && c == 1 && d == 0; }));
+}
+
+TEST_F(Litmus, SB_a_fence_on_one_side_and_sequential_accesses_on_the_other) {
+  EXPECT_FALSE(may_happen({[this] {
+                             x.store(1, kRelaxed);
+                             std::atomic_thread_fence(kSequential);
+                             a = y.load(kRelaxed);
+                           },
+                           [this] {
+                             y.store(1, kSequential);
+                             b = x.load(kSequential);
+                           }},
+                          [this] { return a == 0 && b == 0; }));
+}
+
 TEST_F(Litmus, CoRR_a_thread_does_not_read_backwards) {
   EXPECT_FALSE(may_happen({[this] {
                              x.store(1, kRelaxed);
