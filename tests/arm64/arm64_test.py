@@ -20,9 +20,10 @@ import xml.etree.ElementTree as xml
 
 import machine
 
-# What qemu-user does not know: robust mutexes, on their own or by our library. And rooms that ask for real time.
+# What qemu-user does not know: robust mutexes, on their own or by our library.
 UNKNOWN = (b"pthread_mutexattr_setrobust", b"libindurop.so")
-REAL_TIME = ("rt_*", "scheduler_engine_*", "*_posix")
+# Rooms that need a whole kernel: how child processes end, real time.
+KERNEL = ("base_*", "rt_*", "scheduler_engine_*", "*_posix")
 CHAPTER_SECONDS = 5
 PATIENCE = 3600  # seconds a program may take: a limit for one that hangs, however busy this machine is
 # Nanoseconds per instruction, as powers of two. Tests that spin for a time are cheaper on a slower processor, which has to be
@@ -40,7 +41,7 @@ cd {build}/examples/chapter
 
 def needs_machine(program):
     content = program.read_bytes()
-    return any(fnmatch.fnmatch(program.name, pattern) for pattern in REAL_TIME) or any(text in content for text in UNKNOWN)
+    return any(fnmatch.fnmatch(program.name, pattern) for pattern in KERNEL) or any(text in content for text in UNKNOWN)
 
 
 class Result:
