@@ -8,6 +8,7 @@
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/mirror_view.h"
 #include "tools/client/node/node_choice.h"
+#include "tools/client/node/pool_view.h"
 #include "tools/client/values/variables.h"
 
 namespace indurop::tools {
@@ -27,6 +28,24 @@ void note_old(Context& context, const std::vector<Item>& items) {
   }
 }
 
+// Chunks have no place in a terminal: of a pool it shows how it is used.
+int show_pools(Context& context, const std::vector<PoolView>& pools) {
+  if (context.format == Format::Json) {
+    JsonValue json = document();
+    json["node"] = context.values->title();
+    json["pools"] = json_of(pools);
+    context.out.line(json.dump_rows());
+    return kOk;
+  }
+  for (const PoolView& pool : pools) {
+    const std::vector<std::string> lines = lines_of(pool);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      context.out.line((i == 0 ? "" : "  ") + lines[i]);
+    }
+  }
+  return kOk;
+}
+
 int get(Context& context, const std::vector<std::string>& names) {
   const auto store = open_store(context, vars::Mode::ReadOnly, names);
   if (!store) {
@@ -35,6 +54,11 @@ int get(Context& context, const std::vector<std::string>& names) {
   const std::string absence = context.values->absence(&*store);
   if (!absence.empty() && context.values->here()) {
     context.out.note(context.values->gone(absence) + ": these are the last values");
+  }
+  if (names.size() == 1 && !schema::is_glob(names.front()) && context.values->here()) {
+    if (const auto pools = view_pools(context.node, *store, names.front()); !pools.empty()) {
+      return show_pools(context, pools);
+    }
   }
   std::vector<Item> items;
   if (const int code = select_items(context, *store, names, items); code != kOk) {
@@ -70,6 +94,7 @@ Action declare_get(base::Options& app, Context& context) {
 const Verb kGetVerb{"get", "Variables", "Print the value of variables or parts of them",
                     "Leading namespaces may be left out if the rest is unique; '.' and '::' both separate them.\n"
                     "One name prints nothing but its value, so that x=$(indurop get tick) works.\n"
+                    "Of a pool it shows chunks, drops and users.\n"
                     "Examples:\n"
                     "  indurop get tick\n"
                     "  indurop get 'joints[1].y' 'joints[2]'\n"

@@ -17,6 +17,7 @@
 #include "tools/client/node/module_reload.h"
 #include "tools/client/node/module_table.h"
 #include "tools/client/node/node_trouble.h"
+#include "tools/client/node/pool_view.h"
 #include "tools/client/node/run_report.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/client/text/units.h"
@@ -28,6 +29,11 @@ namespace {
 std::vector<ForceView> forces_here(const std::string& node) {
   const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
   return store ? view_forces(node, *store) : std::vector<ForceView>();
+}
+
+std::vector<PoolView> pools_here(const std::string& node) {
+  const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
+  return store ? view_pools(node, *store) : std::vector<PoolView>();
 }
 
 alarms::AlarmCounts alarms_here(const std::string& node) {
@@ -55,6 +61,7 @@ struct StatusHead {
   std::vector<ForceView> forces;
   vars::LockNote lock;
   std::vector<std::string> trouble;
+  std::vector<PoolView> pools;
   std::vector<std::string> exchanged;  // modules whose code was exchanged, with their version
 };
 
@@ -71,12 +78,13 @@ std::vector<std::string> exchanged_modules(const RunView& run) {
 StatusHead read_head(const BoardRun& chosen) {
   const std::string& node = chosen.node;
   const RunView& run = chosen.run;
-  StatusHead head{report_of(node, run), {}, {}, {}, {}, {}, {}, {}, exchanged_modules(run)};
+  StatusHead head{report_of(node, run), {}, {}, {}, {}, {}, {}, {}, {}, exchanged_modules(run)};
   if (run.here()) {
     head.mirror = view_mirror(node);
     head.external = view_external(node);
     head.retained = vars::RetainFile(vars::state_directory(node)).last_report();
     head.alarms = alarms_here(node);
+    head.pools = pools_here(node);
   }
   head.forces = chosen.forces ? *chosen.forces : forces_here(node);
   head.lock = chosen.forces ? chosen.lock : vars::lock_of(node);
@@ -112,6 +120,12 @@ void print_head(Context& context, const StatusHead& head) {
   for (const std::string& one : head.exchanged) {
     context.out.line("  exchanged " + one);
   }
+  for (const PoolView& pool : head.pools) {
+    const std::vector<std::string> lines = lines_of(pool);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      context.out.line((i == 0 ? "  pool      " : "            ") + lines[i]);
+    }
+  }
   if (head.mirror) {
     for (const std::string& line : mirror_lines(*head.mirror, context.out)) {
       context.out.line(line);
@@ -138,6 +152,7 @@ int show_once(Context& context, const BoardRun& chosen, bool check) {
   json["forces"] = json_of(head.forces);
   json["lock"] = json_of(head.lock);
   json["alarms"] = json_of(head.alarms);
+  json["pools"] = json_of(head.pools);
   json["trouble"] = JsonValue(head.trouble);
   json["retain_lost"] = head.retained;
   json["external"] = head.external ? json_of(*head.external) : JsonValue();
