@@ -3,47 +3,17 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <linux/ethtool.h>
-#include <linux/sockios.h>
 #include <net/if.h>
-#include <sys/ioctl.h>
-#include <sys/socket.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "core/base/descriptor.h"
 #include "tools/cli/doctor/first_line.h"
 
 namespace indurop::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Asks the driver of the interface. Returns false if it does not know the question.
-template <class Question>
-bool ask_driver(const std::string& name, Question& question) {
-  const base::Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  ifreq request{};
-  if (socket.get() < 0 || name.size() >= sizeof request.ifr_name) {
-    return false;
-  }
-  std::copy(name.begin(), name.end(), std::begin(request.ifr_name));
-  request.ifr_data = reinterpret_cast<char*>(&question);
-  return ::ioctl(socket.get(), SIOCETHTOOL, &request) == 0;
-}
-
-bool is_on(const std::string& name, std::uint32_t command) {
-  ethtool_value value{};
-  value.cmd = command;
-  return ask_driver(name, value) && value.data != 0;
-}
-
-bool has_large_receive_offload(const std::string& name) {
-  ethtool_value value{};
-  value.cmd = ETHTOOL_GFLAGS;
-  return ask_driver(name, value) && (value.data & ETH_FLAG_LRO) != 0;
-}
 
 int number_in(const std::string& text) {
   int number = 0;
@@ -85,13 +55,7 @@ InterfaceFacts facts_of_interface(const std::string& name, const fs::path& root)
   facts.speaks_ipv6 = first_line(root / "proc/sys/net/ipv6/conf" / name / "disable_ipv6") == "0";
   facts.driver = fs::read_symlink(folder / "device/driver", error).filename();
   facts.interrupts = interrupts_of(folder / "device");
-  ethtool_coalesce coalesce{};
-  coalesce.cmd = ETHTOOL_GCOALESCE;
-  if (ask_driver(name, coalesce)) {
-    facts.receive_wait_us = coalesce.rx_coalesce_usecs;
-    facts.send_wait_us = coalesce.tx_coalesce_usecs;
-  }
-  facts.gathers_frames = is_on(name, ETHTOOL_GGRO) || has_large_receive_offload(name);
+  facts.card = rt::card_settings(name);
   return facts;
 }
 
@@ -113,13 +77,13 @@ std::vector<Finding> examine_interface(const std::string& name, const InterfaceF
     find(Grade::Warn, "the kernel sends frames of its own there (IPv6)",
          fmt::format("sysctl net.ipv6.conf.{}.disable_ipv6=1, and give it no addresses", name));
   }
-  if (facts.receive_wait_us.value_or(0) > 0 || facts.send_wait_us.value_or(0) > 0) {
+  if (facts.card.receive_wait_us.value_or(0) > 0 || facts.card.send_wait_us.value_or(0) > 0) {
     find(Grade::Warn,
          fmt::format("the card holds back interrupts for {} us (receive) and {} us (send)",
-                     facts.receive_wait_us.value_or(0), facts.send_wait_us.value_or(0)),
+                     facts.card.receive_wait_us.value_or(0), facts.card.send_wait_us.value_or(0)),
          fmt::format("a frame comes back so much later: ethtool -C {} adaptive-rx off rx-usecs 0 tx-usecs 0", name));
   }
-  if (facts.gathers_frames && !facts.driver.empty()) {
+  if (facts.card.gathers_frames && !facts.driver.empty()) {
     find(Grade::Warn, "received frames are gathered (GRO, LRO)",
          fmt::format("each frame is one to wait for: ethtool -K {} gro off lro off", name));
   }

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/rt/network_card.h"
 #include "tools/cli/doctor/doctor_checks.h"
 
 namespace indurop::tools {
@@ -18,10 +18,7 @@ struct InterfaceFacts {
   bool has_carrier = false;
   bool speaks_ipv6 = false;  // on its own: the kernel sends frames of its own
   std::string driver;        // empty: none, as of a veth pair
-  // How long the card holds back an interrupt, us; nothing: the driver does not say.
-  std::optional<unsigned> receive_wait_us;
-  std::optional<unsigned> send_wait_us;
-  bool gathers_frames = false;  // GRO or LRO: the kernel waits for more frames
+  rt::CardSettings card;
   std::vector<int> interrupts;
 };
 // Reads them from the kernel. `root` is put before /proc and /sys.

@@ -13,10 +13,10 @@ using testing::HasSubstr;
 
 // A card as its driver sets it up, and as it should be.
 InterfaceFacts card() {
-  return {true, true, true, true, "igb", 3, 50, true, {124, 125}};
+  return {true, true, true, true, "igb", {3, 50, true}, {124, 125}};
 }
 InterfaceFacts tuned_card() {
-  return {true, true, true, false, "igb", 0, 0, false, {124, 125}};
+  return {true, true, true, false, "igb", {0, 0, false}, {124, 125}};
 }
 
 std::string text_of(const std::vector<Finding>& findings) {
