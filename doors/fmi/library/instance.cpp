@@ -133,7 +133,7 @@ Done Instance::step(double at, double size) {
 }
 
 Done Instance::terminate() {
-  if (auto may = must_be({Mode::Step, Mode::Initialization}, "the simulation cannot end"); !may) {
+  if (auto may = must_be({Mode::Step}, "the simulation cannot end"); !may) {
     return may;
   }
   mode_ = Mode::Terminated;

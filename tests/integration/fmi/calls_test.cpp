@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <limits>
+#include <random>
 
 #include "store/vars/node_lock.h"
 #include "store/vars/store.h"
@@ -84,6 +85,64 @@ TEST(FmuCalls, The_order_of_states_is_kept) {
   EXPECT_EQ(fmu.get("kinds::runs"), 10);
   EXPECT_EQ(fmu.set_real("kinds::out.f64", 1), fmi2Error);
   EXPECT_THAT(fmu.log, HasSubstr("kinds::out.f64 (value reference"));
+}
+
+// The yardstick is the table of states of the standard (FMI 2.0, section 4.2.4).
+TEST(FmuCalls, Any_order_of_calls_is_answered_as_the_standard_says) {
+  enum class State { Instantiated, Initialization, Step, Terminated };
+  const Fmu about(kTypes, "types.xml", 2);
+  Running2 fmu(about);
+  ASSERT_NE(fmu.instance, nullptr) << fmu.log;
+  const Master2& m = fmu.master;
+  const unsigned int reference = about.reference("kinds::in.f64");
+  std::mt19937 random(11);
+  State state = State::Instantiated;
+  double now = 0;
+  double value = 0;
+  const auto move = [&state](fmi2Status status, State from, State to) {
+    ASSERT_EQ(status == fmi2OK, state == from);
+    state = status == fmi2OK ? to : state;
+  };
+  for (int call = 0; call < 2000; ++call) {
+    fmu.log.clear();
+    switch (random() % 16) {
+      case 0:
+        move(m.enter_initialization(fmu.instance), State::Instantiated, State::Initialization);
+        break;
+      case 1:
+        move(m.exit_initialization(fmu.instance), State::Initialization, State::Step);
+        break;
+      case 2:
+        if (random() % 8 == 0) {
+          move(m.terminate(fmu.instance), State::Step, State::Terminated);
+        }
+        break;
+      case 3:
+        if (random() % 4 == 0) {
+          ASSERT_EQ(m.reset(fmu.instance), fmi2OK) << fmu.log;
+          state = State::Instantiated;
+          now = 0;
+        }
+        break;
+      case 4:
+        ASSERT_EQ(m.set_up(fmu.instance, fmi2False, 0, 0, fmi2False, 0) == fmi2OK, state == State::Instantiated);
+        break;
+      case 5:
+      case 6:
+      case 7:
+        ASSERT_EQ(m.set_real(fmu.instance, &reference, 1, &value) == fmi2OK, state != State::Terminated);
+        break;
+      case 8:
+      case 9:
+      case 10:
+        ASSERT_EQ(m.get_real(fmu.instance, &reference, 1, &value) == fmi2OK, state != State::Instantiated);
+        break;
+      default:
+        ASSERT_EQ(fmu.step(now, 1e-3) == fmi2OK, state == State::Step) << fmu.log;
+        now += state == State::Step ? 1e-3 : 0;
+    }
+    ASSERT_FALSE(::testing::Test::HasFatalFailure()) << "call " << call << ": " << fmu.log;
+  }
 }
 
 TEST(FmuCalls, What_a_variable_does_not_take_is_discarded) {
