@@ -71,7 +71,8 @@ class Engine {
   // disable(), which is not called meanwhile from Waiting on.
   enum class Change : std::uint8_t {
     None,
-    Prepared,  // its bands and threads are there
+    Starting,  // its threads start
+    Prepared,  // they wait
     Waiting,   // for its first tick
     Leaving,   // it runs; runs of the schedule before may be in progress
   };
@@ -84,11 +85,11 @@ class Engine {
   // `condition` do not count. Errors: Busy (another change is in progress), InvalidArgument (another module,
   // another core), those of rt::Thread::start().
   Status prepare_change(std::span<const Task> tasks);
-  // From the first moment of `tick` on the prepared schedule counts; its releases are counted from tick 0, as all are.
-  // On one core it waits for a tick in which no run of the periodic modules is in progress, in steps of `step` ticks,
-  // and is Prepared again if there is none until `last`. On several cores it does not wait: a module whose run by the
-  // schedule before is in progress then is left out until it is over, and that is counted as skipped. Returns false if
-  // a core has begun that tick: nothing has changed, choose a later one.
+  // Called when it is Prepared. From the first moment of `tick` on the prepared schedule counts; its releases are
+  // counted from tick 0, as all are. On one core it waits for a tick in which no run of the periodic modules is in
+  // progress, in steps of `step` ticks, and is Prepared again if there is none until `last`. On several cores it does
+  // not wait: a module whose run by the schedule before is in progress then is left out until it is over, and that is
+  // counted as skipped. Returns false if a core has begun that tick: nothing has changed, choose a later one.
   bool change_at(const ChangeProposal::Time& time) noexcept;
   // Ends what was prepared. Has no effect from Waiting on.
   void drop_change() noexcept;

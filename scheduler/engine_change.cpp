@@ -160,7 +160,7 @@ bool Engine::follow_retirement() noexcept {
 Engine::Change Engine::follow_change() noexcept {
   if (next_ != nullptr) {
     if (!proposal_.is_there()) {
-      return Change::Prepared;
+      return next_->is_ready() ? Change::Prepared : Change::Starting;
     }
     if (!std::all_of(cores_.begin(), cores_.end(),
                      [](const auto& core) { return core->follows.load(std::memory_order_acquire); })) {

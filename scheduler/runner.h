@@ -97,6 +97,7 @@ class Runner {
   void attach(const ModuleThread& thread) noexcept;
   void attach_thread() noexcept { attach(ModuleThread::own()); }  // not real-time safe
   void detach_thread() noexcept;
+  [[nodiscard]] bool is_attached() const noexcept { return attached_.load(std::memory_order_acquire); }
 
   // Runs the enabled tasks in order. Sporadic ones run only if condition() is true.
   void run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::MonoTime release) noexcept;

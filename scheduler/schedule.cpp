@@ -186,10 +186,14 @@ void Schedule::wake_waiting() const noexcept {
   }
 }
 
+bool Schedule::has_thread(const Band& band) noexcept {
+  return !in_tick_thread(band.plan().kind) && (band.plan().kind != BandKind::Process || band.waits_for_others());
+}
+
 Status Schedule::start_threads() {
   for (const auto& band : bands_) {
     const BandPlan& plan = band->plan();
-    if (in_tick_thread(plan.kind) || (plan.kind == BandKind::Process && !band->waits_for_others())) {
+    if (!has_thread(*band)) {
       continue;
     }
     rt::ThreadSettings settings;
@@ -258,6 +262,11 @@ Band* Schedule::find_band(std::uint32_t module) const noexcept {
     });
   });
   return found == bands_.end() ? nullptr : found->get();
+}
+
+bool Schedule::is_ready() const noexcept {
+  return std::all_of(bands_.begin(), bands_.end(),
+                     [](const auto& band) { return !has_thread(*band) || band->runner().is_attached(); });
 }
 
 bool Schedule::is_at_rest() const noexcept {

@@ -69,6 +69,8 @@ class Schedule {
   [[nodiscard]] std::span<const std::unique_ptr<Band>> bands() const noexcept { return bands_; }
   // Returns the band that runs a module. Null: none, or the scheduler does not see the end of its runs.
   [[nodiscard]] Band* find_band(std::uint32_t module) const noexcept;
+  // Returns true if all threads wait for releases.
+  [[nodiscard]] bool is_ready() const noexcept;
   // Returns true if all releases so far are done.
   [[nodiscard]] bool is_at_rest() const noexcept;
 
@@ -87,6 +89,7 @@ class Schedule {
                 const std::vector<std::size_t>& processes);
   void connect_predecessors(const std::vector<Planned>& planned);
   CoreBands& core(int number);
+  [[nodiscard]] static bool has_thread(const Band& band) noexcept;
 
   Parts parts_;
   std::vector<Member> members_;  // in the order of the file

@@ -52,6 +52,8 @@ void ScheduleChange::poll(rt::MonoTime now, const std::string& others) {
       return arrivals_.is_loaded() ? loaded() : void();
     case Step::Starting:
       return start(now, others);
+    case Step::Building:
+      return parts_.engine.follow_change() == Engine::Change::Prepared ? begin_waiting() : void();
     case Step::Waiting:
     case Step::Leaving:
       return follow();
@@ -173,6 +175,10 @@ void ScheduleChange::prepare(const std::string& others) {
   if (const Status prepared = parts_.engine.prepare_change(tasks_); !prepared) {
     return fail("its threads cannot be started: " + describe(prepared.error()));
   }
+  step_ = Step::Building;
+}
+
+void ScheduleChange::begin_waiting() {
   arrivals_.enter();
   waits_for_any_tick_ = false;
   if (!propose(macro_period_ticks(parts_.run))) {

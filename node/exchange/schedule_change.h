@@ -45,7 +45,7 @@ class ScheduleChange {
   // schedule does not change meanwhile. Empty: nothing.
   void poll(rt::MonoTime now, const std::string& others);
   // Returns true while commands to modules have to wait.
-  [[nodiscard]] bool is_switching() const noexcept { return step_ == Step::Waiting; }
+  [[nodiscard]] bool is_switching() const noexcept { return step_ == Step::Building || step_ == Step::Waiting; }
   // Returns the modules that have left the schedule and are to be stopped. Each once.
   std::vector<std::uint32_t> take_ended();
   // Called when the schedule has ended.
@@ -57,6 +57,7 @@ class ScheduleChange {
     Checking,  // on a thread of its own
     Loading,   // modules that are added
     Starting,  // their start() runs
+    Building,  // its threads start
     Waiting,   // for its first tick
     Leaving,   // runs of the schedule before may be in progress
   };
@@ -68,6 +69,7 @@ class ScheduleChange {
   void loaded();
   void start(rt::MonoTime now, const std::string& others);
   void prepare(const std::string& others);
+  void begin_waiting();
   bool propose(std::uint64_t step);
   void follow();
   void settle();

@@ -161,6 +161,9 @@ class Changes {
     const scheduler::RunBlockSetup setup = make_run_setup(config, check_, "test", {0, true});
     const Status prepared = engine_->prepare_change(tasks(config, setup));
     EXPECT_TRUE(prepared.ok());
+    while (engine_->follow_change() == Engine::Change::Starting) {
+      pass(1);
+    }
     const std::uint64_t next = block_->tick.load();
     const std::uint64_t slots = block_->slot_count;
     const std::uint64_t tick = (next + slots - 1) / slots * slots;
