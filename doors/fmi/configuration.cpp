@@ -21,7 +21,7 @@ Flow read_board(Configuration& to, const std::filesystem::path& file) {
   to.diagnostics = std::move(checked.diagnostics);
   to.plant.name = file.stem().string();
   to.plant.file = file;
-  static_cast<config::TypeFiles&>(to.plant) = checked.config.external;
+  to.plant.types_as_written = checked.config.external.types_as_written;
   config::Board& board = to.plant.boards.emplace_back();
   board.name = "board";
   board.config = std::move(checked.config);
