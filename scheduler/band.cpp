@@ -30,7 +30,7 @@ Band::Band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<Task
             static_cast<std::uint64_t>(plan.offset_ns / basic_period_ns)},
       next_due_(grid_.offset) {
   wake_.init(false);
-  arrived_.reserve(tasks_.size());
+  arrived_.resize(tasks_.size());
 }
 
 bool is_leaving(const TaskState& state) noexcept {
@@ -88,16 +88,16 @@ std::span<TaskState* const> Band::tasks_to_run() noexcept {
   if (!some_leave_) [[likely]] {
     return tasks_;
   }
-  arrived_.clear();
+  std::size_t count = 0;
   for (TaskState* state : tasks_) {
     if (is_leaving(*state)) {
       skip(*state, 1);
     } else {
-      arrived_.push_back(state);
+      arrived_[count++] = state;
     }
   }
-  some_leave_ = arrived_.size() < tasks_.size();
-  return arrived_;
+  some_leave_ = count < tasks_.size();
+  return std::span(arrived_).first(count);
 }
 
 void Band::release_due(std::uint64_t tick, rt::MonoTime epoch) noexcept {

@@ -108,7 +108,7 @@ class Band {
   BandPlan plan_;
   std::vector<TaskState*> tasks_;
   std::vector<TaskState*> processes_;
-  std::vector<TaskState*> arrived_;      // while some are leaving: those that are not; never grows
+  std::vector<TaskState*> arrived_;      // while some are leaving: first those that are not; of constant size
   std::span<TaskState* const> running_;  // those of the run in progress or the last one
   bool some_leave_ = false;
   RunBlock& block_;

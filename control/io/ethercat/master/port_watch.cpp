@@ -17,9 +17,7 @@ constexpr std::array<std::uint8_t, kBytes> kNoErrors{};
 
 void PortWatch::begin(Clock now) noexcept {
   due_at_ = now;
-  knows_last_ = false;
   clears_ = false;
-  is_clearing_ = false;
 }
 
 Query PortWatch::query(std::uint16_t station, Clock now) noexcept {

@@ -15,7 +15,7 @@ class PortWatch {
  public:
   static constexpr std::size_t kPorts = 4;
 
-  // The slave begins from nothing: what its counters are then says nothing.
+  // The slave is in OP, for the first time or again: errors by which it was lost are found as well.
   void begin(Clock now) noexcept;
   [[nodiscard]] bool is_due(Clock now) const noexcept { return now >= due_at_; }
   Query query(std::uint16_t station, Clock now) noexcept;

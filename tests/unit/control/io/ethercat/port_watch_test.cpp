@@ -40,6 +40,22 @@ TEST(PortWatch, What_was_counted_before_says_nothing) {
   EXPECT_EQ(sut.errors(), 0U);
 }
 
+TEST(PortWatch, Errors_by_which_a_slave_was_lost_are_found_when_it_is_back) {
+  PortWatch sut;
+  CountingSlave slave;
+  sut.begin(Clock(0));
+  EXPECT_FALSE(slave.answer(sut, sut.query(0x1001, Clock(0))));
+  slave.count(2, 9);
+  sut.begin(std::chrono::milliseconds(300));
+  const auto found = slave.answer(sut, sut.query(0x1001, std::chrono::milliseconds(300)));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->port, 1);
+  EXPECT_EQ(found->broken_frames, 9);
+  slave.counters.fill(0);  // its power was off
+  sut.begin(std::chrono::seconds(2));
+  EXPECT_FALSE(slave.answer(sut, sut.query(0x1001, std::chrono::seconds(2))));
+}
+
 TEST(PortWatch, Names_the_port_with_the_most_errors) {
   PortWatch sut;
   CountingSlave slave;
