@@ -44,7 +44,10 @@ class Relaxed {
   Relaxed() = default;
   explicit Relaxed(T value) noexcept : value_(value) {}
   Relaxed(const Relaxed& other) noexcept : value_(other.load()) {}
-  Relaxed& operator=(const Relaxed& other) noexcept { return *this = other.load(); }
+  Relaxed& operator=(const Relaxed& other) noexcept {
+    value_.store(other.load(), std::memory_order_relaxed);
+    return *this;
+  }
   ~Relaxed() = default;
   Relaxed& operator=(T value) noexcept {
     value_.store(value, std::memory_order_relaxed);

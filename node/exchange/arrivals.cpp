@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/exchange/arrivals.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/keys/digest.h"
