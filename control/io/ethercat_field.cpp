@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "control/io/number.h"
 
@@ -38,26 +37,36 @@ bool is_number(const EthercatField& field) noexcept {
   return field.bits > 0 && field.bits <= 64 && (field.kind != Kind::Real || is_real);
 }
 
+// The largest number of this many bits.
+std::uint64_t all_ones(std::size_t bits) noexcept {
+  return ~std::uint64_t{0} >> (64 - bits);
+}
+
+// Calls part(at, shift, done, bits) for each byte that holds some of the field: these bits of byte `at`, from `shift`
+// on, are those of the value from `done` on.
+template <class Part>
+void for_each_byte(const EthercatField& field, Part part) noexcept {
+  for (std::size_t done = 0; done < field.bits;) {
+    const std::size_t shift = (field.bit + done) % 8;
+    const std::size_t bits = std::min(8 - shift, field.bits - done);
+    part((field.bit + done) / 8, shift, done, bits);
+    done += bits;
+  }
+}
+
 std::uint64_t load_bits(const EthercatField& field, std::span<const std::uint8_t> from) noexcept {
   std::uint64_t value = 0;
-  for (std::size_t i = 0; i < field.bits; ++i) {
-    const std::size_t at = field.bit + i;
-    value |= std::uint64_t{static_cast<unsigned>(from[at / 8]) >> (at % 8) & 1U} << i;
-  }
+  for_each_byte(field, [&value, from](std::size_t at, std::size_t shift, std::size_t done, std::size_t bits) {
+    value |= (std::uint64_t{from[at]} >> shift & all_ones(bits)) << done;
+  });
   return value;
 }
 
 void store_bits(const EthercatField& field, std::uint64_t value, std::span<std::uint8_t> to) noexcept {
-  for (std::size_t i = 0; i < field.bits; ++i) {
-    const std::size_t at = field.bit + i;
-    const unsigned mask = 1U << (at % 8);
-    to[at / 8] = static_cast<std::uint8_t>((value >> i & 1U) != 0 ? to[at / 8] | mask : to[at / 8] & ~mask);
-  }
-}
-
-// The largest number of this many bits.
-std::uint64_t all_ones(std::size_t bits) noexcept {
-  return ~std::uint64_t{0} >> (64 - bits);
+  for_each_byte(field, [value, to](std::size_t at, std::size_t shift, std::size_t done, std::size_t bits) {
+    const std::uint64_t mask = all_ones(bits) << shift;
+    to[at] = static_cast<std::uint8_t>((to[at] & ~mask) | (value >> done << shift & mask));
+  });
 }
 
 }  // namespace
@@ -103,16 +112,21 @@ bool write_field(const EthercatField& field, Number number, std::span<std::uint8
     store_bits(field, field.bits == 32 ? std::bit_cast<std::uint32_t>(small) : std::bit_cast<std::uint64_t>(large), to);
     return fits;
   }
-  const std::uint64_t largest = all_ones(field.bits) >> (field.kind == Kind::Signed ? 1U : 0U);
-  const Number high = static_cast<Number>(largest);
-  const Number low = field.kind == Kind::Signed ? -high - 1 : Number{0};
-  const Number rounded = std::nearbyint(number);
-  const Number limited = std::clamp(rounded, low, high);
-  store_bits(field,
-             limited < 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(limited))
-                         : static_cast<std::uint64_t>(limited),
-             to);
-  return limited == rounded;
+  bool fits = false;
+  std::uint64_t bits = 0;
+  if (field.kind == Kind::Signed) {
+    std::int64_t whole = 0;
+    fits = to_whole(number, whole);
+    const auto high = static_cast<std::int64_t>(all_ones(field.bits) >> 1U);
+    const std::int64_t limited = std::clamp(whole, -high - 1, high);
+    fits = fits && limited == whole;
+    bits = static_cast<std::uint64_t>(limited);
+  } else {
+    fits = to_whole(number, bits) && bits <= all_ones(field.bits);
+    bits = std::min(bits, all_ones(field.bits));
+  }
+  store_bits(field, bits, to);
+  return fits;
 }
 
 }  // namespace indurop::io

@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "control/io/sample.h"
 
@@ -16,16 +18,24 @@ namespace indurop::io {
 // it unchanged.
 template <std::integral T>
 bool to_whole(Number value, T& into) noexcept {
+  using Limits = std::numeric_limits<T>;
+  // Also after rounding it fits into 64 bits, for which one instruction is enough; nearbyint() takes twenty times as
+  // long.
+  if (std::fabs(value) < 0x1p62L) {
+    const std::int64_t rounded = std::llrint(value);
+    into = std::in_range<T>(rounded) ? static_cast<T>(rounded) : (rounded < 0 ? Limits::min() : Limits::max());
+    return std::in_range<T>(rounded);
+  }
   if (std::isnan(value)) {
     return false;
   }
   const Number rounded = std::nearbyint(value);
-  if (rounded < static_cast<Number>(std::numeric_limits<T>::min())) {
-    into = std::numeric_limits<T>::min();
+  if (rounded < static_cast<Number>(Limits::min())) {
+    into = Limits::min();
     return false;
   }
-  if (rounded > static_cast<Number>(std::numeric_limits<T>::max())) {
-    into = std::numeric_limits<T>::max();
+  if (rounded > static_cast<Number>(Limits::max())) {
+    into = Limits::max();
     return false;
   }
   into = static_cast<T>(rounded);
