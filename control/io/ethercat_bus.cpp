@@ -129,6 +129,7 @@ void EthercatBus::stop() {
                                               0};
     builder.add(ethercat::Command::Bwr, 0, ethercat::address_of(0, ethercat::reg::kAlControl), init);
     wire_->link().send(builder.finish());
+    irp::printf("EtherCAT %s: %s\n", interface_, losses_.total());
   }
   ready_ = nullptr;
   running_ = nullptr;
@@ -154,6 +155,7 @@ void EthercatBus::end_turn() noexcept {
     return;
   }
   running_->master.send(now());
+  losses_.set(running_->master.counters());
   if (running_->master.clocks().reference()) {
     irp::shift_ticks(std::chrono::nanoseconds(running_->master.clocks().tick_correction()));
     report_pulse(running_->master);
@@ -199,6 +201,7 @@ void EthercatBus::work() {
   while (wait(kPoll)) {
     report_carrier();
     report_cut();
+    report_losses();
     report_events();
   }
 }
@@ -233,6 +236,12 @@ void EthercatBus::report_cut() {
   const std::string right = behind == owned_->master.size() ? "the second interface" : fmt::format("slave {}", behind);
   irp::printf("EtherCAT %s: the cable is cut between %s and %s%s\n", interface_, left, right,
               before == behind ? "; all slaves are reached" : "; those between them are not reached");
+}
+
+void EthercatBus::report_losses() {
+  if (const std::string news = losses_.news(now()); !news.empty()) {
+    irp::printf("EtherCAT %s: %s\n", interface_, news);
+  }
 }
 
 void EthercatBus::report_events() {

@@ -18,6 +18,7 @@
 #include "control/io/ethercat/master/master.h"
 #include "control/io/ethercat/master/scan.h"
 #include "control/io/ethercat_field.h"
+#include "control/io/ethercat_losses.h"
 #include "control/io/ethercat_members.h"
 #include "core/rt/thread.h"
 
@@ -87,6 +88,7 @@ class EthercatBus {
   void report_events();
   void report_carrier();
   void report_cut();
+  void report_losses();
   bool wait(std::chrono::milliseconds time);
 
   std::string interface_;
@@ -98,6 +100,7 @@ class EthercatBus {
   std::size_t turn_ = 0;                // members that had theirs in this tick
   std::chrono::nanoseconds period_{0};  // of the module
   EventQueue events_;
+  EthercatLosses losses_;
   std::atomic<std::uint64_t> cut_{kWhole};  // where the ring is: the tick writes, the thread reads
   std::uint64_t reported_cut_ = kWhole;
   std::string reported_;

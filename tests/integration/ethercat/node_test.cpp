@@ -49,6 +49,22 @@ TEST_F(EthercatNode, A_device_with_a_cycle_of_its_own_moves_and_one_that_does_no
   EXPECT_TRUE(wait_until([&] { return value<bool>("TEST_CELL::link_good"); })) << sut.out();
 }
 
+TEST_F(EthercatNode, Lost_frames_are_reported_and_counted) {
+  simulate(1);
+  Program& sut = run_node(
+      "<device name='axis1' driver='ethercat' address='ec0' slave='0' in='TEST_CELL::AXIS1_IN'\n"
+      "  out='TEST_CELL::AXIS1_OUT' quality='TEST_CELL::link_good'/>");
+  ASSERT_TRUE(moves()) << sut.out() << sut.err();
+  drives_->input("0s frames_lost for=500ms\n");
+  EXPECT_TRUE(wait_until([&] { return !value<bool>("TEST_CELL::link_good"); }));
+  EXPECT_TRUE(wait_until([&] { return value<bool>("TEST_CELL::link_good"); })) << sut.out();
+  EXPECT_TRUE(sut.prints(" late or lost")) << sut.out();
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0) << sut.err();
+  EXPECT_THAT(sut.out(), testing::ContainsRegex("EtherCAT ec0: [0-9]+ frames sent: [0-9]+ came back late, "
+                                                "[1-9][0-9]* were lost, 0 doubled"));
+}
+
 TEST_F(EthercatNode, A_bad_cable_is_named) {
   simulate(2);
   Program& sut = run_node(
