@@ -185,9 +185,21 @@ struct IoDevice {
   base::SourcePlace cable_errors_place;
 };
 
+// The slaves that a simulation has at an EtherCAT bus instead of its cable.
+struct IoSimulation {
+  std::string address;              // of the devices
+  std::vector<std::string> slaves;  // as `indurop-ecsim` takes them, in the order of the cable
+  std::filesystem::path folder;     // at which their relative names of files start
+  std::filesystem::path script;     // faults and their times; empty: none
+  base::SourcePlace place;
+  base::SourcePlace slaves_place;
+  base::SourcePlace script_place;
+};
+
 struct IoConfig {
   std::filesystem::path file;
   std::vector<IoDevice> devices;
+  std::vector<IoSimulation> simulations;
 };
 
 // An object of a CiA 402 drive by the name that a point uses.

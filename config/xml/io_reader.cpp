@@ -14,6 +14,7 @@
 #include "config/xml/element_rules.h"
 #include "config/xml/io_object_reader.h"
 #include "config/xml/io_point_reader.h"
+#include "config/xml/io_simulation_reader.h"
 #include "config/xml/values.h"
 #include "core/base/text.h"
 
@@ -337,7 +338,11 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
   const std::filesystem::path folder = config.file.parent_path();
   std::map<std::string, int> lines;
   for (const base::Element& child : root.children) {
-    if (!is_known(child, root, {"device"}, report)) {
+    if (!is_known(child, root, {"device", "simulation"}, report)) {
+      continue;
+    }
+    if (child.name == "simulation") {
+      read_io_simulation(child, config, report);
       continue;
     }
     auto device = DeviceReader(child, folder, report).read();
@@ -353,6 +358,7 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
     }
     config.devices.push_back(std::move(*device));
   }
+  check_io_simulations(config, report);
   if (root.children.empty()) {
     report.error(root.place, "<ioconfig> has no <device>; add one per field device");
   }

@@ -11,7 +11,8 @@
 
 namespace indurop::io {
 
-Dispatcher::Made Dispatcher::make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase) {
+Dispatcher::Made Dispatcher::make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase,
+                                  const MakeWires& simulated) {
   config::ReadIo read = config::read_io_config(file);
   const auto bound = config::bind_io(read.config, schema, read.diagnostics);
   Made made{nullptr, std::move(read.diagnostics)};
@@ -19,6 +20,14 @@ Dispatcher::Made Dispatcher::make(const std::filesystem::path& file, const schem
     return made;
   }
   std::unique_ptr<Dispatcher> dispatcher(new Dispatcher);  // NOLINT: the constructor is private
+  if (simulated) {
+    auto wires = simulated(read.config);
+    if (!wires) {
+      made.diagnostics.insert(made.diagnostics.end(), wires.error().begin(), wires.error().end());
+      return made;
+    }
+    dispatcher->buses_.wires = std::move(*wires);
+  }
   for (const config::BoundDevice& device : bound) {
     std::vector<base::Diagnostic> wrong = dispatcher->add(device, phase, file);
     std::move(wrong.begin(), wrong.end(), std::back_inserter(made.diagnostics));

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,7 +26,11 @@ class Dispatcher {
  public:
   struct Made;
   // `schema`: the node's variables. Not real-time safe.
-  static Made make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase);
+  // `simulated`: makes the wires of a simulation for EtherCAT buses, or says what is wrong; without it they are network
+  // interfaces.
+  using MakeWires = std::function<Result<EthercatWires, std::vector<base::Diagnostic>>(const config::IoConfig&)>;
+  static Made make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase,
+                   const MakeWires& simulated = {});
   Dispatcher(const Dispatcher&) = delete;
   Dispatcher& operator=(const Dispatcher&) = delete;
   ~Dispatcher();

@@ -47,8 +47,8 @@ Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const
     case config::IoDriver::Cia402:
       return std::unique_ptr<Driver>(std::make_unique<Cia402Driver>(device, outputs, inputs));
     case config::IoDriver::Ethercat: {
-      auto& bus = buses[device.address];
-      bus = bus != nullptr ? bus : std::make_shared<EthercatBus>(device.address);
+      auto& bus = buses.by_address[device.address];
+      bus = bus != nullptr ? bus : std::make_shared<EthercatBus>(device.address, buses.wires);
       auto excludes = excludes_of(device);
       if (!excludes) {
         return std::move(excludes).error();

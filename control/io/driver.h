@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "config/model/io_config.h"
+#include "control/io/ethercat_wires.h"
 #include "control/io/sample.h"
 #include "core/base/diagnostic.h"
 
@@ -55,8 +56,11 @@ class Driver {
 };
 
 class EthercatBus;
-// The EtherCAT buses of a module, by their interfaces: the devices of one bus share it.
-using EthercatBuses = std::map<std::string, std::shared_ptr<EthercatBus>>;
+// The EtherCAT buses of a module: devices with the same address share one.
+struct EthercatBuses {
+  EthercatWires wires;
+  std::map<std::string, std::shared_ptr<EthercatBus>> by_address;
+};
 
 // Makes the driver for a device with these points. Errors: why the configuration cannot work, for example a missing
 // file. Not real-time safe.

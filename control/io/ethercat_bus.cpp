@@ -10,7 +10,6 @@
 
 #include "config/check/io_mapping.h"
 #include "control/io/ethercat/master/mapping.h"
-#include "core/rt/clock.h"
 #include "store/runtime/host.h"
 
 namespace indurop::io {
@@ -23,10 +22,6 @@ constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 constexpr milliseconds kRetry{500};
 constexpr milliseconds kPoll{20};
 constexpr std::uint32_t kFirstAddress = 0x10000;  // of the process data on the bus
-
-ethercat::Clock now() noexcept {
-  return rt::MonoClock::now().time_since_epoch();
-}
 
 std::string name_of_object(config::IoObject object) {
   return fmt::format("{:04x}:{:02x}", object.index, object.subindex);
@@ -98,10 +93,15 @@ std::size_t EthercatBus::add(EthercatMember member) {
 }
 
 bool EthercatBus::start() {
-  if (thread_.joinable()) {
+  if (thread_.joinable() || owned_ != nullptr) {
     return true;
   }
   period_ = irp::period();
+  if (wires_.is_simulated) {
+    report(prepare());
+    ready_.store(owned_.get(), std::memory_order_release);
+    return true;
+  }
   auto thread = rt::Thread::start({"irp-ethercat", 0, -1, kStackBytes}, [this, module = runtime::current_module()] {
     runtime::set_current_module(module);
     work();
@@ -114,15 +114,14 @@ bool EthercatBus::start() {
 }
 
 void EthercatBus::stop() {
-  if (!thread_.joinable()) {
-    return;
+  if (thread_.joinable()) {
+    {
+      const std::lock_guard lock(mutex_);
+      stop_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
   }
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
   if (owned_ != nullptr) {
     ethercat::FrameBuilder builder(ethercat::kMasterMac);
     const std::array<std::uint8_t, 2> init = {static_cast<std::uint8_t>(ethercat::AlState::Init) | ethercat::kAlError,
@@ -141,7 +140,7 @@ ethercat::Master* EthercatBus::begin_turn() noexcept {
   if (turn_ == 0) {
     running_ = ready_.load(std::memory_order_acquire);
     if (running_ != nullptr) {
-      running_->master.receive(now());
+      running_->master.receive(wire_->now());
       const auto cut = wire_->cut();
       cut_.store(cut ? std::uint64_t{cut->before} << 32U | cut->behind : kWhole, std::memory_order_relaxed);
     }
@@ -154,7 +153,7 @@ void EthercatBus::end_turn() noexcept {
   if (turn_ != 0 || running_ == nullptr) {
     return;
   }
-  running_->master.send(now());
+  running_->master.send(wire_->now());
   losses_.set(running_->master.counters());
   if (running_->master.clocks().reference()) {
     irp::shift_ticks(std::chrono::nanoseconds(running_->master.clocks().tick_correction()));
@@ -163,6 +162,9 @@ void EthercatBus::end_turn() noexcept {
   ethercat::Event event;
   while (running_->master.next_event(event)) {
     events_.push(event);
+  }
+  if (wires_.is_simulated) {
+    report_all();
   }
 }
 
@@ -199,17 +201,21 @@ void EthercatBus::work() {
   } while (owned_ == nullptr && wait(kRetry));
   ready_.store(owned_.get(), std::memory_order_release);
   while (wait(kPoll)) {
-    report_carrier();
-    report_cut();
-    report_losses();
-    report_events();
+    report_all();
   }
 }
 
 void EthercatBus::report(const std::string& problem) {
   if (!problem.empty() && std::exchange(reported_, problem) != problem) {
-    irp::printf("EtherCAT %s: %s; trying again\n", interface_, problem);
+    irp::printf("EtherCAT %s: %s%s\n", interface_, problem, wires_.is_simulated ? "" : "; trying again");
   }
+}
+
+void EthercatBus::report_all() {
+  report_carrier();
+  report_cut();
+  report_losses();
+  report_events();
 }
 
 void EthercatBus::report_carrier() {
@@ -239,7 +245,7 @@ void EthercatBus::report_cut() {
 }
 
 void EthercatBus::report_losses() {
-  if (const std::string news = losses_.news(now()); !news.empty()) {
+  if (const std::string news = losses_.news(wire_->now()); !news.empty()) {
     irp::printf("EtherCAT %s: %s\n", interface_, news);
   }
 }
@@ -253,7 +259,7 @@ void EthercatBus::report_events() {
 
 // Returns what is wrong; nothing if the bus is ready for the tick.
 std::string EthercatBus::prepare() {
-  auto wire = ethercat::Wire::open(interface_);
+  auto wire = wires_.open(interface_);
   if (!wire) {
     return wire.error();
   }
@@ -262,7 +268,7 @@ std::string EthercatBus::prepare() {
   }
   auto found = ethercat::Scan((*wire)->link(), [&wire] {
                  (*wire)->wait(milliseconds(1));
-                 return now();
+                 return (*wire)->now();
                }).run();
   if (!found) {
     return found.error();

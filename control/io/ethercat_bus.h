@@ -14,28 +14,29 @@
 #include <string>
 #include <vector>
 
-#include "control/io/ethercat/link/wire.h"
 #include "control/io/ethercat/master/master.h"
 #include "control/io/ethercat/master/scan.h"
 #include "control/io/ethercat_field.h"
 #include "control/io/ethercat_losses.h"
 #include "control/io/ethercat_members.h"
+#include "control/io/ethercat_wires.h"
 #include "core/rt/thread.h"
 
 namespace indurop::io {
 
 class EthercatBus {
  public:
-  // The interface, or two of a ring: "eth1,eth2".
-  explicit EthercatBus(std::string interface) : interface_(std::move(interface)) {}
+  // `interface`: as ioconfig.xml has it, two of a ring: "eth1,eth2".
+  EthercatBus(std::string interface, EthercatWires wires)
+      : interface_(std::move(interface)), wires_(std::move(wires)) {}
   EthercatBus(const EthercatBus&) = delete;
   EthercatBus& operator=(const EthercatBus&) = delete;
   ~EthercatBus();
 
   // Before start(). Returns the number of the member.
   std::size_t add(EthercatMember member);
-  // Starts the thread, whose messages are those of the calling module. False: the system has no thread. Does nothing if
-  // it was started already.
+  // Starts the thread, whose messages are those of the calling module; a simulation has none: slaves are there when
+  // this returns. False: the system has no thread. Does nothing if it was started already.
   bool start();
   // Brings all slaves to INIT and ends the thread. No tick may run any more.
   void stop();
@@ -85,6 +86,7 @@ class EthercatBus {
   [[nodiscard]] Fields fields_of(const EthercatMember& member, const std::vector<config::IoPoint>& points,
                                  const std::vector<ethercat::Pdo>& pdos) const;
   void report(const std::string& problem);
+  void report_all();
   void report_events();
   void report_carrier();
   void report_cut();
@@ -92,6 +94,7 @@ class EthercatBus {
   bool wait(std::chrono::milliseconds time);
 
   std::string interface_;
+  EthercatWires wires_;
   std::vector<EthercatMember> members_;
   std::unique_ptr<ethercat::Wire> wire_;
   std::unique_ptr<Running> owned_;

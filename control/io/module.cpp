@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "control/io/dispatcher.h"
+#include "control/io/slaves/simulated_wire.h"
 #include "core/schema/schema.h"
 #include "store/runtime/host.h"
 
@@ -51,6 +52,15 @@ io::Phase phase() {
   return word == "inputs" ? io::Phase::Inputs : io::Phase::Outputs;
 }
 
+io::Dispatcher::MakeWires simulation() {
+  if (!runtime::virtual_ns()) {
+    return {};
+  }
+  return [](const config::IoConfig& config) {
+    return io::ecsim::simulated_wires(config, [] { return runtime::virtual_ns().value_or(0); });
+  };
+}
+
 void on_start() {
   self().last_release = 0;
   const auto schema = schema::from_json(runtime::schema_text());
@@ -58,7 +68,7 @@ void on_start() {
     throw std::runtime_error("the node's variables cannot be read: " + std::string(to_string(schema.error().code)));
   }
   const std::filesystem::path file = config_file();
-  io::Dispatcher::Made made = io::Dispatcher::make(file, schema.value(), phase());
+  io::Dispatcher::Made made = io::Dispatcher::make(file, schema.value(), phase(), simulation());
   for (const base::Diagnostic& diagnostic : made.diagnostics) {
     irp::printf("%s\n", base::to_string(diagnostic));
   }

@@ -99,6 +99,12 @@ std::string config_file() {
   return run != nullptr ? std::string(run->config_file) : std::string{};
 }
 
+std::optional<std::int64_t> virtual_ns() noexcept {
+  const scheduler::RunBlock* run = hot.run.load(std::memory_order_acquire);
+  const std::int64_t now = run != nullptr ? run->virtual_ns.load(std::memory_order_relaxed) : 0;
+  return now != 0 ? std::optional(now) : std::nullopt;
+}
+
 std::vector<std::string> attach_process(vars::Store& store, scheduler::RunBlock& run) {
   return Process::get().host(store, run);
 }

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -95,6 +96,8 @@ void detach_process();
 // it links guards its mappings by a signal handler, which would stay when the module is unloaded. Not real-time safe.
 std::string schema_text();
 std::string config_file();
+// Time of the node in a simulation, in ns; nothing in real time. Real-time safe.
+std::optional<std::int64_t> virtual_ns() noexcept;
 
 // Returns the lines that could not be bound since the last call (a module was loaded, a function could not be served).
 // Not real-time safe.

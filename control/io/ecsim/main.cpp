@@ -13,9 +13,9 @@
 #include <optional>
 
 #include "control/io/ecsim/pcap_file.h"
-#include "control/io/ecsim/script.h"
-#include "control/io/ecsim/slave_word.h"
 #include "control/io/ethercat/link/packet_link.h"
+#include "control/io/slaves/script.h"
+#include "control/io/slaves/slave_word.h"
 #include "core/base/exit_code.h"
 #include "core/base/options.h"
 #include "core/base/read_file.h"

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "control/io/ecsim/drive.h"
 #include "control/io/ethercat/link/packet_link.h"
 #include "control/io/ethercat/master/mapping.h"
 #include "control/io/ethercat/master/master.h"
+#include "control/io/slaves/drive.h"
 #include "tests/support/program.h"
 
 namespace indurop::io::ethercat {

@@ -116,7 +116,7 @@ using io::ethercat::Wire;
 // Waits until a frame may have come.
 io::ethercat::Clock wait_for_frame(Wire& wire) {
   wire.wait(std::chrono::milliseconds(1));
-  return rt::MonoClock::now().time_since_epoch();
+  return wire.now();
 }
 
 // Opens the interface and lists the slaves there; says why not and returns the exit code if that fails.
@@ -125,7 +125,7 @@ struct Bus {
   std::vector<FoundSlave> slaves;
 };
 Result<Bus, int> open_bus(Context& context, const std::string& interface) {
-  auto wire = Wire::open(interface);
+  auto wire = io::ethercat::NetworkWire::open(interface);
   if (!wire) {
     context.out.error(wire.error());
     return int{kFailed};

@@ -8,11 +8,11 @@
 #include <fstream>
 #include <random>
 
-#include "control/io/ecsim/slave_word.h"
 #include "control/io/ethercat/master/mapping.h"
 #include "control/io/ethercat/master/master.h"
 #include "control/io/ethercat/simulator/bus.h"
 #include "control/io/ethercat/simulator/sii_image.h"
+#include "control/io/slaves/slave_word.h"
 
 namespace indurop::io::esi {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/io/ecsim/script.h"
+#include "control/io/slaves/script.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scripts of faults: what is read, and what is said of lines that are wrong.
-#include "control/io/ecsim/script.h"
+#include "control/io/slaves/script.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/io/ecsim/drive.h"
+#include "control/io/slaves/drive.h"
 
 #include <algorithm>
 #include <initializer_list>

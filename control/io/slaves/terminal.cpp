@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/io/ecsim/terminal.h"
+#include "control/io/slaves/terminal.h"
 
 #include <algorithm>
 #include <map>

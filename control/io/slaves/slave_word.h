@@ -5,6 +5,7 @@
 
 #include <indurop/result.h>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -20,8 +21,8 @@ struct SlaveModel {
   std::function<void(ethercat::Bytes outputs, std::span<std::uint8_t> inputs, ethercat::Time now)> compute;
 };
 
-// "drive", "drive:start=-20,speed=220", "el2004.bin", "terminals.xml", "terminals.xml:EL2004". Errors: what is wrong
-// with the word, or with the file.
-Result<SlaveModel, std::string> read_slave_word(const std::string& word);
+// "drive", "drive:start=-20,speed=220", "el2004.bin", "terminals.xml", "terminals.xml:EL2004"; relative names of files
+// start at the folder. Errors: what is wrong with the word, or with the file.
+Result<SlaveModel, std::string> read_slave_word(const std::string& word, const std::filesystem::path& folder = {});
 
 }  // namespace indurop::io::ecsim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/io/ecsim/slave_word.h"
+#include "control/io/slaves/slave_word.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "control/io/ecsim/drive.h"
-#include "control/io/ecsim/terminal.h"
 #include "control/io/esi/esi_file.h"
+#include "control/io/slaves/drive.h"
+#include "control/io/slaves/terminal.h"
 #include "core/base/read_file.h"
 #include "core/base/text.h"
 
@@ -123,16 +123,16 @@ Model device_of_eeprom(const std::filesystem::path& file) {
 
 }  // namespace
 
-Result<SlaveModel, std::string> read_slave_word(const std::string& word) {
+Result<SlaveModel, std::string> read_slave_word(const std::string& word, const std::filesystem::path& folder) {
   if (word == kDrive || word.starts_with("drive:")) {
     return drive_of(std::string_view(word).substr(std::min(kDrive.size() + 1, word.size())));
   }
   const std::size_t end = word.find(".xml");
   if (end == std::string::npos) {
-    return device_of_eeprom(word);
+    return device_of_eeprom(folder / word);
   }
   const std::size_t colon = word.find(':', end);
-  return device_of_esi(word.substr(0, colon), colon == std::string::npos ? "" : word.substr(colon + 1));
+  return device_of_esi(folder / word.substr(0, colon), colon == std::string::npos ? "" : word.substr(colon + 1));
 }
 
 }  // namespace indurop::io::ecsim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The simulated drive as a slave: a master reads its mapping in its EEPROM, enables it and moves it.
-#include "control/io/ecsim/drive.h"
+#include "control/io/slaves/drive.h"
 
 #include <gmock/gmock.h>
 

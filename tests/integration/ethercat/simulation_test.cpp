@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// An EtherCAT bus in virtual time: no sockets, no rights, the same in every run, faults included.
+#include <indurop/irp.h>
+
+#include "core/base/read_file.h"
+#include "node_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+class EthercatSimulation : public NodeTest {
+ protected:
+  // Two drives; the first one moves, the second one is read.
+  static inline const std::string kDevices =
+      "<device name='axis1' driver='ethercat' address='eth77' slave='0' in='TEST_CELL::AXIS1_IN'\n"
+      "  out='TEST_CELL::AXIS1_OUT' quality='TEST_CELL::link_good' errors='TEST_CELL::link_errors'/>\n"
+      "<device name='axis2' driver='ethercat' address='eth77' slave='1' quality='TEST_CELL::I0_quality'>\n"
+      "  <input variable='speeds[1]' at='6041'/>\n"
+      "</device>\n";
+
+  // Runs a configuration in virtual time.
+  Outcome simulate(const std::string& elements, const std::string& time) {
+    write("ioconfig.xml", "<ioconfig>\n" + elements + "</ioconfig>\n");
+    return run_to_end(
+        {{.file = IO_MODULE, .name = "io", .period = "2ms", .priority = 1, .properties = {{"config", "ioconfig.xml"}}},
+         {.file = std::string(IO_FOLDER) + "/axis_user.so", .name = "axis_user", .period = "2ms", .priority = 2}},
+        {"--sim", "--until", time});
+  }
+  std::string values() const { return indurop({"vars", "-o", "json"}).out; }
+};
+
+TEST_F(EthercatSimulation, Moves_drives_and_is_the_same_twice) {
+  const std::string simulation = "<simulation address='eth77' slaves='drive:start=5 drive:start=-20'/>\n";
+  const Outcome first = simulate(kDevices + simulation, "3s");
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_THAT(first.out, testing::HasSubstr("EtherCAT eth77: slave 1 (InduRoP simulated drive): operates"));
+  EXPECT_THAT(first.out, testing::HasSubstr("frames sent: 0 came back late, 0 were lost"));
+  EXPECT_EQ(value<std::uint8_t>("TEST_CELL::I0_quality"), 1);
+  EXPECT_GT(std::stol(indurop({"get", "TEST_CELL::AXIS1_IN.position"}).out), 5000);
+  const std::string before = values();
+  ASSERT_EQ(simulate(kDevices + simulation, "3s").code, 0);
+  EXPECT_EQ(before, values());
+}
+
+TEST_F(EthercatSimulation, Faults_come_at_their_virtual_time) {
+  write("faults", "1s power_off slave=1 for=300ms\n2500ms frames_lost for=2s\n");
+  const std::string simulation = "<simulation address='eth77' slaves='drive drive' script='faults'/>\n";
+  const auto quality_at = [&](const std::string& time) {
+    const Outcome outcome = simulate(kDevices + simulation, time);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return static_cast<int>(value<std::uint8_t>("TEST_CELL::I0_quality"));
+  };
+  EXPECT_EQ(quality_at("998ms"), 1);
+  EXPECT_EQ(quality_at("1006ms"), 2) << "named within two ticks";
+  EXPECT_EQ(quality_at("2s"), 1) << "back within a second";
+  const Outcome outcome = simulate(kDevices + simulation, "3s");
+  EXPECT_THAT(outcome.out, testing::HasSubstr("slave 1 (InduRoP simulated drive): does not answer"));
+  EXPECT_THAT(outcome.out, testing::HasSubstr("late or lost"));
+  EXPECT_FALSE(value<bool>("TEST_CELL::link_good"));
+}
+
+TEST_F(EthercatSimulation, A_cut_ring_is_reached_from_both_ends) {
+  write("faults", "1s cable_cut slave=1 for=10s\n");
+  const Outcome outcome = simulate(
+      "<device name='axis1' driver='ethercat' address='eth77,eth78' slave='1' in='TEST_CELL::AXIS1_IN'\n"
+      "  out='TEST_CELL::AXIS1_OUT' cut='TEST_CELL::I0_quality' quality='TEST_CELL::link_good'/>\n"
+      "<simulation address='eth77,eth78' slaves='drive drive' script='faults'/>\n",
+      "2s");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::HasSubstr("the cable is cut between slave 0 and slave 1; all slaves are reached"));
+  EXPECT_EQ(value<std::uint8_t>("TEST_CELL::I0_quality"), 2) << "the second cable";
+  EXPECT_TRUE(value<bool>("TEST_CELL::link_good"));
+}
+
+TEST_F(EthercatSimulation, The_tick_follows_the_clock_of_a_simulated_drive) {
+  const Outcome outcome = simulate(
+      "<device name='axis1' driver='ethercat' address='eth77' slave='0' in='TEST_CELL::AXIS1_IN'\n"
+      "  out='TEST_CELL::AXIS1_OUT' quality='TEST_CELL::link_good'>\n"
+      "  <sync activate='0x300' cycle='2ms' shift='500us'/></device>\n"
+      "<simulation address='eth77' slaves='drive'/>\n",
+      "5s");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(value<bool>("TEST_CELL::link_good")) << outcome.out;
+  EXPECT_NEAR(static_cast<double>(run()->pulse_after_ns.load()), 500'000, 1000);
+}
+
+TEST_F(EthercatSimulation, A_bus_without_slaves_and_wrong_words_are_refused_with_their_place) {
+  const Outcome none = simulate(kDevices, "1s");
+  EXPECT_NE(none.code, 0);
+  EXPECT_THAT(none.out + none.err,
+              testing::HasSubstr("ioconfig.xml:2:1: error: a simulation has no cable; say which slaves it has instead: "
+                                 "<simulation address=\"eth77\" slaves="));
+  write("faults", "1s sleep\n");
+  const Outcome wrong =
+      simulate(kDevices + "<simulation address='eth77' slaves='drive drve' script='faults'/>\n", "1s");
+  EXPECT_NE(wrong.code, 0);
+  EXPECT_THAT(wrong.out + wrong.err, testing::HasSubstr("ioconfig.xml:7:"));
+  EXPECT_THAT(wrong.out + wrong.err, testing::HasSubstr("faults:1:4: error: there is no fault 'sleep'"));
+}
+
+}  // namespace
+}  // namespace indurop::test
