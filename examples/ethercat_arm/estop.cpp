@@ -43,7 +43,7 @@ extern "C" int condition() {
 }
 
 extern "C" void run() {
-  const bool lost = is_lost();
+  const bool lost = irp::learned(is_lost() ? 1 : 0) != 0;  // a replay does not evaluate the condition
   auto stop = lock(EMERGENCY_STOP);
   const bool was_active = stop->bActive != 0;
   stop->bCircuit = open_circuit();
@@ -58,4 +58,4 @@ extern "C" void run() {
   BUS::state = bus;
 }
 
-INDUROP_STATE()
+INDUROP_STATE(ticks_lost)

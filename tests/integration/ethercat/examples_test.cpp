@@ -65,6 +65,24 @@ TEST_F(EthercatExamples, Works_with_the_bus_on_one_of_two_boards) {
   EXPECT_THAT(out.substr(pulled), testing::HasSubstr("ROBOT_GROUP_MOVING"));
 }
 
+TEST(EthercatExample, Of_the_arm_in_virtual_time_replays_without_a_difference) {
+  const std::string recording =
+      std::filesystem::temp_directory_path() / ("arm_" + std::to_string(::getpid()) + ".mcap");
+  const std::string node = "ethercat_sim_" + std::to_string(::getpid());
+  const std::string file = std::string(ARM_FOLDER) + "/module.xml";
+  const auto indurop = [](std::vector<std::string> words) {
+    words.insert(words.begin(), std::string(PROGRAMS) + "/indurop");
+    return test::Program(words, environment(ARM_FOLDER)).finish();
+  };
+  const auto run = indurop({"run", file, "--sim", "--until", "5s", "--node", node, "--record", recording});
+  ASSERT_EQ(run.code, 0) << run.out;
+  EXPECT_THAT(run.out, testing::HasSubstr("EtherCAT ecarm0: slave 7 (InduRoP simulated drive): operates"));
+  const auto replay = indurop({"replay", recording, "--node", node});
+  EXPECT_EQ(replay.code, 0) << replay.out;
+  EXPECT_THAT(replay.out, testing::HasSubstr(" values: equal"));
+  std::filesystem::remove(recording);
+}
+
 TEST_F(EthercatExamples, Thirty_three_axes_move) {
   test::Program sut({AXES_DEMO, "3"}, environment(AXES_FOLDER));
   ASSERT_EQ(sut.wait(std::chrono::seconds(100)), 0) << sut.out();
