@@ -54,6 +54,7 @@ constexpr Object kModeShown{0x6061, 8, kInt8, "Modes of operation display"};
 constexpr Object kPosition{0x6064, 32, kInt32, "Position actual value"};
 constexpr Object kVelocity{0x606C, 32, kInt32, "Velocity actual value"};
 constexpr Object kTorque{0x6077, 16, kInt16, "Torque actual value"};
+constexpr std::uint16_t kInterpolation = 0x60C2;
 
 Pdo pdo_of(std::uint16_t index, std::uint8_t manager, std::uint16_t flags, const char* name,
            std::initializer_list<Object> objects) {
@@ -131,6 +132,10 @@ void add_objects(ObjectDictionary& objects) {
   objects.add_number<std::uint32_t>(0x1018, 2, kIdentity.product, false);
   objects.add_number<std::uint32_t>(0x1018, 3, kIdentity.revision, false);
   objects.add_number<std::uint32_t>(0x1018, 4, kIdentity.serial, false);
+  // The time between two set points, 1 ms at first. It is only kept: the axis is computed up to when a frame comes.
+  objects.add_number<std::uint8_t>(kInterpolation, 0, 2, false);
+  objects.add_number<std::uint8_t>(kInterpolation, 1, 1);
+  objects.add_number<std::int8_t>(kInterpolation, 2, -3);
   DriveCommand command;
   visit(command, [&objects](std::uint16_t index, auto value) { objects.add_number(index, 0, value); });
   DriveFeedback feedback;
@@ -142,6 +147,8 @@ void add_objects(ObjectDictionary& objects) {
   objects.describe(0x1000, 0, kUint32, "Device type");
   objects.describe(0x1008, 0, kVisibleString, "Device name");
   objects.describe(0x1018, 0, kUint8, "Identity");
+  objects.describe(kInterpolation, 1, kUint8, "Interpolation time period");
+  objects.describe(kInterpolation, 2, kInt8, "Interpolation time index");
 }
 
 }  // namespace

@@ -70,13 +70,17 @@ std::vector<std::uint64_t> assigned(const ObjectDictionary& objects, std::uint16
   return pdos;
 }
 
-std::uint64_t bits_of(const ObjectDictionary& objects, std::uint64_t pdo) {
+std::uint64_t bits_of(const ObjectDictionary& objects, std::uint64_t pdo, std::uint64_t count) {
   const auto index = static_cast<std::uint16_t>(pdo);
   std::uint64_t bits = 0;
-  for (std::uint64_t i = 1; i <= objects.number(index, 0); ++i) {
+  for (std::uint64_t i = 1; i <= count; ++i) {
     bits += objects.number(index, static_cast<std::uint8_t>(i)) & 0xFFU;
   }
   return bits;
+}
+
+std::uint64_t bits_of(const ObjectDictionary& objects, std::uint64_t pdo) {
+  return bits_of(objects, pdo, objects.number(static_cast<std::uint16_t>(pdo), 0));
 }
 
 // How many bytes a SyncManager has before the next one begins.
@@ -87,6 +91,10 @@ std::size_t room_of(const Sii& sii, std::size_t manager) {
     end = other.start > start ? std::min<std::size_t>(end, other.start) : end;
   }
   return end - start;
+}
+
+Refusal judge_length(const Sii& sii, std::size_t manager, std::uint64_t bits) {
+  return (bits + 7) / 8 > room_of(sii, manager) ? Refusal(kAbortPdoLength) : std::nullopt;
 }
 
 Refusal judge_assignment(const Sii& sii, const ObjectDictionary& objects, std::size_t manager,
@@ -110,7 +118,7 @@ Refusal judge_assignment(const Sii& sii, const ObjectDictionary& objects, std::s
   if (std::adjacent_find(all.begin(), all.end()) != all.end()) {
     return kAbortIncompatible;
   }
-  return (bits + 7) / 8 > room_of(sii, manager) ? Refusal(kAbortPdoLength) : std::nullopt;
+  return judge_length(sii, manager, bits);
 }
 
 // What an entry of a PDO names: an object of this slave that can be exchanged, with its length, or a gap.
@@ -131,17 +139,27 @@ Refusal judge_entry(const ObjectDictionary& objects, std::uint64_t entry, bool o
   return bits == 0 || (bits + 7) / 8 != value.size() ? Refusal(kAbortLength) : std::nullopt;
 }
 
-Refusal judge_contents(const ObjectDictionary& objects, const Pdo& pdo, std::uint16_t assignment, bool output,
+// The new count of a PDO's entries: as many as it can take, and if it is assigned, as its SyncManager has room for.
+Refusal judge_count(const Sii& sii, const ObjectDictionary& objects, const Pdo& pdo, std::size_t manager,
+                    std::uint64_t count) {
+  if (count > std::max<std::size_t>(pdo.entries.size(), kPdoCapacity)) {
+    return kAbortTooHigh;
+  }
+  const auto assignment = static_cast<std::uint16_t>(kPdoAssignment + manager);
+  std::uint64_t bits = 0;
+  for (const std::uint64_t used : assigned(objects, assignment, objects.number(assignment, 0))) {
+    bits += used == pdo.index ? bits_of(objects, used, count) : bits_of(objects, used);
+  }
+  return judge_length(sii, manager, bits);
+}
+
+Refusal judge_contents(const Sii& sii, const ObjectDictionary& objects, const Pdo& pdo, std::size_t manager,
                        const ObjectWrite& write) {
-  const auto used = assigned(objects, assignment, objects.number(assignment, 0));
-  if (std::find(used.begin(), used.end(), pdo.index) != used.end()) {
-    return kAbortIncompatible;
-  }
   if (write.subindex == 0) {
-    return write.number > std::max<std::size_t>(pdo.entries.size(), kPdoCapacity) ? Refusal(kAbortTooHigh)
-                                                                                  : std::nullopt;
+    return judge_count(sii, objects, pdo, manager, write.number);
   }
-  return objects.number(pdo.index, 0) != 0 ? Refusal(kAbortNotEmpty) : judge_entry(objects, write.number, output);
+  const bool is_output = sii.sync_managers[manager].use == SyncManagerUse::Outputs;
+  return objects.number(pdo.index, 0) != 0 ? Refusal(kAbortNotEmpty) : judge_entry(objects, write.number, is_output);
 }
 
 }  // namespace
@@ -181,7 +199,7 @@ std::optional<std::uint32_t> judge_mapping(const Sii& sii, const ObjectDictionar
     }
     if (const Pdo* const pdo = find_pdo(pdos_of(sii, manager), write.index)) {
       const auto no = refused((sii.coe_details & kCoePdoConfiguration) == 0 || (pdo->flags & kPdoFixed) != 0);
-      return no ? no : judge_contents(objects, *pdo, assignment, manager.use == SyncManagerUse::Outputs, write);
+      return no ? no : judge_contents(sii, objects, *pdo, i, write);
     }
   }
   return std::nullopt;

@@ -20,8 +20,9 @@ struct ObjectWrite {
   std::uint8_t subindex = 0;
   std::uint64_t number = 0;
 };
-// Returns why a write is refused in this state: PDOs are written in PREOP only, their entries while subindex 0 is 0,
-// and those of a PDO while it is not assigned. Nothing: it is not, or is none of these objects.
+// Returns why a write is refused in this state: PDOs and assignments are written in PREOP only, their entries while
+// subindex 0 is 0. A PDO may be assigned meanwhile, as with slaves of Beckhoff's stack: what is exchanged is judged
+// when the slave leaves PREOP. Nothing: it is not refused, or is none of these objects.
 std::optional<std::uint32_t> judge_mapping(const Sii& sii, const ObjectDictionary& objects, AlState state,
                                            const ObjectWrite& write);
 

@@ -33,7 +33,6 @@ class MappingRules : public testing::Test {
 
 TEST_F(MappingRules, The_order_of_writes_is_the_standards) {
   EXPECT_EQ(write<std::uint16_t>(0x1C12, 1, 0x1601), 0x06010003U) << "its count is not 0";
-  EXPECT_EQ(write<std::uint8_t>(0x1600, 0, 0), 0x06040043U) << "it is assigned";
   EXPECT_EQ(write<std::uint8_t>(0x1C12, 0, 0), 0U);
   EXPECT_EQ(write<std::uint32_t>(0x1600, 1, 0x30000010), 0x06010003U);
   EXPECT_EQ(write<std::uint8_t>(0x1600, 0, 0), 0U);
@@ -41,6 +40,28 @@ TEST_F(MappingRules, The_order_of_writes_is_the_standards) {
   EXPECT_EQ(write<std::uint8_t>(0x1600, 0, 1), 0U);
   EXPECT_EQ(write<std::uint16_t>(0x1C12, 1, 0x1600), 0U);
   EXPECT_EQ(write<std::uint8_t>(0x1C12, 0, 1), 0U);
+}
+
+TEST_F(MappingRules, Contents_change_while_the_pdo_is_assigned) {
+  ASSERT_EQ(slave_->objects().number(0x1C12, 1), 0x1600U);
+  EXPECT_EQ(write<std::uint32_t>(0x1600, 1, 0x30000010), 0x06010003U) << "its count is not 0";
+  EXPECT_EQ(write<std::uint8_t>(0x1600, 0, 0), 0U);
+  EXPECT_EQ(write<std::uint32_t>(0x1600, 1, 0x30000010), 0U);
+  EXPECT_EQ(write<std::uint32_t>(0x1600, 2, 0x00000008), 0U) << "a gap";
+  EXPECT_EQ(write<std::uint8_t>(0x1600, 0, 2), 0U);
+}
+
+TEST_F(MappingRules, An_assigned_pdo_does_not_outgrow_its_sync_manager) {
+  device_.sii.sync_managers[3].start = kDriveOutputs + 5;
+  device_.config.esc.eeprom = sii_image(device_.sii);
+  slave_ = std::make_unique<Slave>(device_.config);
+  slave_->esc().set<std::uint16_t>(reg::kAlStatus, static_cast<std::uint16_t>(AlState::PreOp));
+  ASSERT_EQ(write<std::uint8_t>(0x1600, 0, 0), 0U);
+  for (std::uint8_t i = 1; i <= 3; ++i) {
+    ASSERT_EQ(write<std::uint32_t>(0x1600, i, 0x30000010), 0U);
+  }
+  EXPECT_EQ(write<std::uint8_t>(0x1600, 0, 3), 0x06040042U) << "six bytes";
+  EXPECT_EQ(write<std::uint8_t>(0x1600, 0, 2), 0U);
 }
 
 TEST_F(MappingRules, What_is_wrong_is_aborted_with_the_standards_code) {
