@@ -18,7 +18,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
+constexpr std::size_t kBusStackBytes = std::size_t{256} * 1024;
 constexpr milliseconds kRetry{500};
 constexpr milliseconds kPoll{20};
 constexpr std::uint32_t kFirstAddress = 0x10000;  // of the process data on the bus
@@ -102,7 +102,7 @@ bool EthercatBus::start() {
     ready_.store(owned_.get(), std::memory_order_release);
     return true;
   }
-  auto thread = rt::Thread::start({"irp-ethercat", 0, -1, kStackBytes}, [this, module = runtime::current_module()] {
+  auto thread = rt::Thread::start({"irp-ethercat", 0, -1, kBusStackBytes}, [this, module = runtime::current_module()] {
     runtime::set_current_module(module);
     work();
   });

@@ -18,8 +18,8 @@ using config::IoDriver;
 using config::IoFraming;
 
 constexpr int kDataBits = 8;
-constexpr std::size_t kHeader = 6;  // on TCP: transaction, protocol, length
-constexpr std::size_t kCheck = 2;   // bytes of the checksum at the end of a serial frame
+constexpr std::size_t kTcpHeader = 6;  // on TCP: transaction, protocol, length
+constexpr std::size_t kCheck = 2;      // bytes of the checksum at the end of a serial frame
 
 // CRC-16 of "MODBUS over serial line" 2.5.1.2.
 std::uint16_t check_of(std::span<const std::uint8_t> bytes) noexcept {
@@ -127,15 +127,15 @@ bool ModbusLink::send(const ModbusFrame& frame) {
     return modbus_send_raw_request(context_.get(), request.data(), static_cast<int>(request.size())) >= 0;
   }
   const bool serial = device_.framing == IoFraming::Rtu;
-  std::size_t size = serial ? 0 : kHeader;
+  std::size_t size = serial ? 0 : kTcpHeader;
   if (!serial) {
     ++transaction_;
-    const std::array<unsigned, kHeader> header{static_cast<unsigned>(transaction_) >> kBitsPerByte,
-                                               transaction_ & kByteMask,
-                                               0,
-                                               0,
-                                               static_cast<unsigned>(request.size()) >> kBitsPerByte,
-                                               static_cast<unsigned>(request.size()) & kByteMask};
+    const std::array<unsigned, kTcpHeader> header{static_cast<unsigned>(transaction_) >> kBitsPerByte,
+                                                  transaction_ & kByteMask,
+                                                  0,
+                                                  0,
+                                                  static_cast<unsigned>(request.size()) >> kBitsPerByte,
+                                                  static_cast<unsigned>(request.size()) & kByteMask};
     std::transform(header.begin(), header.end(), buffer_.begin(),
                    [](unsigned byte) { return static_cast<std::uint8_t>(byte); });
   }
@@ -166,9 +166,9 @@ std::span<const std::uint8_t> ModbusLink::unwrapped(std::size_t size) const noex
   if (has_serial_frames()) {
     return size < kCheck ? whole.first(0) : whole.first(size - kCheck);  // libmodbus has checked the checksum
   }
-  const bool ours = size > kHeader && whole[0] == transaction_ >> kBitsPerByte &&
+  const bool ours = size > kTcpHeader && whole[0] == transaction_ >> kBitsPerByte &&
                     whole[1] == (transaction_ & kByteMask) && whole[2] == 0 && whole[3] == 0;
-  return ours ? whole.subspan(kHeader) : whole.first(0);
+  return ours ? whole.subspan(kTcpHeader) : whole.first(0);
 }
 
 int ModbusLink::ask(const ModbusFrame& frame, std::span<const std::uint8_t>& answer) {

@@ -27,10 +27,6 @@ unsigned word_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
   return static_cast<unsigned>(bytes[at]) << kBitsPerByte | bytes[at + 1];
 }
 
-std::uint32_t end_of(const IoPoint& point) noexcept {
-  return point.address.number + config::registers_of(point.type);
-}
-
 // First address and number of addresses of a table that the points cover.
 struct Extent {
   unsigned first = 0;

@@ -16,10 +16,6 @@ struct Limits {
   std::uint32_t gap;
 };
 
-std::uint32_t end_of(const IoPoint& point) {
-  return point.address.number + config::registers_of(point.type);
-}
-
 // A read takes the whole register for any of its bits; a write only the bits.
 std::vector<ModbusRequest> plan(std::span<const IoPoint> points, const Limits& limits, bool writing) {
   std::vector<std::size_t> order(points.size());
@@ -55,6 +51,10 @@ std::vector<ModbusRequest> plan(std::span<const IoPoint> points, const Limits& l
 }
 
 }  // namespace
+
+std::uint32_t end_of(const IoPoint& point) noexcept {
+  return point.address.number + config::registers_of(point.type);
+}
 
 std::vector<ModbusRequest> plan_reads(std::span<const IoPoint> points, int gap) {
   return plan(points, {kMaxReadBits, kMaxReadRegisters, static_cast<std::uint32_t>(gap)}, false);

@@ -22,6 +22,9 @@ struct ModbusRequest {
   bool masked = false;              // writes single bits of one register
 };
 
+// The address after the last one of a point.
+std::uint32_t end_of(const config::IoPoint& point) noexcept;
+
 // Limits of one request in the protocol.
 inline constexpr std::uint32_t kMaxReadRegisters = 125;
 inline constexpr std::uint32_t kMaxWrittenRegisters = 123;

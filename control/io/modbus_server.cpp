@@ -22,8 +22,8 @@ namespace {
 using config::IoPoint;
 
 constexpr int kBacklog = 32;
-constexpr std::size_t kHeader = 6;  // transaction, protocol, length of the rest
-constexpr std::size_t kUnit = 6;
+constexpr std::size_t kRequestHeader = 6;  // transaction, protocol, length of the rest
+constexpr std::size_t kUnitAt = 6;
 constexpr std::size_t kLeast = 8;      // header, unit, function
 constexpr unsigned kAnyUnit = 0xFF;    // "MODBUS messaging on TCP/IP" 4.4.1.2: of a device without a serial line
 constexpr std::size_t kRequests = 64;  // of one client in one exchange: no client delays the others
@@ -123,8 +123,8 @@ void ModbusServer::accept_clients() {
 
 bool ModbusServer::answer(Client& client, std::span<const std::uint8_t> frame, std::span<Sample> inputs) {
   modbus_set_socket(context_.get(), client.socket);
-  const auto request = frame.subspan(kUnit + 1);
-  const unsigned unit = frame[kUnit];
+  const auto request = frame.subspan(kUnitAt + 1);
+  const unsigned unit = frame[kUnitAt];
   const bool ours = unit == static_cast<unsigned>(device_.unit) || unit == kAnyUnit || unit == 0;
   const int refusal = ours ? places_.refusal(request) : MODBUS_EXCEPTION_GATEWAY_TARGET;
   if (refusal != 0) {
@@ -142,14 +142,15 @@ bool ModbusServer::answer(Client& client, std::span<const std::uint8_t> frame, s
 
 bool ModbusServer::serve(Client& client, std::span<Sample> inputs) {
   for (std::size_t done = 0; done < kRequests;) {
-    const std::size_t whole = client.size < kHeader
+    const std::size_t whole = client.size < kRequestHeader
                                   ? kLeast
-                                  : kHeader + (static_cast<std::size_t>(client.bytes[kHeader - 2]) << kBitsPerByte) +
-                                        client.bytes[kHeader - 1];
+                                  : kRequestHeader +
+                                        (static_cast<std::size_t>(client.bytes[kRequestHeader - 2]) << kBitsPerByte) +
+                                        client.bytes[kRequestHeader - 1];
     if (whole < kLeast || whole > kMaxBytes || (client.size > 3 && (client.bytes[2] | client.bytes[3]) != 0)) {
       return false;  // not Modbus
     }
-    if (client.size >= kHeader && client.size >= whole) {
+    if (client.size >= kRequestHeader && client.size >= whole) {
       client.silent = {};
       client.asked = true;
       if (!answer(client, std::span(client.bytes).first(whole), inputs)) {

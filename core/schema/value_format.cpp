@@ -15,7 +15,7 @@ namespace {
 
 class Writer {
  public:
-  explicit Writer(bool json) : json_(json) {}
+  explicit Writer(bool as_json) : json_(as_json) {}
 
   void value(const Type& type, std::size_t dim, const std::uint8_t* at) {
     if (dim == type.dims.size()) {
@@ -145,11 +145,11 @@ class Writer {
   std::string out_;
 };
 
-std::string write(bool json, const Type& type, std::span<const std::uint8_t> bytes) {
+std::string write(bool as_json, const Type& type, std::span<const std::uint8_t> bytes) {
   if (bytes.size() < type.size()) {
     return {};
   }
-  Writer writer(json);
+  Writer writer(as_json);
   writer.value(type, 0, bytes.data());
   return writer.take();
 }

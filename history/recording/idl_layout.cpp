@@ -19,8 +19,6 @@ namespace {
 using base::Problem;
 using Kind = IdlLeaf::Kind;
 
-constexpr int kMaxDepth = 32;
-
 std::optional<Kind> kind_of(std::string_view type) {
   constexpr std::array<std::pair<std::string_view, Kind>, 13> kKinds{{{"boolean", Kind::Bool},
                                                                       {"char", Kind::Char},
@@ -57,7 +55,7 @@ class Flattener {
       return leaves.size() <= kMaxLeaves;
     }
     const auto found = definitions_.find(type);
-    if (found == definitions_.end() || depth > kMaxDepth) {
+    if (found == definitions_.end() || depth > kMaxIdlDepth) {
       return false;
     }
     if (found->second.is_enum) {

@@ -12,6 +12,8 @@
 
 namespace indurop::recording {
 
+inline constexpr int kMaxIdlDepth = 32;  // of types within types
+
 struct IdlMember {
   std::string type;         // "string" for all texts
   std::uint64_t bound = 0;  // characters of a bounded string; 0: none is stated

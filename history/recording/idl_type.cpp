@@ -19,7 +19,6 @@ namespace {
 using schema::Base;
 using schema::Type;
 
-constexpr int kMaxDepth = 32;
 constexpr std::size_t kMaxTypes = 16'384;  // a definition may be used any number of times
 
 constexpr std::uint32_t rounded_up(std::uint64_t at, std::uint32_t align) {
@@ -34,7 +33,7 @@ class TypeMaker {
   bool of_name(const std::string& name, std::uint64_t bound, int depth, Type& type) {
     constexpr std::array<std::string_view, 12> kNumbers{"boolean", "char",   "int8",  "uint8",  "int16", "uint16",
                                                         "int32",   "uint32", "int64", "uint64", "float", "double"};
-    if (++made_ > kMaxTypes || depth > kMaxDepth) {
+    if (++made_ > kMaxTypes || depth > kMaxIdlDepth) {
       return false;
     }
     if (const auto* const number = std::find(kNumbers.begin(), kNumbers.end(), name); number != kNumbers.end()) {

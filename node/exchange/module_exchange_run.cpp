@@ -20,7 +20,7 @@ using scheduler::VersionState;
 
 constexpr std::chrono::seconds kNoGapFound{5};  // in addition to two periods
 constexpr std::int64_t kLongestGridNs = rt::kNanosPerSecond;
-constexpr std::chrono::milliseconds kEndPoll{1};
+constexpr std::chrono::milliseconds kReplacedPoll{1};
 constexpr int kCopiesInOneGo = 20;
 constexpr std::size_t kShownDigits = 12;
 
@@ -296,7 +296,7 @@ void ModuleExchange::end() {
     (void)preparation_->take();
   }
   while (call_ != nullptr && !context_.phases.ended(*call_, rt::MonoClock::now(), Phases::kGrace)) {
-    rt::sleep_until(rt::MonoClock::now() + kEndPoll);
+    rt::sleep_until(rt::MonoClock::now() + kReplacedPoll);
   }
   if (call_ != nullptr) {
     other_is_unsound_ = Phases::failure_of(std::move(call_)).has_value();

@@ -80,7 +80,7 @@ class Order {
       }
       rings_[held_++] = ring;
     }
-    detail::copy_to_shared(slot_ + entry.offset, block_.data + entry.data, entry.size);
+    indurop::detail::copy_to_shared(slot_ + entry.offset, block_.data + entry.data, entry.size);
     return true;
   }
 

@@ -74,7 +74,7 @@ void write(Place& place, const Line& line) noexcept {
   const std::uint64_t version = place.version.load(std::memory_order_relaxed) | 1U;  // a killed writer left it odd
   place.version.store(version, std::memory_order_relaxed);
   std::atomic_thread_fence(std::memory_order_release);
-  detail::copy_to_shared(&place.line, &line, sizeof line);
+  indurop::detail::copy_to_shared(&place.line, &line, sizeof line);
   place.version.store(version + 1, std::memory_order_release);
 }
 
@@ -84,7 +84,7 @@ std::optional<Line> read(const Place& place) noexcept {
   for (int i = 0; i < kTries; ++i) {
     const std::uint64_t version = place.version.load(std::memory_order_acquire);
     Line line{};
-    detail::copy_from_shared(&line, &place.line, sizeof line);
+    indurop::detail::copy_from_shared(&line, &place.line, sizeof line);
     std::atomic_thread_fence(std::memory_order_acquire);
     if (version % 2 == 0 && place.version.load(std::memory_order_relaxed) == version) {
       return line;

@@ -308,7 +308,7 @@ void hold_parts(abi::RingHeader& ring, unsigned char* version) noexcept {
   }
   for_each_of(table_of(&ring, offset), &ring, [&](const Held& part) {
     if (std::uint64_t{part.offset} + part.size <= ring.value_size) {
-      detail::copy_to_shared(version + part.offset, &part.value, part.size);
+      indurop::detail::copy_to_shared(version + part.offset, &part.value, part.size);
     }
   });
 }

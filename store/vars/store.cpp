@@ -69,10 +69,10 @@ void sign_in(BlockHeader& header, std::uint64_t generation) noexcept {
 void fill_slot(unsigned char* slot, std::size_t size, std::span<const std::uint8_t> initial) noexcept {
   static constexpr std::array<unsigned char, 4096> kZero{};
   if (!initial.empty()) {  // else data() may be null, which memcpy must not get
-    detail::copy_to_shared(slot, initial.data(), initial.size());
+    indurop::detail::copy_to_shared(slot, initial.data(), initial.size());
   }
   for (std::size_t at = initial.size(); at < size; at += kZero.size()) {
-    detail::copy_to_shared(slot + at, kZero.data(), std::min(kZero.size(), size - at));
+    indurop::detail::copy_to_shared(slot + at, kZero.data(), std::min(kZero.size(), size - at));
   }
 }
 
@@ -239,7 +239,7 @@ Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::s
   if (slot == nullptr) {
     return Error{Errc::Busy, 0, "write lock of a variable"};
   }
-  detail::copy_to_shared(slot + offset, from.data(), from.size());
+  indurop::detail::copy_to_shared(slot + offset, from.data(), from.size());
   commit(ring);
   return {};
 }

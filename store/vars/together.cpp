@@ -74,7 +74,8 @@ bool copy(abi::Piece& piece) noexcept {
     return true;
   }
   abi::RingHeader& ring = ring_of(piece);
-  detail::copy_from_shared(piece.to, detail::slot(&ring, piece.version, abi::slot_stride(piece.size)), piece.size);
+  indurop::detail::copy_from_shared(piece.to, indurop::detail::slot(&ring, piece.version, abi::slot_stride(piece.size)),
+                                    piece.size);
   std::atomic_thread_fence(std::memory_order_acquire);
   return ring.seq.load(kRelaxed) == piece.version;
 }

@@ -55,6 +55,10 @@ inline constexpr std::uint16_t kMemory = 0x1000;  // process data and mailboxes
 inline constexpr std::uint16_t kFmmuBytes = 16;
 inline constexpr std::uint16_t kSyncManagerBytes = 8;
 
+// Status of SyncManager 1, the mailbox from the slave, and its bit for a message that waits.
+inline constexpr std::uint16_t kAnswerStatus = reg::kSyncManager + kSyncManagerBytes + 5;
+inline constexpr std::uint8_t kMailboxFull = 0x08;
+
 // Bits of kFeatures.
 inline constexpr std::uint16_t kHasClock = 0x0004;
 inline constexpr std::uint16_t kHasLongClock = 0x0008;  // of 64 bits

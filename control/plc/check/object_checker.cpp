@@ -14,10 +14,12 @@ namespace indurop::plc {
 namespace {
 
 using ast::Section;
-using Kind = ast::Pou::Kind;
+using PouKind = ast::Pou::Kind;
 
 std::string_view word_of(const Pou& pou) noexcept {
-  return pou.tree->kind == Kind::Interface ? "INTERFACE" : pou.tree->kind == Kind::Class ? "CLASS" : "FUNCTION_BLOCK";
+  return pou.tree->kind == PouKind::Interface ? "INTERFACE"
+         : pou.tree->kind == PouKind::Class   ? "CLASS"
+                                              : "FUNCTION_BLOCK";
 }
 
 // Returns "METHOD Start", "GET of the PROPERTY Speed".
@@ -67,14 +69,15 @@ class Declarer {
       base(pou, one);
     }
     for (const ast::NameAt& one : pou.tree->interfaces) {
-      if (const Pou* found = this->find(one, "IMPLEMENTS names an INTERFACE", {Kind::Interface, Kind::Interface})) {
+      if (const Pou* found =
+              this->find(one, "IMPLEMENTS names an INTERFACE", {PouKind::Interface, PouKind::Interface})) {
         add_interface(pou, *found, one.at);
       }
     }
   }
 
  private:
-  const Pou* find(const ast::NameAt& at, std::string_view rule, std::array<Kind, 2> kinds) {
+  const Pou* find(const ast::NameAt& at, std::string_view rule, std::array<PouKind, 2> kinds) {
     const auto found = context_.program.pou_names.find(upper(at.name));
     if (found == context_.program.pou_names.end()) {
       std::vector<std::string> known;
@@ -85,8 +88,8 @@ class Declarer {
       }
       const std::string hint = did_you_mean(context_, at.name, known);
       context_.error(at.at, fmt::format("there is no {} '{}'{}",
-                                        kinds[0] == Kind::Interface ? "INTERFACE" : "function block or class", at.name,
-                                        hint.empty() ? ", declare it" : hint));
+                                        kinds[0] == PouKind::Interface ? "INTERFACE" : "function block or class",
+                                        at.name, hint.empty() ? ", declare it" : hint));
       return nullptr;
     }
     const Pou& pou = *found->second;
@@ -98,8 +101,8 @@ class Declarer {
   }
 
   void base(Pou& pou, const ast::NameAt& at) {
-    if (pou.tree->kind == Kind::Interface) {
-      if (const Pou* found = find(at, "an INTERFACE extends interfaces", {Kind::Interface, Kind::Interface})) {
+    if (pou.tree->kind == PouKind::Interface) {
+      if (const Pou* found = find(at, "an INTERFACE extends interfaces", {PouKind::Interface, PouKind::Interface})) {
         add_interface(pou, *found, at.at);
       }
       return;
@@ -108,12 +111,12 @@ class Declarer {
       context_.error(at.at, "only function blocks, classes and interfaces extend others, remove this EXTENDS");
       return;
     }
-    const Kind other = pou.tree->kind == Kind::Class ? Kind::Class : Kind::FunctionBlock;
+    const PouKind other = pou.tree->kind == PouKind::Class ? PouKind::Class : PouKind::FunctionBlock;
     const Pou* found =
         find(at,
-             pou.tree->kind == Kind::Class ? "a CLASS extends a CLASS; of interfaces say IMPLEMENTS"
-                                           : "EXTENDS names a function block or class; of interfaces say IMPLEMENTS",
-             {other, Kind::Class});
+             pou.tree->kind == PouKind::Class ? "a CLASS extends a CLASS; of interfaces say IMPLEMENTS"
+                                              : "EXTENDS names a function block or class; of interfaces say IMPLEMENTS",
+             {other, PouKind::Class});
     if (found == nullptr) {
       return;
     }
@@ -183,9 +186,9 @@ class ObjectChecker {
 
   void own(const Pou& method) {
     const ast::Pou& tree = *method.tree;
-    const bool program = pou_.tree->kind == Kind::Program && (context_.codesys() || tree.name == kStart);
-    if (!program && pou_.tree->kind != Kind::FunctionBlock && pou_.tree->kind != Kind::Class &&
-        pou_.tree->kind != Kind::Interface) {
+    const bool program = pou_.tree->kind == PouKind::Program && (context_.codesys() || tree.name == kStart);
+    if (!program && pou_.tree->kind != PouKind::FunctionBlock && pou_.tree->kind != PouKind::Class &&
+        pou_.tree->kind != PouKind::Interface) {
       context_.error(tree.at, "only function blocks, classes and interfaces have methods, write a FUNCTION");
       return;
     }
@@ -193,7 +196,7 @@ class ObjectChecker {
       context_.error(tree.at, fmt::format("{} is ABSTRACT, so {} has to be: {} ABSTRACT {}", tree.name, pou_.name,
                                           word_of(pou_), pou_.name));
     }
-    const bool without_body = tree.is_abstract || pou_.tree->kind == Kind::Interface;
+    const bool without_body = tree.is_abstract || pou_.tree->kind == PouKind::Interface;
     if (without_body && !tree.body.empty()) {
       context_.error(tree.body.front().at, fmt::format("{} has no statements, because it is {}", shown(method),
                                                        tree.is_abstract ? "ABSTRACT" : "of an INTERFACE"));
@@ -205,7 +208,7 @@ class ObjectChecker {
       return;  // each has its own values, and runs that of its base
     }
     const Pou* other = pou_.base != nullptr ? find_method(*pou_.base, method.name, method.tree->accessor) : nullptr;
-    if (other == nullptr || other->owner->tree->kind == Kind::Interface) {
+    if (other == nullptr || other->owner->tree->kind == PouKind::Interface) {
       if (method.tree->overrides && other == nullptr) {
         context_.error(method.tree->at,
                        fmt::format("OVERRIDE, but nothing that {} extends has a {}", pou_.name, shown(method)));
@@ -256,7 +259,7 @@ class ObjectChecker {
   std::vector<const Pou*> wanted() const {
     std::vector<const Pou*> out;
     for (const Pou* one : pou_.ancestors) {
-      if (one->tree->kind == Kind::Interface) {
+      if (one->tree->kind == PouKind::Interface) {
         out.insert(out.end(), one->methods.begin(), one->methods.end());
       }
     }
@@ -299,7 +302,7 @@ class ObjectChecker {
       const Pou* found = find_method(pou_, one->name, one->tree->accessor);
       const bool compared =
           found != nullptr && found->replaces != nullptr && found->owner == &pou_ && is_a(*pou_.base, *one->owner);
-      if (found == nullptr || found->owner->tree->kind == Kind::Interface || compared) {
+      if (found == nullptr || found->owner->tree->kind == PouKind::Interface || compared) {
         continue;
       }
       const Place& at = found->owner == &pou_ ? found->tree->at : pou_.tree->at;
@@ -330,7 +333,7 @@ void declare_objects(Context& context) {
     }
     pou.holds.insert(pou.interfaces.begin(), pou.interfaces.end());
     pou.is_object = pou.is_object || !pou.methods.empty() || pou.base != nullptr || !pou.interfaces.empty() ||
-                    pou.tree->is_abstract || pou.tree->kind == Kind::Class;
+                    pou.tree->is_abstract || pou.tree->kind == PouKind::Class;
     if (pou.base != nullptr) {
       context.program.pou_names.at(upper(pou.base->name))->is_object = true;
     }

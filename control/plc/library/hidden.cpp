@@ -15,7 +15,7 @@
 namespace indurop::plc {
 namespace {
 
-std::vector<LibraryFunction> make() {
+std::vector<LibraryFunction> make_hidden() {
   std::vector<LibraryFunction> out;
   out.push_back(make_function("@LOG(LEVEL INT, MSG STRING): BOOL", "log_message"));
   for (const auto& [name, unit] :
@@ -85,7 +85,7 @@ std::vector<const LibraryFunction*> find_typed(std::string_view name) {
 }
 
 const LibraryFunction* find_hidden(std::string_view name, std::optional<Elementary> wanted) {
-  static const std::vector<LibraryFunction> kAll = make();
+  static const std::vector<LibraryFunction> kAll = make_hidden();
   const auto found = std::find_if(kAll.begin(), kAll.end(), [&](const LibraryFunction& one) {
     return one.name == name && (name == kLogMessage || (wanted && one.result == LibraryType(*wanted)));
   });

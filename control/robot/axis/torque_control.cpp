@@ -12,8 +12,8 @@ constexpr double kSmooth = 0.03;    // s: smooths encoder steps, which are no ac
 constexpr int kDelays = 5;          // the control is this many times slower than the drive's delay
 constexpr double kStanding = 0.02;  // part of the velocity that counts as standstill
 constexpr double kReached = 1 - 1e-9;
-constexpr double kFaster = 0.1;  // part of the velocity by which the axis may exceed it
-constexpr double kQuick = 0.1;   // s
+constexpr double kFaster = 0.1;    // part of the velocity by which the axis may exceed it
+constexpr double kRampTime = 0.1;  // s, of a ramp that is not given
 
 double towards(double from, double to, double step) noexcept {
   return from + std::clamp(to - from, -step, step);
@@ -50,7 +50,7 @@ void TorqueControl::push(int late) noexcept {
 // ramp.
 double TorqueControl::ramp(double smooth, double period) const noexcept {
   const double safe = kFaster * request_.velocity * load_.inertia / (late_ * period * smooth);
-  const double quick = std::max(std::abs(request_.torque), std::abs(asked_)) / kQuick;
+  const double quick = std::max(std::abs(request_.torque), std::abs(asked_)) / kRampTime;
   return std::min(safe, request_.ramp > 0 ? request_.ramp : quick);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFastest = 0.98 * kReducedSpeed;  // m/s of the tip
 constexpr double kFarthestMove = 1;                // m
-constexpr double kMostTurned = kPi / 2;
+constexpr double kMostTurn = kPi / 2;
 constexpr double kAhead = 8;              // s of tip motion that are planned: more would delay the start
 constexpr double kTurning = 0.15;         // part of full speed
 constexpr double kShortest = 1.0 / 1024;  // part of the longest distance that is tried
@@ -93,7 +93,7 @@ MoveCommand Jogging::tip_motion(int direction, double part) const noexcept {
   const bool turns = direction >= 3;
   const double speed = std::abs(speed_) * (turns ? kTurning * robot_.parts.tool.turn_velocity : kFastest);
   Vec3 way = Vec3::Zero();
-  way[direction % 3] = std::copysign(part * std::min(turns ? kMostTurned : kFarthestMove, kAhead * speed), speed_);
+  way[direction % 3] = std::copysign(part * std::min(turns ? kMostTurn : kFarthestMove, kAhead * speed), speed_);
   MoveCommand command;
   command.move = Move::Line;
   command.target.is_pose = true;

@@ -9,10 +9,10 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kSlowly = 0.1;       // part of full speed, on the way back to the path
-constexpr double kTipSlowly = 0.1;    // m/s, of the tip
-constexpr double kMostTurned = 0.79;  // rad that a joint may be away: farther, it may be another posture
-constexpr double kSameJoints = 1e-9;  // rad
+constexpr double kSlowly = 0.1;           // part of full speed, on the way back to the path
+constexpr double kTipSlowly = 0.1;        // m/s, of the tip
+constexpr double kFarthestTurned = 0.79;  // rad that a joint may be away: farther, it may be another posture
+constexpr double kSameJoints = 1e-9;      // rad
 
 }  // namespace
 
@@ -66,7 +66,7 @@ void Resuming::say_how_far(const Joints& to) noexcept {
   std::snprintf(
       text, sizeof text,
       "the robot is %.0f mm (axis %d: %.0f deg) from where its job left the path; %.0f mm (%.0f deg) is the most", away,
-      static_cast<int>(axis) + 1, degrees(turned), robot_.parts.settings.regain_distance, degrees(kMostTurned));
+      static_cast<int>(axis) + 1, degrees(turned), robot_.parts.settings.regain_distance, degrees(kFarthestTurned));
   robot_.job.set_message(text);
 }
 
@@ -96,7 +96,7 @@ ErrorCode Resuming::resume() noexcept {
 bool Resuming::is_near(const Joints& place) const noexcept {
   const double away = 1000 * (robot_.tip(place).position - robot_.tip(robot_.commanded()).position).norm();
   return away <= robot_.parts.settings.regain_distance &&
-         (place - robot_.commanded()).head(robot_.count()).cwiseAbs().maxCoeff() <= kMostTurned;
+         (place - robot_.commanded()).head(robot_.count()).cwiseAbs().maxCoeff() <= kFarthestTurned;
 }
 
 // Requests no motion if the robot is already there.

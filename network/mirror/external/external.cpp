@@ -22,8 +22,8 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kPollNs = 10'000'000;  // for new readers
-constexpr std::int64_t kLeaseNs = 2'000'000'000;
+constexpr std::int64_t kReadersPollNs = 10'000'000;  // for new readers
+constexpr std::int64_t kExternalLeaseNs = 2'000'000'000;
 constexpr std::int64_t kLaterNs = 500'000'000;  // by then everything that is not silent is due
 constexpr std::size_t kEagerTopics = 500;       // beyond this, topics are announced on request: discovery has its cost
 
@@ -37,7 +37,7 @@ dds::NetworkSettings network_of(const ExternalSettings& external) {
     settings.multicast = true;
     settings.one_host = false;
   }
-  settings.lease_ns = kLeaseNs;
+  settings.lease_ns = kExternalLeaseNs;
   return settings;
 }
 
@@ -214,7 +214,7 @@ void External::Impl::update_lead(std::int64_t now_ns) {
 std::int64_t External::Impl::serve(std::int64_t now_ns) {
   update_lead(now_ns);
   discover_readers();
-  std::int64_t next = now_ns + kPollNs;
+  std::int64_t next = now_ns + kReadersPollNs;
   std::uint32_t read = 0;
   for (const auto& topic : topics) {
     topic->receive();

@@ -11,7 +11,7 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kPollNs = 10'000'000;  // without a notification: another process may have written
+constexpr std::int64_t kUnnotifiedPollNs = 10'000'000;  // without a notification: another process may have written
 constexpr std::int64_t kBulkLookNs = 20'000'000;
 constexpr std::int64_t kPollAgainNs = 100'000;  // for the end of a run that is not notified
 
@@ -154,7 +154,7 @@ std::int64_t Exchange::send(std::int64_t now_ns, bool bulk) noexcept {
   if (sender_->cycle(now_ns, begun > 0 ? begun - 1 : 0, bulk)) {
     return now_ns + kPollAgainNs;
   }
-  return now_ns + (bulk ? kBulkLookNs : kPollNs);
+  return now_ns + (bulk ? kBulkLookNs : kUnnotifiedPollNs);
 }
 
 void Exchange::send_last(bool bulk) noexcept {

@@ -22,7 +22,7 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kLeaseNs = 2'000'000'000;
+constexpr std::int64_t kRemoteLeaseNs = 2'000'000'000;
 constexpr std::int64_t kPresentNs = 300'000'000;  // by then a board has announced its variables
 constexpr std::int64_t kTypeNs = 500'000'000;     // for the answer to a request for a type
 
@@ -80,7 +80,7 @@ Result<std::string, base::Problem> RemotePlane::Impl::open(const dds::NetworkSet
   }
   network.peers.emplace_back("127.0.0.1");  // a node of this machine
   network.known_ports = true;
-  network.lease_ns = kLeaseNs;
+  network.lease_ns = kRemoteLeaseNs;
   wake.init(false);
   auto joined = dds::join_network(network);
   if (!joined) {

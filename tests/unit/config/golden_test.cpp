@@ -50,10 +50,10 @@ Config& content(ReadResult& read) {
 Plant& content(ReadPlant& read) {
   return read.plant;
 }
-CheckResult check(Config& config, const CheckOptions& options) {
+CheckResult check_golden(Config& config, const CheckOptions& options) {
   return check_config(config, options);
 }
-PlantCheck check(Plant& plant, const CheckOptions& options) {
+PlantCheck check_golden(Plant& plant, const CheckOptions& options) {
   return check_plant(plant, options);
 }
 
@@ -74,10 +74,10 @@ void Golden::run() {
     return;
   }
   Kind& kind = content(read_file);
-  const auto checked = check(kind, {.files = false, .adjust = false, .machine = false});
+  const auto checked = check_golden(kind, {.files = false, .adjust = false, .machine = false});
   compare("err", text(read_file.diagnostics) + text(checked.diagnostics));
   if (!checked.ok()) {
-    const auto adjusted = check(kind, {.files = false, .adjust = true, .machine = false});
+    const auto adjusted = check_golden(kind, {.files = false, .adjust = true, .machine = false});
     compare("adjusted", plan_table(kind, adjusted));
     return;
   }

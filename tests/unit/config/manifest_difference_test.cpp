@@ -23,33 +23,37 @@ std::string difference(const std::string& before, const std::string& after) {
   return a && b ? manifest_difference(*a, *b) : "?";
 }
 
-std::string plant(const std::string& module, const std::string& more = "") {
+std::string plant_with(const std::string& module, const std::string& more = "") {
   return "<plant name=\"p\"><board name=\"a\"><module>" + module + "</module></board>" + more + "</plant>";
 }
 
 const std::string kPress = "<name>press</name><filename>./press.so</filename><period>1ms</period>";
 
 TEST(ManifestDifference, Spaces_comments_and_other_files_of_a_named_module_are_none) {
-  EXPECT_EQ(difference(plant(kPress), plant(kPress)), "");
-  EXPECT_EQ(difference(plant(kPress), plant("\n <!-- new -->" + kPress + "\n")), "");
-  EXPECT_EQ(difference(plant(kPress), plant("<name>press</name><filename>./new/press2.so</filename><period>1ms"
-                                            "</period>")),
-            "");
+  EXPECT_EQ(difference(plant_with(kPress), plant_with(kPress)), "");
+  EXPECT_EQ(difference(plant_with(kPress), plant_with("\n <!-- new -->" + kPress + "\n")), "");
+  EXPECT_EQ(
+      difference(plant_with(kPress), plant_with("<name>press</name><filename>./new/press2.so</filename><period>1ms"
+                                                "</period>")),
+      "");
 }
 
 TEST(ManifestDifference, Names_what_differs_and_where) {
-  EXPECT_EQ(difference(plant(kPress), plant("<name>press</name><filename>./press.so</filename><period>2ms</period>")),
+  EXPECT_EQ(difference(plant_with(kPress),
+                       plant_with("<name>press</name><filename>./press.so</filename><period>2ms</period>")),
             "board a, module press: <period> was 1ms and is 2ms");
-  EXPECT_EQ(difference(plant(kPress), plant(kPress + "<core>1</core>")), "board a, module press: <core> is new");
-  EXPECT_EQ(difference(plant(kPress + "<core>1</core>"), plant(kPress)), "board a, module press: <core> is gone");
-  EXPECT_EQ(difference(plant(kPress), plant(kPress, "<domain>3</domain>")), "<domain> is new");
-  EXPECT_EQ(difference(plant(kPress), plant(kPress, "<board name=\"b\"/>")), "board b is new");
+  EXPECT_EQ(difference(plant_with(kPress), plant_with(kPress + "<core>1</core>")),
+            "board a, module press: <core> is new");
+  EXPECT_EQ(difference(plant_with(kPress + "<core>1</core>"), plant_with(kPress)),
+            "board a, module press: <core> is gone");
+  EXPECT_EQ(difference(plant_with(kPress), plant_with(kPress, "<domain>3</domain>")), "<domain> is new");
+  EXPECT_EQ(difference(plant_with(kPress), plant_with(kPress, "<board name=\"b\"/>")), "board b is new");
 }
 
 TEST(ManifestDifference, A_module_without_a_name_has_that_of_its_file) {
-  EXPECT_EQ(difference(plant("<filename>./one.so</filename>"), plant("<filename>./two.so</filename>")),
+  EXPECT_EQ(difference(plant_with("<filename>./one.so</filename>"), plant_with("<filename>./two.so</filename>")),
             "board a: module two is in place of module one");
-  EXPECT_EQ(difference(plant("<filename>./one.so</filename>"), plant("<filename>lib/one.so</filename>")), "");
+  EXPECT_EQ(difference(plant_with("<filename>./one.so</filename>"), plant_with("<filename>lib/one.so</filename>")), "");
 }
 
 TEST(ManifestDifference, Attributes_count_in_any_order) {

@@ -18,7 +18,7 @@ using testing::IsEmpty;
 const std::string kHash =
     "scrypt:15:8:1:000102030405060708090a0b0c0d0e0f:5c662628ac4eb1068a287e2aa2a202ae248e98db04d61d3327e7342db6ec7097";
 
-std::vector<std::string> lines_of(const std::string& xml) {
+std::vector<std::string> user_problems(const std::string& xml) {
   return lines(read_users_text(xml, "users.xml").diagnostics);
 }
 
@@ -50,14 +50,14 @@ TEST(UsersReader, Reads_roles_limits_and_hashes) {
 }
 
 TEST(UsersReader, Refuses_all_mistakes_at_once_and_repeats_no_secret) {
-  EXPECT_THAT(lines_of("<users>\n"
-                       "  <user name=\"an na\" role=\"boss\"/>\n"
-                       "  <user role=\"look\"/>\n"
-                       "  <user name=\"eve\" role=\"look\" pasword=\"x\"/>\n"
-                       "  <user name=\"tom\" role=\"look\" password=\"secret\" token=\"open\" boards=\"a b\"/>\n"
-                       "  <user name=\"eve\" role=\"look\"/>\n"
-                       "  <group/>\n"
-                       "</users>\n"),
+  EXPECT_THAT(user_problems("<users>\n"
+                            "  <user name=\"an na\" role=\"boss\"/>\n"
+                            "  <user role=\"look\"/>\n"
+                            "  <user name=\"eve\" role=\"look\" pasword=\"x\"/>\n"
+                            "  <user name=\"tom\" role=\"look\" password=\"secret\" token=\"open\" boards=\"a b\"/>\n"
+                            "  <user name=\"eve\" role=\"look\"/>\n"
+                            "  <group/>\n"
+                            "</users>\n"),
               ElementsAre(HasSubstr("users.xml:2:15: error: name: 'an na' is not a valid user name"),
                           HasSubstr("users.xml:2:28: error: role: 'boss' is none of look, operate, tune, program"),
                           HasSubstr("users.xml:3:3: error: <user> has no name; write name=\"anna\""),
@@ -67,10 +67,11 @@ TEST(UsersReader, Refuses_all_mistakes_at_once_and_repeats_no_secret) {
                           HasSubstr("users.xml:5:71: error: boards: 'a b' is no pattern"),
                           HasSubstr("users.xml:6:3: error: a second user 'eve', the first is in line 4"),
                           HasSubstr("users.xml:7:3: error: unknown element '<group>'")));
-  for (const std::string& line : lines_of("<users><user name=\"t\" role=\"look\" password=\"hunter2\"/></users>")) {
+  for (const std::string& line :
+       user_problems("<users><user name=\"t\" role=\"look\" password=\"hunter2\"/></users>")) {
     EXPECT_EQ(line.find("hunter2"), std::string::npos);
   }
-  EXPECT_THAT(lines_of("<plant name=\"x\"/>"), ElementsAre(HasSubstr("the root element is <plant>")));
+  EXPECT_THAT(user_problems("<plant name=\"x\"/>"), ElementsAre(HasSubstr("the root element is <plant>")));
 }
 
 TEST(UsersReader, Reads_what_it_has_written) {

@@ -23,7 +23,7 @@ using deploy::Action;
 using deploy::Outcome;
 using scheduler::ModuleCommand;
 
-constexpr std::int64_t kDiscoverNs = 5'000'000'000;
+constexpr std::int64_t kTargetDiscoverNs = 5'000'000'000;
 
 Action action_of(ModuleCommand what, bool module) {
   switch (what) {
@@ -75,7 +75,7 @@ Result<void, Failure> all_there(Context& context, const BoardRoster& roster, con
     if (roster.find(target.board) == nullptr) {
       context.out.error(fmt::format(
           "board {} was not heard within {}.{} Boards heard: {}; a node of this machine is meant with --node{}",
-          target.board, human_age(kDiscoverNs), did_you_mean(target.board, discovered),
+          target.board, human_age(kTargetDiscoverNs), did_you_mean(target.board, discovered),
           discovered.empty() ? "none" : fmt::format("{}", fmt::join(discovered, ", ")),
           discovered.empty() ? keys : ""));
       code = kUnreachable;
@@ -103,7 +103,7 @@ int command_remote(Context& context, ModuleCommand what, const std::vector<Comma
     return kUnreachable;
   }
   BoardRoster roster;
-  roster.gather(*link, std::min(options.timeout_ns, kDiscoverNs), [&] {
+  roster.gather(*link, std::min(options.timeout_ns, kTargetDiscoverNs), [&] {
     return std::all_of(targets.begin(), targets.end(),
                        [&](const CommandTarget& target) { return roster.find(target.board) != nullptr; });
   });

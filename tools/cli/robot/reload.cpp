@@ -17,7 +17,7 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 // The robot's answer: the last acknowledged and completed command, and the result of the last service.
-struct Answer {
+struct ReloadAnswer {
   std::uint32_t acknowledged = 0, done = 0, error = 0;
   std::string message;
 };
@@ -28,7 +28,7 @@ class Robot {
       : context_(context), store_(store), space_(choice.space) {}
 
   // Returns the exit code.
-  int read_answer(Answer& to) {
+  int read_answer(ReloadAnswer& to) {
     const std::string state = space_ + "::ROBOT_MODULE_STATE.";
     std::vector<Item> items;
     if (const int code = select_items(
@@ -78,7 +78,7 @@ int reload_jobs(Context& context, const RobotChoice& choice) {
     return report(context.out, store.error());
   }
   Robot sut(context, *store, choice);
-  Answer answer;
+  ReloadAnswer answer;
   if (const int code = sut.read_answer(answer); code != kOk) {
     return code;
   }

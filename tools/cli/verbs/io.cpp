@@ -55,7 +55,7 @@ std::vector<Object> objects_of(const std::vector<Pdo>& pdos) {
   return all;
 }
 
-JsonValue json_of(const std::vector<Object>& objects) {
+JsonValue objects_json(const std::vector<Object>& objects) {
   JsonValue all = JsonValue::array();
   for (const Object& object : objects) {
     JsonValue one = JsonValue::object();
@@ -98,8 +98,8 @@ void print_slaves(Context& context, const std::vector<FoundSlave>& slaves) {
                {hex(identity.product), identity.product},
                {hex(identity.revision), identity.revision},
                Cell(is_known ? slave.sii.name : slave.problem, is_known ? Style::Bold : Style::Bad),
-               {"", json_of(inputs)},
-               {"", json_of(outputs)}});
+               {"", objects_json(inputs)},
+               {"", objects_json(outputs)}});
     add_objects(all, place, "input", inputs);
     add_objects(all, place, "output", outputs);
   }

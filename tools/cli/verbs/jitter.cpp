@@ -111,8 +111,8 @@ JsonValue summary_json(const scheduler::Distribution& distribution, bool histogr
   return out;
 }
 
-JsonValue json_of(const RunView& run, const std::string& node, const std::vector<std::uint32_t>& modules,
-                  const JitterOptions& options) {
+JsonValue jitter_json(const RunView& run, const std::string& node, const std::vector<std::uint32_t>& modules,
+                      const JitterOptions& options) {
   JsonValue list = JsonValue::array();
   for (const std::uint32_t index : modules) {
     const auto& module = run.module(index);
@@ -196,7 +196,7 @@ int show(Context& context, JitterOptions& options) {
     return kOk;
   }
   if (context.format == Format::Json) {
-    context.out.line(json_of(*run, node, modules, options).dump());
+    context.out.line(jitter_json(*run, node, modules, options).dump());
   } else if (context.format == Format::Svg) {
     context.out.write(picture(*run, node, modules, options));
   } else {

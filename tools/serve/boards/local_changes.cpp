@@ -51,7 +51,7 @@ std::vector<std::string> names_of(const std::vector<operate::Item>& all) {
   return names;
 }
 
-const char* word_of(scheduler::CommandResult result) {
+const char* result_word(scheduler::CommandResult result) {
   return result == scheduler::CommandResult::Unchanged ? "unchanged"
          : result == scheduler::CommandResult::OldCode ? "old code"
                                                        : "done";
@@ -204,7 +204,7 @@ Board::Done LocalBoard::command(scheduler::ModuleCommand what, const std::string
                    {done.error().text}};
   }
   return base::Json{
-      {"module", module}, {"result", word_of(done->result)}, {"took_ns", done->took_ns}, {"message", done->text}};
+      {"module", module}, {"result", result_word(done->result)}, {"took_ns", done->took_ns}, {"message", done->text}};
 }
 
 Board::Done LocalBoard::carry_out(const alarms::AlarmOrder& order, ChangeNote& note) {

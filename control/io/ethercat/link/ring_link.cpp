@@ -7,8 +7,8 @@ namespace indurop::io::ethercat {
 
 namespace {
 
-constexpr std::size_t kFrames = 64;    // under way at most
-constexpr std::size_t kSourceAt = 11;  // last byte of the source address
+constexpr std::size_t kFrames = 64;     // under way at most
+constexpr std::size_t kSourceEnd = 11;  // last byte of the source address
 constexpr std::uint8_t kLastEnd = 0x80;
 constexpr std::size_t kIndexAt = kFrameHeader + 1;  // of the first datagram
 
@@ -47,7 +47,7 @@ RingLink::RingLink(Link& first, Link& last) : first_(first), last_(last), sent_(
 // Positions count from the end at which a frame comes in. Whom it cannot reach from the last end it leaves alone: on a
 // cable that is cut this very moment, the position would be that of another slave.
 void RingLink::mark_for_last(std::span<std::uint8_t> frame) const noexcept {
-  frame[kSourceAt] ^= kLastEnd;
+  frame[kSourceEnd] ^= kLastEnd;
   FrameReader reader(frame);
   Datagram datagram;
   while (reader.next(datagram)) {
@@ -84,7 +84,7 @@ void RingLink::take(Bytes frame, End from) noexcept {
   if (frame.size() <= kIndexAt || FrameReader(frame).fault() != FrameFault::None) {
     return;
   }
-  const bool is_last = (frame[kSourceAt] & kLastEnd) != 0;
+  const bool is_last = (frame[kSourceEnd] & kLastEnd) != 0;
   const auto found = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& sent) {
     return sent.is_out && sent.frame.size == frame.size() && sent.frame.bytes[kIndexAt] == frame[kIndexAt];
   });
@@ -97,7 +97,7 @@ void RingLink::take(Bytes frame, End from) noexcept {
   Copy& copy = is_last ? found->last : found->first;
   copy.size = frame.size();
   std::copy_n(frame.begin(), copy.size, copy.bytes.begin());
-  copy.bytes[kSourceAt] &= static_cast<std::uint8_t>(~kLastEnd);
+  copy.bytes[kSourceEnd] &= static_cast<std::uint8_t>(~kLastEnd);
   found->is_whole |= !is_last && from == End::Last;
 }
 

@@ -9,7 +9,7 @@ namespace indurop::io::ethercat {
 
 namespace {
 
-constexpr Clock kPatience = std::chrono::seconds(20);  // a slave may erase its memory first
+constexpr Clock kFoePatience = std::chrono::seconds(20);  // a slave may erase its memory first
 
 std::string text_of(Bytes bytes) {
   return {bytes.begin(), std::find(bytes.begin(), bytes.end(), std::uint8_t{0})};
@@ -41,7 +41,8 @@ Result<std::vector<std::uint8_t>, std::string> FoeClient::ask(Bytes message) {
       return wrong;
     }
     auto answer = session_.receive(
-        [](const Mailbox& mailbox) { return mailbox.type == MailboxType::Foe && read_foe(mailbox.data); }, kPatience);
+        [](const Mailbox& mailbox) { return mailbox.type == MailboxType::Foe && read_foe(mailbox.data); },
+        kFoePatience);
     if (!answer) {
       return answer.error();
     }

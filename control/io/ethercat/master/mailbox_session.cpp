@@ -15,8 +15,6 @@ namespace {
 
 constexpr Clock kStatePatience = std::chrono::seconds(3);
 constexpr Clock kSendPatience = std::chrono::seconds(1);
-constexpr std::uint16_t kAnswerStatus = reg::kSyncManager + kSyncManagerBytes + 5;
-constexpr std::uint8_t kMailboxFull = 0x08;
 const std::string kSilent = "it does not answer any more";
 
 }  // namespace

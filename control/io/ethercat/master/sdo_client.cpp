@@ -10,16 +10,14 @@ namespace {
 
 constexpr Clock kAnswerTimeout = std::chrono::seconds(1);
 constexpr Clock kIdlePoll = std::chrono::milliseconds(10);  // for emergencies
-constexpr std::uint16_t kAnswerStatus = reg::kSyncManager + kSyncManagerBytes + 5;
 constexpr std::uint16_t kAnswerActivate = kAnswerStatus + 1;
 constexpr std::uint16_t kAnswerPdi = kAnswerStatus + 2;
-constexpr std::uint8_t kFull = 0x08;
 constexpr std::uint8_t kEnabled = 0x01;
 constexpr std::uint8_t kRepeatBit = 0x02;
 
 // Offsets behind the mailbox header.
 constexpr std::size_t kCommandAt = 2;
-constexpr std::size_t kIndexAt = 3;
+constexpr std::size_t kObjectAt = 3;
 constexpr std::size_t kDataAt = 6;
 constexpr std::size_t kValueAt = 10;
 constexpr std::size_t kSegmentAt = 3;
@@ -79,8 +77,8 @@ void SdoClient::write_request(Clock now) noexcept {
     done_ = first;
   }
   sdo[kCommandAt] = static_cast<std::uint8_t>(command | (transfer.complete ? kSdoComplete : 0U));
-  store<std::uint16_t>(sdo, kIndexAt, transfer.index);
-  sdo[kIndexAt + 2] = transfer.subindex;
+  store<std::uint16_t>(sdo, kObjectAt, transfer.index);
+  sdo[kObjectAt + 2] = transfer.subindex;
 }
 
 void SdoClient::write_segment() noexcept {
@@ -154,7 +152,7 @@ void SdoClient::answer(Bytes data, bool is_answered, Clock now) noexcept {
       next_poll_ = now + kIdlePoll;
       [[fallthrough]];
     case Step::Poll:
-      if ((data[0] & kFull) != 0) {
+      if ((data[0] & kMailboxFull) != 0) {
         step_ = Step::Read;
       }
       return;
@@ -201,7 +199,7 @@ void SdoClient::receive(Bytes bytes) noexcept {
   }
   const unsigned command = mailbox->data[kCommandAt];
   if (command == kSdoAbort) {
-    if (load<std::uint16_t>(mailbox->data, kIndexAt) == transfer_->index || in_segments_) {
+    if (load<std::uint16_t>(mailbox->data, kObjectAt) == transfer_->index || in_segments_) {
       finish(SdoTransfer::State::Aborted, load<std::uint32_t>(mailbox->data, kDataAt));
     }
     return;
@@ -209,8 +207,8 @@ void SdoClient::receive(Bytes bytes) noexcept {
   if (service != CoeService::SdoResponse) {
     return;
   }
-  if (!in_segments_ && (load<std::uint16_t>(mailbox->data, kIndexAt) != transfer_->index ||
-                        mailbox->data[kIndexAt + 2] != transfer_->subindex)) {
+  if (!in_segments_ && (load<std::uint16_t>(mailbox->data, kObjectAt) != transfer_->index ||
+                        mailbox->data[kObjectAt + 2] != transfer_->subindex)) {
     return;  // the late answer to an earlier request
   }
   if (transfer_->upload) {

@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Clock kPatience = milliseconds(10'000);  // for a clock to be in step
+constexpr Clock kSyncPatience = milliseconds(10'000);  // for a clock to be in step
 constexpr Clock kPulseCheck = milliseconds(100);
 constexpr Clock kAhead = milliseconds(100);  // of the first pulse, so that it is not past when it is switched on
 
@@ -64,7 +64,7 @@ SyncSetup::Outcome SyncSetup::outcome(Clock now) const noexcept {
   if (clocks_.is_measured() && !clocks_.has_clock(place_)) {
     return Outcome::NoClock;
   }
-  return now - since_ > kPatience ? Outcome::NotInStep : Outcome::Running;
+  return now - since_ > kSyncPatience ? Outcome::NotInStep : Outcome::Running;
 }
 
 Query SyncSetup::pulse_query(Clock now) noexcept {
