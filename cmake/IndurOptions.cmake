@@ -58,7 +58,7 @@ function(indurop_precompile target)
 endfunction()
 
 # Compiles the files of a target 24 at a time, which takes half of the time; their names in anonymous namespaces have to
-# differ then. -DINDUROP_UNITY=OFF compiles all files one by one, which is quicker for somebody who changes one file.
+# differ then. -DINDUROP_UNITY=OFF compiles all files one by one: quicker when one file is changed again and again.
 option(INDUROP_UNITY "Compile several files of a room at a time" ON)
 function(indurop_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${INDUROP_UNITY} UNITY_BUILD_BATCH_SIZE 24)
